@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tricue {
+
+/// Particles, one a row: the ellipse (x, y, minor, major) or any other state of D numbers. Rows are contiguous.
+using States = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using StatesRef = Eigen::Ref<const States>;
+using Vector = Eigen::Array<double, Eigen::Dynamic, 1>;
+using VectorRef = Eigen::Ref<const Vector>;
+using Indices = Eigen::Array<std::int64_t, Eigen::Dynamic, 1>;
+
+}  // namespace tricue

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tricue {
+
+/// A read-only 8-bit image that somebody else owns: pixels are packed, rows may be padded (`stride` bytes apart).
+struct ImageView {
+    const std::uint8_t* data;
+    int rows;
+    int cols;
+    int channels;
+    std::ptrdiff_t stride;
+
+    const std::uint8_t* row(int y) const { return data + y * stride; }
+};
+
+}  // namespace tricue

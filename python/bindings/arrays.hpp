@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// The one place where NumPy arrays become C++ views. Strict: a wrong dtype, rank or layout raises and names the argument;
+// nothing is converted or copied behind the caller's back.
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <string>
+
+#include "camera/arrays.hpp"
+#include "camera/image_view.hpp"
+
+namespace tricue::bindings {
+
+namespace py = pybind11;
+
+inline std::string describe(const py::array& array) {
+    return std::string(py::str(array.dtype())) + " " + std::string(py::str(array.attr("shape")));
+}
+
+/// Wrong type raises TypeError, wrong shape or layout ValueError; both say what was expected and what came.
+template <typename Scalar>
+py::array require(const py::object& object, const char* name, int rank, const char* expected) {
+    if (!py::isinstance<py::array>(object))
+        throw py::type_error(std::string(name) + ": expected a NumPy array, " + expected + ", got " +
+                             Py_TYPE(object.ptr())->tp_name);
+    auto array = py::reinterpret_borrow<py::array>(object);
+    if (!py::isinstance<py::array_t<Scalar>>(array))
+        throw py::type_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    if (array.ndim() != rank)
+        throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    return array;
+}
+
+template <typename Scalar>
+const Scalar* contiguous(const py::array& array, const char* name) {
+    if (!(array.flags() & py::array::c_style))
+        throw py::value_error(std::string(name) + ": expected a C-contiguous array; numpy.ascontiguousarray makes one");
+    return static_cast<const Scalar*>(array.data());
+}
+
+inline ImageView color_image(const py::object& object, const char* name) {
+    const auto array = require<std::uint8_t>(object, name, 3, "a uint8 BGR image (H, W, 3)");
+    if (array.shape(2) != 3)
+        throw py::value_error(std::string(name) + ": expected a uint8 BGR image (H, W, 3), got " + describe(array));
+    if (array.shape(0) > 0 && array.shape(1) > 0 &&
+        (array.strides(2) != 1 || array.strides(1) != 3 || array.strides(0) < 0))
+        throw py::value_error(std::string(name) + ": expected packed pixels; numpy.ascontiguousarray makes them");
+    return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), 3, array.strides(0)};
+}
+
+inline Eigen::Map<const States> states(const py::object& object, const char* name) {
+    const auto array = require<double>(object, name, 2, "float64 (N, D)");
+    return {contiguous<double>(array, name), array.shape(0), array.shape(1)};
+}
+
+inline Eigen::Map<const Vector> vector(const py::object& object, const char* name) {
+    const auto array = require<double>(object, name, 1, "float64 (N,)");
+    return {contiguous<double>(array, name), array.shape(0)};
+}
+
+/// Hands a result's memory to NumPy without a copy.
+template <typename Derived>
+py::array give(Derived&& result) {
+    using Result = std::decay_t<Derived>;
+    auto* owned = new Result(std::forward<Derived>(result));
+    const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
+    if constexpr (Result::ColsAtCompileTime == 1)
+        return py::array_t<typename Result::Scalar>(owned->size(), owned->data(), owner);
+    else
+        return py::array_t<typename Result::Scalar>({owned->rows(), owned->cols()}, owned->data(), owner);
+}
+
+}  // namespace tricue::bindings

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/pybind11.h>
+
+namespace tricue::bindings {
+void define_fuse(pybind11::module_& m);
+}  // namespace tricue::bindings
+
+PYBIND11_MODULE(_core, m) {
+    m.doc() = "tricue's native kernels: arrays in, arrays out, no state. Their NumPy twins are in tricue.reference.";
+    tricue::bindings::define_fuse(m);
+}
