@@ -15,6 +15,15 @@ namespace tricue::bindings {
 
 namespace py = pybind11;
 
+/// Takes any object, as `require` says more than pybind11 about what is wrong with it; shows in signatures as NDArray[Scalar].
+template <typename Scalar>
+class Array : public py::object {
+    static bool anything(PyObject*) { return true; }
+
+public:
+    PYBIND11_OBJECT(Array, py::object, anything)
+};
+
 inline std::string describe(const py::array& array) {
     return std::string(py::str(array.dtype())) + " " + std::string(py::str(array.attr("shape")));
 }
@@ -35,8 +44,9 @@ py::array require(const py::object& object, const char* name, int rank, const ch
 
 template <typename Scalar>
 const Scalar* contiguous(const py::array& array, const char* name) {
-    if (!(array.flags() & py::array::c_style))
-        throw py::value_error(std::string(name) + ": expected a C-contiguous array; numpy.ascontiguousarray makes one");
+    constexpr int wanted = py::array::c_style | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    if ((array.flags() & wanted) != wanted)
+        throw py::value_error(std::string(name) + ": expected a C-contiguous, aligned array; numpy.require makes one");
     return static_cast<const Scalar*>(array.data());
 }
 
@@ -61,11 +71,18 @@ inline Eigen::Map<const Vector> vector(const py::object& object, const char* nam
     return {contiguous<double>(array, name), array.shape(0)};
 }
 
+/// Runs a kernel without the GIL.
+template <typename Kernel>
+auto unlocked(Kernel&& kernel) {
+    const py::gil_scoped_release release;
+    return kernel();
+}
+
 /// Hands a result's memory to NumPy without a copy.
-template <typename Derived>
-py::array give(Derived&& result) {
-    using Result = std::decay_t<Derived>;
-    auto* owned = new Result(std::forward<Derived>(result));
+template <typename Result>
+Array<typename Result::Scalar> give(Result&& result) {
+    static_assert(!std::is_lvalue_reference_v<Result>, "give(std::move(result))");
+    auto* owned = new Result(std::move(result));
     const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
     if constexpr (Result::ColsAtCompileTime == 1)
         return py::array_t<typename Result::Scalar>(owned->size(), owned->data(), owner);
@@ -74,3 +91,9 @@ py::array give(Derived&& result) {
 }
 
 }  // namespace tricue::bindings
+
+template <typename Scalar>
+struct pybind11::detail::handle_type_name<tricue::bindings::Array<Scalar>> {
+    static constexpr auto name =
+        const_name("numpy.typing.NDArray[") + npy_format_descriptor<Scalar>::name + const_name("]");
+};

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+"""Mean, covariance and effective size of 100 ellipses: native, reference, and NumPy's own functions."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+
+from tricue import _core, reference
+
+Floats = NDArray[np.float64]
+random = np.random.default_rng(0)
+PARTICLES = random.normal(100, 20, (100, 4))
+WEIGHTS = random.exponential(size=100)
+WEIGHTS /= WEIGHTS.sum()
+
+
+def script(particles: Floats, weights: Floats) -> tuple[Floats, Floats, float]:
+    """The peer: np.average and np.cov."""
+    mean = np.average(particles, axis=0, weights=weights)
+    return mean, np.cov(particles.T, aweights=weights, ddof=0), 1 / float(np.square(weights).sum())
+
+
+@pytest.mark.benchmark(group="summarize")
+@pytest.mark.parametrize(
+    "summarize", [_core.summarize, reference.summarize, script], ids=["native", "reference", "peer"]
+)
+def bench_summarize(benchmark: Any, summarize: Callable[..., tuple[Floats, Floats, float]]) -> None:
+    """All give the same moments."""
+    for ours, theirs in zip(benchmark(summarize, PARTICLES, WEIGHTS), script(PARTICLES, WEIGHTS), strict=True):
+        assert_allclose(ours, theirs, rtol=1e-10, atol=1e-10)

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/propose.hpp"
+
+#include <algorithm>
+
+#include "check.hpp"
+
+namespace tricue {
+namespace {
+
+void require_valid(const Bounds& bounds, Eigen::Index dimensions) {
+    require_size(bounds.lower, dimensions, "lower");
+    require_size(bounds.upper, dimensions, "upper");
+    for (Eigen::Index d = 0; d < dimensions; ++d)
+        if (!(bounds.lower[d] <= bounds.upper[d])) refuse("lower", "no number above upper", bounds.lower[d]);
+}
+
+void move(StatesRef particles, const Dynamics& dynamics, StatesRef noise, States& moved) {
+    for (Eigen::Index i = 0; i < moved.rows(); ++i)
+        for (Eigen::Index d = 0; d < moved.cols(); ++d)
+            moved(i, d) = particles(i, d) + dynamics.drift[d] + dynamics.scale[d] * noise(i, d);
+}
+
+void detect(const Detection& detection, StatesRef noise, States& moved) {
+    const auto count = static_cast<Eigen::Index>(detection.share * static_cast<double>(moved.rows()));
+    for (Eigen::Index i = 0; i < count; ++i) {
+        moved(i, 0) = detection.mean[0] + detection.root(0, 0) * noise(i, 0);
+        moved(i, 1) = detection.mean[1] + detection.root(1, 0) * noise(i, 0) + detection.root(1, 1) * noise(i, 1);
+    }
+}
+
+void clamp(const Bounds& bounds, States& moved) {
+    for (Eigen::Index i = 0; i < moved.rows(); ++i)
+        for (Eigen::Index d = 0; d < moved.cols(); ++d)
+            moved(i, d) = std::min(std::max(bounds.lower[d], moved(i, d)), bounds.upper[d]);
+}
+
+}  // namespace
+
+States propose(StatesRef particles, const Dynamics& dynamics, StatesRef noise, const Detection& detection,
+               const Bounds& bounds) {
+    if (particles.cols() < 2) refuse("particles", "states of 2 or more numbers", double(particles.cols()));
+    require_shape(noise, particles.rows(), particles.cols(), "noise");
+    require_finite(particles, "particles");
+    require_finite(noise, "noise");
+    require_valid(dynamics, particles.cols());
+    require_valid(detection);
+    require_valid(bounds, particles.cols());
+
+    States moved(particles.rows(), particles.cols());
+    move(particles, dynamics, noise, moved);
+    detect(detection, noise, moved);
+    clamp(bounds, moved);
+    return moved;
+}
+
+}  // namespace tricue

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "camera/arrays.hpp"
+#include "proposal.hpp"
+
+namespace tricue {
+
+/// How far a state may go, per dimension: lower <= upper, either may be infinite.
+struct Bounds {
+    VectorRef lower;
+    VectorRef upper;
+};
+
+/// Draws the next particles from the mixture proposal: x' = x + drift + scale * noise, equation (30) with the velocity in
+/// the mean; the first floor(share N) particles instead have their position at mean + root * noise. The same row of noise
+/// serves both, so a particle's draw doesn't depend on which side of the share it falls. All are clamped to the bounds.
+///
+/// @param particles N states of D >= 2 numbers, the position first
+/// @param noise     N x D independent standard normal numbers
+/// @returns         N x D
+/// @throws std::invalid_argument on sizes that don't agree, numbers that aren't finite, a negative scale, a share outside
+///         [0, 1), a root without a positive diagonal, or bounds that cross
+/// Source: Sabeti, Parvizi, Wu 2008, section III.A and equation (30).
+States propose(StatesRef particles, const Dynamics& dynamics, StatesRef noise, const Detection& detection,
+               const Bounds& bounds);
+
+}  // namespace tricue

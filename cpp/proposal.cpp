@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "proposal.hpp"
+
+#include "check.hpp"
+
+namespace tricue {
+
+void require_valid(const Dynamics& dynamics, Eigen::Index dimensions) {
+    require_size(dynamics.drift, dimensions, "drift");
+    require_size(dynamics.scale, dimensions, "scale");
+    require_finite(dynamics.drift, "drift");
+    require_finite(dynamics.scale, "scale");
+    if (!(dynamics.scale >= 0.0).all()) refuse("scale", "no negative number", dynamics.scale.minCoeff());
+}
+
+void require_valid(const Detection& detection) {
+    require_share(detection.share);
+    require_size(detection.mean, 2, "mean");
+    require_shape(detection.root, 2, 2, "root");
+    if (detection.share == 0.0) return;
+    require_finite(detection.mean, "mean");
+    require_finite(detection.root, "root");
+    const double smallest = std::min(detection.root(0, 0), detection.root(1, 1));
+    if (!(smallest > 0.0)) refuse("root", "a diagonal above 0", smallest);
+}
+
+}  // namespace tricue

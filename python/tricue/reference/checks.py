@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+"""What the twins refuse, in the words of the native kernels."""
+
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def refuse(name: str, expected: str, got: object) -> NoReturn:
+    """Raise a ValueError that names the argument, what was expected and what came."""
+    text = f"{got:g}" if isinstance(got, float) else str(got)
+    raise ValueError(f"{name}: expected {expected}, got {text}")
+
+
+def require_shape(name: str, values: Floats, shape: tuple[int, ...]) -> None:
+    """Refuse any other shape."""
+    if values.shape != shape:
+        refuse(name, f"shape {shape}", values.shape)
+
+
+def require_finite(name: str, values: Floats) -> None:
+    """Refuse NaN and infinity."""
+    strange = values[~np.isfinite(values)]
+    if strange.size:
+        refuse(name, "finite numbers", float(strange[0]))
+
+
+def require_weights(weights: Floats) -> None:
+    """Refuse weights that are negative, not finite, or without a finite sum above 0."""
+    strange = weights[~(np.isfinite(weights) & (weights >= 0))]
+    if strange.size:
+        refuse("weights", "finite numbers, none negative", float(strange[0]))
+    with np.errstate(over="ignore"):
+        total = float(weights.sum())
+    if not 0 < total < np.inf:
+        refuse("weights", "a finite sum above 0", total)
+
+
+def require_dynamics(drift: Floats, scale: Floats, dimensions: int) -> None:
+    """Refuse dynamics of another size, that aren't finite, or with a negative scale."""
+    for name, values in (("drift", drift), ("scale", scale)):
+        require_shape(name, values, (dimensions,))
+        require_finite(name, values)
+    if np.any(scale < 0):
+        refuse("scale", "no negative number", float(scale.min()))
+
+
+def require_detection(mean: Floats, root: Floats, share: float) -> None:
+    """Refuse a share outside [0, 1), and, where the share is above 0, a Gaussian that is none."""
+    if not 0 <= share < 1:
+        refuse("share", "a number in [0, 1)", share)
+    for name, values, shape in (("mean", mean, (2,)), ("root", root, (2, 2))):
+        require_shape(name, values, shape)
+        if share > 0:
+            require_finite(name, values)
+    if share > 0 and not root.diagonal().min() > 0:
+        refuse("root", "a diagonal above 0", float(root.diagonal().min()))

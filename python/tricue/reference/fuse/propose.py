@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""The mixture proposal (Sabeti, Parvizi, Wu 2008, section III.A and equation (30))."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference import checks
+
+
+def propose(
+    particles: NDArray[np.float64],
+    drift: NDArray[np.float64],
+    scale: NDArray[np.float64],
+    noise: NDArray[np.float64],
+    mean: NDArray[np.float64],
+    root: NDArray[np.float64],
+    share: float,
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Move particles (N, D) by equation (30); the first floor(share N) take their position from N(mean, root root^T)."""
+    _check(particles, noise, lower, upper)
+    checks.require_dynamics(drift, scale, particles.shape[1])
+    checks.require_detection(mean, root, share)
+    moved = particles + drift + scale * noise
+    detected = noise[: int(share * len(particles))]
+    moved[: len(detected), 0] = mean[0] + root[0, 0] * detected[:, 0]
+    moved[: len(detected), 1] = mean[1] + root[1, 0] * detected[:, 0] + root[1, 1] * detected[:, 1]
+    return np.clip(moved, lower, upper)
+
+
+def _check(
+    particles: NDArray[np.float64],
+    noise: NDArray[np.float64],
+    lower: NDArray[np.float64],
+    upper: NDArray[np.float64],
+) -> None:
+    dimensions = particles.shape[1]
+    if dimensions < 2:
+        checks.refuse("particles", "states of 2 or more numbers", dimensions)
+    checks.require_shape("noise", noise, particles.shape)
+    checks.require_finite("particles", particles)
+    checks.require_finite("noise", noise)
+    checks.require_shape("lower", lower, (dimensions,))
+    checks.require_shape("upper", upper, (dimensions,))
+    crossed = ~(lower <= upper)
+    if crossed.any():
+        checks.refuse("lower", "no number above upper", float(lower[crossed][0]))

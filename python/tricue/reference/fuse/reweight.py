@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""Importance weights under the mixture proposal (Sabeti, Parvizi, Wu 2008, equations (2), (30), (31))."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference import checks
+
+
+def reweight(
+    log_likelihood: NDArray[np.float64],
+    proposed: NDArray[np.float64],
+    previous: NDArray[np.float64],
+    drift: NDArray[np.float64],
+    scale: NDArray[np.float64],
+    mean: NDArray[np.float64],
+    root: NDArray[np.float64],
+    share: float,
+) -> tuple[NDArray[np.float64], float]:
+    """Weigh proposed particles: weights (N,) with sum 1, and the log of their mean before normalising."""
+    _check(log_likelihood, proposed, previous)
+    checks.require_dynamics(drift, scale, proposed.shape[1])
+    checks.require_detection(mean, root, share)
+    log_weights = log_likelihood
+    if share > 0:
+        if not scale[:2].min() > 0:
+            checks.refuse("scale", "numbers above 0 for the position", float(scale[:2].min()))
+        position = proposed[:, :2]
+        log_p = _log_gaussian(position - previous[:, :2] - drift[:2], np.diag(scale[:2]))
+        log_detection = _log_gaussian(position - mean, root)
+        # (2) with numerator and denominator divided by p: L / (share N / p + 1 - share)
+        log_weights = log_likelihood - np.logaddexp(np.log(share) + log_detection - log_p, np.log1p(-share))
+    return _normalized(log_weights)
+
+
+def _log_gaussian(offsets: NDArray[np.float64], root: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Log density of N(0, root root^T) but for the constant -log 2 pi, by forward substitution."""
+    x, y = _bounded(offsets).T
+    with np.errstate(over="ignore"):
+        u = _bounded(x / root[0, 0])
+        v = _bounded((y - _bounded(root[1, 0] * u)) / root[1, 1])
+    return np.asarray(-0.5 * (u**2 + v**2) - np.log(root.diagonal()).sum())
+
+
+def _bounded(z: NDArray[np.float64]) -> NDArray[np.float64]:
+    """At 1e150 deviations a density is zero all the same, and the square is still finite."""
+    return np.clip(z, -1e150, 1e150)
+
+
+def _normalized(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """Equation (31) by log-sum-exp."""
+    count, greatest = log_weights.size, float(log_weights.max())
+    if greatest == -np.inf:
+        return np.full(count, 1 / count), -np.inf
+    weights = np.exp(log_weights - greatest)
+    total = float(weights.sum())
+    return weights / total, greatest + float(np.log(total / count))
+
+
+def _check(
+    log_likelihood: NDArray[np.float64], proposed: NDArray[np.float64], previous: NDArray[np.float64]
+) -> None:
+    if proposed.shape[1] < 2:
+        checks.refuse("proposed", "states of 2 or more numbers", proposed.shape[1])
+    if log_likelihood.size == 0:
+        checks.refuse("log_likelihood", "at least one particle", "none")
+    strange = log_likelihood[~(log_likelihood < np.inf)]
+    if strange.size:
+        checks.refuse("log_likelihood", "numbers below infinity", float(strange[0]))
+    checks.require_shape("log_likelihood", log_likelihood, (len(proposed),))
+    checks.require_shape("previous", previous, proposed.shape)
+    checks.require_finite("proposed", proposed)
+    checks.require_finite("previous", previous)

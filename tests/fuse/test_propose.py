@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""The mixture proposal."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from numpy.typing import NDArray
+
+from tricue import _core, reference
+from tricue.kernels import Kernels
+
+Case = dict[str, Any]
+
+
+def case(count: int = 40, dimensions: int = 4, seed: int = 0, **changes: object) -> Case:
+    """Arguments of `propose`, bounds wide open."""
+    random = np.random.default_rng(seed)
+    arguments: Case = {
+        "particles": random.normal(100, 20, (count, dimensions)),
+        "drift": random.normal(0, 5, dimensions),
+        "scale": random.uniform(0, 10, dimensions),
+        "noise": random.normal(size=(count, dimensions)),
+        "mean": random.normal(100, 20, 2),
+        "root": np.array([[8.0, 0.0], [-3.0, 5.0]]),
+        "share": 0.3,
+        "lower": np.full(dimensions, -np.inf),
+        "upper": np.full(dimensions, np.inf),
+    }
+    return arguments | changes
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_twin_moves_the_same(seed: int) -> None:
+    """Native and reference agree to the last bit, for any N (0 too), D and share: no sum is taken in another order."""
+    random = np.random.default_rng(seed)
+    count, dimensions = int(random.integers(0, 70)), int(random.integers(2, 8))
+    changes = {"share": random.uniform(), "lower": np.full(dimensions, 80.0), "upper": np.full(dimensions, 120.0)}
+    arguments = case(count, dimensions, seed, **changes)
+    assert_array_equal(_core.propose(**arguments), reference.propose(**arguments))
+
+
+def spread_noise(dimensions: int) -> NDArray[np.float64]:
+    """2D points with mean 0 and covariance I exactly (the unscented transform's)."""
+    return np.sqrt(dimensions) * np.concatenate([np.eye(dimensions), -np.eye(dimensions)])
+
+
+def test_moments_of_the_dynamics(kernels: Kernels) -> None:
+    """Noise of mean 0 and covariance I moves one particle to mean x + drift, covariance diag(scale^2)."""
+    noise = spread_noise(4)
+    arguments = case(8, particles=np.tile([50.0, 60.0, 10.0, 12.0], (8, 1)), noise=noise, share=0.0)
+    moved = kernels.propose(**arguments)
+    assert_allclose(moved.mean(axis=0), arguments["particles"][0] + arguments["drift"])
+    assert_allclose(np.cov(moved.T, ddof=0), np.diag(arguments["scale"] ** 2), atol=1e-12)
+
+
+def test_moments_of_the_detection(kernels: Kernels) -> None:
+    """The detected share has mean and covariance root root^T, its other dimensions follow the dynamics."""
+    arguments = case(16, noise=np.concatenate([spread_noise(4), np.zeros((8, 4))]), share=0.5)
+    detected = kernels.propose(**arguments)[:8]
+    assert_allclose(detected[:, :2].mean(axis=0), arguments["mean"])
+    assert_allclose(np.cov(detected[:, :2].T, ddof=0), arguments["root"] @ arguments["root"].T)
+    dynamics = kernels.propose(**arguments | {"share": 0.0})
+    assert_array_equal(detected[:, 2:], dynamics[:8, 2:])
+
+
+def test_rest_does_not_depend_on_the_detection(kernels: Kernels) -> None:
+    """Particles from floor(share N) on are those that a share of 0 gives."""
+    arguments = case(10, share=0.39)
+    mixed, dynamics = kernels.propose(**arguments), kernels.propose(**arguments | {"share": 0.0})
+    assert_array_equal(mixed[3:], dynamics[3:])
+    assert np.all(mixed[:3, :2] != dynamics[:3, :2])
+
+
+def test_stays_inside_the_bounds(kernels: Kernels) -> None:
+    """What would leave the bounds stands on them, and what would not is untouched."""
+    lower, upper = np.array([90.0, 95.0, -np.inf, 100.0]), np.array([110.0, 95.0, 100.0, np.inf])
+    free, held = kernels.propose(**case(200)), kernels.propose(**case(200, lower=lower, upper=upper))
+    assert np.all((held >= lower) & (held <= upper))
+    inside = (free >= lower) & (free <= upper)
+    assert inside.any() and not inside.all()
+    assert_array_equal(held[inside], free[inside])
+
+
+def test_without_detection_its_gaussian_is_not_read(kernels: Kernels) -> None:
+    """With a share of 0 there may be no Gaussian: NaN and zeros pass and change nothing."""
+    nothing = {"mean": np.full(2, np.nan), "root": np.zeros((2, 2)), "share": 0.0}
+    assert_array_equal(kernels.propose(**case(**nothing)), kernels.propose(**case(share=0.0)))
+
+
+def test_inputs_untouched(kernels: Kernels) -> None:
+    """The particles that go in are not moved in place."""
+    arguments = case()
+    before = arguments["particles"].copy()
+    kernels.propose(**arguments)
+    assert_array_equal(arguments["particles"], before)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"particles": np.zeros((40, 1))}, "particles: expected states of 2 or more numbers, got 1"),
+        ({"particles": np.full((40, 4), np.nan)}, "particles: expected finite numbers, got nan"),
+        ({"noise": np.zeros((39, 4))}, r"noise: expected shape \(40, 4\), got \(39, 4\)"),
+        ({"noise": np.full((40, 4), -np.inf)}, "noise: expected finite numbers, got -inf"),
+        ({"drift": np.zeros(3)}, r"drift: expected shape \(4,\), got \(3,\)"),
+        ({"drift": np.full(4, np.inf)}, "drift: expected finite numbers, got inf"),
+        ({"scale": np.array([1.0, 1.0, -2.0, 1.0])}, "scale: expected no negative number, got -2"),
+        ({"scale": np.full(4, np.nan)}, "scale: expected finite numbers, got nan"),
+        ({"share": 1.0}, r"share: expected a number in \[0, 1\), got 1"),
+        ({"share": -0.5}, r"share: expected a number in \[0, 1\), got -0.5"),
+        ({"share": np.nan}, r"share: expected a number in \[0, 1\), got nan"),
+        ({"mean": np.zeros(4)}, r"mean: expected shape \(2,\), got \(4,\)"),
+        ({"mean": np.full(2, np.nan)}, "mean: expected finite numbers, got nan"),
+        ({"root": np.eye(3)}, r"root: expected shape \(2, 2\), got \(3, 3\)"),
+        ({"root": np.full((2, 2), np.inf)}, "root: expected finite numbers, got inf"),
+        ({"root": np.diag([1.0, 0.0])}, "root: expected a diagonal above 0, got 0"),
+        ({"lower": np.zeros(3)}, r"lower: expected shape \(4,\), got \(3,\)"),
+        ({"upper": np.zeros(5)}, r"upper: expected shape \(4,\), got \(5,\)"),
+        ({"lower": np.full(4, 7.0), "upper": np.full(4, 6.0)}, "lower: expected no number above upper, got 7"),
+        ({"lower": np.full(4, np.nan)}, "lower: expected no number above upper, got nan"),
+    ],
+)
+def test_refuses_values(kernels: Kernels, changes: Case, message: str) -> None:
+    """Each argument that doesn't fit is named, with what was expected and what came."""
+    with pytest.raises(ValueError, match=message):
+        kernels.propose(**case(**changes))
+
+
+@pytest.mark.parametrize("name", ["particles", "drift", "scale", "noise", "mean", "root", "lower", "upper"])
+def test_converts_nothing(name: str) -> None:
+    """Single precision and strided views are named, never converted."""
+    values = case()[name]
+    with pytest.raises(TypeError, match=f"{name}: expected float64"):
+        _core.propose(**case(**{name: values.astype(np.float32)}))
+    with pytest.raises(ValueError, match=f"{name}: expected a C-contiguous"):
+        _core.propose(**case(**{name: np.repeat(values, 2, axis=-1)[..., ::2]}))
