@@ -53,10 +53,10 @@ def test_opencv_rig_in_millimetres(tmp_path: Path) -> None:
 
 
 def test_a_rig_agrees_with_opencvs_rectification(tmp_path: Path) -> None:
-    """It proves that depth with stereoRectify's P1 and P2 is what its Q matrix gives for the same disparity."""
+    """It proves that depth by stereoRectify's P1 and P2 is what its Q matrix gives for a disparity."""
     matrix, turn = LEFT[:, :3], cv2.Rodrigues(np.array([0.01, -0.02, 0.005]))[0]
     shift = np.array([-0.12, 0.002, 0.001])
-    _r1, _r2, p1, p2, q, *_ = cv2.stereoRectify(matrix, None, matrix, None, SIZE, turn, shift)
+    _r1, _r2, p1, p2, q, *_ = cv2.stereoRectify(matrix, np.zeros(5), matrix, np.zeros(5), SIZE, turn, shift)
     rig = StereoRig.from_opencv(opencv_file(tmp_path / "c.yml", P1=p1, P2=p2, Q=q), size=SIZE)
     point = q @ [100.0, 50.0, 7.0, 1.0]
     assert rig.depth(7.0) == pytest.approx(point[2] / point[3])

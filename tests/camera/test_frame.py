@@ -89,7 +89,7 @@ def test_depth_scale_gives_metres(dtype: Any) -> None:
     """It proves that integers (and floats) in other units become metres, with 0 as no measurement."""
     frame = Frame(depth=np.array([[0, 500], [1000, 8000]], dtype), depth_scale=0.001)
     assert frame.depth is not None
-    np.testing.assert_allclose(frame.depth, [[np.nan, 0.5], [1, 8]], rtol=1e-6)
+    np.testing.assert_allclose(frame.depth, np.array([[np.nan, 0.5], [1, 8]]), rtol=1e-6)
 
 
 def test_the_callers_depth_is_not_written_to() -> None:

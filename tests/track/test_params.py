@@ -35,7 +35,7 @@ examples = st.builds(
     gated=st.booleans(),
     model=st.sampled_from(("spatial", "sections")),
     form=st.sampled_from(("linear", "exponential")),
-    label=st.text(st.characters(exclude_categories=("Cs",))),
+    label=st.text(st.characters(exclude_categories=["Cs"])),
     grid=st.tuples(*2 * [st.integers(2, 2**40)]),
     scales=st.lists(st.floats(1e-300, 1e300)).map(tuple),
 )
@@ -65,7 +65,8 @@ def test_a_partial_file_keeps_the_defaults(tmp_path: Path) -> None:
 
 def test_numbers_are_kept_in_their_own_type() -> None:
     """It proves that ints become floats where floats are expected, and NumPy scalars plain Python numbers."""
-    params = Example(noise=3, particles=np.int64(5), rate=np.float32(0.5), grid=[4, 5], scales=(1, 2))
+    values: dict[str, Any] = {"particles": np.int64(5), "rate": np.float32(0.5), "grid": [4, 5]}
+    params = Example(noise=3, scales=(1, 2), **values)
     assert [type(value) for value in (params.noise, params.particles, params.rate)] == [float, int, float]
     assert params.grid == (4, 5)
     assert params.scales == (1.0, 2.0)

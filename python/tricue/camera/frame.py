@@ -2,7 +2,7 @@
 """A frame: the named channels of one moment."""
 
 import warnings
-from dataclasses import InitVar, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False)
 class Frame:
     """What the cameras saw at one moment; at least one channel.
 
@@ -32,27 +32,30 @@ class Frame:
     channel. Warns (UserWarning) where the median depth is above 50 m: that looks like millimetres.
     """
 
-    color: NDArray[np.uint8] | None = None
-    depth: NDArray[np.float32] | None = None
-    right: NDArray[np.uint8] | None = None
-    timestamp: float | None = None
-    depth_scale: InitVar[float | None] = None
+    color: NDArray[np.uint8] | None
+    depth: NDArray[np.float32] | None
+    right: NDArray[np.uint8] | None
+    timestamp: float | None
 
-    def __post_init__(self, depth_scale: float | None) -> None:
-        if self.color is None and self.depth is None:
+    def __init__(
+        self,
+        color: NDArray[Any] | None = None,
+        depth: NDArray[Any] | None = None,
+        right: NDArray[Any] | None = None,
+        timestamp: float | None = None,
+        depth_scale: float | None = None,
+    ) -> None:
+        if color is None and depth is None:
             raise ValueError(
-                f"frame: expected color or depth, got {'right alone' if self.channels else 'neither'}"
+                f"frame: expected color or depth, got {'neither' if right is None else 'right alone'}"
             )
-        if self.color is not None:
-            object.__setattr__(self, "color", _image(self.color, "color"))
-        if self.right is not None:
-            object.__setattr__(self, "right", _right(self.right, self.color))
-        if self.depth is not None:
-            object.__setattr__(self, "depth", _depth(self.depth, depth_scale))
-        elif depth_scale is not None:
+        if depth is None and depth_scale is not None:
             raise ValueError(f"depth_scale: expected together with depth, got {depth_scale!r} alone")
-        if self.timestamp is not None:
-            object.__setattr__(self, "timestamp", finite(self.timestamp, "timestamp", "seconds"))
+        keep = object.__setattr__  # the way into a frozen dataclass
+        keep(self, "color", None if color is None else _image(color, "color"))
+        keep(self, "depth", None if depth is None else _depth(depth, depth_scale))
+        keep(self, "right", None if right is None else _right(right, self.color))
+        keep(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -67,7 +70,7 @@ class Frame:
                 raise ValueError(f"frame: expected the channel {name}, which this tracker needs, got {got}")
 
 
-FrameLike = Frame | NDArray[np.uint8]
+FrameLike = Frame | NDArray[Any]
 
 
 def as_frame(value: FrameLike, name: str = "frame") -> Frame:
@@ -147,7 +150,7 @@ def _warn_if_far(metres: NDArray[np.float32]) -> None:
     median = float(np.median(sample[np.isfinite(sample)])) if np.isfinite(sample).any() else 0.0
     if median > FAR:
         message = f"depth: its median is {median:.0f} m, which looks like millimetres; pass depth_scale=0.001"
-        warnings.warn(message, UserWarning, stacklevel=5)  # points at the line that made the frame
+        warnings.warn(message, UserWarning, stacklevel=4)  # points at the line that made the frame
 
 
 def _described(array: NDArray[Any]) -> str:
