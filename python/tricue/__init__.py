@@ -1,1 +1,46 @@
 # SPDX-License-Identifier: MIT
+"""Track one person or object by color, depth and motion, on a CPU, with its position in metres."""
+
+import importlib
+from typing import Any
+
+try:
+    importlib.import_module("tricue._core")
+except ImportError as error:
+    raise ImportError(
+        f"tricue: the native kernels can't be loaded ({error}); build them: pip install ."
+    ) from error
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.track.create import create, tracker_class
+from tricue.track.opencv import as_opencv
+from tricue.track.track import Status, Track
+
+__all__ = [
+    "Box",
+    "ColorParticleTracker",
+    "Frame",
+    "Intrinsics",
+    "Status",
+    "StereoRig",
+    "Track",
+    "as_opencv",
+    "create",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Trackers and the version are looked up when first asked for, so that the import stays quick."""
+    if name == "ColorParticleTracker":
+        return tracker_class("color-particle")
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("tricue")
+    raise AttributeError(f"module 'tricue' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "__version__"]

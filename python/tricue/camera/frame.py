@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""A frame: the named channels of one moment."""
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.numbers import finite, positive
+
+FAR = 50.0  # metres; a median depth above this is most likely in millimetres
+_UINT8 = np.dtype(np.uint8)
+_CHANNELS = ("color", "depth", "right")
+
+
+@dataclass(frozen=True, slots=True, eq=False, init=False)
+class Frame:
+    """What the cameras saw at one moment; at least one channel.
+
+    color: uint8, (H, W, 3) in BGR order or grey (H, W). Of a stereo pair it is the left image.
+    depth: (H, W), metres along the optical axis, kept as float32 with NaN where nothing was measured (what
+        comes as 0, negative, NaN or infinite). float32 or float64 are metres; integers need ``depth_scale``.
+        Its size may differ from the color image's.
+    right: the right image of a rectified pair, of the same shape as ``color``.
+    timestamp: seconds.
+    depth_scale: metres per unit of ``depth``, 0.001 for millimetres.
+
+    Images are kept, not copied, where their pixels are packed (whole arrays and crops of them); any other
+    layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError names the
+    channel. Warns (UserWarning) where the median depth is above 50 m: that looks like millimetres.
+    """
+
+    color: NDArray[np.uint8] | None
+    depth: NDArray[np.float32] | None
+    right: NDArray[np.uint8] | None
+    timestamp: float | None
+
+    def __init__(
+        self,
+        color: NDArray[Any] | None = None,
+        depth: NDArray[Any] | None = None,
+        right: NDArray[Any] | None = None,
+        timestamp: float | None = None,
+        depth_scale: float | None = None,
+    ) -> None:
+        if color is None and depth is None:
+            raise ValueError(
+                f"frame: expected color or depth, got {'neither' if right is None else 'right alone'}"
+            )
+        if depth is None and depth_scale is not None:
+            raise ValueError(f"depth_scale: expected together with depth, got {depth_scale!r} alone")
+        keep = object.__setattr__  # the way into a frozen dataclass
+        keep(self, "color", None if color is None else _image(color, "color"))
+        keep(self, "depth", None if depth is None else _depth(depth, depth_scale))
+        keep(self, "right", None if right is None else _right(right, self.color))
+        keep(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The names of the channels that are there."""
+        return tuple(name for name in _CHANNELS if getattr(self, name) is not None)
+
+    def require(self, *channels: str) -> None:
+        """Raise ValueError that names the first of ``channels`` that this frame lacks."""
+        for name in channels:
+            if getattr(self, name) is None:
+                got = " and ".join(self.channels)
+                raise ValueError(f"frame: expected the channel {name}, which this tracker needs, got {got}")
+
+
+FrameLike = Frame | NDArray[Any]
+
+
+def as_frame(value: FrameLike, name: str = "frame") -> Frame:
+    """The frame itself, or one with a bare image array as its ``color``; else TypeError or ValueError."""
+    if isinstance(value, Frame):
+        return value
+    if not isinstance(value, np.ndarray):
+        hint = " (cv2.imread gives None for a file that it can't read)" if value is None else ""
+        raise TypeError(f"{name}: expected a BGR image or a tricue.Frame, got {type(value).__name__}{hint}")
+    try:
+        return Frame(value)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{name}.{error}") from None
+
+
+def _image(value: Any, name: str) -> NDArray[np.uint8]:
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"{name}: expected a NumPy array, uint8, got {type(value).__name__}")
+    if value.dtype != _UINT8:
+        raise TypeError(f"{name}: expected uint8 values from 0 to 255, got {_described(value)}")
+    image: NDArray[np.uint8] = value[:, :, 0] if value.ndim == 3 and value.shape[2] == 1 else value
+    if image.ndim not in (2, 3) or (image.ndim == 3 and image.shape[2] != 3):
+        alpha = "; image[:, :, :3] drops the alpha channel" if value.shape[2:] == (4,) else ""
+        raise ValueError(f"{name}: expected BGR (H, W, 3) or grey (H, W), got {_described(value)}{alpha}")
+    if image.size == 0:
+        raise ValueError(f"{name}: expected an image with pixels, got {_described(value)}")
+    return image if _packed(image) else image.copy(order="C")
+
+
+def _packed(image: NDArray[np.uint8]) -> bool:
+    """Whether each row's pixels lie side by side, rows in order; rows may be padded, as in a crop."""
+    step, *within = image.strides
+    row = image.size // image.shape[0]
+    return step >= row and within == ([3, 1] if image.ndim == 3 else [1])
+
+
+def _right(value: Any, color: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
+    right = _image(value, "right")
+    if color is None:
+        raise ValueError("right: expected together with color, the left image of the pair")
+    if right.shape != color.shape:
+        raise ValueError(f"right: expected the shape of color, {color.shape}, got {right.shape}")
+    return right
+
+
+def _depth(value: Any, scale: float | None) -> NDArray[np.float32]:
+    metres: NDArray[np.float32] = _measurements(value, scale).astype(np.float32)
+    if scale is not None:
+        metres *= np.float32(positive(scale, "depth_scale", "metres per unit"))
+    metres[~((metres > 0) & (metres < np.inf))] = np.nan
+    _warn_if_far(metres)
+    return metres
+
+
+def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"depth: expected a NumPy array, got {type(value).__name__}")
+    if value.ndim != 2 or value.size == 0:
+        picture = "; a colored depth picture holds no metres" if value.ndim == 3 else ""
+        raise ValueError(f"depth: expected one value a pixel, (H, W), got {_described(value)}{picture}")
+    if value.dtype.kind in "iu" and value.dtype.itemsize > 1:
+        if scale is None:
+            hint = "pass depth_scale, 0.001 for millimetres"
+            raise ValueError(
+                f"depth: expected depth_scale with integers, got {_described(value)} alone; {hint}"
+            )
+    elif value.dtype.kind != "f" or value.dtype.itemsize not in (4, 8):
+        eight = "; 8 bits are a picture of the depth, not metres" if value.dtype.itemsize == 1 else ""
+        expected = "float32 or float64 metres, or integers with depth_scale"
+        raise TypeError(f"depth: expected {expected}, got {_described(value)}{eight}")
+    return value
+
+
+def _warn_if_far(metres: NDArray[np.float32]) -> None:
+    rows, columns = (max(1, n // 32) for n in metres.shape)
+    sample = metres[::rows, ::columns]
+    median = float(np.median(sample[np.isfinite(sample)])) if np.isfinite(sample).any() else 0.0
+    if median > FAR:
+        message = f"depth: its median is {median:.0f} m, which looks like millimetres; pass depth_scale=0.001"
+        warnings.warn(message, UserWarning, stacklevel=4)  # points at the line that made the frame
+
+
+def _described(array: NDArray[Any]) -> str:
+    return f"{array.dtype} {array.shape}"

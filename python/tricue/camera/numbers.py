@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+"""Checks of single numbers; each returns the number or raises TypeError or ValueError that names it."""
+
+import math
+from numbers import Integral, Real
+from typing import Any
+
+
+def finite(value: Any, name: str, unit: str) -> float:
+    if not isinstance(value, Real) or isinstance(value, bool):
+        raise TypeError(f"{name}: expected a number, {unit}, got {value!r:.80}")
+    if not math.isfinite(value):
+        raise ValueError(f"{name}: expected a finite number, {unit}, got {value!r}")
+    return float(value)
+
+
+def positive(value: Any, name: str, unit: str) -> float:
+    if not finite(value, name, unit) > 0:
+        raise ValueError(f"{name}: expected {unit} above 0, got {value!r}")
+    return float(value)
+
+
+def positive_whole(value: Any, name: str, unit: str) -> int:
+    if not isinstance(value, Integral) or isinstance(value, bool):
+        raise TypeError(f"{name}: expected a whole number, {unit}, got {value!r:.80}")
+    return int(positive(value, name, unit))

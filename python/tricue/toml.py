@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""TOML files: flat tables, read by the standard library, written here."""
+
+import importlib
+import json
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+Value = bool | int | float | str | tuple[Any, ...]
+
+
+def read(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """The file's tables; ValueError that names the file if it isn't TOML, OSError if it can't be read."""
+    try:
+        parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+    except ImportError:
+        raise ImportError("TOML on Python 3.10 needs an extra: pip install 'tricue[toml]'") from None
+    try:
+        return dict(parser.loads(Path(path).read_text(encoding="utf-8")))
+    except ValueError as error:  # both bad TOML and bad UTF-8
+        raise ValueError(f"{path}: expected a TOML file, {error}") from None
+
+
+def dumps(table: Mapping[str, Value], comments: Mapping[str, str] | None = None) -> str:
+    """One line a key, with its comment behind it where there is one."""
+    comments = comments or {}
+    notes = {key: f"  # {' '.join(text.split())}" for key, text in comments.items() if text.strip()}
+    return "".join(f"{key} = {_literal(value)}{notes.get(key, '')}\n" for key, value in table.items())
+
+
+def _literal(value: Value) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):  # JSON escapes what TOML wants escaped, but for DEL
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return f"[{', '.join(map(_literal, value))}]"

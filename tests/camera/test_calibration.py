@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Intrinsics, StereoRig
+
+SIZE = (640, 480)
+LEFT = np.array([[500.0, 0, 320, 0], [0, 500, 240, 0], [0, 0, 1, 0]])
+KITTI = (
+    "P2: 700 0 600 45 0 700 170 0.2 0 0 1 0.003\nP3: 700 0 600 -333 0 700 170 2 0 0 1 0.003\nR_rect 1 0 0\n"
+)
+RAW = "calib_time: 09-Jan-2012 13:57:47\nS_rect_02: 1.242e+03 3.75e+02\n"
+RAW += "P_rect_02: 700 0 600 45 0 700 170 0 0 0 1 0\n"
+
+
+def right(tx: float = -60.0, ty: float = 0.0, cx: float = 320.0) -> NDArray[np.float64]:
+    """The right projection matrix of a rig; tx = -f b."""
+    return np.array([[500.0, 0, cx, tx], [0, 500, 240, ty], [0, 0, 1, 0]])
+
+
+def opencv_file(path: Path, **values: Any) -> Path:
+    """A file as OpenCV writes it."""
+    storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+    for name, value in values.items():
+        storage.write(name, value)
+    storage.release()
+    return path
+
+
+@pytest.mark.parametrize("suffix", ["yml", "xml", "json"])
+def test_opencv_files_hold_a_camera(tmp_path: Path, suffix: str) -> None:
+    """It proves that a camera matrix with its image size is read from all three of OpenCV's formats."""
+    path = opencv_file(tmp_path / f"c.{suffix}", image_width=640, image_height=480, camera_matrix=LEFT[:, :3])
+    assert Intrinsics.from_opencv(path) == Intrinsics(500, 500, 320, 240, 640, 480)
+
+
+def test_the_rectified_camera_comes_first(tmp_path: Path) -> None:
+    """It proves that of a stereo file the rectified P1 is taken, and any other matrix by its name."""
+    path = opencv_file(tmp_path / "c.yml", M1=2 * LEFT[:, :3], P1=LEFT)
+    assert Intrinsics.from_opencv(path, size=SIZE).fx == 500
+    assert Intrinsics.from_opencv(path, key="M1", size=SIZE).fx == 1000
+
+
+def test_opencv_rig_in_millimetres(tmp_path: Path) -> None:
+    """It proves that the baseline is -P2[0,3] / f, brought to metres by the board's unit."""
+    path = opencv_file(tmp_path / "c.yml", P1=LEFT, P2=right(-500 * 62.5))
+    assert StereoRig.from_opencv(path, unit=0.001, size=SIZE).baseline == pytest.approx(0.0625)
+
+
+def test_a_rig_agrees_with_opencvs_rectification(tmp_path: Path) -> None:
+    """It proves that depth by stereoRectify's P1 and P2 is what its Q matrix gives for a disparity."""
+    matrix, turn = LEFT[:, :3], cv2.Rodrigues(np.array([0.01, -0.02, 0.005]))[0]
+    shift = np.array([-0.12, 0.002, 0.001])
+    _r1, _r2, p1, p2, q, *_ = cv2.stereoRectify(matrix, np.zeros(5), matrix, np.zeros(5), SIZE, turn, shift)
+    rig = StereoRig.from_opencv(opencv_file(tmp_path / "c.yml", P1=p1, P2=p2, Q=q), size=SIZE)
+    point = q @ [100.0, 50.0, 7.0, 1.0]
+    assert rig.depth(7.0) == pytest.approx(point[2] / point[3])
+    assert rig.intrinsics.back_project(100, 50, rig.depth(7.0)) == pytest.approx(point[:3] / point[3])
+
+
+def test_kitti_tracking_files(tmp_path: Path) -> None:
+    """It proves that P2 and P3 give the camera and the baseline, with and without colons after the keys."""
+    for text in (KITTI, KITTI.replace(":", "")):
+        (tmp_path / "calib.txt").write_text(text)
+        rig = StereoRig.from_kitti(tmp_path / "calib.txt", size=(1242, 375))
+        assert rig.intrinsics == Intrinsics(700, 700, 600, 170, 1242, 375)
+        assert rig.baseline == pytest.approx((45 + 333) / 700)
+
+
+def test_kitti_raw_files(tmp_path: Path) -> None:
+    """It proves that raw files are read, dates left out, and the image's size taken from S_rect."""
+    (tmp_path / "calib_cam_to_cam.txt").write_text(RAW)
+    assert Intrinsics.from_kitti(tmp_path / "calib_cam_to_cam.txt") == Intrinsics(
+        700, 700, 600, 170, 1242, 375
+    )
+
+
+def test_toml_tables(tmp_path: Path) -> None:
+    """It proves that a camera is read from the top of a file, from its only table, or from a named one."""
+    keys = "fx = 500\nfy = 501.5\ncx = 320\ncy = 240\n"
+    path = tmp_path / "c.toml"
+    expected = Intrinsics(500, 501.5, 320, 240, 640, 480)
+    path.write_text(keys + "width = 640\nheight = 480\nbaseline = 0.12\n")
+    assert Intrinsics.from_toml(path) == expected
+    assert StereoRig.from_toml(path) == StereoRig(expected, 0.12)
+    path.write_text("[depth]\n" + keys)
+    assert Intrinsics.from_toml(path, size=SIZE) == expected
+    path.write_text("[color]\n" + keys.replace("501.5", "7") + "[depth]\n" + keys)
+    assert Intrinsics.from_toml(path, table="depth", size=SIZE) == expected
+
+
+def test_real_files(data: Path) -> None:
+    """It proves the readers on real files: KITTI's known baseline, OpenCV's Q matrix, a TOML table."""
+    kitti = StereoRig.from_kitti(data / "stereo/kitti-tracking/calib/0005.txt", size=(1242, 375))
+    assert kitti.baseline == pytest.approx(0.5327, abs=1e-4)
+    board = data / "stereo/conveyor-box/calibration.yml"
+    rig = StereoRig.from_opencv(board, unit=0.025, size=(640, 360))
+    assert rig.baseline == pytest.approx(0.025 / 0.28079397682334289)  # Q[3, 2] = 1 / baseline
+    depth = Intrinsics.from_toml(data / "rgbd/intrinsics.toml", table="depth", size=SIZE)
+    assert (depth.fx, depth.cy) == (567.90, 242.57)
+
+
+def opencv(**values: Any) -> Callable[[Path], Any]:
+    """A case: these values in an OpenCV file, read as a rig."""
+    return lambda folder: StereoRig.from_opencv(opencv_file(folder / "c.yml", **values), size=SIZE)
+
+
+def text(content: str, read: Callable[..., Any], **options: Any) -> Callable[[Path], Any]:
+    """A case: this text in a file, read by ``read``."""
+
+    def case(folder: Path) -> Any:
+        (folder / "c.txt").write_text(content)
+        return read(folder / "c.txt", **options)
+
+    return case
+
+
+@pytest.mark.parametrize(
+    ("read", "message"),
+    [
+        (opencv(M1=LEFT), "expected P1 and P2 of a rectified rig"),
+        (opencv(P1=LEFT, P2=right(60.0)), "swap the two cameras"),
+        (opencv(P1=LEFT, P2=right(0.0)), "expected two cameras apart"),
+        (opencv(P1=LEFT, P2=right(0.0, -60.0)), "one above the other"),
+        (opencv(P1=LEFT, P2=right(cx=330.0)), "CALIB_ZERO_DISPARITY"),
+        (opencv(P1=LEFT[:, :3], P2=LEFT[:, :3]), r"expected projection matrices \(3, 4\)"),
+        (opencv(P1=LEFT[:2], P2=LEFT), r"expected a camera matrix \(3, 3\) or \(3, 4\), got \(2, 4\)"),
+        (opencv(P1=0 * LEFT, P2=right()), "fx: expected pixels above 0"),
+        (lambda p: Intrinsics.from_opencv(opencv_file(p / "c.yml", P1=LEFT)), r"pass size=\(width, height\)"),
+        (
+            lambda p: Intrinsics.from_opencv(opencv_file(p / "c.yml", F=LEFT)),
+            "named camera_matrix or .* found none",
+        ),
+        (
+            lambda p: Intrinsics.from_opencv(opencv_file(p / "c.yml", P1=LEFT), key="M2"),
+            "named M2, found none",
+        ),
+        (text("image_width: 640\n", Intrinsics.from_opencv), "expected a file that cv2.FileStorage wrote"),
+        (
+            text("%YAML:1.0\n---\nP1: [1, 2\n", Intrinsics.from_opencv),
+            "expected a file that cv2.FileStorage wrote",
+        ),
+        (text("", Intrinsics.from_opencv), "expected a file that cv2.FileStorage wrote"),
+        (text(KITTI, Intrinsics.from_kitti), r"pass size=\(width, height\)"),
+        (text(KITTI, Intrinsics.from_kitti, camera=1), "expected a line P1 or P_rect_01 with 12 numbers"),
+        (text("P2: 1 2 3\n", Intrinsics.from_kitti), "expected a line P2 or P_rect_02 with 12 numbers"),
+        (text("fx = = 3", Intrinsics.from_toml), "expected a TOML file"),
+        (text("[a]\nfx=1\n[b]\nfx=2", Intrinsics.from_toml), "one of its tables"),
+        (text("width = 3", Intrinsics.from_toml), "none with the key fx"),
+        (text("fx = 3", Intrinsics.from_toml, size=SIZE), "expected the key fy"),
+        (text("fx = 3\nfy = 3\ncx=1\ncy=1", StereoRig.from_toml, size=SIZE), "expected the key baseline"),
+        (text("fx = 3\nfy = 3\ncx=1\ncy=1", StereoRig.from_toml), r"pass size=\(width, height\)"),
+        (text("fx = -3\nfy = 3\ncx=1\ncy=1", Intrinsics.from_toml, size=SIZE), "fx: expected pixels above 0"),
+    ],
+)
+def test_bad_files_are_refused(tmp_path: Path, read: Callable[[Path], Any], message: str) -> None:
+    """It proves that each kind of unusable file is a ValueError with the file's name and the reason."""
+    with pytest.raises(ValueError, match=rf"c\.\w+: .*{message}"):
+        read(tmp_path)
+
+
+@pytest.mark.parametrize("read", [Intrinsics.from_opencv, Intrinsics.from_kitti, Intrinsics.from_toml])
+def test_missing_files_are_named(tmp_path: Path, read: Callable[..., Any]) -> None:
+    """It proves that a file that isn't there is a FileNotFoundError, in OpenCV's format too."""
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        read(tmp_path / "nowhere", size=SIZE)

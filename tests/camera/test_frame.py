@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: MIT
+import dataclasses
+import pickle
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from numpy.typing import NDArray
+from tricue import Frame
+from tricue.camera.frame import as_frame
+
+PICTURE = np.random.default_rng(0).integers(0, 256, (24, 32, 3), np.uint8)
+GREY = np.ascontiguousarray(PICTURE[:, :, 0])
+METRES = np.full((12, 16), 2.5, np.float32)
+
+
+def test_a_frame_names_its_channels() -> None:
+    """It proves that each channel is found under its name and that absent ones are None."""
+    frame = Frame(PICTURE, METRES, timestamp=2)
+    assert frame.channels == ("color", "depth")
+    assert frame.right is None
+    assert frame.timestamp == 2.0
+    assert Frame(PICTURE, right=PICTURE).channels == ("color", "right")
+
+
+def test_a_bare_array_is_color() -> None:
+    """It proves that an image alone becomes a frame's color, and a frame passes as it is."""
+    assert as_frame(PICTURE).color is PICTURE
+    frame = Frame(depth=METRES)
+    assert as_frame(frame) is frame
+
+
+@pytest.mark.parametrize(
+    "image", [PICTURE, GREY, PICTURE[3:20, 5:21], GREY[3:20, 5:21], PICTURE[:, 4:5], PICTURE[2:3]]
+)
+def test_packed_rows_are_not_copied(image: NDArray[np.uint8]) -> None:
+    """It proves that whole images and crops of them, padded rows included, are kept without a copy."""
+    color = Frame(image).color
+    assert color is not None
+    assert np.shares_memory(color, image)
+
+
+@pytest.mark.parametrize(
+    "image",
+    [PICTURE[::-1], PICTURE[:, ::-1], PICTURE[:, :, ::-1], PICTURE[:, ::2], np.asfortranarray(PICTURE)]
+    + [GREY[:, ::-1], np.asfortranarray(GREY), PICTURE[:, :, 0], np.dstack([PICTURE, GREY])[:, :, :3]]
+    + [
+        np.broadcast_to(PICTURE[:1], PICTURE.shape),
+        PICTURE[:, ::2][:, :1],
+        PICTURE[::-1][:1],
+        PICTURE[:1, ::2][:, :1],
+    ],
+)
+def test_other_layouts_are_copied(image: NDArray[np.uint8]) -> None:
+    """It proves that mirrored, strided and Fortran images are read right: same values, packed pixels."""
+    color = Frame(image).color
+    assert color is not None
+    assert np.array_equal(color, image)
+    assert color.strides == np.empty(image.shape, np.uint8).strides or np.shares_memory(color, image)
+    assert color.strides[1:] == ((3, 1) if image.ndim == 3 else (1,))
+    assert color.strides[0] >= image[0].size
+
+
+def test_one_channel_is_grey() -> None:
+    """It proves that an image (H, W, 1) is taken as grey (H, W)."""
+    color = Frame(GREY[:, :, None]).color
+    assert color is not None
+    assert np.array_equal(color, GREY)
+
+
+@given(arrays.arrays(np.float64, (5, 7), elements=st.floats(width=32)))
+def test_invalid_depth_becomes_nan(depth: NDArray[np.float64]) -> None:
+    """It proves that zero, negative, NaN and infinite depths, and no others, become NaN in float32."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of values that look like millimetres
+        stored = Frame(depth=depth).depth
+    assert stored is not None
+    assert stored.dtype == np.float32
+    valid = np.isfinite(depth) & (depth > 0)
+    assert np.array_equal(stored, np.where(valid, depth, np.nan).astype(np.float32), equal_nan=True)
+
+
+@pytest.mark.parametrize("dtype", [np.uint16, np.int16, np.int32, np.int64, ">u2", np.float32])
+def test_depth_scale_gives_metres(dtype: Any) -> None:
+    """It proves that integers (and floats) in other units become metres, with 0 as no measurement."""
+    frame = Frame(depth=np.array([[0, 500], [1000, 8000]], dtype), depth_scale=0.001)
+    assert frame.depth is not None
+    np.testing.assert_allclose(frame.depth, np.array([[np.nan, 0.5], [1, 8]]), rtol=1e-6)
+
+
+def test_the_callers_depth_is_not_written_to() -> None:
+    """It proves that the frame's depth is its own: marking invalid pixels leaves the caller's array alone."""
+    depth = np.zeros((4, 4), np.float32)
+    Frame(depth=depth)
+    assert np.array_equal(depth, np.zeros((4, 4)))
+
+
+def test_millimetres_as_metres_warn() -> None:
+    """It proves that a depth image in millimetres, passed as metres, is warned of at the caller's line."""
+    with pytest.warns(UserWarning, match="looks like millimetres") as caught:
+        Frame(depth=np.full((480, 640), 1500.0))
+    assert caught[0].filename == __file__
+
+
+def test_a_frame_can_be_pickled_and_replaced() -> None:
+    """It proves that frames go through pickle and dataclasses.replace unchanged."""
+    frame = dataclasses.replace(Frame(PICTURE, METRES * 1000, depth_scale=0.001), timestamp=1.5)
+    copy = pickle.loads(pickle.dumps(frame))
+    assert np.array_equal(copy.color, PICTURE)
+    np.testing.assert_allclose(copy.depth, METRES, rtol=1e-6)
+    assert copy.timestamp == 1.5
+
+
+def test_a_missing_channel_is_named() -> None:
+    """It proves that require says which channel is missing and which are there."""
+    with pytest.raises(ValueError, match=r"^frame: expected the channel depth, .*, got color and right$"):
+        Frame(PICTURE, right=PICTURE).require("color", "depth")
+
+
+FLOATS = PICTURE / 255
+BAD = [
+    ({}, ValueError, "frame: expected color or depth, got neither"),
+    ({"right": PICTURE}, ValueError, "frame: expected color or depth, got right alone"),
+    ({"color": "image.png"}, TypeError, "color: expected a NumPy array, uint8, got str"),
+    ({"color": PICTURE.tolist()}, TypeError, "color: expected a NumPy array, uint8, got list"),
+    ({"color": FLOATS}, TypeError, "color: expected uint8 values from 0 to 255, got float64"),
+    ({"color": PICTURE.astype(np.uint16)}, TypeError, "color: expected uint8 .*, got uint16"),
+    ({"color": PICTURE > 3}, TypeError, "color: expected uint8 .*, got bool"),
+    ({"color": PICTURE.astype(object)}, TypeError, "color: expected uint8 .*, got object"),
+    (
+        {"color": np.dstack([PICTURE, GREY])},
+        ValueError,
+        r"color: .*\(24, 32, 4\); .* drops the alpha channel",
+    ),
+    ({"color": PICTURE[:, :, :2]}, ValueError, r"color: expected BGR .*, got uint8 \(24, 32, 2\)"),
+    ({"color": PICTURE[None]}, ValueError, r"color: expected BGR .*, got uint8 \(1, 24, 32, 3\)"),
+    ({"color": PICTURE[0, 0]}, ValueError, r"color: expected BGR .*, got uint8 \(3,\)"),
+    ({"color": PICTURE[:0]}, ValueError, "color: expected an image with pixels"),
+    ({"color": PICTURE[:, :0]}, ValueError, "color: expected an image with pixels"),
+    ({"depth": METRES, "right": PICTURE}, ValueError, "right: expected together with color"),
+    (
+        {"color": PICTURE, "right": PICTURE[1:]},
+        ValueError,
+        r"right: expected the shape of color, \(24, 32, 3\)",
+    ),
+    (
+        {"color": PICTURE, "right": GREY},
+        ValueError,
+        r"right: expected the shape of color, .*, got \(24, 32\)",
+    ),
+    ({"color": PICTURE, "right": FLOATS}, TypeError, "right: expected uint8"),
+    (
+        {"depth": METRES.astype(np.uint16)},
+        ValueError,
+        "depth: .*uint16 .*pass depth_scale, 0.001 for millimetres",
+    ),
+    ({"depth": GREY}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
+    ({"depth": GREY, "depth_scale": 0.01}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
+    ({"depth": PICTURE}, ValueError, "depth: expected one value a pixel.*; a colored depth picture"),
+    ({"depth": METRES > 1}, TypeError, "depth: expected float32"),
+    ({"depth": METRES.astype(np.complex64)}, TypeError, "depth: expected float32"),
+    ({"depth": METRES.astype(np.float16)}, TypeError, "depth: expected float32"),
+    ({"depth": METRES[:0]}, ValueError, "depth: expected one value a pixel"),
+    ({"depth": METRES[0]}, ValueError, "depth: expected one value a pixel"),
+    ({"depth": METRES.tolist()}, TypeError, "depth: expected a NumPy array, got list"),
+    ({"depth": METRES, "depth_scale": 0}, ValueError, "depth_scale: expected metres per unit above 0, got 0"),
+    ({"depth": METRES, "depth_scale": -1.0}, ValueError, "depth_scale: expected metres per unit above 0"),
+    ({"depth": METRES, "depth_scale": np.nan}, ValueError, "depth_scale: expected a finite number"),
+    ({"depth": METRES, "depth_scale": "mm"}, TypeError, "depth_scale: expected a number"),
+    ({"color": PICTURE, "depth_scale": 0.001}, ValueError, "depth_scale: expected together with depth"),
+    (
+        {"color": PICTURE, "timestamp": np.inf},
+        ValueError,
+        "timestamp: expected a finite number, seconds, got inf",
+    ),
+    ({"color": PICTURE, "timestamp": "now"}, TypeError, "timestamp: expected a number, seconds, got 'now'"),
+    ({"color": PICTURE, "timestamp": True}, TypeError, "timestamp: expected a number, seconds, got True"),
+]
+
+
+@pytest.mark.parametrize(("channels", "error", "message"), BAD)
+def test_bad_channels_are_refused(channels: dict[str, Any], error: type[Exception], message: str) -> None:
+    """It proves that each bad channel is an error that names it, what was expected and what came."""
+    with pytest.raises(error, match=f"^{message}"):
+        Frame(**channels)
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "message"),
+    [
+        (None, TypeError, "image: expected a BGR image or a tricue.Frame, got NoneType .*cv2.imread"),
+        ([1, 2], TypeError, "image: expected a BGR image or a tricue.Frame, got list"),
+        (FLOATS, TypeError, "image.color: expected uint8"),
+        (PICTURE[:0], ValueError, "image.color: expected an image with pixels"),
+    ],
+)
+def test_what_is_no_frame_is_refused(value: Any, error: type[Exception], message: str) -> None:
+    """It proves that as_frame names the caller's argument."""
+    with pytest.raises(error, match=f"^{message}"):
+        as_frame(value, "image")
