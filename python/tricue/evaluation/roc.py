@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""The receiver operating characteristic from which the threshold of the skin classifier is chosen (Sabeti 2008, III.A).
+
+A pixel is called skin where its score is above the threshold. Scores are integers in a known range (the skin boundary (10) times
+255 lies in [-255, 255]), so two histograms hold the whole curve exactly, however many images there are.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue import kernels
+
+Image = NDArray[np.uint8]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Roc:
+    """A curve from (0, 0) to (1, 1), a point per threshold, thresholds falling: three float64 arrays of one length."""
+
+    fpr: NDArray[np.float64]
+    """Share of the negatives above the threshold."""
+    tpr: NDArray[np.float64]
+    """Share of the positives above the threshold."""
+    thresholds: NDArray[np.float64]
+
+    @property
+    def area(self) -> float:
+        """Area under the curve: the chance that a positive scores above a negative, ties counted half."""
+        return float(np.sum(np.diff(self.fpr) * (self.tpr[1:] + self.tpr[:-1]) / 2))
+
+    def at_false_positive_rate(self, rate: float) -> tuple[float, float]:
+        """The lowest threshold whose false-positive rate is at most ``rate``, and the true-positive rate there."""
+        if not 0.0 <= rate <= 1.0:
+            raise ValueError(f"rate: expected a number in [0, 1], got {rate}")
+        last = int(np.searchsorted(self.fpr, rate, side="right")) - 1
+        return float(self.thresholds[last]), float(self.tpr[last])
+
+
+def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]], low: int = -255, high: int = 255) -> Roc:
+    """The curve over pairs of an integer score map, values in [low, high], and a boolean mask of the same shape."""
+    counts = np.zeros((2, high - low + 1), dtype=np.int64)
+    for scores, mask in pairs:
+        counts += _histograms(scores, mask, low, high)
+    if not counts.sum(axis=1).all():
+        raise ValueError("masks: expected pixels of both classes")
+    above = np.cumsum(counts[:, ::-1], axis=1) / counts.sum(axis=1, keepdims=True)
+    fpr, tpr = np.hstack([np.zeros((2, 1)), above])
+    return Roc(fpr, tpr, np.arange(high, low - 2, -1, dtype=np.float64))
+
+
+def skin_roc(
+    images: Iterable[Image],
+    masks: Iterable[Mask],
+    reference: NDArray[np.uint8] | None = None,
+    kernel_set: kernels.Name = "native",
+) -> Roc:
+    """The curve of the skin classifier (10), thresholds on Δ in [-1, 1].
+
+    ``reference`` is the (3,) BGR color (3) for all images. Without it every image has its own, from its own skin pixels: the best that
+    a patch taken from the target can give. Images without skin are then left out, as they have no such patch.
+    """
+    curve = roc(_scored(images, masks, reference, kernel_set))
+    return Roc(curve.fpr, curve.tpr, curve.thresholds / 255.0)
+
+
+def _scored(
+    images: Iterable[Image],
+    masks: Iterable[Mask],
+    reference: NDArray[np.uint8] | None,
+    kernel_set: kernels.Name,
+) -> Iterable[tuple[NDArray[np.integer], Mask]]:
+    kernel = kernels.load(kernel_set)
+    for image, mask in zip(images, masks, strict=True):
+        if reference is not None:
+            yield kernel.skin_boundary(image, reference), mask
+        elif mask.any():
+            yield (
+                kernel.skin_boundary(image, kernel.skin_reference(np.ascontiguousarray(image[mask][None]))),
+                mask,
+            )
+
+
+def _histograms(scores: NDArray[np.integer], mask: Mask, low: int, high: int) -> NDArray[np.int64]:
+    """How often each score occurs, (2, levels): outside the mask, and within it."""
+    if mask.dtype != np.bool_ or mask.shape != scores.shape:
+        raise ValueError(
+            f"masks: expected bool of shape {scores.shape}, got {mask.dtype} of shape {mask.shape}"
+        )
+    if not np.issubdtype(scores.dtype, np.integer):
+        raise TypeError(f"scores: expected integers, got {scores.dtype}")
+    if scores.size and not low <= scores.min() <= scores.max() <= high:
+        raise ValueError(f"scores: expected values in [{low}, {high}], got [{scores.min()}, {scores.max()}]")
+    levels = scores.astype(np.int64) - low
+    return np.stack([np.bincount(levels[mask == side], minlength=high - low + 1) for side in (False, True)])

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""The photographs that scenes are made of: those inside the scikit-image wheel, so nothing is downloaded."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+
+Image = NDArray[np.uint8]
+
+# Cluttered pictures; the wood, the fur, the retina and the stained tissue have colors near those of skin.
+BACKGROUNDS = ("coffee", "cat", "motorcycle", "retina", "immunohistochemistry")
+
+# Places in the picture "astronaut", 512x512: the face from hair to chin, the head with its hair.
+FACE = Box(176, 60, 98, 123)
+HEAD = Box(152, 12, 152, 176)
+
+
+def photograph(name: str) -> Image:
+    """One of scikit-image's pictures as BGR."""
+    try:
+        from skimage import data
+    except ImportError:
+        raise ImportError("scenes: expected scikit-image to be installed: pip install tricue[demo]") from None
+    load: Callable[[], Any] = getattr(data, "stereo_motorcycle" if name == "motorcycle" else name)
+    picture = load()[0] if name == "motorcycle" else load()
+    return np.ascontiguousarray(picture[..., ::-1])
+
+
+def background(name: str, height: int, width: int, rng: np.random.Generator) -> Image:
+    """A random window of a picture of BACKGROUNDS, as large as fits down to two thirds of that, scaled to (height, width)."""
+    if name not in BACKGROUNDS:
+        raise ValueError(f"background: expected one of {', '.join(BACKGROUNDS)}, got {name!r}")
+    picture = photograph(name)
+    available = np.array(picture.shape[:2])
+    window = np.array([height, width]) * (available / [height, width]).min() * rng.uniform(2 / 3, 1)
+    top, left = (rng.random(2) * (available - window)).astype(int)
+    rows, columns = window.astype(int)
+    return resize(picture[top : top + rows, left : left + columns], height, width)
+
+
+def crop(picture: Image, box: Box) -> Image:
+    """The part of a picture in a box of whole pixels."""
+    x, y, width, height = box.as_int()
+    return picture[y : y + height, x : x + width]
+
+
+def resize(picture: Image, height: int, width: int) -> Image:
+    """Scale without aliasing."""
+    return np.asarray(cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)

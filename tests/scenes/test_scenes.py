@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+import sys
+
+import numpy as np
+import pytest
+from tricue import scenes
+
+pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+
+
+def centers(scene):
+    return np.array([box.center for box in scene.boxes])
+
+
+def face_pixels(scene, index):
+    """The pixels inside the ellipse of the true box, (n, 3)."""
+    image = scene.frames[index].color
+    x, y, minor, major = scene.boxes[index].ellipse
+    rows, columns = np.indices(image.shape[:2]) + 0.5
+    return image[((columns - x) / minor) ** 2 + ((rows - y) / major) ** 2 < 0.8]
+
+
+@pytest.mark.parametrize("make", [scenes.face_over_clutter, scenes.light_change])
+def test_seed_decides_everything(make):
+    """One seed gives one scene bit for bit; another seed gives another path and other pixels."""
+    first, again, other = make(3, frames=40), make(3, frames=40), make(4, frames=40)
+    assert first.boxes == again.boxes
+    assert first.changes == again.changes
+    assert all(np.array_equal(a.color, b.color) for a, b in zip(first.frames, again.frames, strict=True))
+    assert first.boxes != other.boxes
+    assert not np.array_equal(first.frames[0].color, other.frames[0].color)
+
+
+@pytest.mark.parametrize("background", scenes.BACKGROUNDS)
+def test_face_stays_in_the_picture_at_its_size(background):
+    """On every background all 90 true boxes are 50x63 and inside the 320x240 picture, and no step is over 16 px."""
+    scene = scenes.face_over_clutter(1, background=background)
+    assert len(scene.frames) == len(scene.boxes) == 90
+    for frame, box in zip(scene.frames, scene.boxes, strict=True):
+        assert frame.color.shape == (240, 320, 3)
+        assert (box.width, box.height) == (50, 63)
+        assert box.clip(320, 240) == pytest.approx(box)
+    assert np.hypot(*np.diff(centers(scene), axis=0).T).max() <= 16
+
+
+def test_only_the_box_differs_from_the_background():
+    """Without noise, the pixels that differ from the median over time lie in the true box and nearly fill it."""
+    scene = scenes.face_over_clutter(2, background="motorcycle", noise=0, brightness=(0.45, 0.46))
+    images = np.stack([frame.color for frame in scene.frames]).astype(np.int16)
+    static = np.median(images, axis=0)
+    for index in (30, 60, 89):
+        rows, columns = np.nonzero(np.abs(images[index] - static).max(axis=2) > 3)
+        left, top, right, bottom = scene.boxes[index].xyxy
+        assert left - 1 < columns.min() < left + 4
+        assert right - 4 < columns.max() + 1 < right + 1
+        assert top - 1 < rows.min() < top + 4
+        assert bottom - 4 < rows.max() + 1 < bottom + 1
+
+
+def test_brightness_of_the_face_steps_at_the_changes():
+    """The face's mean level jumps by 10 % or more at each change, and stays within a tenth of that elsewhere."""
+    scene = scenes.face_over_clutter(5, background="cat", max_speed=3.0)
+    level = np.array([face_pixels(scene, index).mean() for index in range(90)])
+    ratio = np.abs(np.log(level[1:] / level[:-1]))
+    jumps = np.array(scene.changes) - 1
+    assert len(jumps) >= 4
+    assert ratio[jumps].min() > 0.1
+    assert np.delete(ratio, jumps).max() < 0.01
+
+
+def test_light_changes_the_colors_of_face_and_cabin_at_once():
+    """At each change the face's and the cabin's color balance jump in one frame, and at no other frame."""
+    scene = scenes.light_change(7)
+    face = np.array([face_pixels(scene, index).mean(axis=0) for index in range(90)])
+    corner = np.array([frame.color[180:, :80].mean(axis=(0, 1)) for frame in scene.frames])
+    jumps = np.array(scene.changes) - 1
+    assert len(jumps) == 2
+    for color in (face, corner):
+        balance = np.log(color[:, 2] / color[:, 0])
+        step = np.abs(np.diff(balance))
+        assert step[jumps].min() > 0.2
+        assert np.delete(step, jumps).max() < 0.05
+
+
+def test_light_keeps_the_order_of_levels():
+    """Without noise, two pixels of the static cabin never swap their order in a channel when the light changes."""
+    scene = scenes.light_change(7, noise=0)
+    change = scene.changes[0]
+    before, after = (scene.frames[index].color[180:, :].reshape(-1, 3) for index in (change - 1, change))
+    for channel in range(3):
+        order = np.argsort(before[:, channel], kind="stable")
+        sorted_before, sorted_after = before[order, channel], after[order, channel]
+        rising = np.diff(sorted_before) > 0
+        upper = np.maximum.accumulate(sorted_after)
+        assert np.all(sorted_after[1:][rising] >= upper[:-1][rising])
+
+
+def test_head_moves_slowly_and_stays_inside():
+    """The driver's face moves at most 6 px a frame and stays in the picture."""
+    scene = scenes.light_change(1)
+    assert np.hypot(*np.diff(centers(scene), axis=0).T).max() <= 6
+    assert all(box.clip(320, 240) == pytest.approx(box) for box in scene.boxes)
+
+
+def test_unknown_background_is_named():
+    """A background that isn't there is refused, and those that are there are listed."""
+    with pytest.raises(ValueError, match="background: expected one of coffee, cat, .* got 'moon'"):
+        scenes.face_over_clutter(background="moon")
+
+
+def test_missing_scikit_image_names_the_extra(monkeypatch):
+    """Without scikit-image the error says how to install it."""
+    monkeypatch.setitem(sys.modules, "skimage", None)
+    with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
+        scenes.light_change()
