@@ -10,6 +10,7 @@
 
 #include "camera/arrays.hpp"
 #include "camera/image_view.hpp"
+#include "camera/sample_view.hpp"
 
 namespace tricue::bindings {
 
@@ -49,6 +50,13 @@ inline ImageView color_image(const py::object& object, const char* name) {
         throw py::value_error(std::string(name) + ": expected packed pixels; numpy.ascontiguousarray makes them");
     return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
             static_cast<int>(array.shape(1)), 3, array.strides(0)};
+}
+
+inline SampleView samples(const py::object& object, const char* name) {
+    const char* expected = "uint8 samples (N, 3, n)";
+    const auto array = require<std::uint8_t>(object, name, 3, expected);
+    if (array.shape(1) != 3) throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    return {contiguous<std::uint8_t>(array, name), array.shape(0), array.shape(2)};
 }
 
 inline Eigen::Map<const States> states(const py::object& object, const char* name) {
