@@ -7,6 +7,7 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <vector>
 
 #include "camera/arrays.hpp"
 #include "camera/image_view.hpp"
@@ -15,6 +16,15 @@
 namespace tricue::bindings {
 
 namespace py = pybind11;
+
+/// Takes any object, as `require` says more than pybind11 about what is wrong with it; shows in signatures as NDArray[Scalar].
+template <typename Scalar>
+class Array : public py::object {
+    static bool anything(PyObject*) { return true; }
+
+public:
+    PYBIND11_OBJECT(Array, py::object, anything)
+};
 
 inline std::string describe(const py::array& array) {
     return std::string(py::str(array.dtype())) + " " + std::string(py::str(array.attr("shape")));
@@ -69,11 +79,40 @@ inline Eigen::Map<const Vector> vector(const py::object& object, const char* nam
     return {contiguous<double>(array, name), array.shape(0)};
 }
 
+/// A float array of a given shape (-1: any size), seen as rows of its last dimension.
+inline Eigen::Map<const Floats> floats(const py::object& object, const char* name, const std::vector<py::ssize_t>& shape,
+                                       const char* expected) {
+    const auto array = require<float>(object, name, static_cast<int>(shape.size()), expected);
+    py::ssize_t rows = 1;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        const auto size = array.shape(static_cast<py::ssize_t>(i));
+        if (shape[i] >= 0 && size != shape[i])
+            throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+        if (i + 1 < shape.size()) rows *= size;
+    }
+    return {contiguous<float>(array, name), rows, array.shape(array.ndim() - 1)};
+}
+
+inline Bgr bgr(const py::object& object, const char* name) {
+    const char* expected = "a uint8 color (3,): blue, green, red";
+    const auto array = require<std::uint8_t>(object, name, 1, expected);
+    if (array.shape(0) != 3) throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    const auto* data = contiguous<std::uint8_t>(array, name);
+    return {data[0], data[1], data[2]};
+}
+
+/// Runs a kernel without the GIL.
+template <typename Kernel>
+auto unlocked(Kernel&& kernel) {
+    const py::gil_scoped_release release;
+    return kernel();
+}
+
 /// Hands a result's memory to NumPy without a copy.
-template <typename Derived>
-py::array give(Derived&& result) {
-    using Result = std::decay_t<Derived>;
-    auto* owned = new Result(std::forward<Derived>(result));
+template <typename Result>
+Array<typename Result::Scalar> give(Result&& result) {
+    static_assert(!std::is_lvalue_reference_v<Result>, "give(std::move(result))");
+    auto* owned = new Result(std::move(result));
     const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
     if constexpr (Result::ColsAtCompileTime == 1)
         return py::array_t<typename Result::Scalar>(owned->size(), owned->data(), owner);
@@ -82,3 +121,9 @@ py::array give(Derived&& result) {
 }
 
 }  // namespace tricue::bindings
+
+template <typename Scalar>
+struct pybind11::detail::handle_type_name<tricue::bindings::Array<Scalar>> {
+    static constexpr auto name =
+        const_name("numpy.typing.NDArray[") + npy_format_descriptor<Scalar>::name + const_name("]");
+};
