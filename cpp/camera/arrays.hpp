@@ -12,4 +12,8 @@ using Vector = Eigen::Array<double, Eigen::Dynamic, 1>;
 using VectorRef = Eigen::Ref<const Vector>;
 using Indices = Eigen::Array<std::int64_t, Eigen::Dynamic, 1>;
 
+/// Measurements of N ellipses, one a row, contiguous.
+using Floats = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using FloatsRef = Eigen::Ref<const Floats>;
+
 }  // namespace tricue

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace tricue {
+
+/// One color: blue, green, red.
+using Bgr = std::array<std::uint8_t, 3>;
 
 /// A read-only 8-bit image that somebody else owns: pixels are packed, rows may be padded (`stride` bytes apart).
 struct ImageView {

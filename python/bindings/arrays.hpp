@@ -7,9 +7,11 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <vector>
 
 #include "camera/arrays.hpp"
 #include "camera/image_view.hpp"
+#include "camera/sample_view.hpp"
 
 namespace tricue::bindings {
 
@@ -61,6 +63,13 @@ inline ImageView color_image(const py::object& object, const char* name) {
             static_cast<int>(array.shape(1)), 3, array.strides(0)};
 }
 
+inline SampleView samples(const py::object& object, const char* name) {
+    const char* expected = "uint8 samples (N, 3, n)";
+    const auto array = require<std::uint8_t>(object, name, 3, expected);
+    if (array.shape(1) != 3) throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    return {contiguous<std::uint8_t>(array, name), array.shape(0), array.shape(2)};
+}
+
 inline Eigen::Map<const States> states(const py::object& object, const char* name) {
     const auto array = require<double>(object, name, 2, "float64 (N, D)");
     return {contiguous<double>(array, name), array.shape(0), array.shape(1)};
@@ -69,6 +78,28 @@ inline Eigen::Map<const States> states(const py::object& object, const char* nam
 inline Eigen::Map<const Vector> vector(const py::object& object, const char* name) {
     const auto array = require<double>(object, name, 1, "float64 (N,)");
     return {contiguous<double>(array, name), array.shape(0)};
+}
+
+/// A float array of a given shape (-1: any size), seen as rows of its last dimension.
+inline Eigen::Map<const Floats> floats(const py::object& object, const char* name, const std::vector<py::ssize_t>& shape,
+                                       const char* expected) {
+    const auto array = require<float>(object, name, static_cast<int>(shape.size()), expected);
+    py::ssize_t rows = 1;
+    for (std::size_t i = 0; i < shape.size(); ++i) {
+        const auto size = array.shape(static_cast<py::ssize_t>(i));
+        if (shape[i] >= 0 && size != shape[i])
+            throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+        if (i + 1 < shape.size()) rows *= size;
+    }
+    return {contiguous<float>(array, name), rows, array.shape(array.ndim() - 1)};
+}
+
+inline Bgr bgr(const py::object& object, const char* name) {
+    const char* expected = "a uint8 color (3,): blue, green, red";
+    const auto array = require<std::uint8_t>(object, name, 1, expected);
+    if (array.shape(0) != 3) throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    const auto* data = contiguous<std::uint8_t>(array, name);
+    return {data[0], data[1], data[2]};
 }
 
 /// Runs a kernel without the GIL.

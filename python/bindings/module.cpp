@@ -2,10 +2,14 @@
 #include <pybind11/pybind11.h>
 
 namespace tricue::bindings {
+void define_color(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
+void define_skin(pybind11::module_& m);
 }  // namespace tricue::bindings
 
 PYBIND11_MODULE(_core, m) {
     m.doc() = "tricue's native kernels: arrays in, arrays out, no state. Their NumPy twins are in tricue.reference.";
+    tricue::bindings::define_color(m);
+    tricue::bindings::define_skin(m);
     tricue::bindings::define_fuse(m);
 }

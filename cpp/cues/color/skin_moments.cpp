@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/skin_moments.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "cues/color/skin_boundary.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+// Tiles this wide and high keep every inner sum within 16-bit factors and 32-bit totals.
+constexpr int kTile = 1024;
+using Lanes = std::array<std::int16_t, kTile>;
+
+constexpr Lanes ascending() {
+    Lanes lanes{};
+    for (int x = 0; x < kTile; ++x) lanes[static_cast<std::size_t>(x)] = static_cast<std::int16_t>(x);
+    return lanes;
+}
+constexpr Lanes kColumn = ascending();
+
+struct RowSums {
+    int count, x;
+};
+
+/// Raw moments of whole pixel indices, relative to the region's corner; exact.
+struct Sums {
+    std::int64_t count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+};
+
+/// Counts one row's skin and adds it to the counts of the columns.
+TRICUE_MULTIVERSION
+RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t least, std::int16_t* __restrict columns) {
+    int count = 0, sum = 0;
+    for (int x = 0; x < n; ++x) {
+        const std::int16_t skin = boundary[x] >= least;
+        count += skin;
+        sum += skin * kColumn[static_cast<std::size_t>(x)];
+        columns[x] = static_cast<std::int16_t>(columns[x] + skin);
+    }
+    return {count, sum};
+}
+
+void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region, const Region& tile,
+              Sums& sums) {
+    const int width = tile.x1 - tile.x0;
+    const std::int64_t left = tile.x0 - region.x0;
+    Lanes boundary, columns{};
+    for (int row = tile.y0; row < tile.y1; ++row) {
+        skin_boundary_row(image.row(row) + 3 * std::ptrdiff_t{tile.x0}, width, reference, boundary.data());
+        const RowSums skin = sum_row(boundary.data(), width, least, columns.data());
+        const std::int64_t y = row - region.y0, x = skin.x + left * skin.count;
+        sums.count += skin.count;
+        sums.y += y * skin.count;
+        sums.yy += y * y * skin.count;
+        sums.xy += y * x;
+        sums.x += x;
+    }
+    for (int column = 0; column < width; ++column) {
+        const std::int64_t x = left + column;
+        sums.xx += x * x * columns[static_cast<std::size_t>(column)];
+    }
+}
+
+}  // namespace
+
+Vector skin_moments(const ImageView& image, const Bgr& reference, double threshold, const Region& region) {
+    const auto least = static_cast<std::int16_t>(least_skin(threshold));
+    const Region seen = region.clipped(image);
+    Sums sums;
+    for (int y = seen.y0; y < seen.y1; y += kTile)
+        for (int x = seen.x0; x < seen.x1; x += kTile) {
+            const Region tile{x, y, std::min(x + kTile, seen.x1), std::min(y + kTile, seen.y1)};
+            add_tile(image, reference, least, seen, tile, sums);
+        }
+
+    Vector moments = Vector::Zero(6);
+    if (sums.count == 0) return moments;
+    const auto count = static_cast<double>(sums.count);
+    const auto average = [count](std::int64_t sum) { return static_cast<double>(sum) / count; };
+    const double x = average(sums.x), y = average(sums.y);
+    moments << count, seen.x0 + x + 0.5, seen.y0 + y + 0.5, average(sums.xx) - x * x, average(sums.yy) - y * y,
+        average(sums.xy) - x * y;
+    return moments;
+}
+
+}  // namespace tricue
