@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+"""Color ranks, equation (17) of Sabeti, Parvizi, Wu 2008, as mid-ranks."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+
+
+def color_ranks(samples: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """(N, 3, n) ranks in (0, 1): (samples below + half of those equal) / n, within each ellipse and channel."""
+    n = samples.shape[2]
+    if n < 1:
+        refuse("samples", "at least one an ellipse", "none")
+    ranks = np.empty(samples.shape, np.float32)
+    for i, ellipse in enumerate(samples):
+        for k, channel in enumerate(ellipse):
+            histogram = np.bincount(channel, minlength=256)
+            up_to = np.cumsum(histogram)
+            below = up_to - histogram
+            ranks[i, k] = ((below + up_to) / (2 * n))[channel]
+    return ranks

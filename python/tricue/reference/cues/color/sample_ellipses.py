@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""The pixels under an ellipse, read at the same places of every ellipse."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_finite, require_shape
+
+
+def sample_ellipses(
+    image: NDArray[np.uint8], ellipses: NDArray[np.float64], pattern: NDArray[np.float64]
+) -> NDArray[np.uint8]:
+    """(N, 3, n): for each ellipse (x, y, minor, major) the pixels at (x + minor u, y + major v), clamped to the image."""
+    require_shape("ellipses", ellipses, (len(ellipses), 4))
+    require_shape("pattern", pattern, (len(pattern), 2))
+    height, width = image.shape[:2]
+    if height < 1 or width < 1:
+        refuse("image", "at least one pixel", "none")
+    require_finite("ellipses", ellipses)
+    require_finite("pattern", pattern)
+
+    samples = np.empty((len(ellipses), 3, len(pattern)), np.uint8)
+    u, v = pattern.astype(np.float32).T
+    for i, (x, y, minor, major) in enumerate(ellipses.astype(np.float32)):
+        columns = np.clip(x + minor * u, 0, width - 1).astype(int)
+        rows = np.clip(y + major * v, 0, height - 1).astype(int)
+        samples[i] = image[rows, columns].T
+    return samples
