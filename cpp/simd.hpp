@@ -11,6 +11,7 @@
 ///   the same file. Eigen's own packets stay at the baseline: write plain loops over pointers.
 /// - All three give the same bits: -ffp-contract=off forbids fused multiply-adds, and without -ffast-math the compiler
 ///   may not change the order of a floating-point sum (which is why such a sum isn't vectorised; integer sums are).
+/// - The function may not throw: GCC takes the dispatched call for one that can't, and the program ends.
 /// - It needs GCC 12 (the names of the levels), and glibc (indirect functions). The sanitizers can't run when the
 ///   loader picks, before they are set up. Elsewhere it is empty; ARM's baseline has NEON anyway.
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__linux__) && \

@@ -56,8 +56,10 @@ inline ImageView color_image(const py::object& object, const char* name) {
     const auto array = require<std::uint8_t>(object, name, 3, "a uint8 BGR image (H, W, 3)");
     if (array.shape(2) != 3)
         throw py::value_error(std::string(name) + ": expected a uint8 BGR image (H, W, 3), got " + describe(array));
-    if (array.shape(0) > 0 && array.shape(1) > 0 &&
-        (array.strides(2) != 1 || array.strides(1) != 3 || array.strides(0) < 0))
+    // NumPy leaves the stride of an axis of length 1 (and all of them in an empty array) undefined.
+    const bool packed = array.strides(2) == 1 && (array.shape(1) == 1 || array.strides(1) == 3);
+    const bool downward = array.shape(0) == 1 || array.strides(0) >= 0;
+    if (array.size() > 0 && !(packed && downward))
         throw py::value_error(std::string(name) + ": expected packed pixels; numpy.ascontiguousarray makes them");
     return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
             static_cast<int>(array.shape(1)), 3, array.strides(0)};

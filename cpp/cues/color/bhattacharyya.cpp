@@ -13,10 +13,14 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void check_entries(const float* values, Eigen::Index n, const char* name) {
+bool all_shares(const float* values, Eigen::Index n) {
     int strange = 0;
     for (Eigen::Index i = 0; i < n; ++i) strange += !(values[i] >= 0.0F && values[i] <= std::numeric_limits<float>::max());
-    if (strange > 0) refuse(name, "finite numbers, none negative", "others");
+    return strange == 0;
+}
+
+void require_shares(FloatsRef values, const char* name) {
+    if (!all_shares(values.data(), values.size())) refuse(name, "finite numbers, none negative", "others");
 }
 
 void check(FloatsRef histograms, FloatsRef model, int groups) {
@@ -25,8 +29,8 @@ void check(FloatsRef histograms, FloatsRef model, int groups) {
         refuse("model", std::to_string(histograms.cols()) + " bins, as in histograms", static_cast<double>(width));
     if (groups < 1 || width % groups != 0)
         refuse("groups", "a divisor of " + std::to_string(width), groups);
-    check_entries(histograms.data(), histograms.size(), "histograms");
-    check_entries(model.data(), model.size(), "model");
+    require_shares(histograms, "histograms");
+    require_shares(model, "model");
 }
 
 /// sum_k sqrt(p_k q_k) in eight partial sums: a fixed order that vectorises.

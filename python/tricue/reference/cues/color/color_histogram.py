@@ -12,8 +12,9 @@ def color_histogram(samples: NDArray[np.uint8], bins: int) -> NDArray[np.float32
     ellipses, channels, n = samples.shape
     if n == 0:
         raise ValueError("samples: expected at least one for each ellipse, got none")
+    cells = samples.astype(np.int64) * bins // 256
     histograms = np.empty((ellipses, channels, bins), np.float32)
     for i in range(ellipses):
         for k in range(channels):
-            histograms[i, k] = np.bincount(samples[i, k] // (256 // bins), minlength=bins) / n
+            histograms[i, k] = np.bincount(cells[i, k], minlength=bins) / n
     return histograms.reshape(ellipses, channels * bins)

@@ -10,6 +10,6 @@ def color_lookup(samples: NDArray[np.uint8], table: NDArray[np.float32]) -> NDAr
     side = table.shape[0]
     if table.shape != (side, side, side) or side not in (1, 2, 4, 8, 16, 32, 64):
         raise ValueError(f"table: expected shape (B, B, B), B a power of two up to 64, got {table.shape}")
-    b, g, r = (samples // (256 // side)).transpose(1, 0, 2)
+    b, g, r = (samples.astype(np.int64) * side // 256).transpose(1, 0, 2)
     values: NDArray[np.float32] = table[b, g, r]
     return values
