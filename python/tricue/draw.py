@@ -33,7 +33,7 @@ def overlay(
     truth: Box | None = None,
     note: str = "",
 ) -> Image:
-    """A copy of the image (BGR or grey) with the track drawn in it; a small image is enlarged by a whole number.
+    """A copy of the image (BGR or grey) with the track in it; a small one is enlarged by a whole number.
 
     particles: (N, 2 or more), their centres x, y in pixels. truth: the true box, drawn thin and white.
     """

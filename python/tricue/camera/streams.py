@@ -44,10 +44,7 @@ class Images:
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
         for index, path in enumerate(self.paths):
-            image = cv2.imread(str(path), self.flag)
-            if image is None:
-                raise ValueError(f"{path}: expected an image, this file can't be read as one")
-            yield index / self.fps, image
+            yield index / self.fps, _picture(path, self.flag)
 
 
 class Video:
@@ -112,6 +109,16 @@ def image_paths(folder: Path) -> list[Path]:
 def is_image(path: Path) -> bool:
     """Whether the file's name says that it is a picture."""
     return path.suffix.lower() in _IMAGES
+
+
+def _picture(path: Path, flag: int) -> Image:
+    try:
+        image = cv2.imread(str(path), flag)
+    except cv2.error:  # a picture larger than OpenCV allows
+        image = None
+    if image is None:
+        raise ValueError(f"{path}: expected an image, this file can't be read as one")
+    return image
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
