@@ -12,7 +12,7 @@ from tricue.camera.box import Box
 
 
 def find_face(image: NDArray[np.uint8]) -> Box | None:
-    """The largest frontal face in a BGR or grey image, or None; ImportError where cv2 has no cascades, as in 5.x."""
+    """The largest frontal face in a BGR or grey image, or None; ImportError where cv2 has none, as 5.x."""
     grey = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
     smallest = max(20, min(grey.shape) // 10)
     found = _cascade().detectMultiScale(grey, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest))

@@ -53,7 +53,7 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
 
 @contextmanager
 def stoppable() -> Iterator[Callable[[], bool]]:
-    """A question "stop?" that Ctrl-C answers with yes, once the frame at hand is done. A second one breaks off."""
+    """A question "stop?" that Ctrl-C answers with yes after the frame at hand. A second one breaks off."""
     asked = False
 
     def ask(_number: int, _frame: FrameType | None) -> None:

@@ -58,7 +58,7 @@ def make_tracker(
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
-    """Keywords from strings name=value: numbers, true, false, tuples such as 16,20; all else stays a string."""
+    """Keywords from strings name=value: numbers, true, false, tuples such as 16,20; the rest as text."""
     pairs = [setting.partition("=") for setting in settings]
     for name, equals, _ in pairs:
         if not (equals and name.isidentifier()):
@@ -129,7 +129,7 @@ def _face(frame: Frame, find: Any) -> Box | None:
 def _report(
     source: Source, clock: Clock, boxes: Mapping[int, Box], paths: Sequence[Path], interrupted: bool
 ) -> None:
-    if not boxes:
+    if not boxes and not interrupted:
         raise ValueError(
             f"{source.name}: found no face in {clock.decoded} frames; give --box x,y,width,height"
         )
