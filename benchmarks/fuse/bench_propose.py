@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 
 Floats = NDArray[np.float64]

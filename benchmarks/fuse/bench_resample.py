@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 
 WEIGHTS = np.random.default_rng(0).exponential(size=100)

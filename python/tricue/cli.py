@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: MIT
+"""The command line: parses, calls, prints."""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NoReturn
+
+import tricue
+from tricue.camera.box import Box, as_box
+from tricue.track.create import names
+
+USAGE, INTERRUPTED = 2, 130
+
+_TRACK_EXAMPLES = """\
+examples:
+  tricue track video.mp4 --box 120,80,64,78 --output overlay.mp4 --csv track.csv
+  tricue track 0 --detect face --output overlay.mp4           the first camera, until Ctrl-C
+  tricue track sequences/David --json track.json              starts on the sequence's first true box
+  tricue track images/ --box 10,20,30,40 --set particles=300 --seed 7
+  tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
+"""
+_DEMO_EXAMPLES = """\
+examples:
+  tricue demo
+  tricue demo color-particle --kernels reference --output here
+"""
+_REPRODUCE_EXAMPLES = """\
+examples:
+  tricue reproduce sabeti-fig1
+  tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
+"""
+
+
+class Parser(argparse.ArgumentParser):
+    """Errors in one line, without the usage in front."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(USAGE, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; the exit code: 0, 2 for an error (one line on stderr), 130 after Ctrl-C."""
+    _silence_opencv()
+    options = parser().parse_args(arguments)
+    try:
+        code: int = options.run(options)
+        return code
+    except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
+        print(f"tricue {options.verb}: {_one_line(error)}", file=sys.stderr)
+        return USAGE
+    except KeyboardInterrupt:
+        print(f"tricue {options.verb}: interrupted", file=sys.stderr)
+        return INTERRUPTED
+
+
+def parser() -> argparse.ArgumentParser:
+    """The verbs and their options."""
+    top = Parser(prog="tricue", description=tricue.__doc__)
+    top.add_argument("--version", action="version", version=f"tricue {tricue.__version__}")
+    verbs = top.add_subparsers(dest="verb", metavar="VERB", required=True)
+    _add_demo(_verb(verbs, "demo", "track a scene with known truth", _DEMO_EXAMPLES, _demo))
+    _add_track(_verb(verbs, "track", "track in a video, a folder, a camera", _TRACK_EXAMPLES, _track))
+    _add_reproduce(
+        _verb(verbs, "reproduce", "redo an experiment of the papers", _REPRODUCE_EXAMPLES, _reproduce)
+    )
+    return top
+
+
+def _verb(
+    verbs: "argparse._SubParsersAction[Parser]",
+    name: str,
+    about: str,
+    examples: str,
+    run: Callable[[argparse.Namespace], int],
+) -> argparse.ArgumentParser:
+    formatter = argparse.RawDescriptionHelpFormatter
+    verb = verbs.add_parser(name, help=about, description=about, epilog=examples, formatter_class=formatter)
+    verb.set_defaults(run=run)
+    return verb
+
+
+def _add_track(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument(
+        "input", metavar="INPUT", help="video file, folder of images, sequence folder, camera number"
+    )
+    verb.add_argument("--tracker", default=names()[0], choices=names(), help="default %(default)s")
+    start = verb.add_mutually_exclusive_group()
+    start.add_argument("--box", type=_box, metavar="X,Y,W,H", help="the box to start on, in pixels")
+    start.add_argument(
+        "--detect", choices=("face",), help="start on the largest face, as soon as there is one"
+    )
+    verb.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
+    verb.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
+    verb.add_argument(
+        "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
+    )
+    verb.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
+    )
+    verb.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
+    _add_common(verb)
+
+
+def _add_demo(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument("tracker", nargs="?", default=names()[0], choices=names(), help="default %(default)s")
+    verb.add_argument(
+        "--output", type=Path, default=Path("demo"), metavar="FOLDER", help="default %(default)s/"
+    )
+    _add_common(verb)
+
+
+def _add_reproduce(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument("experiment", metavar="EXPERIMENT", help="sabeti-fig1, sabeti-fig2")
+    verb.add_argument(
+        "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"
+    )
+    verb.add_argument("--jobs", type=int, default=1, help="processes, default %(default)s")
+    verb.add_argument(
+        "--output", type=Path, default=Path("results"), metavar="FOLDER", help="default %(default)s/"
+    )
+
+
+def _add_common(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument(
+        "--kernels", default="native", choices=("native", "reference"), help="default %(default)s"
+    )
+    verb.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
+
+
+def _track(options: argparse.Namespace) -> int:
+    from tricue.commands.track import track
+
+    return track(options)
+
+
+def _demo(options: argparse.Namespace) -> int:
+    from tricue.commands.demo import demo
+
+    return demo(options)
+
+
+def _reproduce(options: argparse.Namespace) -> int:
+    from tricue.commands.reproduce import reproduce
+
+    return reproduce(options)
+
+
+def _box(text: str) -> Box:
+    try:
+        return as_box([float(number) for number in text.split(",")])
+    except ValueError as error:
+        reason = (
+            str(error)
+            if str(error).startswith("box:")
+            else f"expected four numbers x,y,width,height, got {text!r}"
+        )
+        raise argparse.ArgumentTypeError(reason.removeprefix("box: ")) from None
+
+
+def _silence_opencv() -> None:
+    """OpenCV and FFmpeg write to stderr by themselves; what matters of it comes as an exception."""
+    os.environ.setdefault("OPENCV_LOG_LEVEL", "SILENT")
+    os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
+
+
+def _one_line(error: Exception) -> str:
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
+    return " ".join(str(error).split()) or type(error).__name__

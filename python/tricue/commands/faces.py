@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+"""A face to start on, found by OpenCV's cascade (Viola and Jones 2001)."""
+
+from functools import cache
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+
+
+def find_face(image: NDArray[np.uint8]) -> Box | None:
+    """The largest frontal face in a BGR or grey image, or None; ImportError where cv2 has none, as 5.x."""
+    grey = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    smallest = max(20, min(grey.shape) // 10)
+    found = _cascade().detectMultiScale(grey, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest))
+    faces = [Box(*map(float, face)) for face in found]
+    return max(faces, key=lambda face: face.area, default=None)
+
+
+@cache
+def _cascade() -> cv2.CascadeClassifier:
+    folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
+    if folder is None or not hasattr(cv2, "CascadeClassifier"):
+        raise ImportError(
+            f"--detect face: cv2 {cv2.__version__} has no face cascade; "
+            "give --box x,y,width,height, or pip install 'opencv-python-headless<5'"
+        )
+    return cv2.CascadeClassifier(str(Path(folder) / "haarcascade_frontalface_default.xml"))

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""Where a run's tracks go, frame by frame: CSV, JSON, an overlay video. Each is whole once it is closed."""
+
+import csv
+import json
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from tricue.camera.frame import Frame
+from tricue.draw import OverlayWriter, overlay
+from tricue.track.track import Track
+
+COLUMNS = ("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m")
+
+
+class Step(NamedTuple):
+    """One tracked frame: its number from 0, what was seen, what the tracker said, and its seconds."""
+
+    number: int
+    frame: Frame
+    track: Track
+    seconds: float
+    particles: Any = None
+
+
+class Output(AbstractContextManager[Any], Protocol):
+    """Something that takes the steps of a run; used in ``with``."""
+
+    @property
+    def path(self) -> Path: ...
+
+    def write(self, step: Step) -> None: ...
+
+
+def row(step: Step) -> list[Any]:
+    """The values of COLUMNS, None where absent; six decimals."""
+    track, position = step.track, step.track.position
+    metres = [None] * 3 if position is None else np.asarray(position).tolist()
+    time = step.frame.timestamp
+    numbers = [
+        None if number is None else round(number, 6) for number in (time, track.score, *track.box, *metres)
+    ]
+    return [step.number, numbers[0], str(track.status), *numbers[1:]]
+
+
+class CsvOutput:
+    """A line a frame under a line of COLUMNS; absent values are empty."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._file = _created(path)
+        self._writer = csv.writer(self._file, lineterminator="\n")
+        self._writer.writerow(COLUMNS)
+
+    def write(self, step: Step) -> None:
+        self._writer.writerow(row(step))
+
+    def __enter__(self) -> "CsvOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+
+class JsonOutput:
+    """One object: what ``about`` says, and "tracks", a list of objects with COLUMNS as keys, a line each."""
+
+    def __init__(self, path: Path, about: dict[str, Any]) -> None:
+        self.path = path
+        head = json.dumps(about, indent=1, allow_nan=False)
+        self._file = _created(path)
+        self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        self._separator = "\n"
+
+    def write(self, step: Step) -> None:
+        values = dict(zip(COLUMNS, row(step), strict=True))
+        self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+        self._separator = ",\n"
+
+    def __enter__(self) -> "JsonOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.write("\n ]\n}\n")
+        self._file.close()
+
+
+class VideoOutput:
+    """The overlay video."""
+
+    def __init__(self, path: Path, fps: float) -> None:
+        self._writer = OverlayWriter(path, fps)
+
+    @property
+    def path(self) -> Path:
+        return self._writer.path
+
+    def write(self, step: Step) -> None:
+        image = step.frame.color
+        if image is not None:
+            speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
+            picture = overlay(image, step.track, particles=step.particles, note=f"frame {step.number}{speed}")
+            self._writer.write(picture)
+
+    def __enter__(self) -> "VideoOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._writer.close()
+
+
+def _created(path: Path) -> Any:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path.open("w", encoding="utf-8", newline="")

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""A tracker over a source, step by step, with its clock, and the way to stop it."""
+
+import signal
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import perf_counter
+from types import FrameType
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.commands.outputs import Step
+from tricue.track.track import Status, Tracker
+
+Start = Callable[[Frame], Box | None]
+"""The box to start on, asked of every frame until there is one."""
+
+
+@dataclass
+class Clock:
+    """Seconds spent on decoding and on tracking, told apart, and what the tracker said."""
+
+    decoding: float = 0.0
+    tracking: float = 0.0
+    decoded: int = 0
+    updates: int = 0
+    statuses: dict[Status, int] = field(default_factory=lambda: dict.fromkeys(Status, 0))
+
+    @property
+    def speeds(self) -> str:
+        """Both in frames a second; the first frame, on which the tracker starts, isn't in the tracking's."""
+        tracking = f"tracking {self.updates / self.tracking:,.0f} frames/s, " if self.tracking else ""
+        return f"{tracking}decoding {self.decoded / max(self.decoding, 1e-9):,.0f} frames/s"
+
+
+def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: Clock) -> Iterator[Step]:
+    """Start the tracker on the first box that ``start`` gives, without ``start`` by itself, and follow."""
+    started = False
+    for index, frame in enumerate(_decoded(frames, clock)):
+        box = start(frame) if start and not started else None
+        if start and not started and box is None:
+            continue
+        before = perf_counter()
+        track = tracker.update(frame) if started else tracker.init(frame, box)
+        seconds = perf_counter() - before
+        clock.statuses[track.status] += 1
+        if started:
+            clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
+        started = True
+        yield Step(index, frame, track, seconds, getattr(tracker, "particles", None))
+
+
+@contextmanager
+def stoppable() -> Iterator[Callable[[], bool]]:
+    """A question "stop?" that Ctrl-C answers with yes after the frame at hand. A second one breaks off."""
+    asked = False
+
+    def ask(_number: int, _frame: FrameType | None) -> None:
+        nonlocal asked
+        if asked:
+            raise KeyboardInterrupt
+        asked = True
+
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield lambda: asked
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _decoded(frames: Iterable[Frame], clock: Clock) -> Iterator[Frame]:
+    iterator = iter(frames)
+    while True:
+        before = perf_counter()
+        frame = next(iterator, None)
+        clock.decoding += perf_counter() - before
+        if frame is None:
+            return
+        clock.decoded += 1
+        yield frame
