@@ -2,6 +2,7 @@
 #include "cues/color/color_lookup.hpp"
 
 
+#include "blocks.hpp"
 #include "check.hpp"
 #include "simd.hpp"
 
@@ -19,10 +20,10 @@ TRICUE_MULTIVERSION
 void look_up(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green, const std::uint8_t* __restrict red,
              std::ptrdiff_t n, const float* __restrict table, int bits, float* __restrict out) {
     const int shift = 8 - bits;
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
+    in_blocks(n, [=](std::ptrdiff_t i) {
         const std::int32_t b = blue[i] >> shift, g = green[i] >> shift, r = red[i] >> shift;
         out[i] = table[(((b << bits) | g) << bits) | r];
-    }
+    });
 }
 
 }  // namespace

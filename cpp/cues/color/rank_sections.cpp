@@ -33,8 +33,12 @@ std::size_t closest(const Counts& ranks, std::int64_t n, std::int64_t sections, 
     const auto miss = [&](std::size_t l) { return std::llabs(ranks[l] * sections - n * ranks.back()); };
     // Ranks ascend, so the distance falls, then rises; levels that nobody has are a plain step in between.
     std::size_t best = level;
-    for (std::size_t l = level + 1; l < kLevels && miss(l) <= miss(best); ++l)
-        if (miss(l) < miss(best)) best = l;
+    std::int64_t least = miss(level);
+    for (++level; level < kLevels; ++level) {
+        const std::int64_t here = miss(level);
+        if (here > least) break;
+        if (here < least) best = level, least = here;
+    }
     return best;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blocks.hpp"
 #include "check.hpp"
 #include "simd.hpp"
 
@@ -21,12 +22,12 @@ TRICUE_MULTIVERSION
 void skin_boundary_row(const std::uint8_t* __restrict pixels, int n, const Bgr& reference,
                        std::int16_t* __restrict boundary) {
     const std::uint8_t b0 = reference[0], g0 = reference[1], r0 = reference[2];
-    for (int x = 0; x < n; ++x) {
+    in_blocks(n, [=](std::ptrdiff_t x) {
         const std::uint8_t b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
         const std::uint8_t delta = std::max(distance(b, b0), std::max(distance(g, g0), distance(r, r0)));  // (8)
         const std::uint8_t eta = std::max(b, std::max(g, r));                                              // (9)
         boundary[x] = static_cast<std::int16_t>(eta - delta);                                              // (10)
-    }
+    });
 }
 
 Boundary skin_boundary(const ImageView& image, const Bgr& reference) {

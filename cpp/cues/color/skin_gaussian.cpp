@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "blocks.hpp"
 #include "check.hpp"
 #include "simd.hpp"
 
@@ -44,12 +45,12 @@ TRICUE_MULTIVERSION
 void evaluate(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green,
               const std::uint8_t* __restrict red, std::ptrdiff_t n, const Chrominance& model, float* __restrict out) {
     const Chrominance m = model;
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
+    in_blocks(n, [=](std::ptrdiff_t i) {
         const float b = blue[i], g = green[i], r = red[i];
         const float luma = 0.299F * r + 0.587F * g + 0.114F * b;
         const float cb = (b - luma) * (1 / 1.772F) - m.mean_b, cr = (r - luma) * (1 / 1.402F) - m.mean_r;
         out[i] = exp_negative(-0.5F * (m.bb * cb * cb + m.br * cb * cr + m.rr * cr * cr));
-    }
+    });
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/skin_reference.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "check.hpp"
@@ -28,15 +27,20 @@ Bgr skin_reference(const ImageView& patch) {
 
     std::vector<std::uint32_t> histogram(1 << 15);
     each_pixel(patch, [&](const std::uint8_t* pixel) { ++histogram[static_cast<std::size_t>(cell_of(pixel))]; });
-    const auto fullest = std::max_element(histogram.begin(), histogram.end());
-    const auto mode = static_cast<int>(fullest - histogram.begin());
+    // The fullest cell is one that the patch has, which are far fewer than the histogram has.
+    int mode = 0;
+    std::uint64_t count = 0;
+    each_pixel(patch, [&](const std::uint8_t* pixel) {
+        const int cell = cell_of(pixel);
+        const std::uint64_t filled = histogram[static_cast<std::size_t>(cell)];
+        if (filled > count || (filled == count && cell < mode)) mode = cell, count = filled;
+    });
 
     std::array<std::uint64_t, 3> sum{};
     each_pixel(patch, [&](const std::uint8_t* pixel) {
         if (cell_of(pixel) != mode) return;
         for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
     });
-    const std::uint64_t count = *fullest;
     Bgr mean{};
     for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((2 * sum[c] + count) / (2 * count));
     return mean;

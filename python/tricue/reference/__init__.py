@@ -1,9 +1,36 @@
 # SPDX-License-Identifier: MIT
 """The kernels in NumPy: slow and obvious, they read like the papers and say what the native kernels must compute."""
 
+from tricue.reference.cues.color.bhattacharyya import bhattacharyya
+from tricue.reference.cues.color.color_histogram import color_histogram
+from tricue.reference.cues.color.color_lookup import color_lookup
+from tricue.reference.cues.color.rank_sections import rank_sections
+from tricue.reference.cues.color.section_distance import section_distance
+from tricue.reference.cues.color.skin_blobs import skin_blobs
+from tricue.reference.cues.color.skin_boundary import skin_boundary
+from tricue.reference.cues.color.skin_gaussian import skin_gaussian
+from tricue.reference.cues.color.skin_moments import skin_moments
+from tricue.reference.cues.color.skin_reference import skin_reference
+from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
 
-__all__ = ["propose", "resample", "reweight", "summarize"]
+__all__ = [
+    "bhattacharyya",
+    "color_histogram",
+    "color_lookup",
+    "propose",
+    "rank_sections",
+    "resample",
+    "reweight",
+    "section_distance",
+    "skin_blobs",
+    "skin_boundary",
+    "skin_gaussian",
+    "skin_moments",
+    "skin_reference",
+    "skin_rule",
+    "summarize",
+]

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""Color histograms of samples (the model that figure 2 of Sabeti, Parvizi, Wu 2008 compares with)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def color_histogram(samples: NDArray[np.uint8], bins: int) -> NDArray[np.float32]:
+    """(N, 3 bins): for every ellipse the bins of blue, of green, of red, each channel's of sum 1."""
+    if not 1 <= bins <= 256 or 256 % bins:
+        raise ValueError(f"bins: expected a divisor of 256, got {bins}")
+    ellipses, channels, n = samples.shape
+    if n == 0:
+        raise ValueError("samples: expected at least one for each ellipse, got none")
+    histograms = np.empty((ellipses, channels, bins), np.float32)
+    for i in range(ellipses):
+        for k in range(channels):
+            histograms[i, k] = np.bincount(samples[i, k] // (256 // bins), minlength=bins) / n
+    return histograms.reshape(ellipses, channels * bins)
