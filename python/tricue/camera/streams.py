@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""One channel's images in order: from a folder, a video file, or a live camera."""
+
+import re
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import cv2
+from numpy.typing import NDArray
+
+DEFAULT_FPS = 30.0
+_IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
+
+Image = NDArray[Any]
+
+
+class Stream(Protocol):
+    """Images with their times in seconds; each iteration starts again (a camera goes on)."""
+
+    @property
+    def fps(self) -> float: ...
+
+    @property
+    def length(self) -> int | None:
+        """The number of images, None where only reading them tells."""
+
+    def __iter__(self) -> Iterator[tuple[float, Image]]: ...
+
+
+@dataclass(frozen=True)
+class Images:
+    """Image files, in the given order; ValueError names the first that can't be read."""
+
+    paths: Sequence[Path]
+    fps: float = DEFAULT_FPS
+    flag: int = cv2.IMREAD_COLOR
+
+    @property
+    def length(self) -> int:
+        return len(self.paths)
+
+    def __iter__(self) -> Iterator[tuple[float, Image]]:
+        for index, path in enumerate(self.paths):
+            image = cv2.imread(str(path), self.flag)
+            if image is None:
+                raise ValueError(f"{path}: expected an image, this file can't be read as one")
+            yield index / self.fps, image
+
+
+class Video:
+    """A video file. Its frame count is not used: containers state it wrongly, or not at all."""
+
+    length = None
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        capture = self._open()
+        rate = capture.get(cv2.CAP_PROP_FPS)
+        self.fps = rate if 0 < rate <= 1000 else DEFAULT_FPS
+        capture.release()
+
+    def __iter__(self) -> Iterator[tuple[float, Image]]:
+        capture, index = self._open(), 0
+        try:
+            while (image := _read(capture)) is not None:
+                yield index / self.fps, image
+                index += 1
+        finally:
+            capture.release()
+        if index == 0:
+            raise ValueError(f"{self.path}: expected a video, this file has no frame that can be decoded")
+
+    def _open(self) -> cv2.VideoCapture:
+        capture = cv2.VideoCapture(str(self.path))
+        if not capture.isOpened():
+            raise ValueError(f"{self.path}: expected a video, this file can't be opened as one")
+        return capture
+
+
+class Camera:
+    """A live camera by its number; OSError when it can't be opened or stops."""
+
+    length = None
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+        self.capture = cv2.VideoCapture(number)
+        if not self.capture.isOpened():
+            raise OSError(f"camera {number}: can't be opened; is it plugged in and not in use elsewhere?")
+        rate = self.capture.get(cv2.CAP_PROP_FPS)
+        self.fps = rate if 0 < rate <= 1000 else DEFAULT_FPS
+
+    def __iter__(self) -> Iterator[tuple[float, Image]]:
+        start = time.monotonic()
+        try:
+            while (image := _read(self.capture)) is not None:
+                yield time.monotonic() - start, image
+        finally:
+            self.capture.release()
+        raise OSError(f"camera {self.number}: it stopped giving frames; was it unplugged?")
+
+
+def image_paths(folder: Path) -> list[Path]:
+    """The image files of a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
+    paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))
+    return sorted(paths, key=lambda path: _natural(path.name))
+
+
+def is_image(path: Path) -> bool:
+    """Whether the file's name says that it is a picture."""
+    return path.suffix.lower() in _IMAGES
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"([0-9]+)", name)]
+
+
+def _read(capture: cv2.VideoCapture) -> Image | None:
+    there, image = capture.read()
+    return image if there else None
