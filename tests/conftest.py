@@ -2,7 +2,6 @@
 """Fixtures that all tests share."""
 
 import pytest
-
 from tricue.kernels import Kernels, load
 
 

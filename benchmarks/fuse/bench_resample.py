@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 
 WEIGHTS = np.random.default_rng(0).exponential(size=100)
@@ -24,7 +23,9 @@ def script(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:
 
 
 @pytest.mark.benchmark(group="resample")
-@pytest.mark.parametrize("resample", [_core.resample, reference.resample, script], ids=["native", "reference", "peer"])
+@pytest.mark.parametrize(
+    "resample", [_core.resample, reference.resample, script], ids=["native", "reference", "peer"]
+)
 def bench_resample(benchmark: Any, resample: Callable[..., NDArray[np.int64]]) -> None:
     """All choose the same particles."""
     chosen = benchmark(resample, WEIGHTS, OFFSET)

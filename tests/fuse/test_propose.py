@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -36,7 +35,11 @@ def test_twin_moves_the_same(seed: int) -> None:
     """Native and reference agree to the last bit, for any N (0 too), D and share: no sum is taken in another order."""
     random = np.random.default_rng(seed)
     count, dimensions = int(random.integers(0, 70)), int(random.integers(2, 8))
-    changes = {"share": random.uniform(), "lower": np.full(dimensions, 80.0), "upper": np.full(dimensions, 120.0)}
+    changes = {
+        "share": random.uniform(),
+        "lower": np.full(dimensions, 80.0),
+        "upper": np.full(dimensions, 120.0),
+    }
     arguments = case(count, dimensions, seed, **changes)
     assert_array_equal(_core.propose(**arguments), reference.propose(**arguments))
 
@@ -118,7 +121,10 @@ def test_inputs_untouched(kernels: Kernels) -> None:
         ({"root": np.diag([1.0, 0.0])}, "root: expected a diagonal above 0, got 0"),
         ({"lower": np.zeros(3)}, r"lower: expected shape \(4,\), got \(3,\)"),
         ({"upper": np.zeros(5)}, r"upper: expected shape \(4,\), got \(5,\)"),
-        ({"lower": np.full(4, 7.0), "upper": np.full(4, 6.0)}, "lower: expected no number above upper, got 7"),
+        (
+            {"lower": np.full(4, 7.0), "upper": np.full(4, 6.0)},
+            "lower: expected no number above upper, got 7",
+        ),
         ({"lower": np.full(4, np.nan)}, "lower: expected no number above upper, got nan"),
     ],
 )

@@ -11,7 +11,6 @@ from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.special import logsumexp
 from scipy.stats import multivariate_normal, norm
-
 from tricue import _core, reference
 from tricue.kernels import Kernels, load
 
@@ -134,7 +133,9 @@ small_or_big = st.one_of(st.floats(1e-300, 1e-290), st.floats(1e290, 1e300), st.
     arrays(np.float64, 2, elements=small_or_big),
     st.floats(0, 1, exclude_max=True),
 )
-def test_never_overflows(name: Any, log_likelihood: Any, states: Any, scale: Any, root: Any, share: float) -> None:
+def test_never_overflows(
+    name: Any, log_likelihood: Any, states: Any, scale: Any, root: Any, share: float
+) -> None:
     """Any finite input, however large or small, gives weights in [0, 1] with sum 1, and no NaN."""
     nothing = np.zeros(2)
     weights, log_evidence = load(name).reweight(
@@ -156,7 +157,10 @@ def test_never_overflows(name: Any, log_likelihood: Any, states: Any, scale: Any
         ({"previous": np.zeros((40, 5))}, r"previous: expected shape \(40, 4\), got \(40, 5\)"),
         ({"previous": np.full((40, 4), np.inf)}, "previous: expected finite numbers, got inf"),
         ({"drift": np.zeros(3)}, r"drift: expected shape \(4,\), got \(3,\)"),
-        ({"scale": np.array([1.0, 0.0, 1.0, 1.0])}, "scale: expected numbers above 0 for the position, got 0"),
+        (
+            {"scale": np.array([1.0, 0.0, 1.0, 1.0])},
+            "scale: expected numbers above 0 for the position, got 0",
+        ),
         ({"scale": np.array([1.0, 1.0, 1.0, -1.0])}, "scale: expected no negative number, got -1"),
         ({"mean": np.zeros(3)}, r"mean: expected shape \(2,\), got \(3,\)"),
         ({"root": np.diag([-1.0, 1.0])}, "root: expected a diagonal above 0, got -1"),
