@@ -69,7 +69,9 @@ def main() -> int:
         STUB.write_text(new)
         return 0
     old = STUB.read_text()
-    sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), new.splitlines(True), "_core.pyi", "bindings"))
+    sys.stdout.writelines(
+        difflib.unified_diff(old.splitlines(True), new.splitlines(True), "_core.pyi", "bindings")
+    )
     return int(old != new)
 
 

@@ -44,7 +44,9 @@ def script(
 
 
 @pytest.mark.benchmark(group="propose")
-@pytest.mark.parametrize("propose", [_core.propose, reference.propose, script], ids=["native", "reference", "peer"])
+@pytest.mark.parametrize(
+    "propose", [_core.propose, reference.propose, script], ids=["native", "reference", "peer"]
+)
 def bench_propose(benchmark: Any, propose: Callable[..., Floats]) -> None:
     """All draw the same particles."""
     moved = benchmark(propose, *ARGUMENTS)

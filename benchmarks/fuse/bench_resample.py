@@ -23,7 +23,9 @@ def script(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:
 
 
 @pytest.mark.benchmark(group="resample")
-@pytest.mark.parametrize("resample", [_core.resample, reference.resample, script], ids=["native", "reference", "peer"])
+@pytest.mark.parametrize(
+    "resample", [_core.resample, reference.resample, script], ids=["native", "reference", "peer"]
+)
 def bench_resample(benchmark: Any, resample: Callable[..., NDArray[np.int64]]) -> None:
     """All choose the same particles."""
     chosen = benchmark(resample, WEIGHTS, OFFSET)

@@ -48,7 +48,9 @@ def script(
 
 
 @pytest.mark.benchmark(group="reweight")
-@pytest.mark.parametrize("reweight", [_core.reweight, reference.reweight, script], ids=["native", "reference", "peer"])
+@pytest.mark.parametrize(
+    "reweight", [_core.reweight, reference.reweight, script], ids=["native", "reference", "peer"]
+)
 def bench_reweight(benchmark: Any, reweight: Callable[..., tuple[Floats, float]]) -> None:
     """All give the same weights and evidence."""
     weights, log_evidence = benchmark(reweight, *ARGUMENTS)

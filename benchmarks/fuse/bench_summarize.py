@@ -29,5 +29,7 @@ def script(particles: Floats, weights: Floats) -> tuple[Floats, Floats, float]:
 )
 def bench_summarize(benchmark: Any, summarize: Callable[..., tuple[Floats, Floats, float]]) -> None:
     """All give the same moments."""
-    for ours, theirs in zip(benchmark(summarize, PARTICLES, WEIGHTS), script(PARTICLES, WEIGHTS), strict=True):
+    for ours, theirs in zip(
+        benchmark(summarize, PARTICLES, WEIGHTS), script(PARTICLES, WEIGHTS), strict=True
+    ):
         assert_allclose(ours, theirs, rtol=1e-10, atol=1e-10)

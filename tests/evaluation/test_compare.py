@@ -52,13 +52,12 @@ def test_comparison_scores_what_the_tracker_said(folder, patrol, tmp_path, capsy
     assert table.count("| still-box |") == table.count("| script-pf |") == 1
 
 
-@pytest.mark.parametrize("text", ["", "1,2,3\n", "1 2 3 4 5\n"])
-def test_bad_truth_is_named(text, tmp_path):
-    """A truth file without boxes, or with lines that aren't four numbers, is named."""
-    path = tmp_path / "groundtruth_rect.txt"
-    path.write_text(text)
-    with pytest.raises(ValueError, match=r"groundtruth_rect.txt: expected four numbers"):
-        sequences.read_truth(path)
+@pytest.mark.parametrize("text", ["", "nan,nan,nan,nan\n1,2,3,4\n"])
+def test_sequence_without_a_first_box_is_named(text, folder):
+    """A sequence whose first frame has no true box can't be started on, and is named."""
+    (folder / "patrol" / "groundtruth_rect.txt").write_text(text)
+    with pytest.raises(ValueError, match="patrol: expected a true box in the first frame"):
+        sequences.load(folder / "patrol")
 
 
 def test_folder_without_sequences_is_an_error(tmp_path, capsys):
@@ -66,7 +65,7 @@ def test_folder_without_sequences_is_an_error(tmp_path, capsys):
     with pytest.raises(SystemExit) as error:
         compare.main([str(tmp_path)])
     assert error.value.code == 2
-    assert "expected sequences with groundtruth_rect.txt" in capsys.readouterr().err
+    assert "expected sequences with true boxes" in capsys.readouterr().err
 
 
 def test_recorded_sequences_load(color_data):

@@ -104,7 +104,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         makers = {name: makers[name] for name in options.trackers.split(",")}
     folders = sequences.find(options.folder)
     if not folders:
-        parser.error(f"folder: expected sequences with {sequences.TRUTH} under {options.folder}")
+        parser.error(f"folder: expected sequences with true boxes under {options.folder}")
     rows = []
     for row in compare(makers, options.seeds, map(sequences.load, folders)):
         print(f"{row.sequence} {row.tracker} seed {row.seed}: {row.auc:.3f}", file=sys.stderr)

@@ -1,19 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Recorded sequences with true boxes, in the layout of OTB: a folder with ``groundtruth_rect.txt`` and ``img/`` or one video."""
+"""Recorded sequences with true boxes, decoded before they are measured on."""
 
 import os
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
-
-TRUTH = "groundtruth_rect.txt"
+from tricue.camera.sources import open_source
+from tricue.camera.truth import OTB, VOT
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,46 +28,17 @@ def data_folder() -> Path:
 
 
 def find(root: Path) -> list[Path]:
-    """The sequence folders directly under ``root``, by name."""
-    return sorted(path.parent for path in root.glob(f"*/{TRUTH}"))
+    """The sequence folders directly under ``root`` that hold true boxes, by name."""
+    return sorted({path.parent for name in (OTB, VOT) for path in root.glob(f"*/{name}")})
 
 
 def load(folder: Path) -> Sequence:
-    """Decode a whole sequence into memory."""
-    frames = tuple(Frame(color=image) for image in _images(folder))
-    known = read_truth(folder / TRUTH)[: len(frames)]
+    """Decode a whole sequence into memory. ValueError where it has no true box in its first frame."""
+    source = open_source(folder)
+    if source.truth is None or source.first_box is None:
+        raise ValueError(f"{folder}: expected a true box in the first frame")
+    frames = tuple(source)
     truth = np.full((len(frames), 4), np.nan)
+    known = source.truth[: len(frames)]
     truth[: len(known)] = known
-    return Sequence(folder.name, frames, truth)
-
-
-def read_truth(path: Path) -> NDArray[np.float64]:
-    """A row ``x, y, width, height`` a line, counted from 1 in the file and from 0 in the result."""
-    rows = [re.split(r"[,\s]+", line.strip()) for line in path.read_text().splitlines() if line.strip()]
-    if not rows or any(len(row) != 4 for row in rows):
-        raise ValueError(f"{path}: expected four numbers x, y, width, height in every line")
-    return np.array(rows, dtype=np.float64) - [1, 1, 0, 0]
-
-
-def _images(folder: Path) -> Iterator[NDArray[np.uint8]]:
-    paths = sorted((folder / "img").iterdir()) if (folder / "img").is_dir() else []
-    for path in paths:
-        image = cv2.imread(str(path), cv2.IMREAD_COLOR)
-        if image is None:
-            raise ValueError(f"{path}: expected an image")
-        yield np.asarray(image, dtype=np.uint8)
-    if not paths:
-        yield from _video(folder)
-
-
-def _video(folder: Path) -> Iterator[NDArray[np.uint8]]:
-    paths = [path for path in sorted(folder.iterdir()) if path.name != TRUTH]
-    capture = cv2.VideoCapture(str(paths[0])) if len(paths) == 1 else None
-    if capture is None or not capture.isOpened():
-        raise ValueError(f"{folder}: expected a folder img or one video that opens")
-    while True:
-        there, image = capture.read()
-        if not there:
-            break
-        yield np.asarray(image, dtype=np.uint8)
-    capture.release()
+    return Sequence(source.name, frames, truth)

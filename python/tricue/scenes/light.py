@@ -31,14 +31,14 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
     """A head moves before a static cabin, 320x240, and twice the light on the whole picture changes from one frame to the next.
 
     Each channel has its own curve in each light, so that the colors shift. The seed decides the path (``max_speed`` in
-    pixels a frame), the moments, about a third and two thirds of the sequence, the curves, and the noise (standard deviation in
-    levels of 255). The target is the face, about 61x77 pixels.
+    pixels a frame), the curves, and the noise (standard deviation in levels of 255); the light changes after a third and two
+    thirds of the sequence. The target is the face, about 61x77 pixels.
     """
     rng = np.random.default_rng(seed)
     cabin, head, corner, face = _cabin_and_head()
     opacity = ellipse_mask(head.shape[0], head.shape[1], edge=6.0)
     offsets = motion.wander(frames, REACH, max_speed, rng)
-    changes = [int(frames * third / 3 + rng.integers(-5, 6)) for third in (1, 2)]
+    changes = frames // 3, 2 * frames // 3
     lights = [_daylight(), _warm(rng), _cold(rng)]
     images = (
         lights[np.searchsorted(changes, index, side="right")](paste(cabin, head, opacity, *(corner + offset)))
@@ -48,7 +48,7 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
         name=f"light change, seed {seed}",
         frames=tuple(Frame(color=expose(image, noise, rng)) for image in images),
         boxes=tuple(face._replace(x=face.x + x, y=face.y + y) for x, y in offsets.tolist()),
-        changes=tuple(changes),
+        changes=changes,
     )
 
 

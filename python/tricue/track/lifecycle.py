@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""What every tracker checks before it touches its state."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.frame import FrameLike, as_frame
+
+
+def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArray[np.uint8]:
+    """The frame's BGR image, (H, W, 3). ValueError for a grey one, or for another shape than the first frame's."""
+    channels = as_frame(frame)
+    channels.require("color")
+    image: Any = channels.color
+    if image.ndim != 3:
+        hint = "cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) makes one"
+        raise ValueError(f"frame.color: expected BGR (H, W, 3), got grey {image.shape}; {hint}")
+    if shape is not None and image.shape != shape:
+        hint = "init starts again on another size"
+        raise ValueError(f"frame.color: expected the first frame's shape {shape}, got {image.shape}; {hint}")
+    return image  # type: ignore[no-any-return]
+
+
+def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
+    """The box itself; ValueError where no part of it is in the image, or it is under 2 pixels wide or high."""
+    height, width = image.shape[:2]
+    if box.clip(width, height).area <= 0:
+        raise ValueError(f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}")
+    if min(box.width, box.height) < 2:
+        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
+    return box
+
+
+def require_started(state: object | None) -> None:
+    """RuntimeError before ``init``."""
+    if state is None:
+        raise RuntimeError("update: expected init first, with a frame and a box")

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+import csv
+import sys
+from itertools import pairwise
+
+import cv2
+import numpy as np
+import pytest
+from tricue.evaluation import curves, metrics, peers, reproduce
+from tricue.scenes import BACKGROUNDS, light_change
+
+pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install tricue[demo]")
+
+STILL = {"still": peers.available()["still-box"]}
+
+
+def rows(report):
+    with report.table.open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_table_holds_the_errors_of_the_run(tmp_path):
+    """The CSV of a box that never moves holds, frame by frame, how far the truth of each seed has gone from it."""
+    report = reproduce.run("sabeti-fig2", seeds=2, output=tmp_path, models=STILL)
+    for seed in (0, 1):
+        truth = np.array(light_change(seed).boxes)
+        still = np.tile(truth[0], (90, 1))
+        written = [row for row in rows(report) if row["seed"] == str(seed)]
+        assert [int(row["frame"]) for row in written] == list(range(90))
+        errors = [float(row["error_px"]) for row in written]
+        np.testing.assert_allclose(errors, metrics.center_errors(still, truth), atol=6e-4)
+        np.testing.assert_allclose(
+            [float(row["iou"]) for row in written], metrics.overlaps(still, truth), atol=6e-5
+        )
+
+
+@pytest.mark.parametrize("name", reproduce.EXPERIMENTS)
+def test_figure_is_drawn_and_progress_is_told(name, tmp_path):
+    """Each experiment writes a figure with content, one run per scene and model, and counts its scenes up to the last."""
+    told = []
+    report = reproduce.run(name, 1, tmp_path, progress=lambda *done: told.append(done), models=STILL)
+    scenes = reproduce.EXPERIMENTS[name].scenes
+    assert told == [(done, len(scenes)) for done in range(1, len(scenes) + 1)]
+    assert {row["scene"] for row in rows(report)} == set(scenes)
+    image = cv2.imread(str(report.figure))
+    assert image.shape[1] > 1000
+    assert image.std() > 20
+
+
+def test_jobs_change_nothing(tmp_path):
+    """Two processes write the same table as one, for a tracker that draws random numbers."""
+    models = {"script": peers.ScriptedParticleFilter}
+    one, two = (reproduce.run("sabeti-fig2", 2, tmp_path / str(jobs), jobs, models=models) for jobs in (1, 2))
+    assert one.table.read_text() == two.table.read_text()
+    assert one.summary == two.summary
+
+
+def test_summary_counts_frames():
+    """Mean, spread over runs, and both shares are those of hand-made curves."""
+
+    def curve(errors, overlaps):
+        return curves.Curve("m", "s", 0, np.array(errors), np.array(overlaps), np.zeros((4, 4)))
+
+    made = [curve([0.0, 0, 2, 2], [1.0, 1, 0.6, 0.4]), curve([25.0, 26, 0, 1], [0.5, 0, 0.7, 0.7])]
+    *_, line = curves.summarize(made).splitlines()
+    assert line == "| m | 7.0 ± 6.0 | 12.5% | 62.5% | 2 |"
+
+
+def test_experiments_compare_all_observation_models():
+    """Figure 1 runs the paper's four models and both forms of ranks, with the likelihood as printed too, on two backgrounds or more."""
+    experiment = reproduce.EXPERIMENTS["sabeti-fig1"]
+    keywords = [maker.keywords for maker in experiment.models.values()]
+    observations = {"region", "gaussian", "lookup", "histogram", "rank-sections", "rank-spatial"}
+    assert {each["observation"] for each in keywords} == observations
+    assert {"linear", "exponential"} == {each["likelihood"] for each in keywords}
+    assert {each["particles"] for each in keywords} == {100}
+    assert set(experiment.scenes) == set(BACKGROUNDS)
+    assert len(BACKGROUNDS) >= 2
+    assert all(a != b for a, b in pairwise(keywords))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"name": "sabeti-fig9"}, "experiment: expected one of sabeti-fig1, .* got 'sabeti-fig9'"),
+        ({"name": "sabeti-fig1", "seeds": 0}, "expected 1 or more, got 0"),
+        ({"name": "sabeti-fig1", "jobs": 0}, "expected 1 or more, got 20, 0"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, words, tmp_path):
+    """An unknown experiment or a number below 1 is refused before anything runs."""
+    with pytest.raises(ValueError, match=words):
+        reproduce.run(**arguments, output=tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_missing_matplotlib_names_the_extra(monkeypatch, tmp_path):
+    """Without matplotlib the error comes before the work and says how to install it."""
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
+        reproduce.run("sabeti-fig2", 1, tmp_path, models=STILL)
