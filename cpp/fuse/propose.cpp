@@ -2,6 +2,7 @@
 #include "fuse/propose.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "check.hpp"
 
@@ -21,9 +22,14 @@ void move(StatesRef particles, const Dynamics& dynamics, StatesRef noise, States
             moved(i, d) = particles(i, d) + dynamics.drift[d] + dynamics.scale[d] * noise(i, d);
 }
 
+/// Whether the share's running total passes a whole number here.
+bool detected(Eigen::Index i, double share) {
+    return std::floor(static_cast<double>(i + 1) * share) > std::floor(static_cast<double>(i) * share);
+}
+
 void detect(const Detection& detection, StatesRef noise, States& moved) {
-    const auto count = static_cast<Eigen::Index>(detection.share * static_cast<double>(moved.rows()));
-    for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index i = 0; i < moved.rows(); ++i) {
+        if (!detected(i, detection.share)) continue;
         moved(i, 0) = detection.mean[0] + detection.root(0, 0) * noise(i, 0);
         moved(i, 1) = detection.mean[1] + detection.root(1, 0) * noise(i, 0) + detection.root(1, 1) * noise(i, 1);
     }

@@ -13,8 +13,9 @@ struct Bounds {
 };
 
 /// Draws the next particles from the mixture proposal: x' = x + drift + scale * noise, equation (30) with the velocity in
-/// the mean; the first floor(share N) particles instead have their position at mean + root * noise. The same row of noise
-/// serves both, so a particle's draw doesn't depend on which side of the share it falls. All are clamped to the bounds.
+/// the mean; floor(share N) of them instead have their position at mean + root * noise. Those are spread evenly over the
+/// particles, which resampling leaves in the order of their ancestors. The same row of noise serves both, so a particle's
+/// draw doesn't depend on which side of the share it falls. All are clamped to the bounds.
 ///
 /// @param particles N states of D >= 2 numbers, the position first
 /// @param noise     N x D independent standard normal numbers

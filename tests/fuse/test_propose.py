@@ -60,20 +60,23 @@ def test_moments_of_the_dynamics(kernels: Kernels) -> None:
 
 def test_moments_of_the_detection(kernels: Kernels) -> None:
     """The detected share has mean and covariance root root^T, its other dimensions follow the dynamics."""
-    arguments = case(16, noise=np.concatenate([spread_noise(4), np.zeros((8, 4))]), share=0.5)
-    detected = kernels.propose(**arguments)[:8]
+    noise = np.zeros((16, 4))
+    noise[1::2] = spread_noise(4)
+    arguments = case(16, noise=noise, share=0.5)
+    detected = kernels.propose(**arguments)[1::2]
     assert_allclose(detected[:, :2].mean(axis=0), arguments["mean"])
     assert_allclose(np.cov(detected[:, :2].T, ddof=0), arguments["root"] @ arguments["root"].T)
     dynamics = kernels.propose(**arguments | {"share": 0.0})
-    assert_array_equal(detected[:, 2:], dynamics[:8, 2:])
+    assert_array_equal(detected[:, 2:], dynamics[1::2, 2:])
 
 
-def test_rest_does_not_depend_on_the_detection(kernels: Kernels) -> None:
-    """Particles from floor(share N) on are those that a share of 0 gives."""
-    arguments = case(10, share=0.39)
+def test_the_detected_are_spread_evenly(kernels: Kernels) -> None:
+    """floor(share N) particles are detected, no two gaps between them differ by more than one, the rest is as without."""
+    arguments = case(100, share=0.23)
     mixed, dynamics = kernels.propose(**arguments), kernels.propose(**arguments | {"share": 0.0})
-    assert_array_equal(mixed[3:], dynamics[3:])
-    assert np.all(mixed[:3, :2] != dynamics[:3, :2])
+    detected = np.flatnonzero(np.any(mixed[:, :2] != dynamics[:, :2], axis=1))
+    assert len(detected) == 23
+    assert np.ptp(np.diff(detected)) <= 1
 
 
 def test_stays_inside_the_bounds(kernels: Kernels) -> None:

@@ -18,14 +18,15 @@ def propose(
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Move particles (N, D) by equation (30); the first floor(share N) take their position from N(mean, root root^T)."""
+    """Move particles (N, D) by equation (30); every 1/share-th takes its position from N(mean, root root^T)."""
     _check(particles, noise, lower, upper)
     checks.require_dynamics(drift, scale, particles.shape[1])
     checks.require_detection(mean, root, share)
     moved = particles + drift + scale * noise
-    detected = noise[: int(share * len(particles))]
-    moved[: len(detected), 0] = mean[0] + root[0, 0] * detected[:, 0]
-    moved[: len(detected), 1] = mean[1] + root[1, 0] * detected[:, 0] + root[1, 1] * detected[:, 1]
+    passed = np.floor(np.arange(len(particles) + 1) * share)
+    detected = np.diff(passed) > 0
+    moved[detected, 0] = mean[0] + root[0, 0] * noise[detected, 0]
+    moved[detected, 1] = mean[1] + root[1, 0] * noise[detected, 0] + root[1, 1] * noise[detected, 1]
     return np.clip(moved, lower, upper)
 
 
