@@ -43,10 +43,11 @@ def script(
     return np.minimum(np.maximum(moved, lower), upper)
 
 
+CONTENDERS = {"native": _core.propose, "reference": reference.propose, "peer": script}
+
+
 @pytest.mark.benchmark(group="propose")
-@pytest.mark.parametrize(
-    "propose", [_core.propose, reference.propose, script], ids=["native", "reference", "peer"]
-)
+@pytest.mark.parametrize("propose", CONTENDERS.values(), ids=CONTENDERS)
 def bench_propose(benchmark: Any, propose: Callable[..., Floats]) -> None:
     """All draw the same particles."""
     moved = benchmark(propose, *ARGUMENTS)

@@ -22,10 +22,11 @@ def script(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:
     return np.searchsorted(cumulative, teeth, side="right")
 
 
+CONTENDERS = {"native": _core.resample, "reference": reference.resample, "peer": script}
+
+
 @pytest.mark.benchmark(group="resample")
-@pytest.mark.parametrize(
-    "resample", [_core.resample, reference.resample, script], ids=["native", "reference", "peer"]
-)
+@pytest.mark.parametrize("resample", CONTENDERS.values(), ids=CONTENDERS)
 def bench_resample(benchmark: Any, resample: Callable[..., NDArray[np.int64]]) -> None:
     """All choose the same particles."""
     chosen = benchmark(resample, WEIGHTS, OFFSET)

@@ -32,15 +32,11 @@ def case(count: int = 40, dimensions: int = 4, seed: int = 0, **changes: object)
 
 @pytest.mark.parametrize("seed", range(20))
 def test_twin_moves_the_same(seed: int) -> None:
-    """Native and reference agree to the last bit, for any N (0 too), D and share: no sum is taken in another order."""
+    """Native and reference agree to the last bit for any N, D and share: both add up in one order."""
     random = np.random.default_rng(seed)
     count, dimensions = int(random.integers(0, 70)), int(random.integers(2, 8))
-    changes = {
-        "share": random.uniform(),
-        "lower": np.full(dimensions, 80.0),
-        "upper": np.full(dimensions, 120.0),
-    }
-    arguments = case(count, dimensions, seed, **changes)
+    bounds = {"lower": np.full(dimensions, 80.0), "upper": np.full(dimensions, 120.0)}
+    arguments = case(count, dimensions, seed, share=random.uniform(), **bounds)
     assert_array_equal(_core.propose(**arguments), reference.propose(**arguments))
 
 
@@ -85,7 +81,7 @@ def test_stays_inside_the_bounds(kernels: Kernels) -> None:
     free, held = kernels.propose(**case(200)), kernels.propose(**case(200, lower=lower, upper=upper))
     assert np.all((held >= lower) & (held <= upper))
     inside = (free >= lower) & (free <= upper)
-    assert inside.any() and not inside.all()
+    assert 0 < inside.mean() < 1
     assert_array_equal(held[inside], free[inside])
 
 
@@ -124,10 +120,7 @@ def test_inputs_untouched(kernels: Kernels) -> None:
         ({"root": np.diag([1.0, 0.0])}, "root: expected a diagonal above 0, got 0"),
         ({"lower": np.zeros(3)}, r"lower: expected shape \(4,\), got \(3,\)"),
         ({"upper": np.zeros(5)}, r"upper: expected shape \(4,\), got \(5,\)"),
-        (
-            {"lower": np.full(4, 7.0), "upper": np.full(4, 6.0)},
-            "lower: expected no number above upper, got 7",
-        ),
+        ({"lower": np.full(4, 7.0), "upper": np.full(4, 6.0)}, "lower: expected no number above upper"),
         ({"lower": np.full(4, np.nan)}, "lower: expected no number above upper, got nan"),
     ],
 )

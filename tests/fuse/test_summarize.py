@@ -22,7 +22,7 @@ def cloud(count: int = 60, dimensions: int = 4, seed: int = 0) -> tuple[Floats, 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_twin_sums_up_the_same(seed: int) -> None:
-    """Sums of N terms differ by at most N eps of the largest: 2 N eps |x| in the mean, 4 times that times |x| in products."""
+    """Sums of N terms differ by 2 N eps of the largest |x|, in products by 4 |x| times that."""
     random = np.random.default_rng(seed)
     particles, weights = cloud(int(random.integers(1, 70)), int(random.integers(1, 8)), seed)
     slack, size = 2 * len(particles) * EPSILON, np.abs(particles).max()
@@ -57,7 +57,7 @@ def test_one_particle(kernels: Kernels) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_covariance_is_one(kernels: Kernels, seed: int) -> None:
-    """The covariance is symmetric, without negative variance in any direction, even with fewer particles than dimensions."""
+    """The covariance is symmetric and nowhere negative, even with fewer particles than dimensions."""
     particles, weights = cloud(3, 6, seed)
     _, covariance, effective = kernels.summarize(particles, weights)
     assert_allclose(covariance, covariance.T, rtol=0, atol=1e-12)
