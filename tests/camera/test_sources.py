@@ -79,7 +79,7 @@ def test_otb_sequences(tmp_path: Path) -> None:
 
 
 def test_a_video_with_truth(tmp_path: Path) -> None:
-    """It proves that a folder with one video and a truth file is a sequence, whose first box may be unknown."""
+    """It proves that a folder with one video and a truth file is a sequence; its first box may be unknown."""
     video(tmp_path / "video.avi")
     (tmp_path / "groundtruth_rect.txt").write_text("0,0,0,0\n12,22,5,6\n")
     source = open_source(tmp_path)
