@@ -171,6 +171,39 @@ def test_a_damaged_image_leaves_whole_files(
     assert len(json.loads((tmp_path / "o.json").read_text())["tracks"]) == 4
 
 
+def test_demo_writes_a_table_a_video_and_a_plot(
+    drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that demo measures a tracker, even a hopeless one, on every scene, and writes what it says."""
+    pytest.importorskip("skimage")
+    pytest.importorskip("matplotlib")
+    from tricue.scenes import BACKGROUNDS
+
+    assert main(["demo", drift_tracker, "--output", str(tmp_path / "demo")]) == 0
+    printed = capsys.readouterr().out
+    rows = [line.split() for line in printed.splitlines() if line.split(" ")[0] in BACKGROUNDS]
+    assert [row[0] for row in rows] == list(BACKGROUNDS)
+    assert all(float(row[1]) > 25 for row in rows)  # it only drifts to the right
+    assert cv2.imread(str(tmp_path / "demo" / "drift.png")) is not None
+    capture = cv2.VideoCapture(str(tmp_path / "demo" / "drift.mp4"))
+    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == 90 * len(BACKGROUNDS)
+
+
+@pytest.mark.parametrize("extra", ["skimage", "matplotlib"])
+def test_a_missing_extra_is_named(
+    extra: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that demo without its extra says which command installs it, and leaves nothing behind."""
+    for name in [name for name in sys.modules if name.split(".")[0] == extra]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, extra, None)
+    assert main(["demo", "--output", str(tmp_path / "demo")]) == 2
+    error = capsys.readouterr().err
+    assert "pip install tricue[demo]" in error
+    assert error.count("\n") == 1
+    assert not list(tmp_path.glob("demo/*"))
+
+
 @pytest.mark.parametrize("verb", [[], ["track"], ["demo"], ["reproduce"]])
 def test_help_shows_examples(verb: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that every verb has a help text, with commands to copy."""

@@ -5,12 +5,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from tricue import Box
 from tricue.camera.sources import Source, open_source
 from tricue.camera.streams import Camera
 
 
-def grey(level: int) -> np.ndarray:  # type: ignore[type-arg]
+def grey(level: int) -> NDArray[np.uint8]:
     return np.full((48, 64, 3), level, np.uint8)
 
 

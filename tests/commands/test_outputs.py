@@ -2,6 +2,7 @@
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ SOLID = Step(
     Track(Box(1 / 3, -2, 3, 4), 0.25, Status.TRACKED, np.array([0.1, 0.2, 3.0])),
     0.1,
 )
-EXPECTED = [
+EXPECTED: list[list[Any]] = [
     [0, None, "lost", 0.5, 1.0, 2.0, 3.0, 4.0, None, None, None],
     [7, 0.25, "tracked", 0.25, 0.333333, -2.0, 3.0, 4.0, 0.1, 0.2, 3.0],
 ]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 import io
+import time
 
 import pytest
-from tricue.commands import progress as module
 from tricue.commands.progress import Progress
 
 
@@ -15,7 +15,7 @@ class Terminal(io.StringIO):
 def clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """A clock that moves on by a minute whenever somebody looks."""
     minutes = iter(range(0, 10**6, 60))
-    monkeypatch.setattr(module.time, "monotonic", lambda: float(next(minutes)))
+    monkeypatch.setattr(time, "monotonic", lambda: float(next(minutes)))
 
 
 @pytest.mark.usefixtures("clock")
