@@ -61,7 +61,7 @@ def test_boxes_anywhere_are_drawn(box: Box) -> None:
 
 @pytest.mark.parametrize(("name", "width"), [("o.mp4", 64), ("o.avi", 64), ("new/o.MP4", 65)])
 def test_videos_are_whole(tmp_path: Path, name: str, width: int) -> None:
-    """It proves that what was written can be read again, every frame of it, even if the loop was broken off."""
+    """It proves that what was written can be read again, every frame of it, after an interruption too."""
     picture = np.full((48, width, 3), 90, np.uint8)
     with pytest.raises(KeyboardInterrupt), OverlayWriter(tmp_path / name, 25.0) as writer:
         for _ in range(7):
@@ -76,7 +76,7 @@ def test_videos_are_whole(tmp_path: Path, name: str, width: int) -> None:
 
 
 def test_a_missing_codec_falls_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It proves that where mp4v can't be written, an MJPG .avi of the same name is, and no empty .mp4 stays."""
+    """It proves that without mp4v an MJPG .avi of the same name is written, and no empty .mp4 stays."""
     real = cv2.VideoWriter
 
     class WithoutMp4:
@@ -100,7 +100,7 @@ def test_an_unused_writer_leaves_nothing(tmp_path: Path) -> None:
 
 
 def test_bad_names_are_refused(tmp_path: Path) -> None:
-    """It proves that an unknown kind of file, and a place that can't be written, are errors before any work."""
+    """It proves that an unknown kind of file, or a place that can't be written, is an error at once."""
     with pytest.raises(ValueError, match=r"o\.gif: expected a video file's name that ends in \.mp4 or \.avi"):
         OverlayWriter(tmp_path / "o.gif", 25.0)
     (tmp_path / "o.mp4").mkdir()

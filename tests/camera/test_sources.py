@@ -5,12 +5,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from tricue import Box
 from tricue.camera.sources import Source, open_source
 from tricue.camera.streams import Camera
 
 
-def grey(level: int) -> np.ndarray:  # type: ignore[type-arg]
+def grey(level: int) -> NDArray[np.uint8]:
     return np.full((48, 64, 3), level, np.uint8)
 
 
@@ -79,7 +80,7 @@ def test_otb_sequences(tmp_path: Path) -> None:
 
 
 def test_a_video_with_truth(tmp_path: Path) -> None:
-    """It proves that a folder with one video and a truth file is a sequence, whose first box may be unknown."""
+    """It proves that a folder with one video and a truth file is a sequence; its first box may be unknown."""
     video(tmp_path / "video.avi")
     (tmp_path / "groundtruth_rect.txt").write_text("0,0,0,0\n12,22,5,6\n")
     source = open_source(tmp_path)

@@ -16,6 +16,7 @@ from tricue.track.create import create
 
 LOST = 25.0  # pixels off the true centre, where a face counts as lost
 FPS = 15.0
+FLOOR = 0.1  # pixels, of the logarithmic plot
 
 
 @dataclass(frozen=True)
@@ -82,11 +83,11 @@ def _plot(figure: Any, results: Mapping[str, Result]) -> None:
     figure.set_size_inches(8, 1.6 * len(results))
     panels = figure.subplots(len(results), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, (name, result) in zip(panels, results.items(), strict=True):
-        axes.plot(result.errors, color="#0072B2", linewidth=1.4)
+        axes.plot(np.maximum(result.errors, FLOOR), color="#0072B2", linewidth=1.4)
         axes.axhline(LOST, color="0.4", linestyle="--", linewidth=0.8)
         for change in result.changes:
             axes.axvline(change, color="0.6", linestyle=":", linewidth=0.8)
         axes.set_title(f"{name}: {result.errors.mean():.1f} px", loc="left")
-        axes.set(yscale="log", ylim=(0.1, 400), xlim=(0, len(result.errors) - 1))
+        axes.set(yscale="log", ylim=(FLOOR, 400), xlim=(0, len(result.errors) - 1))
     figure.supxlabel("frame (dotted: the brightness changes; dashed: 25 px, lost)")
     figure.supylabel("center error, px")

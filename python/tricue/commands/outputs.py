@@ -39,11 +39,9 @@ def row(step: Step) -> list[Any]:
     """The values of COLUMNS, None where absent; six decimals."""
     track, position = step.track, step.track.position
     metres = [None] * 3 if position is None else np.asarray(position).tolist()
-    time = step.frame.timestamp
-    numbers = [
-        None if number is None else round(number, 6) for number in (time, track.score, *track.box, *metres)
-    ]
-    return [step.number, numbers[0], str(track.status), *numbers[1:]]
+    numbers = [step.frame.timestamp, track.score, *track.box, *metres]
+    time, *others = [None if number is None else round(float(number), 6) for number in numbers]
+    return [step.number, time, str(track.status), *others]
 
 
 class CsvOutput:

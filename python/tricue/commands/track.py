@@ -5,8 +5,9 @@ import ast
 import dataclasses
 import math
 from argparse import Namespace
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.sources import Source, open_source
-from tricue.commands.outputs import CsvOutput, JsonOutput, Output, VideoOutput
+from tricue.commands.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.commands.progress import Progress
 from tricue.commands.run import Clock, Start, steps, stoppable
 from tricue.track.create import create, tracker_class
@@ -35,13 +36,12 @@ def track(options: Namespace) -> int:
         outputs = [files.enter_context(output) for output in _outputs(options, source, tracker)]
         stop = files.enter_context(stoppable())
         progress = files.enter_context(Progress(source.length))
-        for step in steps(tracker, source, _start(options, source), clock):
+        frames = takewhile(lambda _: not stop(), source)
+        for step in _hinted(steps(tracker, frames, _start(options, source), clock), clock):
             for output in outputs:
                 output.write(step)
             boxes[step.number] = step.track.box
             progress(step.number + 1, clock.speeds)
-            if stop():
-                break
         interrupted = stop()
     _report(source, clock, boxes, [output.path for output in outputs], interrupted)
     return INTERRUPTED if interrupted else 0
@@ -79,15 +79,24 @@ def _spare_the_input(place: Path, outputs: Sequence[Path | None]) -> None:
             raise ValueError(f"{path}: expected another file than the input to write to")
 
 
-def _outputs(options: Namespace, source: Source, tracker: Tracker) -> list[Output]:
-    outputs: list[Output] = []
+def _outputs(options: Namespace, source: Source, tracker: Tracker) -> Iterator[Output]:
+    """One after the other, so that the first is closed if the second can't be opened."""
     if options.output:
-        outputs.append(VideoOutput(options.output, source.fps))
+        yield VideoOutput(options.output, source.fps)
     if options.csv:
-        outputs.append(CsvOutput(options.csv))
+        yield CsvOutput(options.csv)
     if options.json:
-        outputs.append(JsonOutput(options.json, _about(options, source, tracker)))
-    return outputs
+        yield JsonOutput(options.json, _about(options, source, tracker))
+
+
+def _hinted(found: Iterator[Step], clock: Clock) -> Iterator[Step]:
+    """The steps; where the tracker doesn't even start, the error says how to give it another box."""
+    try:
+        yield from found
+    except ValueError as error:
+        if clock.decoded == 1 and not any(clock.statuses.values()):
+            raise ValueError(f"{error}; give --box x,y,width,height or --detect face") from None
+        raise
 
 
 def _about(options: Namespace, source: Source, tracker: Tracker) -> dict[str, Any]:

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tricue.camera.sources import open_source
+from tricue.commands import faces
+
+has_cascade = hasattr(cv2, "CascadeClassifier")
+
+
+@pytest.mark.skipif(not has_cascade, reason="this cv2 has no cascades")
+def test_a_real_face_is_found(data: Path) -> None:
+    """It proves that in a real sequence the face found lies on the true one."""
+    source = open_source(data / "color" / "FaceOcc2")
+    image = next(iter(source)).color
+    assert image is not None
+    found = faces.find_face(image)
+    assert found is not None
+    assert source.first_box is not None
+    assert found.iou(source.first_box) > 0.5
+
+
+@pytest.mark.skipif(not has_cascade, reason="this cv2 has no cascades")
+def test_no_face_is_none() -> None:
+    """It proves that a picture without a face, even a tiny one, gives no box."""
+    assert faces.find_face(np.full((60, 80, 3), 90, np.uint8)) is None
+    assert faces.find_face(np.full((3, 3), 90, np.uint8)) is None
+
+
+def test_a_cv2_without_cascades_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that with cv2 5.x the error says what to do instead."""
+    monkeypatch.delattr(cv2, "CascadeClassifier", raising=False)
+    faces._cascade.cache_clear()
+    with pytest.raises(
+        ImportError, match=r"^--detect face: cv2 \S+ has no face cascade; give --box x,y,width,height"
+    ):
+        faces.find_face(np.zeros((60, 80, 3), np.uint8))
