@@ -4,16 +4,6 @@ import numpy as np
 import pytest
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.evaluation import sequences
-
-
-@pytest.fixture
-def color_data():
-    """The folder of recorded color sequences."""
-    folder = sequences.data_folder() / "color"
-    if not folder.is_dir():
-        pytest.skip(f"no recorded sequences in {folder}; TRICUE_DATA names their folder")
-    return folder
 
 
 @pytest.fixture(scope="session")

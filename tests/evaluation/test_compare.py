@@ -68,9 +68,9 @@ def test_folder_without_sequences_is_an_error(tmp_path, capsys):
     assert "expected sequences with true boxes" in capsys.readouterr().err
 
 
-def test_recorded_sequences_load(color_data):
+def test_recorded_sequences_load(data):
     """The recorded sequences decode, and every one has a first true box inside its first frame."""
-    for path in sequences.find(color_data):
+    for path in sequences.find(data):
         sequence = sequences.load(path)
         height, width = sequence.frames[0].color.shape[:2]
         x, y, box_width, box_height = sequence.truth[0]
@@ -79,10 +79,10 @@ def test_recorded_sequences_load(color_data):
         assert len(sequence.truth) == len(sequence.frames) > 70
 
 
-def test_peer_gets_the_published_score(color_data):
+def test_peer_gets_the_published_score(data):
     """CSRT, where cv2 has it, follows Crossing as others measured it (AUC 0.70): the loop, the truth and the metric are right."""
     if "CSRT" not in peers.available():
         pytest.skip("this cv2 has no CSRT: opencv-contrib-python-headless has")
-    row = compare.measure("CSRT", peers.available()["CSRT"], 0, sequences.load(color_data / "Crossing"))
+    row = compare.measure("CSRT", peers.available()["CSRT"], 0, sequences.load(data / "color" / "Crossing"))
     assert row.auc == pytest.approx(0.70, abs=0.03)
     assert row.precision > 0.99

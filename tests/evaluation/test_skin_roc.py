@@ -3,7 +3,6 @@ import cv2
 import numpy as np
 import pytest
 from tricue import kernels
-from tricue.evaluation import sequences
 from tricue.evaluation.roc import skin_roc
 
 RNG = np.random.default_rng(5)
@@ -44,11 +43,9 @@ def test_own_reference_leaves_out_pictures_without_skin(name):
     assert with_it.area > 0.9
 
 
-def test_classifier_tells_recorded_skin_from_the_rest():
+def test_classifier_tells_recorded_skin_from_the_rest(data):
     """On recorded pictures of many people the classifier is far from chance, with one reference for all and with each picture's own."""
-    folder = sequences.data_folder() / "skin"
-    if not folder.is_dir():
-        pytest.skip(f"no recorded skin pictures in {folder}; TRICUE_DATA names their folder")
+    folder = data / "skin"
     paths = sorted((folder / "image").iterdir())
     images = [cv2.imread(str(path)) for path in paths]
     masks = [cv2.imread(str(next((folder / "mask").glob(f"{path.stem}.*"))), 0) > 127 for path in paths]

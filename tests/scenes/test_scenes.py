@@ -108,6 +108,31 @@ def test_unknown_background_is_named():
         scenes.face_over_clutter(background="moon")
 
 
+@pytest.mark.parametrize(
+    ("make", "arguments", "words"),
+    [
+        (scenes.face_over_clutter, {"frames": 0}, "frames: expected 1 or more, got 0"),
+        (scenes.light_change, {"max_speed": 0.0}, "max_speed: expected pixels a frame above 0"),
+        (scenes.face_over_clutter, {"max_speed": np.nan}, "max_speed: expected pixels a frame above 0"),
+        (
+            scenes.face_over_clutter,
+            {"brightness": (1.0, 0.5)},
+            "brightness: expected a low and a higher gain",
+        ),
+    ],
+)
+def test_bad_arguments_are_named(make, arguments, words):
+    """Arguments that no scene can be made of are refused by name."""
+    with pytest.raises(ValueError, match=words):
+        make(**arguments)
+
+
+@pytest.mark.parametrize("make", [scenes.face_over_clutter, scenes.light_change])
+def test_short_scenes_are_scenes(make):
+    """A scene of one frame has one true box."""
+    assert len(make(frames=1).frames) == len(make(frames=1).boxes) == 1
+
+
 def test_missing_scikit_image_names_the_extra(monkeypatch):
     """Without scikit-image the error says how to install it."""
     monkeypatch.setitem(sys.modules, "skimage", None)

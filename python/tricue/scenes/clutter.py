@@ -28,6 +28,8 @@ def face_over_clutter(
     steps, and the noise (standard deviation in levels of 255). ``max_speed`` is in pixels a frame; the face's levels are
     multiplied by a gain within ``brightness``, 1 at first.
     """
+    if not 0 <= brightness[0] < brightness[1] < np.inf:
+        raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")
     rng = np.random.default_rng(seed)
     clutter = photographs.background(background, HEIGHT, WIDTH, rng).astype(np.float32)
     portrait = photographs.crop(photographs.photograph("astronaut"), photographs.FACE)

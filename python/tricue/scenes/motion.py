@@ -13,6 +13,10 @@ def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.ra
     The target runs along a closed Lissajous curve with random phases. As its position is an arc length on that curve, and a chord is
     never longer than its arc, the speed of the run bounds the steps.
     """
+    if frames < 1:
+        raise ValueError(f"frames: expected 1 or more, got {frames}")
+    if not (max_speed > 0 and np.isfinite(max_speed)):
+        raise ValueError(f"max_speed: expected pixels a frame above 0, got {max_speed}")
     angle = np.linspace(0, 2 * np.pi, 4001)
     phase = rng.uniform(0, 2 * np.pi, 4)
     x = reach[0] * (0.8 * np.sin(angle + phase[0]) + 0.2 * np.sin(3 * angle + phase[1]))
