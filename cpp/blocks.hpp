@@ -6,10 +6,10 @@
 
 namespace tricue {
 
-/// Calls body(i) for every i in [0, n), in blocks of 64, the last of which ends at n and so overlaps the one before.
+/// Calls body(i) for every i in [0, n), in blocks of 64; the last ends at n and may overlap the one before.
 ///
-/// Loops over bytes are vectorised 64 at a time, and what is left over is done one by one: of a row of 251 samples 59 took
-/// as long as all others. `body` must therefore be fit to be called twice for the same i: out[i] = f(in[i]).
+/// The compiler vectorises loops over bytes 64 at a time and does what is left over one by one: in a row of
+/// 251 samples that took as long as all the rest. `body` has to bear being called twice: out[i] = f(in[i]).
 template <typename Body>
 [[gnu::always_inline]] inline void in_blocks(std::ptrdiff_t n, Body body) {
     constexpr std::ptrdiff_t kBlock = 64;

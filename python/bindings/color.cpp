@@ -15,13 +15,17 @@ namespace {
 
 using Bytes = Array<std::uint8_t>;
 
-Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses, const Array<double>& pattern) {
+Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses,
+                             const Array<double>& pattern) {
     const auto view = color_image(image, "image");
     const auto each = states(ellipses, "ellipses");
     const auto places = states(pattern, "pattern");
     py::array_t<std::uint8_t> pixels({each.rows(), Eigen::Index{3}, places.rows()});
     auto* out = pixels.mutable_data();
-    unlocked([&] { sample_ellipses(view, each, places, out); return 0; });
+    unlocked([&] {
+        sample_ellipses(view, each, places, out);
+        return 0;
+    });
     return pixels;
 }
 
@@ -78,12 +82,15 @@ Array<double> section_distance_arrays(const Array<float>& sections, const Array<
 }  // namespace
 
 void define_color(py::module_& m) {
-    m.def("sample_ellipses", sample_ellipses_arrays, py::arg("image"), py::arg("ellipses"), py::arg("pattern"),
-          "The pixels (N, 3, n) at the places (u, v) of the pattern (n, 2) in each ellipse (N, 4): x, y, minor, major.");
+    m.def("sample_ellipses", sample_ellipses_arrays, py::arg("image"), py::arg("ellipses"),
+          py::arg("pattern"),
+          "The pixels (N, 3, n) at the places (u, v) of the pattern (n, 2) in each ellipse (N, 4): x, y, "
+          "minor, major.");
     m.def("color_ranks", color_ranks_arrays, py::arg("samples"),
           "Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).");
     m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"),
-          "(N, M) twice the mean absolute difference between the samples' mid-ranks and each rank map (M, 3, n), in [0, 1].");
+          "(N, M) twice the mean absolute difference between the samples' mid-ranks and each rank map (M, 3, "
+          "n), in [0, 1].");
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),
           "Joint color histograms (N, bins^3) of sum 1; cell (b bins + g) bins + r.");
     m.def("color_histogram", color_histogram_arrays, py::arg("samples"), py::arg("bins"),
@@ -93,7 +100,8 @@ void define_color(py::module_& m) {
     m.def("color_lookup", color_lookup_arrays, py::arg("samples"), py::arg("table"),
           "table[b B/256, g B/256, r B/256] of every sample: (N, n).");
     m.def("rank_sections", rank_sections_arrays, py::arg("samples"), py::arg("sections"),
-          "Sums of rank measures over the levels of every section, (N, 3, S), equations (17), (19)-(28), each of sum 1.");
+          "Sums of rank measures over the levels of every section, (N, 3, S), equations (17), (19)-(28), "
+          "each of sum 1.");
     m.def("section_distance", section_distance_arrays, py::arg("sections"), py::arg("model"),
           "(N,) equation (29) divided by 3 sqrt 2, in [0, 1].");
 }

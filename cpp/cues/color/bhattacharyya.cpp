@@ -15,7 +15,8 @@ namespace {
 TRICUE_MULTIVERSION
 bool all_shares(const float* values, Eigen::Index n) {
     int strange = 0;
-    for (Eigen::Index i = 0; i < n; ++i) strange += !(values[i] >= 0.0F && values[i] <= std::numeric_limits<float>::max());
+    for (Eigen::Index i = 0; i < n; ++i)
+        strange += !(values[i] >= 0.0F && values[i] <= std::numeric_limits<float>::max());
     return strange == 0;
 }
 
@@ -26,9 +27,9 @@ void require_shares(FloatsRef values, const char* name) {
 void check(FloatsRef histograms, FloatsRef model, int groups) {
     const auto width = model.cols();
     if (histograms.cols() != width)
-        refuse("model", std::to_string(histograms.cols()) + " bins, as in histograms", static_cast<double>(width));
-    if (groups < 1 || width % groups != 0)
-        refuse("groups", "a divisor of " + std::to_string(width), groups);
+        refuse("model", std::to_string(histograms.cols()) + " bins, as in histograms",
+               static_cast<double>(width));
+    if (groups < 1 || width % groups != 0) refuse("groups", "a divisor of " + std::to_string(width), groups);
     require_shares(histograms, "histograms");
     require_shares(model, "model");
 }

@@ -10,10 +10,12 @@ namespace tricue {
 namespace {
 
 /// Counts levels >> shift. Four tables, so that equal neighbours needn't wait for each other's store.
-void count(const std::uint8_t* levels, std::ptrdiff_t n, int shift, std::array<std::array<std::uint32_t, 256>, 4>& tables) {
+void count(const std::uint8_t* levels, std::ptrdiff_t n, int shift,
+           std::array<std::array<std::uint32_t, 256>, 4>& tables) {
     std::ptrdiff_t i = 0;
     for (; i + 4 <= n; i += 4)
-        for (std::size_t k = 0; k < 4; ++k) ++tables[k][static_cast<std::size_t>(levels[i + static_cast<int>(k)] >> shift)];
+        for (std::size_t k = 0; k < 4; ++k)
+            ++tables[k][static_cast<std::size_t>(levels[i + static_cast<int>(k)] >> shift)];
     for (; i < n; ++i) ++tables[0][static_cast<std::size_t>(levels[i] >> shift)];
 }
 
@@ -34,7 +36,8 @@ Floats color_histogram(const SampleView& samples, int bins) {
             for (auto& table : tables) std::fill_n(table.begin(), bins, 0U);
             count(samples.plane(i, channel), samples.n, shift, tables);
             for (std::size_t bin = 0; bin < static_cast<std::size_t>(bins); ++bin)
-                *out++ = static_cast<float>((tables[0][bin] + tables[1][bin] + tables[2][bin] + tables[3][bin]) / total);
+                *out++ = static_cast<float>(
+                    (tables[0][bin] + tables[1][bin] + tables[2][bin] + tables[3][bin]) / total);
         }
     return histograms;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/color_lookup.hpp"
 
-
 #include "blocks.hpp"
 #include "check.hpp"
 #include "simd.hpp"
@@ -17,8 +16,9 @@ int side_bits(FloatsRef table) {
 }
 
 TRICUE_MULTIVERSION
-void look_up(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green, const std::uint8_t* __restrict red,
-             std::ptrdiff_t n, const float* __restrict table, int bits, float* __restrict out) {
+void look_up(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green,
+             const std::uint8_t* __restrict red, std::ptrdiff_t n, const float* __restrict table, int bits,
+             float* __restrict out) {
     const int shift = 8 - bits;
     in_blocks(n, [=](std::ptrdiff_t i) {
         const std::int32_t b = blue[i] >> shift, g = green[i] >> shift, r = red[i] >> shift;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ranks are kept as whole counts r(l) n: ties and borders of intervals are then exact, and the normalisation divides n out.
+// Ranks are kept as whole counts, n r(l): ties and borders of intervals are then exact, and n cancels in the
+// end.
 #include "cues/color/rank_sections.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ Counts cumulative_counts(const std::uint8_t* levels, std::ptrdiff_t n) {
     return ranks;
 }
 
-/// (21): the first level whose rank is closest to n/S, searched from `level` on, where the one for n-1 was found.
+/// (21): the first level whose rank is closest to n/S, searched from `level`, where the one for n-1 is.
 std::size_t closest(const Counts& ranks, std::int64_t n, std::int64_t sections, std::size_t level) {
     const auto miss = [&](std::size_t l) { return std::llabs(ranks[l] * sections - n * ranks.back()); };
     // Ranks ascend, so the distance falls, then rises; levels that nobody has are a plain step in between.
@@ -63,7 +64,8 @@ void describe(const Counts& ranks, std::int64_t sections, float* out) {
         border = next;
     }
     for (std::int64_t n = 0; n < sections; ++n)
-        out[n] = static_cast<float>(static_cast<double>(a[static_cast<std::size_t>(n)]) / static_cast<double>(total));
+        out[n] = static_cast<float>(static_cast<double>(a[static_cast<std::size_t>(n)]) /
+                                    static_cast<double>(total));
 }
 
 }  // namespace
@@ -74,7 +76,8 @@ Floats rank_sections(const SampleView& samples, int sections) {
     Floats result(3 * samples.ellipses, sections);
     for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
         for (int channel = 0; channel < 3; ++channel)
-            describe(cumulative_counts(samples.plane(i, channel), samples.n), sections, result.row(3 * i + channel).data());
+            describe(cumulative_counts(samples.plane(i, channel), samples.n), sections,
+                     result.row(3 * i + channel).data());
     return result;
 }
 

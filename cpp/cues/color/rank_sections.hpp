@@ -6,15 +6,17 @@
 
 namespace tricue {
 
-/// The paper's description of a window by sums of rank measures: a^k(n) for S sections of the ranks of channel k.
+/// The paper's description of a window by sums of rank measures: a^k(n), S sections of the ranks of channel
+/// k.
 ///
-///   r(l) = sum_{j <= l} H(j) / sum_j H(j)                  rank of level l, for all 256 levels               (17)
-///   q(n) = the r(l) closest to n/S, the lowest l of equals, for n = 0 ... S                                  (19)-(24)
-///   a(n) = sum of r(l) over the levels with r(l) in the closed interval U = [q(n), q(n+1)]                   (25)-(28)
+///   (17)       r(l) = sum_{j <= l} H(j) / sum_j H(j), the rank of level l, for all 256 levels
+///   (19)-(24)  q(n) = the r(l) closest to n/S, the lowest l of equals, for n = 0 ... S
+///   (25)-(28)  a(n) = sum of r(l) over the levels with r(l) in the closed interval U = [q(n), q(n+1)]
 ///
-/// The sums run over levels, not pixels, as printed: a level that no sample has counts too, and one whose rank is a border
-/// q(n) counts in the sections on both sides. The paper defines q for n < S; q(S), which U needs, is the rank closest to 1.
-/// One departure: every a^k is divided by its sum, since (29) is no distance in [0, 1] otherwise.
+/// The sums run over levels, not pixels, as printed: a level that no sample has counts too, and one whose
+/// rank is a border q(n) counts in the sections on both sides. The paper defines q for n < S; q(S), which U
+/// needs, is the rank closest to 1. One departure: every a^k is divided by its sum, as (29) is not in [0, 1]
+/// otherwise.
 ///
 /// @param samples  (N, 3, n), n at least 1
 /// @param sections S, 1 to 256

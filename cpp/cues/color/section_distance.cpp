@@ -22,10 +22,12 @@ double squared_distance(const float* a, const float* b, Eigen::Index n) {
 
 Vector section_distance(FloatsRef sections, FloatsRef model) {
     if (sections.cols() != model.cols())
-        refuse("model", std::to_string(sections.cols()) + " sections, as in sections", static_cast<double>(model.cols()));
+        refuse("model", std::to_string(sections.cols()) + " sections, as in sections",
+               static_cast<double>(model.cols()));
     Vector distances = Vector::Zero(sections.rows() / 3);
     for (Eigen::Index i = 0; i < sections.rows(); ++i)
-        distances[i / 3] += std::sqrt(squared_distance(sections.row(i).data(), model.row(i % 3).data(), model.cols()));
+        distances[i / 3] +=
+            std::sqrt(squared_distance(sections.row(i).data(), model.row(i % 3).data(), model.cols()));
     return distances / (3.0 * std::sqrt(2.0));
 }
 

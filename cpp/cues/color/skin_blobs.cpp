@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs of skin, not pixels, are joined. OpenCV's connectedComponentsWithStats is slower here, and is no choice in a kernel:
-// with 32-bit labels it starts threads, with 16-bit labels 65535 of them are too few for a frame of 640x480.
+// Runs of skin, not pixels, are joined. OpenCV's connectedComponentsWithStats is slower, and no choice in a
+// kernel: with 32-bit labels it starts threads, and 16-bit labels are too few for a frame of 640x480.
 #include "cues/color/skin_blobs.hpp"
 
 #include <algorithm>
@@ -37,7 +37,8 @@ struct Blob {
 };
 
 TRICUE_MULTIVERSION
-void mark_skin(const std::int16_t* __restrict boundary, int n, std::int16_t least, std::uint8_t* __restrict skin) {
+void mark_skin(const std::int16_t* __restrict boundary, int n, std::int16_t least,
+               std::uint8_t* __restrict skin) {
     for (int x = 0; x < n; ++x) skin[x] = boundary[x] >= least;
 }
 

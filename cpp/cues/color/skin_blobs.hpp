@@ -12,10 +12,11 @@ namespace tricue {
 /// @param reference the reference color c0
 /// @param threshold skin where Δ > threshold, in [-1, 1]
 /// @param min_area  smallest area, pixels, at least 1
-/// @returns         (M, 7), a row a blob: x, y, width, height of its box, its area, its centroid cx, cy (pixels; a pixel stands
-///                  for its centre). Largest area first, then by y and x of the box, then by the first pixel in reading order
+/// @returns         (M, 7), a row a blob: x, y, width, height of its box, area, centroid cx, cy, in pixels;
+///                  a pixel stands for its centre. Largest area first, then by y and x of the box, then by
+///                  the first pixel in reading order
 /// @throws std::invalid_argument on a threshold outside [-1, 1] or a min_area below 1
-/// Source: Sabeti, Parvizi, Wu 2008, equations (5)-(10); the runs of a row are joined by union-find (Rosenfeld, Pfaltz 1966).
+/// Source: Sabeti, Parvizi, Wu 2008, equations (5)-(10); labelling after Rosenfeld, Pfaltz 1966.
 States skin_blobs(const ImageView& image, const Bgr& reference, double threshold, int min_area);
 
 }  // namespace tricue

@@ -24,16 +24,18 @@ void skin_boundary_row(const std::uint8_t* __restrict pixels, int n, const Bgr& 
     const std::uint8_t b0 = reference[0], g0 = reference[1], r0 = reference[2];
     in_blocks(n, [=](std::ptrdiff_t x) {
         const std::uint8_t b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
-        const std::uint8_t delta = std::max(distance(b, b0), std::max(distance(g, g0), distance(r, r0)));  // (8)
-        const std::uint8_t eta = std::max(b, std::max(g, r));                                              // (9)
-        boundary[x] = static_cast<std::int16_t>(eta - delta);                                              // (10)
+        const std::uint8_t delta =
+            std::max(distance(b, b0), std::max(distance(g, g0), distance(r, r0)));  // (8)
+        const std::uint8_t eta = std::max(b, std::max(g, r));                       // (9)
+        boundary[x] = static_cast<std::int16_t>(eta - delta);                       // (10)
     });
 }
 
 Boundary skin_boundary(const ImageView& image, const Bgr& reference) {
     Boundary boundary(image.rows, image.cols);
     for (int y = 0; y < image.rows; ++y)
-        skin_boundary_row(image.row(y), image.cols, reference, boundary.data() + std::ptrdiff_t{y} * image.cols);
+        skin_boundary_row(image.row(y), image.cols, reference,
+                          boundary.data() + std::ptrdiff_t{y} * image.cols);
     return boundary;
 }
 

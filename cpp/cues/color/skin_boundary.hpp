@@ -11,8 +11,8 @@ using Boundary = Eigen::Array<std::int16_t, Eigen::Dynamic, Eigen::Dynamic, Eige
 
 /// The boundary value of every pixel in 255ths: 255 Δ = max(b, g, r) - max(|b - b0|, |g - g0|, |r - r0|).
 ///
-/// A pixel is skin where Δ > threshold. On colors of 8 bits the value is a whole number in [-255, 255], so it is kept
-/// exactly; the paper writes it on colors in [0, 1].
+/// A pixel is skin where Δ > threshold. On colors of 8 bits the value is a whole number in [-255, 255], so it
+/// is kept exactly; the paper writes it on colors in [0, 1].
 ///
 /// @param image     BGR pixels (H, W)
 /// @param reference the reference color c0

@@ -25,16 +25,18 @@ void check(VectorRef mean, StatesRef p) {
         refuse("precision", "a symmetric, positive definite matrix", "another");
 }
 
-/// exp(x) for x <= 0 in what every instruction set vectorises: 2^k times a polynomial of the rest, |rest| <= ln(2)/2.
-/// Relative error below 1e-6; 0 where exp(x) is below the normal floats.
+/// exp(x) for x <= 0 in what every instruction set vectorises: 2^k times a polynomial of the rest, at most
+/// ln(2)/2. Relative error below 1e-6; 0 where exp(x) is below the normal floats.
 inline float exp_negative(float x) {
     const float clamped = std::max(x, -87.0F);
-    constexpr float kRounder = 12582912.0F;  // 1.5 * 2^23: adding it leaves the nearest whole number in the last bits
+    // 1.5 * 2^23: after adding it only the nearest whole number is left.
+    constexpr float kRounder = 12582912.0F;
     const float shifted = clamped * 1.44269504F + kRounder;
     const float k = shifted - kRounder;
     const float r = (clamped - k * 0.693359375F) + k * 2.12194440e-4F;  // ln 2 in two parts
     const float series =
-        1.0F + r * (1.0F + r * (1 / 2.0F + r * (1 / 6.0F + r * (1 / 24.0F + r * (1 / 120.0F + r * (1 / 720.0F))))));
+        1.0F +
+        r * (1.0F + r * (1 / 2.0F + r * (1 / 6.0F + r * (1 / 24.0F + r * (1 / 120.0F + r * (1 / 720.0F))))));
     const std::int32_t bits = (static_cast<std::int32_t>(k) + 127) << 23;
     float power;
     std::memcpy(&power, &bits, sizeof power);
@@ -43,7 +45,8 @@ inline float exp_negative(float x) {
 
 TRICUE_MULTIVERSION
 void evaluate(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green,
-              const std::uint8_t* __restrict red, std::ptrdiff_t n, const Chrominance& model, float* __restrict out) {
+              const std::uint8_t* __restrict red, std::ptrdiff_t n, const Chrominance& model,
+              float* __restrict out) {
     const Chrominance m = model;
     in_blocks(n, [=](std::ptrdiff_t i) {
         const float b = blue[i], g = green[i], r = red[i];

@@ -33,7 +33,8 @@ struct Sums {
 
 /// Counts one row's skin and adds it to the counts of the columns.
 TRICUE_MULTIVERSION
-RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t least, std::int16_t* __restrict columns) {
+RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t least,
+                std::int16_t* __restrict columns) {
     int count = 0, sum = 0;
     for (int x = 0; x < n; ++x) {
         const std::int16_t skin = boundary[x] >= least;
@@ -44,8 +45,8 @@ RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t lea
     return {count, sum};
 }
 
-void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region, const Region& tile,
-              Sums& sums) {
+void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region,
+              const Region& tile, Sums& sums) {
     const int width = tile.x1 - tile.x0;
     const std::int64_t left = tile.x0 - region.x0;
     Lanes boundary, columns{};
@@ -82,8 +83,8 @@ Vector skin_moments(const ImageView& image, const Bgr& reference, double thresho
     const auto count = static_cast<double>(sums.count);
     const auto average = [count](std::int64_t sum) { return static_cast<double>(sum) / count; };
     const double x = average(sums.x), y = average(sums.y);
-    moments << count, seen.x0 + x + 0.5, seen.y0 + y + 0.5, average(sums.xx) - x * x, average(sums.yy) - y * y,
-        average(sums.xy) - x * y;
+    moments << count, seen.x0 + x + 0.5, seen.y0 + y + 0.5, average(sums.xx) - x * x,
+        average(sums.yy) - y * y, average(sums.xy) - x * y;
     return moments;
 }
 

@@ -17,7 +17,9 @@ int cell_of(const std::uint8_t* pixel) {
 template <typename Visit>
 void each_pixel(const ImageView& image, Visit visit) {
     for (int y = 0; y < image.rows; ++y)
-        for (const std::uint8_t *pixel = image.row(y), *end = pixel + 3 * image.cols; pixel != end; pixel += 3) visit(pixel);
+        for (const std::uint8_t *pixel = image.row(y), *end = pixel + 3 * image.cols; pixel != end;
+             pixel += 3)
+            visit(pixel);
 }
 
 }  // namespace
@@ -26,7 +28,8 @@ Bgr skin_reference(const ImageView& patch) {
     if (patch.rows == 0 || patch.cols == 0) refuse("patch", "at least one pixel", "none");
 
     std::vector<std::uint32_t> histogram(1 << 15);
-    each_pixel(patch, [&](const std::uint8_t* pixel) { ++histogram[static_cast<std::size_t>(cell_of(pixel))]; });
+    each_pixel(patch,
+               [&](const std::uint8_t* pixel) { ++histogram[static_cast<std::size_t>(cell_of(pixel))]; });
     // The fullest cell is one that the patch has, which are far fewer than the histogram has.
     int mode = 0;
     std::uint64_t count = 0;
@@ -42,7 +45,8 @@ Bgr skin_reference(const ImageView& patch) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
     });
     Bgr mean{};
-    for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>((2 * sum[c] + count) / (2 * count));
+    for (std::size_t c = 0; c < 3; ++c)
+        mean[c] = static_cast<std::uint8_t>((2 * sum[c] + count) / (2 * count));
     return mean;
 }
 

@@ -33,13 +33,13 @@ PICTURES = {
 
 @pytest.fixture(params=list(PICTURES), scope="session")
 def picture(request: pytest.FixtureRequest) -> Image:
-    """Pictures of awkward sizes, among them none, less than a vector, views with padded rows and more than a tile."""
+    """Pictures of awkward sizes: none, less than a vector, views with padded rows, more than a tile."""
     return PICTURES[request.param]
 
 
 @pytest.fixture(params=[(1, 1), (3, 64), (2, 63), (5, 130), (100, 251), (0, 7)], ids=str, scope="session")
 def samples(request: pytest.FixtureRequest) -> Image:
-    """Samples (N, 3, n): a single one, a block of 64, one less, some more, the usual size, and of no ellipse."""
+    """Samples (N, 3, n): a single one, a block of 64, one less, more, the usual size, no ellipse."""
     ellipses, n = request.param
     rng = np.random.default_rng(n)
     levels = rng.normal(rng.uniform(0, 255, (ellipses, 3, 1)), 50, (ellipses, 3, n))

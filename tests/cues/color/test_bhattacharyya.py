@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -24,7 +23,8 @@ def random_histograms(rows: int, groups: int, bins: int, seed: int = 0) -> Float
     rng = np.random.default_rng(seed)
     counts = rng.poisson(0.7, (rows, groups, bins)) + np.eye(bins)[rng.integers(0, bins, (rows, groups))]
     shares = counts / counts.sum(axis=2, keepdims=True)
-    return shares.reshape(rows, groups * bins).astype(np.float32)
+    histograms: Floats = shares.reshape(rows, groups * bins).astype(np.float32)
+    return histograms
 
 
 @given(
@@ -33,8 +33,10 @@ def random_histograms(rows: int, groups: int, bins: int, seed: int = 0) -> Float
     st.sampled_from([1, 2, 3, 4, 6, 12]),
 )
 def test_twin_measures_the_same(histograms: Floats, model: Floats, groups: int) -> None:
-    """Native and reference agree. The sums, of up to 12 terms of at most 1, are rounded in another order; the root
-    makes an error e of the square one of sqrt(e) where the distance is 0, so squares are compared."""
+    """Native and reference agree; squares are compared, as the root enlarges an error where the distance is 0.
+
+    The sums, of up to 12 terms of at most 1, are rounded in another order.
+    """
     native = _core.bhattacharyya(histograms, model, groups)
     twin = reference.bhattacharyya(histograms, model, groups)
     assert_allclose(native**2, twin**2, rtol=0, atol=12 * 12 * np.finfo(float).eps)
@@ -51,7 +53,7 @@ def test_twin_measures_the_same_at_every_size(rows: int, bins: int) -> None:
 
 
 def test_agrees_with_opencv(kernels: Kernels) -> None:
-    """compareHist(HISTCMP_BHATTACHARYYA) gives the same for one histogram; it divides by the sums, 1 within rounding."""
+    """OpenCV gives the same for one histogram; it divides by the sums, 1 within rounding."""
     histograms = random_histograms(20, 1, 16)
     peer = [cv2.compareHist(histogram, histograms[0], cv2.HISTCMP_BHATTACHARYYA) for histogram in histograms]
     ours = kernels.bhattacharyya(histograms, histograms[0], 1)
@@ -81,7 +83,7 @@ def test_groups_are_averaged(kernels: Kernels) -> None:
 
 
 def test_symmetric_and_bounded(kernels: Kernels) -> None:
-    """Either histogram may be the model, and every distance lies in [0, 1], also where sums exceed 1 by rounding."""
+    """Either histogram may be the model; distances lie in [0, 1], also where sums exceed 1."""
     histograms = random_histograms(30, 3, 16)
     forth = np.array([kernels.bhattacharyya(histograms, model, 3) for model in histograms])
     assert_allclose(forth, forth.T, rtol=0, atol=1e-15)

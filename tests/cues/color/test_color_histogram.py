@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -28,7 +27,7 @@ def test_twin_counts_the_same(samples: Image, bins: int) -> None:
 
 @pytest.mark.parametrize("bins", DIVISORS)
 def test_agrees_with_opencv(kernels: Kernels, samples: Image, bins: int) -> None:
-    """calcHist of each plane counts the same; the result is float32 (N, 3 bins), and the counts come out whole."""
+    """OpenCV's calcHist of each plane counts the same; the result is float32 (N, 3 bins)."""
     histograms = kernels.color_histogram(samples, bins)
     assert histograms.dtype == np.float32
     assert histograms.shape == (len(samples), 3 * bins)

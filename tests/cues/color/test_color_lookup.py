@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -27,7 +26,7 @@ def test_twin_reads_the_same(samples: Image, side: int) -> None:
 
 @pytest.mark.parametrize("side", SIDES)
 def test_table_of_its_own_indices(kernels: Kernels, samples: Image, side: int) -> None:
-    """A table whose entries are 10000 i + 100 j + k gives back the cells of blue, green and red, in this order."""
+    """A table whose entries are 10000 i + 100 j + k gives back the cells of blue, green, red."""
     i, j, k = np.indices((side, side, side))
     values = kernels.color_lookup(samples, (10000 * i + 100 * j + k).astype(np.float32))
     b, g, r = np.floor(samples.astype(float) * side / 256).transpose(1, 0, 2)
@@ -54,7 +53,9 @@ def test_values_pass_through(kernels: Kernels) -> None:
 @pytest.mark.parametrize("shape", [(3, 3, 3), (128, 128, 128), (0, 0, 0)])
 def test_refuses_other_tables(kernels: Kernels, shape: tuple[int, int, int]) -> None:
     """A side that isn't a power of two up to 64 is an error that says so."""
-    with pytest.raises(ValueError, match=r"table: expected shape \(B, B, B\), B a power of two up to 64, got"):
+    with pytest.raises(
+        ValueError, match=r"table: expected shape \(B, B, B\), B a power of two up to 64, got"
+    ):
         kernels.color_lookup(np.zeros((1, 3, 4), np.uint8), np.zeros(shape, np.float32))
 
 

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -46,7 +45,9 @@ def test_twin_sums_the_same_at_every_size(samples: Image, sections: int) -> None
 def printed(levels: Image, sections: int) -> list[Fraction]:
     """(17), (19)-(28) on fractions, one level after the other."""
     ranks = [Fraction(sum(int(level) <= limit for level in levels), len(levels)) for limit in range(256)]
-    quantised = [min(ranks, key=lambda rank, n=n: abs(rank - Fraction(n, sections))) for n in range(sections + 1)]  # type: ignore[misc]
+    quantised = [
+        min(ranks, key=lambda rank, n=n: abs(rank - Fraction(n, sections))) for n in range(sections + 1)
+    ]  # type: ignore[misc]
     sums = [sum(rank for rank in ranks if quantised[n] <= rank <= quantised[n + 1]) for n in range(sections)]
     return [Fraction(a) / sum(sums) for a in sums]
 
@@ -60,20 +61,22 @@ def test_agrees_with_fractions(kernels: Kernels, sections: int) -> None:
 
 
 def test_every_level_once(kernels: Kernels) -> None:
-    """With r(l) = (l + 1)/256, 256 sections: q(n) = n/256, so a(n) = (2n + 1)/256, and a(0) = 1/256; their sum is 256."""
+    """With r(l) = (l + 1)/256 and 256 sections q(n) = n/256, a(n) = (2n + 1)/256, of sum 256."""
     expected = (2 * np.arange(256) + 1) / 256 / 256
     assert_allclose(kernels.rank_sections(three(np.arange(256)), 256)[0, 1], expected, rtol=1e-7)
 
 
 @pytest.mark.parametrize("level", [1, 100, 255])
 def test_one_level(kernels: Kernels, level: int) -> None:
-    """Ranks 0 below the only level and 1 from there on: of two sections the second, [0, 1], holds everything."""
+    """Ranks are 0 below the only level and 1 from there on: of two sections the second holds all."""
     assert_array_equal(kernels.rank_sections(three(np.full(5, level)), 2), np.tile([0.0, 1.0], (1, 3, 1)))
 
 
 def test_borders_count_on_both_sides(kernels: Kernels) -> None:
-    """Levels 0, 128 equally often: ranks 1/2 (128 levels) and 1 (128). With S = 2 q = 1/2, 1/2, 1, so a = 64, 64 + 128."""
-    assert_allclose(kernels.rank_sections(three(np.array([0, 128])), 2)[0, 2], [64 / 256, 192 / 256], rtol=1e-7)
+    """Of 256 levels 128 have rank 1/2, 128 rank 1: with S = 2 q = 1/2, 1/2, 1 and a = 64, 64 + 128."""
+    assert_allclose(
+        kernels.rank_sections(three(np.array([0, 128])), 2)[0, 2], [64 / 256, 192 / 256], rtol=1e-7
+    )
 
 
 def test_sums_to_one(kernels: Kernels, samples: Image) -> None:
@@ -90,7 +93,7 @@ def test_order_does_not_matter(kernels: Kernels, samples: Image) -> None:
 
 
 def test_is_not_illumination_invariant(kernels: Kernels) -> None:
-    """As printed the sums run over levels, so half the brightness changes them: why spatial ranks are the default."""
+    """The sums run over levels, so half the brightness changes them: spatial ranks are the default."""
     levels = np.random.default_rng(0).normal(120, 30, 251).clip(0, 255)
     bright, dark = kernels.rank_sections(three(levels), 8), kernels.rank_sections(three(levels // 2), 8)
     assert np.abs(bright - dark).max() > 0.1

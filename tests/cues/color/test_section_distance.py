@@ -11,7 +11,6 @@ from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -44,7 +43,7 @@ def test_agrees_with_scipy(kernels: Kernels, rows: int, sections: int) -> None:
 
 
 def test_same_and_disjoint(kernels: Kernels) -> None:
-    """Sections are 0 from themselves; where all channels have nothing in common the distance is 1, in one only 1/3."""
+    """Sections are 0 from themselves; each channel with nothing in common adds 1/3."""
     first, second = np.eye(4, dtype=np.float32)[:2]
     sections = np.array([[first] * 3, [first, second, second], [first, first, second]])
     distances = kernels.section_distance(sections, sections[0])

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -38,7 +37,7 @@ def labelled(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
 
 
 def in_order(blobs: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rows sorted by all that is in them, for comparing results whose order is another; centroids are rounded."""
+    """Rows sorted by all that is in them, for results whose order differs; centroids rounded."""
     return blobs[np.lexsort(blobs.round(9).T)]
 
 
@@ -59,7 +58,7 @@ def test_twin_finds_the_same_in_pictures(picture: Image, color: Image) -> None:
 
 @pytest.mark.parametrize("density", [0.05, 0.4, 0.6, 0.95])
 def test_agrees_with_opencv(kernels: Kernels, density: float) -> None:
-    """connectedComponentsWithStats finds the same boxes, areas and centroids in noise below, at and above percolation."""
+    """OpenCV finds the same boxes, areas and centroids in noise below, at and above percolation."""
     mask = np.random.default_rng(1).random((70, 90)) < density
     assert_allclose(
         in_order(kernels.skin_blobs(paint(mask), SKIN, BINARY, 1)), in_order(labelled(mask)), rtol=1e-12
@@ -67,7 +66,7 @@ def test_agrees_with_opencv(kernels: Kernels, density: float) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """Diagonal neighbours belong together, two arms that meet below are one region, and the smallest are left out."""
+    """Diagonal neighbours and arms that meet below are one region; the smallest is left out."""
     image = draw(
         "#.#...#",
         "#.#....",

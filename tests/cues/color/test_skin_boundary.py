@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -22,12 +21,12 @@ colors = arrays(np.uint8, 3)
 
 @given(images, colors)
 def test_twin_measures_the_same(image: Image, color: Image) -> None:
-    """Native and reference agree on random pixels and rows of every length: whole numbers, nothing to round."""
+    """Native and reference agree on rows of every length: whole numbers, nothing to round."""
     assert_array_equal(_core.skin_boundary(image, color), reference.skin_boundary(image, color))
 
 
 def test_agrees_with_opencv(kernels: Kernels, picture: Image, color: Image) -> None:
-    """absdiff and max of OpenCV, on whole planes, give the same; the result is int16 of the image's size."""
+    """Absdiff and max of OpenCV, on whole planes, give the same; the result is int16 of the image's size."""
     boundary = kernels.skin_boundary(picture, color)
     assert boundary.dtype == np.int16
     assert boundary.shape == picture.shape[:2]
@@ -39,7 +38,7 @@ def test_agrees_with_opencv(kernels: Kernels, picture: Image, color: Image) -> N
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """The reference itself has the value of its largest channel, its negative shows the largest difference."""
+    """The reference itself has the value of its largest channel; others lose their largest difference."""
     image = np.array([[[60, 90, 160], [0, 0, 0], [255, 255, 255], [100, 80, 150]]], np.uint8)
     boundary = kernels.skin_boundary(image, np.array([60, 90, 160], np.uint8))
     assert_array_equal(boundary, [[160, -160, 255 - 195, 150 - 40]])

@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -47,7 +46,7 @@ def test_twin_measures_the_same(
 
 
 def test_agrees_with_opencv(kernels: Kernels, picture: Image, color: Image) -> None:
-    """cv2.moments of the binary picture has the same area, centroid (half a pixel less) and central moments."""
+    """OpenCV finds the same area, central moments and, but for the half pixel, centroid."""
     height, width = picture.shape[:2]
     moments = kernels.skin_moments(picture, color, 0.1, (0, 0, width, height))
     if not picture.size:
@@ -64,7 +63,7 @@ def test_agrees_with_opencv(kernels: Kernels, picture: Image, color: Image) -> N
 
 @pytest.mark.parametrize("corner", [(0, 0), (37, 5), (1500, 1030)])
 def test_rectangle(kernels: Kernels, corner: tuple[int, int]) -> None:
-    """A rectangle of w x h pixels, over several tiles too, has variances (w^2 - 1)/12, (h^2 - 1)/12, covariance 0."""
+    """A rectangle, over several tiles too, has variances (w^2 - 1)/12, (h^2 - 1)/12, covariance 0."""
     (x, y), width, height = corner, 700, 50
     image = paint(1100, 2300, slice(y, y + height), slice(x, x + width))
     expected = [width * height, x + width / 2, y + height / 2, (width**2 - 1) / 12, (height**2 - 1) / 12, 0]
@@ -98,10 +97,14 @@ def test_region_is_clipped(kernels: Kernels, picture: Image, color: Image) -> No
     assert_array_equal(whole, beyond)
 
 
-@pytest.mark.parametrize("region", [(5, 5, 5, 9), (9, 0, 3, 9), (30, 0, 40, 9), (-9, -9, 0, 0), (20, 20, -5, -5)])
+@pytest.mark.parametrize(
+    "region", [(5, 5, 5, 9), (9, 0, 3, 9), (30, 0, 40, 9), (-9, -9, 0, 0), (20, 20, -5, -5)]
+)
 def test_nothing_to_see(kernels: Kernels, region: tuple[int, int, int, int]) -> None:
     """An empty region, or one outside the picture, has no skin: zeros."""
-    assert_array_equal(kernels.skin_moments(np.full((10, 20, 3), 255, np.uint8), SKIN, -1.0, region), np.zeros(6))
+    assert_array_equal(
+        kernels.skin_moments(np.full((10, 20, 3), 255, np.uint8), SKIN, -1.0, region), np.zeros(6)
+    )
 
 
 def test_thresholds_at_their_ends(kernels: Kernels) -> None:

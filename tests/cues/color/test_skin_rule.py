@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
-
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -21,7 +20,7 @@ def test_twin_decides_the_same(samples: Image) -> None:
 
 
 def test_twin_decides_the_same_for_every_color() -> None:
-    """Native, which leaves out what the other conditions imply, agrees with the rule as printed on all 2^24 colors."""
+    """Native, which leaves out what other conditions imply, agrees with the printed rule on all colors."""
     green, red = (plane.ravel() for plane in np.mgrid[:256, :256].astype(np.uint8))
     for blue in range(256):
         colors = np.stack([np.full_like(red, blue), green, red])[None]
@@ -52,7 +51,7 @@ def test_borders(kernels: Kernels, color: tuple[int, int, int], expected: int) -
 
 
 def test_decides_sample_by_sample(kernels: Kernels, samples: Image) -> None:
-    """A sample's neighbours don't matter: the samples read the other way round are decided the other way round."""
+    """A sample's neighbours don't matter: read the other way round, the decisions turn round too."""
     turned = np.ascontiguousarray(samples[:, :, ::-1])
     assert_array_equal(kernels.skin_rule(turned), kernels.skin_rule(samples)[:, ::-1])
 

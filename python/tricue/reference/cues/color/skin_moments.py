@@ -13,7 +13,7 @@ def skin_moments(
     threshold: float,
     region: tuple[int, int, int, int],
 ) -> NDArray[np.float64]:
-    """(6,): count, mean x, mean y, var xx, var yy, cov xy of the skin in [x0, x1) x [y0, y1), clipped to the image.
+    """(6,): count, mean x, y, variance xx, yy, xy of the skin in [x0, x1) x [y0, y1), clipped.
 
     (14)-(16) are divided by the count, which the paper leaves out. Zeros where nothing is skin.
     """
