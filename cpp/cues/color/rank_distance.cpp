@@ -28,8 +28,8 @@ void compare_channel(const std::uint8_t* samples, std::size_t n, const float* mo
                      float* __restrict ranks, float* __restrict sums) {
     RankTable table;
     rank_table(samples, n, table);
-    const float half = 0.5f / static_cast<float>(n);
-    for (std::size_t k = 0; k < n; ++k) ranks[k] = static_cast<float>(table[samples[k]]) * half;
+    const auto twice = static_cast<float>(2 * n);
+    for (std::size_t k = 0; k < n; ++k) ranks[k] = static_cast<float>(table[samples[k]]) / twice;
     for (std::size_t m = 0; m < models; ++m) sums[m] += difference(ranks, model + m * next_model, n);
 }
 

@@ -18,7 +18,7 @@ def propose(
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Move particles (N, D) by (30); the position of the first floor(share N) is from N(mean, root root^T)."""
+    """Move particles (N, D) by (30); the position of every 1/share-th is from N(mean, root root^T)."""
     _check(particles, noise, lower, upper)
     checks.require_dynamics(drift, scale, particles.shape[1])
     checks.require_detection(mean, root, share)
