@@ -140,7 +140,10 @@ def text(content: str, read: Callable[..., Any], **options: Any) -> Callable[[Pa
             lambda p: Intrinsics.from_opencv(opencv_file(p / "c.yml", P1=LEFT), key="M2"),
             "named M2, found none",
         ),
-        (text("This is no calibration.\n", Intrinsics.from_opencv), "expected a file that cv2.FileStorage wrote"),
+        (
+            text("This is no calibration.\n", Intrinsics.from_opencv),
+            "expected a file that cv2.FileStorage wrote",
+        ),
         (
             text("%YAML:1.0\n---\nP1: [1, 2\n", Intrinsics.from_opencv),
             "expected a file that cv2.FileStorage wrote",
