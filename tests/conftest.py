@@ -66,6 +66,7 @@ class Drift:
 
 @pytest.fixture
 def drift() -> Drift:
+    """A tracker that goes 2.5 px to the right a frame."""
     return Drift(step=2.5)
 
 

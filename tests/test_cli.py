@@ -31,6 +31,7 @@ def sequence(tmp_path: Path) -> Path:
 
 
 def read_csv(path: Path) -> list[dict[str, str]]:
+    """The file's rows by column."""
     return list(csv.DictReader(path.read_text().splitlines()))
 
 
@@ -174,7 +175,7 @@ def test_a_damaged_image_leaves_whole_files(
 def test_demo_writes_a_table_a_video_and_a_plot(
     drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that demo measures a tracker, even a hopeless one, on every scene, and writes what it says."""
+    """It proves that demo measures a tracker, even a hopeless one, on every scene, and writes its files."""
     pytest.importorskip("skimage")
     pytest.importorskip("matplotlib")
     from tricue.scenes import BACKGROUNDS
@@ -215,6 +216,7 @@ def test_help_shows_examples(verb: list[str], capsys: pytest.CaptureFixture[str]
 
 
 def tricue_command(*arguments: str) -> list[str]:
+    """The words that run tricue in another process."""
     return [sys.executable, "-m", "tricue", *arguments]
 
 

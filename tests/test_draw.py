@@ -6,6 +6,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from tricue import Box, Status, Track
 from tricue.draw import STATUS_COLORS, OverlayWriter, overlay
 
@@ -16,6 +17,7 @@ BOX = Box(200, 300, 60, 80)
 
 
 def track(box: Box = BOX, status: Status = Status.TRACKED) -> Track:
+    """A track to draw."""
     return Track(box, 0.5, status)
 
 
@@ -59,14 +61,20 @@ def test_boxes_anywhere_are_drawn(box: Box) -> None:
     assert overlay(BLACK, track(box), particles=[[math.inf, 0], [-1e9, 1e9]]).shape == BLACK.shape
 
 
+def _write_seven(writer: OverlayWriter, picture: NDArray[np.uint8]) -> None:
+    with writer:
+        for _ in range(7):
+            writer.write(picture)
+        raise KeyboardInterrupt
+
+
 @pytest.mark.parametrize(("name", "width"), [("o.mp4", 64), ("o.avi", 64), ("new/o.MP4", 65)])
 def test_videos_are_whole(tmp_path: Path, name: str, width: int) -> None:
     """It proves that what was written can be read again, every frame of it, after an interruption too."""
     picture = np.full((48, width, 3), 90, np.uint8)
-    with pytest.raises(KeyboardInterrupt), OverlayWriter(tmp_path / name, 25.0) as writer:
-        for _ in range(7):
-            writer.write(picture)
-        raise KeyboardInterrupt
+    writer = OverlayWriter(tmp_path / name, 25.0)
+    with pytest.raises(KeyboardInterrupt):
+        _write_seven(writer, picture)
     capture = cv2.VideoCapture(str(writer.path))
     frames = []
     while (answer := capture.read())[0]:

@@ -2,7 +2,7 @@
 """Track one person or object by color, depth and motion, on a CPU, with its position in metres."""
 
 import importlib
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 try:
     importlib.import_module("tricue._core")
@@ -18,6 +18,11 @@ from tricue.track.create import create, tracker_class
 from tricue.track.opencv import as_opencv
 from tricue.track.track import Status, Track
 
+if TYPE_CHECKING:
+    from tricue.track.color_particle import ColorParticleTracker
+
+    __version__: str
+
 __all__ = [
     "Box",
     "ColorParticleTracker",
@@ -26,6 +31,7 @@ __all__ = [
     "Status",
     "StereoRig",
     "Track",
+    "__version__",
     "as_opencv",
     "create",
 ]
@@ -43,4 +49,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return [*__all__, "__version__"]
+    return list(__all__)

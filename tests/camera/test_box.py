@@ -84,8 +84,16 @@ def test_as_int_is_near_and_never_empty(box: Box) -> None:
 
 @pytest.mark.parametrize(
     "form",
-    [tuple, list, np.array, lambda box: np.array(box, np.float32), lambda box: np.array(box, np.int32)]
-    + [lambda box: tuple(map(np.int64, box)), lambda box: np.array([0, *box, 0])[1:5], lambda box: Box(*box)],
+    [
+        tuple,
+        list,
+        np.array,
+        lambda box: np.array(box, np.float32),
+        lambda box: np.array(box, np.int32),
+        lambda box: tuple(map(np.int64, box)),
+        lambda box: np.array([0, *box, 0])[1:5],
+        lambda box: Box(*box),
+    ],
 )
 def test_as_box_takes_any_four_numbers(form: Callable[[Any], Any]) -> None:
     """It proves that tuples, lists, arrays of any number type and NumPy scalars become a box of floats."""

@@ -55,7 +55,7 @@ def test_opencv_rig_in_millimetres(tmp_path: Path) -> None:
 def test_a_rig_agrees_with_opencvs_rectification(tmp_path: Path) -> None:
     """It proves that depth by stereoRectify's P1 and P2 is what its Q matrix gives for a disparity."""
     matrix, turn = LEFT[:, :3], cv2.Rodrigues(np.array([0.01, -0.02, 0.005]))[0]
-    shift = np.array([-0.12, 0.002, 0.001])
+    shift = np.array([[-0.12], [0.002], [0.001]])
     _r1, _r2, p1, p2, q, *_ = cv2.stereoRectify(matrix, np.zeros(5), matrix, np.zeros(5), SIZE, turn, shift)
     rig = StereoRig.from_opencv(opencv_file(tmp_path / "c.yml", P1=p1, P2=p2, Q=q), size=SIZE)
     point = q @ [100.0, 50.0, 7.0, 1.0]
@@ -140,7 +140,10 @@ def text(content: str, read: Callable[..., Any], **options: Any) -> Callable[[Pa
             lambda p: Intrinsics.from_opencv(opencv_file(p / "c.yml", P1=LEFT), key="M2"),
             "named M2, found none",
         ),
-        (text("image_width: 640\n", Intrinsics.from_opencv), "expected a file that cv2.FileStorage wrote"),
+        (
+            text("This is no calibration.\n", Intrinsics.from_opencv),
+            "expected a file that cv2.FileStorage wrote",
+        ),
         (
             text("%YAML:1.0\n---\nP1: [1, 2\n", Intrinsics.from_opencv),
             "expected a file that cv2.FileStorage wrote",

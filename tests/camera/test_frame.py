@@ -46,9 +46,16 @@ def test_packed_rows_are_not_copied(image: NDArray[np.uint8]) -> None:
 
 @pytest.mark.parametrize(
     "image",
-    [PICTURE[::-1], PICTURE[:, ::-1], PICTURE[:, :, ::-1], PICTURE[:, ::2], np.asfortranarray(PICTURE)]
-    + [GREY[:, ::-1], np.asfortranarray(GREY), PICTURE[:, :, 0], np.dstack([PICTURE, GREY])[:, :, :3]]
-    + [
+    [
+        PICTURE[::-1],
+        PICTURE[:, ::-1],
+        PICTURE[:, :, ::-1],
+        PICTURE[:, ::2],
+        np.asfortranarray(PICTURE),
+        GREY[:, ::-1],
+        np.asfortranarray(GREY),
+        PICTURE[:, :, 0],
+        np.dstack([PICTURE, GREY])[:, :, :3],
         np.broadcast_to(PICTURE[:1], PICTURE.shape),
         PICTURE[:, ::2][:, :1],
         PICTURE[::-1][:1],

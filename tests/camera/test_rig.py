@@ -88,14 +88,12 @@ def test_a_baseline_in_millimetres_warns() -> None:
         ("fy", -1.0, ValueError),
         ("cx", math.nan, ValueError),
         ("cy", math.inf, ValueError),
-    ]
-    + [
         ("fx", "500", TypeError),
         ("cx", None, TypeError),
         ("width", 640.5, TypeError),
         ("height", 0, ValueError),
-    ]
-    + [("width", True, TypeError)],
+        ("width", True, TypeError),
+    ],
 )
 def test_bad_intrinsics_are_refused(name: str, value: Any, error: type[Exception]) -> None:
     """It proves that every field of Intrinsics is checked and named."""

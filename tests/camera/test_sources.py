@@ -12,6 +12,7 @@ from tricue.camera.streams import Camera
 
 
 def grey(level: int) -> NDArray[np.uint8]:
+    """An image of one level."""
     return np.full((48, 64, 3), level, np.uint8)
 
 
@@ -24,6 +25,7 @@ def images(folder: Path, names: list[str]) -> Path:
 
 
 def video(path: Path, frames: int = 6, fps: float = 12.0) -> Path:
+    """An MJPG video whose frames have the levels 10, 20, ..."""
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), fps, (64, 48))
     for index in range(1, frames + 1):
         writer.write(grey(10 * index % 256))
@@ -119,7 +121,7 @@ class UnpluggedCamera:
     def __init__(self, _number: int) -> None:
         self.left = 2
 
-    def isOpened(self) -> bool:
+    def isOpened(self) -> bool:  # noqa: N802 (as cv2 names it)
         return True
 
     def get(self, _property: int) -> float:
@@ -152,40 +154,47 @@ def test_an_absent_camera_is_named() -> None:
 
 
 def text_file(folder: Path) -> Path:
+    """A text that is called a video."""
     (folder / "v.mp4").write_text("this is no video")
     return folder / "v.mp4"
 
 
 def empty_file(folder: Path) -> Path:
+    """A file of no bytes that is called a video."""
     (folder / "v.mp4").touch()
     return folder / "v.mp4"
 
 
 def video_without_frames(folder: Path) -> Path:
+    """A video cut off behind its header."""
     path = video(folder / "v.avi")
     path.write_bytes(path.read_bytes().split(b"movi")[0] + b"movi")
     return path
 
 
 def damaged_image(folder: Path) -> Path:
+    """A folder whose second image is cut off."""
     images(folder, ["1.png", "2.png"])
     (folder / "2.png").write_bytes((folder / "2.png").read_bytes()[:20])
     return folder
 
 
 def two_videos(folder: Path) -> Path:
+    """A folder that leaves the choice."""
     video(folder / "a.avi")
     video(folder / "b.avi")
     return folder
 
 
 def vot_without_images(folder: Path) -> Path:
+    """A VOT folder whose color channel is empty."""
     (folder / "color").mkdir()
     (folder / "sequence").write_text("channels.color=color/%08d.jpg\n")
     return folder
 
 
 def vot_without_color(folder: Path) -> Path:
+    """A VOT folder of another channel."""
     (folder / "sequence").write_text("channels.ir=ir/%08d.jpg\n")
     return folder
 

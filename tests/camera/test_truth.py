@@ -8,6 +8,7 @@ from tricue.camera.truth import OTB, VOT, find_truth, read_truth
 
 
 def read(folder: Path, name: str, text: str) -> NDArray[np.float64]:
+    """The boxes of a file with this name and text."""
     (folder / name).write_text(text)
     return read_truth(folder / name)
 

@@ -47,14 +47,15 @@ def test_json(tmp_path: Path) -> None:
 def test_files_are_whole_after_an_error(tmp_path: Path) -> None:
     """It proves that both files are complete up to the last frame when the loop breaks off, even at once."""
     for count in (0, 1):
-        with (
-            pytest.raises(KeyboardInterrupt),
-            CsvOutput(tmp_path / "t.csv") as table,
-            JsonOutput(tmp_path / "t.json", {"seed": 3}) as objects,
-        ):
-            for _ in range(count):
-                table.write(SOLID)
-                objects.write(SOLID)
-            raise KeyboardInterrupt
+        with pytest.raises(KeyboardInterrupt):
+            _interrupted(tmp_path, count)
         assert len((tmp_path / "t.csv").read_text().splitlines()) == 1 + count
         assert len(json.loads((tmp_path / "t.json").read_text())["tracks"]) == count
+
+
+def _interrupted(folder: Path, count: int) -> None:
+    with CsvOutput(folder / "t.csv") as table, JsonOutput(folder / "t.json", {"seed": 3}) as objects:
+        for _ in range(count):
+            table.write(SOLID)
+            objects.write(SOLID)
+        raise KeyboardInterrupt

@@ -26,7 +26,7 @@ def test_a_track_is_frozen() -> None:
 
 def test_tracks_compare_to_the_last_bit() -> None:
     """It proves that equality looks at every field, arrays included."""
-    assert TRACK == pickle.loads(pickle.dumps(TRACK))
+    assert pickle.loads(pickle.dumps(TRACK)) == TRACK
     assert Track(BOX, 0.5, Status.LOST) == Track(BOX, 0.5, Status.LOST)
     others: list[dict[str, Any]] = [
         {"box": BOX._replace(x=np.nextafter(1.0, 2.0))},

@@ -82,7 +82,7 @@ class _OpenCVFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        with open(path, "rb"):  # FileStorage says nothing about a missing file
+        with pathlib.Path(path).open("rb"):  # FileStorage says nothing about a missing file
             pass
 
     def __enter__(self) -> "Self":

@@ -7,6 +7,7 @@ from typing import Any
 
 
 def finite(value: Any, name: str, unit: str) -> float:
+    """Neither NaN nor infinite."""
     if not isinstance(value, Real) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a number, {unit}, got {value!r:.80}")
     if not math.isfinite(value):
@@ -15,12 +16,14 @@ def finite(value: Any, name: str, unit: str) -> float:
 
 
 def positive(value: Any, name: str, unit: str) -> float:
+    """Finite and above 0."""
     if not finite(value, name, unit) > 0:
         raise ValueError(f"{name}: expected {unit} above 0, got {value!r}")
     return float(value)
 
 
 def positive_whole(value: Any, name: str, unit: str) -> int:
+    """A whole number above 0."""
     if not isinstance(value, Integral) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a whole number, {unit}, got {value!r:.80}")
     return int(positive(value, name, unit))

@@ -13,7 +13,7 @@ class OpenCVTracker:
         self.tracker = tracker
         self._track: Track | None = None
 
-    def init(self, image: FrameLike, boundingBox: BoxLike) -> None:
+    def init(self, image: FrameLike, boundingBox: BoxLike) -> None:  # noqa: N803 (as cv2 names it)
         """Start, or start again, on the box (x, y, width, height)."""
         self._track = self.tracker.init(image, boundingBox)
 
@@ -22,7 +22,7 @@ class OpenCVTracker:
         self._track = self.tracker.update(image)
         return self._track.status is not Status.LOST, self._track.box.as_int()
 
-    def getTrackingScore(self) -> float:
+    def getTrackingScore(self) -> float:  # noqa: N802 (as cv2 names it)
         """The last track's score in [0, 1]; RuntimeError before ``init``."""
         if self._track is None:
             raise RuntimeError("getTrackingScore: expected init first")

@@ -40,6 +40,8 @@ class Track:
     position: NDArray[np.float64] | None = None
     covariance: NDArray[np.float64] | None = None
 
+    __hash__ = None  # type: ignore[assignment]  # arrays have none
+
     def __eq__(self, other: object) -> bool:
         """Equal to the last bit, arrays included, so that runs can be compared."""
         if not isinstance(other, Track):
