@@ -85,7 +85,7 @@ def overlap_curves(figure: Any, curves: Sequence[Curve], scenes: Mapping[str, Sc
     axes = bottom.subplots()
     for color, model in zip(COLORS, models, strict=False):
         overlaps = _stack(curves, model, "overlaps")
-        label = f"{model} ({np.mean(overlaps > 0.5):.1%} of the frames above 0.5)"
+        label = f"{model}: {np.mean(overlaps > 0.5):.1%} above 0.5"
         _mean_and_range(axes, overlaps, color, label)
     for change in scene.changes:
         axes.axvline(change, color="0.4", linestyle="--", linewidth=0.8)

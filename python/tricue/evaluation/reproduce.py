@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -45,32 +46,38 @@ class Report:
     table: Path
 
 
-def _particles(observation: str, likelihood: str = "exponential") -> Callable[..., Contender]:
-    return partial(
-        tricue.create, "color-particle", observation=observation, likelihood=likelihood, particles=100
-    )
+def _particles(observation: str, **parameters: Any) -> Callable[..., Contender]:
+    return partial(tricue.create, "color-particle", observation=observation, particles=100, **parameters)
 
+
+def _alone(observation: str, likelihood: str = "exponential") -> Callable[..., Contender]:
+    """An observation model by itself, without the color contrast that the tracker adds to all of them by default."""
+    return _particles(observation, likelihood=likelihood, color_weight=0.0)
+
+
+DEFAULT = {"spatial ranks, color (default)": _particles("rank-spatial")}
 
 EXPERIMENTS = {
     "sabeti-fig1": Experiment(
         models={
-            "spatial ranks": _particles("rank-spatial"),
-            "spatial ranks, linear (18)": _particles("rank-spatial", "linear"),
-            "rank sections": _particles("rank-sections"),
-            "rank sections, linear (18)": _particles("rank-sections", "linear"),
-            "16-bin histogram": _particles("histogram"),
-            "look-up table": _particles("lookup"),
-            "Gaussian": _particles("gaussian"),
-            "region": _particles("region"),
+            **DEFAULT,
+            "spatial ranks": _alone("rank-spatial"),
+            "rank sections": _alone("rank-sections"),
+            "rank sections, linear (18)": _alone("rank-sections", "linear"),
+            "16-bin histogram": _alone("histogram"),
+            "look-up table": _alone("lookup"),
+            "Gaussian": _alone("gaussian"),
+            "region": _alone("region"),
         },
         scenes={name: partial(face_over_clutter, background=name) for name in BACKGROUNDS},
         draw=figures.error_curves,
     ),
     "sabeti-fig2": Experiment(
         models={
-            "spatial ranks": _particles("rank-spatial"),
-            "rank sections, linear (18)": _particles("rank-sections", "linear"),
-            "16-bin histogram": _particles("histogram"),
+            **DEFAULT,
+            "spatial ranks": _alone("rank-spatial"),
+            "16-bin histogram": _alone("histogram"),
+            "rank sections, linear (18)": _alone("rank-sections", "linear"),
         },
         scenes={"light change": light_change},
         draw=figures.overlap_curves,
