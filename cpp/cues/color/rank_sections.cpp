@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks are kept as whole counts, n r(l): ties and borders of intervals are then exact, and n cancels in the
-// end.
+// Ranks are kept as whole counts, n r(l): ties and borders of intervals are then exact, and n cancels.
 #include "cues/color/rank_sections.hpp"
 
 #include <algorithm>

@@ -6,8 +6,7 @@
 
 namespace tricue {
 
-/// The paper's description of a window by sums of rank measures: a^k(n), S sections of the ranks of channel
-/// k.
+/// The paper's description of a window: sums of rank measures a^k(n) in S sections of the ranks of channel k.
 ///
 ///   (17)       r(l) = sum_{j <= l} H(j) / sum_j H(j), the rank of level l, for all 256 levels
 ///   (19)-(24)  q(n) = the r(l) closest to n/S, the lowest l of equals, for n = 0 ... S

@@ -72,6 +72,7 @@ std::vector<Run> skin_runs(const ImageView& image, const Bgr& reference, std::in
     std::vector<std::int16_t> boundary(static_cast<std::size_t>(image.cols));
     std::vector<std::uint8_t> skin(boundary.size());
     std::vector<Run> runs;
+    if (image.cols == 0) return runs;
     std::size_t above = 0;
     for (int row = 0; row < image.rows; ++row) {
         skin_boundary_row(image.row(row), image.cols, reference, boundary.data());

@@ -14,8 +14,7 @@ void apply(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict g
            const std::uint8_t* __restrict red, std::ptrdiff_t n, float* __restrict skin) {
     in_blocks(n, [=](std::ptrdiff_t i) {
         const std::int16_t b = blue[i], g = green[i], r = red[i];
-        // R is the largest where the last two hold, so max - min > 15 is R - min(G, B) > 15, and |R - G| is R
-        // - G, which is above 15 only where R > G.
+        // Where R > G and R > B, R is the maximum and |R - G| is R - G, which is above 15 only where R > G.
         const bool yes = (r > 95) & (g > 40) & (b > 20) & (r - std::min(g, b) > 15) & (r - g > 15) & (r > b);
         skin[i] = yes ? 1.0F : 0.0F;
     });
