@@ -17,7 +17,7 @@ from tricue.track.params import Params, parameter
 ROOT = Path(__file__).parents[1]
 
 # Sanitizers and busy machines are slow, and no reason to fail.
-hypothesis.settings.register_profile("patient", hypothesis.settings.get_profile("default"), deadline=None)
+hypothesis.settings.register_profile("patient", hypothesis.settings.default, deadline=None)
 hypothesis.settings.load_profile("patient")
 
 
