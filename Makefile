@@ -55,8 +55,7 @@ $(VENV)/demo: $(SOURCES) | $(BIN)/python
 	$(PIP) install --quiet '.[demo]'
 	touch $@
 
-# A change of pyproject.toml installs what it asks for; any other change only builds again what depends on it.
+# What is new ($?) decides: pyproject.toml installs all that it asks for, anything else only builds again what depends on it.
 $(VENV)/dev: $(SOURCES) | $(BIN)/python
-	if [ pyproject.toml -nt $@ ]; then $(PIP) install --quiet '.[dev]'; \
-	else $(PIP) install --quiet --no-build-isolation --no-deps .; fi
+	$(PIP) install --quiet $(if $(filter pyproject.toml,$?),'.[dev]',--no-build-isolation --no-deps .)
 	touch $@ $(VENV)/demo
