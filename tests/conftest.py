@@ -5,6 +5,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+import hypothesis
 import pytest
 from tricue import Box, Status, Track
 from tricue.camera.box import BoxLike, as_box
@@ -14,6 +15,10 @@ from tricue.track import create
 from tricue.track.params import Params, parameter
 
 ROOT = Path(__file__).parents[1]
+
+# Sanitizers and busy machines are slow, and no reason to fail.
+hypothesis.settings.register_profile("patient", hypothesis.settings.default, deadline=None)
+hypothesis.settings.load_profile("patient")
 
 
 @pytest.fixture(params=["native", "reference"], scope="session")

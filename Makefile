@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+# make demo and make test set up all that they need: apt packages, a virtual environment in .venv, the package in it.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+SANITIZED := build/sanitized
+SOURCES := pyproject.toml CMakeLists.txt README.md $(shell find cpp python -not -path '*/__pycache__*')
+
+.PHONY: demo test setup bench lint format stubs sanitize clean
+
+demo: $(VENV)/demo
+	$(BIN)/tricue demo
+
+test: $(VENV)/dev
+	$(BIN)/python -m pytest
+
+setup: $(VENV)/dev
+
+bench: $(VENV)/dev
+	$(BIN)/python -m pytest benchmarks --benchmark-group-by=group --benchmark-columns=min,median,rounds
+
+lint: $(VENV)/dev
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run -Werror $$(find cpp python -name '*.[ch]pp')
+
+format: $(VENV)/dev
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+	$(BIN)/clang-format -i $$(find cpp python -name '*.[ch]pp')
+
+stubs: $(VENV)/dev
+	$(BIN)/python tools/stubs.py
+
+# The same tests on a build with the sanitizers, which must be loaded before Python. Python's own leaks are not looked at.
+sanitize: $(VENV)/dev
+	rm -rf $(SANITIZED)
+	SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
+	    SKBUILD_CMAKE_DEFINE="TRICUE_SANITIZE=ON;TRICUE_WERROR=ON" \
+	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
+	PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
+	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
+	    $(BIN)/python -m pytest
+
+clean:
+	rm -rf $(VENV) build dist
+
+$(BIN)/python:
+	tools/system-packages $(PYTHON)
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/demo: $(SOURCES) | $(BIN)/python
+	$(PIP) install --quiet '.[demo]'
+	touch $@
+
+# What is new ($?) decides: pyproject.toml installs all that it asks for, anything else only builds again what depends on it.
+$(VENV)/dev: $(SOURCES) | $(BIN)/python
+	$(PIP) install --quiet $(if $(filter pyproject.toml,$?),'.[dev]',--no-build-isolation --no-deps .)
+	touch $@ $(VENV)/demo
