@@ -17,7 +17,6 @@ Floats = NDArray[Any]
 Image = NDArray[np.uint8]
 
 RING_SAMPLES = 64
-FAINT = 0.1  # a color contrast under which colors can't recognise the target
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +38,8 @@ class Appearance:
         self.ring = ring(RING_SAMPLES, *p.ring)
         self.sharpness = self.model.sharpness if p.sharpness is None else p.sharpness
 
-    def start(self, k: Kernels, image: Image, ellipse: Floats) -> None:
-        """Forget all, learn the window."""
-        self.learn(k, image, ellipse, 1.0, 1.0)
-        if self.contrast:
-            self.contrast.first = float(self.contrast.measure(k, *self._look(k, image, ellipse[None]))[0])
-
     def learn(self, k: Kernels, image: Image, ellipse: Floats, rate: float, color_rate: float) -> None:
-        """Blend the window into the models."""
+        """Blend the window into the models; rates of 1 start them."""
         window = ellipse[None]
         self.model.learn(k, *self._look(k, image, window), rate)
         if self.contrast:
@@ -54,28 +47,23 @@ class Appearance:
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats) -> Floats:
         """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
-        distance, contrast = self._measure(k, image, ellipses)
-        return self._log_likelihood(distance, contrast)
+        return self._log_likelihood(k, *self._look(k, image, ellipses))
 
     def judge(self, k: Kernels, image: Image, ellipse: Floats) -> Judgement:
-        """The likelihood at the estimate itself, and the score: the chance that one of both cues recognises the target."""
-        distance, contrast = self._measure(k, image, ellipse[None])
-        doubt = min(float(distance[0]) / self.model.unrelated, 1.0)
-        if self.contrast:
-            seen = float(contrast[0]) / max(self.contrast.first, FAINT)
-            doubt *= 1 - min(max(seen, 0.0), 1.0)
-        return Judgement(float(self._log_likelihood(distance, contrast)[0]), 1 - doubt)
+        """The likelihood at the estimate itself, and how surely the model recognises the target there."""
+        inside, around = self._look(k, image, ellipse[None])
+        likelihood = self._log_likelihood(k, inside, around)
+        return Judgement(float(likelihood[0]), self.model.recognition(k, inside, around))
 
     def _look(self, k: Kernels, image: Image, ellipses: Floats) -> tuple[Image, Image]:
         return k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
 
-    def _measure(self, k: Kernels, image: Image, ellipses: Floats) -> tuple[Floats, Floats | float]:
-        inside, around = self._look(k, image, ellipses)
-        contrast = self.contrast.measure(k, inside, around) - self.contrast.first if self.contrast else 0.0
-        return self.model.distance(k, inside, around), contrast
-
-    def _log_likelihood(self, distance: Floats, contrast: Floats | float) -> Floats:
-        colors = self.p.color_weight * contrast
+    def _log_likelihood(self, k: Kernels, inside: Image, around: Image) -> Floats:
+        distance = self.model.distance(k, inside, around)
         if self.p.likelihood == "linear":
-            return np.log(np.maximum(1 - distance, 1e-12), dtype=np.float64) + colors
-        return colors - self.sharpness * np.square(distance, dtype=np.float64)
+            likelihood = np.log(np.maximum(1 - distance, 1e-12), dtype=np.float64)
+        else:
+            likelihood = -self.sharpness * np.square(distance, dtype=np.float64)
+        if self.contrast:
+            likelihood += self.p.color_weight * self.contrast.measure(k, inside, around)
+        return likelihood

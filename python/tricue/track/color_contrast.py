@@ -28,7 +28,6 @@ class ColorContrast:
     def __init__(self) -> None:
         self.histograms: Floats = np.empty(0)
         self.table: Floats = np.empty(0)
-        self.first = 0.0
 
     def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> None:
         """Blend the colors in and round the ellipse (1, 4) into the histograms; rate 1 starts them."""

@@ -91,7 +91,7 @@ class ColorParticleTracker:
         ellipse = np.array(lifecycle.box_in(as_box(box), image).ellipse)
         self._rng = np.random.default_rng(self.seed)
         appearance = Appearance(self.params)
-        appearance.start(self._k, image, ellipse)
+        appearance.learn(self._k, image, ellipse, 1.0, 1.0)
         judgement = appearance.judge(self._k, image, ellipse)
         n = self.params.particles
         swarm = Swarm(np.tile(ellipse, (n, 1)), np.full(n, 1 / n), ellipse, float(n), judgement)

@@ -21,14 +21,14 @@ class Observation(Protocol):
 
     sharpness: float
     """What suits the exponential likelihood exp(-sharpness d²), by experiment."""
-    unrelated: float
-    """About the distance of a window that has nothing to do with the target."""
-
     def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
         """Blend the look of the first window into the model; rate 1 starts it."""
 
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
         """(N,) distances in [0, 1]."""
+
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        """How surely the first window shows the target, in [0, 1]; about 0 for a window that has nothing to do with it."""
 
 
 def blend(old: Floats | None, new: Floats, rate: float) -> Floats:
@@ -36,10 +36,15 @@ def blend(old: Floats | None, new: Floats, rate: float) -> Floats:
     return new if old is None or rate >= 1 else old + np.float32(rate) * (new - old)
 
 
+def likeness(model: Observation, k: Kernels, inside: Samples, ring: Samples, unrelated: float) -> float:
+    """1 minus the first window's distance, in units of about the distance of a window that doesn't show the target."""
+    return max(1 - float(model.distance(k, inside[:1], ring[:1])[0]) / unrelated, 0.0)
+
+
 class RankSpatial:
     """The order of corresponding pixels: what section III.B argues for in words. Keeps the first frame's map beside the model."""
 
-    sharpness, unrelated = 100.0, 2 / 3
+    sharpness = 110.0
 
     def __init__(self, p: ColorParticleParams) -> None:
         self.weights = np.array([1 - p.anchor, p.anchor], np.float32)
@@ -57,11 +62,17 @@ class RankSpatial:
         distances *= distances
         return np.sqrt(distances @ self.weights)
 
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        """Spearman's rank correlation with the model: a window without structure has none, unlike its distance."""
+        ranks, model = k.color_ranks(inside[:1])[0] - 0.5, self.maps[0] - 0.5
+        scale = float(np.vdot(ranks, ranks)) * float(np.vdot(model, model))
+        return max(float(np.vdot(ranks, model)) / scale**0.5, 0.0) if scale > 0 else 0.0
+
 
 class RankSections:
     """Equations (19)-(29) as printed, each a^k of sum 1: how many levels each quantile spans."""
 
-    sharpness, unrelated = 60.0, 0.3
+    sharpness = 60.0
     SECTIONS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -73,11 +84,14 @@ class RankSections:
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
         return k.section_distance(k.rank_sections(inside, self.SECTIONS), self.sections)
 
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        return likeness(self, k, inside, ring, unrelated=0.3)
+
 
 class Histogram:
     """The 16-bin color histogram of figure 2, Bhattacharyya distance."""
 
-    sharpness, unrelated = 40.0, 0.6
+    sharpness = 40.0
     BINS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -89,6 +103,9 @@ class Histogram:
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
         return k.bhattacharyya(k.color_histogram(inside, self.BINS), self.histogram, 3)
 
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        return likeness(self, k, inside, ring, unrelated=0.6)
+
 
 def lack(inside: Floats, ring: Floats) -> Floats:
     """(N,) 1 minus how much more skin there is in the window than round it, at least 0, at most 1."""
@@ -99,7 +116,7 @@ def lack(inside: Floats, ring: Floats) -> Floats:
 class Region:
     """Region-based: the explicit RGB rule of Peer et al. 2003. Learns nothing."""
 
-    sharpness, unrelated = 10.0, 1.0
+    sharpness = 10.0
 
     def __init__(self, p: ColorParticleParams) -> None:
         pass
@@ -110,11 +127,14 @@ class Region:
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
         return lack(k.skin_rule(inside), k.skin_rule(ring))
 
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        return likeness(self, k, inside, ring, unrelated=1.0)
+
 
 class Gaussian:
     """Parametric: a Gaussian over the target's chrominance (Cb, Cr)."""
 
-    sharpness, unrelated = 10.0, 1.0
+    sharpness = 10.0
     FLOOR = 4.0  # levels²; what sensors' noise leaves of a uniform color
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -133,11 +153,14 @@ class Gaussian:
         skin, around = (k.skin_gaussian(each, self.mean, precision) for each in (inside, ring))
         return lack(skin, around)
 
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        return likeness(self, k, inside, ring, unrelated=1.0)
+
 
 class Lookup:
     """Non-parametric: a look-up table, the target's joint histogram scaled to a maximum of 1."""
 
-    sharpness, unrelated = 10.0, 1.0
+    sharpness = 10.0
     BINS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -150,6 +173,9 @@ class Lookup:
 
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
         return lack(k.color_lookup(inside, self.table), k.color_lookup(ring, self.table))
+
+    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
+        return likeness(self, k, inside, ring, unrelated=1.0)
 
 
 MODELS: dict[str, type[Any]] = {
