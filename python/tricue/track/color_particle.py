@@ -19,6 +19,8 @@ from tricue.track.track import Status, Track
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
+USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
+MARGIN = 2.0  # times the surprise: how much worse than ever a lost target may look when it is taken up again
 NO_JUDGEMENT = Judgement(-np.inf, 0.0)
 
 
@@ -43,6 +45,7 @@ class State:
     motion: Motion
     swarm: Swarm
     usual: float  # the log-likelihood's running mean
+    trusted: float  # the same over the frames in which the target was recognised
     missed: int = 0
 
 
@@ -97,7 +100,7 @@ class ColorParticleTracker:
         swarm = Swarm(np.tile(ellipse, (n, 1)), np.full(n, 1 / n), ellipse, float(n), judgement)
         reference = reference_color(self._k, image, ellipse)
         motion = Motion.start(ellipse)
-        self._state = State(image.shape, appearance, reference, motion, swarm, judgement.log_likelihood)
+        self._state = State(image.shape, appearance, reference, motion, swarm, judgement.log_likelihood, judgement.log_likelihood)
         return self._track(self._state)
 
     def update(self, frame: FrameLike) -> Track:
@@ -122,8 +125,11 @@ class ColorParticleTracker:
             swarm = self._sweep_wide(state, image, swarm)
         state.swarm = swarm
         state.motion = motion.moved(swarm.ellipse, p)
-        state.usual += 0.05 * (swarm.judgement.log_likelihood - state.usual)
-        state.missed = 0 if swarm.judgement.score >= p.lost_below else state.missed + 1
+        recognised = swarm.judgement.score >= p.lost_below
+        state.missed = 0 if recognised else state.missed + 1
+        state.usual += USUAL_RATE * (swarm.judgement.log_likelihood - state.usual)
+        if recognised:
+            state.trusted += USUAL_RATE * (swarm.judgement.log_likelihood - state.trusted)
 
     def _sweep(
         self, state: State, image: Image, before: Swarm, drift: Floats, scale: Floats, detection: Detection = NOTHING
@@ -158,11 +164,11 @@ class ColorParticleTracker:
         found = Motion(best, np.zeros(2), state.motion.usual_size, state.motion.first_size)
         searched = replace(state, motion=found)
         swarm = self._sweep(searched, image, self._gathered(best), np.zeros(4), found.scale(p))
-        if swarm.judgement.score < p.found_above:
+        as_ever = swarm.judgement.log_likelihood >= state.trusted - MARGIN * p.surprise
+        if swarm.judgement.score < p.found_above or not as_ever:
             state.swarm = replace(state.swarm, judgement=swarm.judgement)
             return
         state.swarm, state.motion, state.missed = swarm, replace(found, ellipse=swarm.ellipse), 0
-        state.usual = swarm.judgement.log_likelihood
 
     def _gathered(self, ellipse: Floats) -> Swarm:
         """All particles at one place."""
