@@ -5,58 +5,54 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace tricue {
 
-/// Twice the mid-rank of every level, as a count: samples below the level + samples up to it.
-using RankTable = std::array<std::int32_t, 256>;
+/// Twice the mid-rank of every level as a count, samples below the level + samples up to it: from 0 to 2n, a whole number.
+template <typename Count>
+using RankTable = std::array<Count, 256>;
 
-namespace detail {
+/// The most samples whose doubled ranks fit into a count.
+template <typename Count>
+constexpr std::size_t kMostSamples = std::numeric_limits<Count>::max() / 2;
 
-/// Counts of up to 255 samples fit into bytes; then one multiplication sums eight of them.
-inline void rank_table_small(const std::uint8_t* samples, std::size_t n, RankTable& table) {
+/// The table of n <= kMostSamples<Count> samples of one channel.
+template <typename Count>
+inline void rank_table(const std::uint8_t* samples, std::size_t n, RankTable<Count>& table) {
     // Neighbouring pixels are alike: several histograms, so that a count needn't wait for the one just written.
-    alignas(64) std::uint8_t counts[4][256] = {};
+    alignas(64) Count counts[4][256] = {};
     std::size_t k = 0;
     for (; k + 4 <= n; k += 4)
         for (std::size_t lane = 0; lane < 4; ++lane) ++counts[lane][samples[k + lane]];
     for (; k < n; ++k) ++counts[0][samples[k]];
 
-    alignas(64) std::uint8_t own[256], below[256];
+    alignas(64) Count own[256];
     for (std::size_t level = 0; level < 256; ++level)
-        own[level] = static_cast<std::uint8_t>(counts[0][level] + counts[1][level] + counts[2][level] + counts[3][level]);
-    constexpr std::uint64_t kOnes = 0x0101010101010101;
+        own[level] = static_cast<Count>(counts[0][level] + counts[1][level] + counts[2][level] + counts[3][level]);
+    // A word holds several counts, and one multiplication sums them up. None overflows into the next, being at most 2n.
+    constexpr std::size_t kCounts = sizeof(std::uint64_t) / sizeof(Count);
+    constexpr std::uint64_t kOnes = std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
     std::uint64_t before = 0;
-    for (std::size_t word = 0; word < 256; word += 8) {
-        std::uint64_t eight;
-        std::memcpy(&eight, own + word, 8);
-        const std::uint64_t up_to = eight * kOnes;                           // no byte overflows: n < 256
-        const std::uint64_t lower = up_to - eight + before * kOnes;          // and none borrows
-        before += up_to >> 56;
-        std::memcpy(below + word, &lower, 8);
-    }
-    for (std::size_t level = 0; level < 256; ++level) table[level] = 2 * below[level] + own[level];
-}
-
-inline void rank_table_large(const std::uint8_t* samples, std::size_t n, RankTable& table) {
-    table.fill(0);
-    for (std::size_t k = 0; k < n; ++k) ++table[samples[k]];
-    std::int32_t below = 0;
-    for (std::int32_t& level : table) {
-        const std::int32_t own = level;
-        level = 2 * below + own;
-        below += own;
+    for (std::size_t level = 0; level < 256; level += kCounts) {
+        std::uint64_t word;
+        std::memcpy(&word, own + level, sizeof word);
+        const std::uint64_t up_to = word * kOnes;
+        const std::uint64_t twice = 2 * (up_to + before * kOnes) - word;
+        before += up_to >> (64 - 8 * sizeof(Count));
+        std::memcpy(table.data() + level, &twice, sizeof twice);
     }
 }
 
-}  // namespace detail
-
-/// The table of n samples of one channel; n < 2^30.
-inline void rank_table(const std::uint8_t* samples, std::size_t n, RankTable& table) {
-    if (n < 256)
-        detail::rank_table_small(samples, n, table);
+/// Calls `use` with a 0 of the smallest type that counts n samples.
+template <typename Use>
+inline void with_count_for(std::size_t n, Use&& use) {
+    if (n <= kMostSamples<std::uint8_t>)
+        use(std::uint8_t{0});
+    else if (n <= kMostSamples<std::uint16_t>)
+        use(std::uint16_t{0});
     else
-        detail::rank_table_large(samples, n, table);
+        use(std::uint32_t{0});
 }
 
 }  // namespace tricue

@@ -35,7 +35,7 @@ Array<float> color_ranks_arrays(const Bytes& pixels) {
     return rows.attr("reshape")(view.ellipses, 3, view.n);
 }
 
-Array<float> rank_distance_arrays(const Bytes& pixels, const Array<float>& models) {
+Array<double> rank_distance_arrays(const Bytes& pixels, const Array<float>& models) {
     const char* expected = "float32 (M, 3, n)";
     const auto view = samples(pixels, "samples");
     const auto maps = floats(models, "models", {-1, 3, view.n}, expected);

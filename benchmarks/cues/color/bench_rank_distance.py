@@ -38,4 +38,5 @@ def bench_rank_distance(benchmark: Any, rank_distance: Callable[..., Any], sampl
     """All measure the same."""
     models = np.random.default_rng(2).random((2, 3, samples.shape[2]), np.float32)
     distances = benchmark(rank_distance, samples, models)
-    assert_allclose(distances, reference.rank_distance(samples, models), rtol=1e-4)
+    # The script doesn't round the models to the ranks that 251 samples can have.
+    assert_allclose(distances, reference.rank_distance(samples, models), rtol=0, atol=0.5 / 251)

@@ -10,10 +10,12 @@ namespace {
 
 TRICUE_MULTIVERSION
 void rank_channel(const std::uint8_t* samples, std::size_t n, float* ranks) {
-    RankTable table;
-    rank_table(samples, n, table);
-    const auto twice = static_cast<float>(2 * n);
-    for (std::size_t k = 0; k < n; ++k) ranks[k] = static_cast<float>(table[samples[k]]) / twice;
+    with_count_for(n, [&](auto count) {
+        RankTable<decltype(count)> table;
+        rank_table(samples, n, table);
+        const auto twice = static_cast<float>(2 * n);
+        for (std::size_t k = 0; k < n; ++k) ranks[k] = static_cast<float>(table[samples[k]]) / twice;
+    });
 }
 
 }  // namespace

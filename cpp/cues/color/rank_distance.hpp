@@ -13,10 +13,13 @@ namespace tricue {
 /// leaves it as it is. What the paper argues for in words, the order of corresponding pixels (section III.B); its printed
 /// equations (19)-(29) are rank_sections and section_distance.
 ///
+/// A model's ranks are rounded to the nearest that samples can have, a multiple of 1/2n; then all sums are whole numbers, and
+/// the distance is exact to its last rounding.
+///
 /// @param samples N ellipses of n >= 1 samples in 3 channels
 /// @param models  M x 3n rank maps in [0, 1]: blue, green, red
 /// @returns       N x M, each in [0, 1]
-/// @throws std::invalid_argument where an ellipse has no samples, or the models another number of them
-Floats rank_distance(const SampleView& samples, FloatsRef models);
+/// @throws std::invalid_argument where an ellipse has no samples, the models have another number of them, or ranks outside [0, 1]
+States rank_distance(const SampleView& samples, FloatsRef models);
 
 }  // namespace tricue

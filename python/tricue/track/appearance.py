@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the target looks like, and how likely a window of the image is to show it."""
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,54 +15,46 @@ from tricue.track.pattern import grid, ring
 Floats = NDArray[Any]
 Image = NDArray[np.uint8]
 
-RING_SAMPLES = 64
 
+class Look(NamedTuple):
+    """The samples of N windows: (N, 3, n) on the grid inside, (N, 3, m) in the ring around."""
 
-@dataclass(frozen=True, slots=True)
-class Judgement:
-    """How well one window shows the target."""
-
-    log_likelihood: float
-    score: float
+    inside: Image
+    around: Image
 
 
 class Appearance:
     """The observation model and the colors against the surround, learnt together."""
 
     def __init__(self, p: ColorParticleParams) -> None:
-        self.p = p
         self.model = observation(p)
-        self.contrast = ColorContrast() if p.color_weight > 0 else None
+        self.contrast = ColorContrast(p.color_weight) if p.color_weight > 0 else None
         self.grid = grid(*p.grid, p.grid_reach)
-        self.ring = ring(RING_SAMPLES, *p.ring)
+        self.ring = ring(p.ring_samples, *p.ring)
+        self.linear = p.likelihood == "linear"
         self.sharpness = self.model.sharpness if p.sharpness is None else p.sharpness
 
-    def learn(self, k: Kernels, image: Image, ellipse: Floats, rate: float, color_rate: float) -> None:
-        """Blend the window into the models; rates of 1 start them."""
-        window = ellipse[None]
-        self.model.learn(k, *self._look(k, image, window), rate)
-        if self.contrast:
-            self.contrast.learn(k, image, window, color_rate)
+    def look(self, k: Kernels, image: Image, ellipses: Floats) -> Look:
+        """Read the windows of N ellipses."""
+        return Look(k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring))
 
-    def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats) -> Floats:
+    def log_likelihood(self, k: Kernels, look: Look) -> Floats:
         """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
-        return self._log_likelihood(k, *self._look(k, image, ellipses))
-
-    def judge(self, k: Kernels, image: Image, ellipse: Floats) -> Judgement:
-        """The likelihood at the estimate itself, and how surely the model recognises the target there."""
-        inside, around = self._look(k, image, ellipse[None])
-        likelihood = self._log_likelihood(k, inside, around)
-        return Judgement(float(likelihood[0]), self.model.recognition(k, inside, around))
-
-    def _look(self, k: Kernels, image: Image, ellipses: Floats) -> tuple[Image, Image]:
-        return k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
-
-    def _log_likelihood(self, k: Kernels, inside: Image, around: Image) -> Floats:
-        distance = self.model.distance(k, inside, around)
-        if self.p.likelihood == "linear":
+        distance = self.model.distance(k, *look)
+        if self.linear:
             likelihood = np.log(np.maximum(1 - distance, 1e-12), dtype=np.float64)
         else:
             likelihood = -self.sharpness * np.square(distance, dtype=np.float64)
         if self.contrast:
-            likelihood += self.p.color_weight * self.contrast.measure(k, inside, around)
+            likelihood += self.contrast.log_likelihood(k, *look)
         return likelihood
+
+    def recognition(self, k: Kernels, look: Look) -> float:
+        """How surely the first window shows the target, in [0, 1]."""
+        return self.model.recognition(k, *look)
+
+    def learn(self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float) -> None:
+        """Blend the window of one ellipse (1, 4) into the models; rates of 1 start them."""
+        self.model.learn(k, *look, rate)
+        if self.contrast:
+            self.contrast.learn(k, image, ellipse, color_rate)

@@ -25,29 +25,35 @@ RARE = np.float32(1e-4)  # a cell's share under which it says little about eithe
 class ColorContrast:
     """Colors of the target and of its surround, and the table of P(target | color)."""
 
-    def __init__(self) -> None:
-        self.histograms: Floats = np.empty(0)
+    def __init__(self, weight: float) -> None:
+        self.weight = weight
+        self.target: Floats = np.empty(0)
+        self.surround: Floats = np.empty(0)
         self.table: Floats = np.empty(0)
 
     def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> None:
-        """Blend the colors in and round the ellipse (1, 4) into the histograms; rate 1 starts them."""
-        new = np.concatenate(
-            [k.joint_histogram(k.sample_ellipses(image, ellipse, places), BINS) for places in (TARGET, SURROUND)]
+        """Blend the colors in and round the ellipse (1, 4) into the histograms; a rate of 1 starts them."""
+        target, surround = (
+            k.joint_histogram(k.sample_ellipses(image, ellipse, places), BINS)[0] for places in (TARGET, SURROUND)
         )
-        if rate >= 1:
-            self.histograms = new
-        else:
-            new -= self.histograms
-            new *= np.float32(rate)
-            self.histograms += new
-        target, surround = self.histograms
+        if rate < 1:
+            target, surround = blend(self.target, target, rate), blend(self.surround, surround, rate)
+        self.target, self.surround = target, surround
         self.table = (target / (target + surround + RARE)).reshape(BINS, BINS, BINS)
 
-    def measure(self, k: Kernels, inside: Samples, surround: Samples) -> Floats:
-        """(N,) mean P(target) in the window minus that round it, in [-1, 1]."""
-        return _means(k.color_lookup(inside, self.table)) - _means(k.color_lookup(surround, self.table))
+    def log_likelihood(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+        """(N,) weight times the mean P(target) in the window minus that round it."""
+        within = k.color_lookup(inside, self.table).sum(axis=1, dtype=np.float64)
+        without = k.color_lookup(around, self.table).sum(axis=1, dtype=np.float64)
+        within *= self.weight / inside.shape[2]
+        without *= self.weight / around.shape[2]
+        within -= without
+        return within
 
 
-def _means(values: Floats) -> Floats:
-    n = values.shape[1]
-    return values @ np.full(n, 1 / n, np.float32)
+def blend(old: Floats, new: Floats, rate: float) -> Floats:
+    """old + rate (new - old), in the memory of ``new``."""
+    new -= old
+    new *= np.float32(rate)
+    new += old
+    return new

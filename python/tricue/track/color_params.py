@@ -26,7 +26,7 @@ class ColorParticleParams(Params):
         None, unit="nats", source=OURS, above=0, doc="of the exponential form; None: the observation's own"
     )
     grid: tuple[int, int] = parameter(
-        (12, 12), unit="samples", source=OURS, low=2, high=64, doc="rows, columns of the samples in the window"
+        (12, 10), unit="samples", source=OURS, low=2, high=64, doc="rows, columns of the samples in the window"
     )
     grid_reach: float = parameter(1.0, unit="semi-axes", source=OURS, above=0, high=4, doc="half side of that grid")
     color_weight: float = parameter(
@@ -35,6 +35,7 @@ class ColorParticleParams(Params):
     ring: tuple[float, float] = parameter(
         (1.3, 1.8), unit="semi-axes", source=OURS, low=1, high=8, doc="the surround: inner, outer radius"
     )
+    ring_samples: int = parameter(48, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
 
     skin_threshold: float = parameter(
         0.45, unit="of 255 levels", source="(10); ROC", low=-1, high=1, doc="skin where the boundary value is above"

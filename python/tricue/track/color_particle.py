@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The color particle tracker of Sabeti, Parvizi and Wu (2008), section III."""
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,28 +11,29 @@ from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.track import lifecycle
-from tricue.track.appearance import Appearance, Judgement
+from tricue.track.appearance import Appearance, Look
 from tricue.track.color_params import ColorParticleParams
 from tricue.track.detection import NOTHING, Detection, candidates, detect, reference_color
-from tricue.track.motion import Motion, side, size_mixing
+from tricue.track.motion import STILL, Motion, Prediction, size_mixing
 from tricue.track.track import Status, Track
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
+
 USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
-MARGIN = 2.0  # times the surprise: how much worse than ever a lost target may look when it is taken up again
-NO_JUDGEMENT = Judgement(-np.inf, 0.0)
+LEAST = 1e-300  # what a weight of 0 counts as, in the logarithm
+AS_EVER = 2.0  # surprises: how much worse than usual a lost target may look when it is taken up again
 
 
-@dataclass(frozen=True, slots=True)
-class Swarm:
-    """Weighted particles (N, 4), their expected value, and how well that shows the target."""
+class Swarm(NamedTuple):
+    """Weighted particles (N, 4), their expected value, and how likely that is to show the target."""
 
     particles: Floats
     weights: Floats
-    ellipse: Floats
     effective: float
-    judgement: Judgement
+    ellipse: Floats
+    look: Look
+    log_likelihood: float
 
 
 @dataclass(slots=True)
@@ -44,9 +45,10 @@ class State:
     reference: Image
     motion: Motion
     swarm: Swarm
+    score: float
     usual: float  # the log-likelihood's running mean
     trusted: float  # the same over the frames in which the target was recognised
-    missed: int = 0
+    missed: int = 0  # frames in a row in which it was not
 
 
 class ColorParticleTracker:
@@ -91,106 +93,118 @@ class ColorParticleTracker:
         image = lifecycle.color_image(frame)
         if box is None:
             raise ValueError("box: expected (x, y, width, height); the color particle tracker can't start without one")
-        ellipse = np.array(lifecycle.box_in(as_box(box), image).ellipse)
+        k, ellipse = self._k, lifecycle.box_in(as_box(box), image).ellipse
         self._rng = np.random.default_rng(self.seed)
-        appearance = Appearance(self.params)
-        appearance.learn(self._k, image, ellipse, 1.0, 1.0)
-        judgement = appearance.judge(self._k, image, ellipse)
-        n = self.params.particles
-        swarm = Swarm(np.tile(ellipse, (n, 1)), np.full(n, 1 / n), ellipse, float(n), judgement)
-        reference = reference_color(self._k, image, ellipse)
+        appearance, window = Appearance(self.params), np.array([ellipse])
+        look = appearance.look(k, image, window)
+        appearance.learn(k, image, window, look, 1.0, 1.0)
+        likelihood = float(appearance.log_likelihood(k, look)[0])
+        particles, weights = self._gathered(window)
+        swarm = Swarm(particles, weights, len(weights), window[0], look, likelihood)
+        reference, score = reference_color(k, image, ellipse), appearance.recognition(k, look)
         motion = Motion.start(ellipse)
-        self._state = State(image.shape, appearance, reference, motion, swarm, judgement.log_likelihood, judgement.log_likelihood)
+        self._state = State(image.shape, appearance, reference, motion, swarm, score, likelihood, likelihood)
         return self._track(self._state)
 
     def update(self, frame: FrameLike) -> Track:
-        """Follow the target into the next frame, of the same size as the first."""
-        lifecycle.require_started(self._state)
-        state: State = self._state  # type: ignore[assignment]
+        """Follow the target into the next frame, of the same size as the first; RuntimeError before ``init``."""
+        state = lifecycle.started(self._state)
         image = lifecycle.color_image(frame, state.shape)
-        if state.missed >= self.params.lost_after:
-            self._search(state, image)
-        else:
+        if state.missed < self.params.lost_after:
             self._follow(state, image)
-        if state.swarm.judgement.score >= self.params.learn_above:
+        else:
+            self._search(state, image)
+        if state.score >= self.params.learn_above:
             self._learn(state, image)
         return self._track(state)
 
     def _follow(self, state: State, image: Image) -> None:
         """Predict, measure, weigh, estimate; once more and wider where that comes as a surprise."""
-        p, motion = self.params, state.motion
-        detection = detect(self._k, image, state.reference, motion, p)
-        swarm = self._sweep(state, image, state.swarm, motion.drift(p), motion.scale(p), detection)
-        if swarm.judgement.log_likelihood < state.usual - p.surprise:
-            swarm = self._sweep_wide(state, image, swarm)
-        state.swarm = swarm
-        state.motion = motion.moved(swarm.ellipse, p)
-        recognised = swarm.judgement.score >= p.lost_below
-        state.missed = 0 if recognised else state.missed + 1
-        state.usual += USUAL_RATE * (swarm.judgement.log_likelihood - state.usual)
-        if recognised:
-            state.trusted += USUAL_RATE * (swarm.judgement.log_likelihood - state.trusted)
+        k, p, motion = self._k, self.params, state.motion
+        prediction = motion.predict(p)
+        detection = detect(k, image, state.reference, motion.ellipse, prediction, p)
+        swarm = self._sweep(state, image, *self._resampled(state.swarm), prediction, detection)
+        if swarm.log_likelihood < state.usual - p.surprise:
+            swarm = self._sweep_wide(state, image, swarm, prediction)
+        self._accept(state, swarm, motion.moved(tuple(swarm.ellipse.tolist()), p))
 
     def _sweep(
-        self, state: State, image: Image, before: Swarm, drift: Floats, scale: Floats, detection: Detection = NOTHING
+        self,
+        state: State,
+        image: Image,
+        particles: Floats,
+        weights: Floats,
+        prediction: Prediction,
+        detection: Detection = NOTHING,
     ) -> Swarm:
         """One step of the particle filter: (30), (2), (31) and the expected value."""
-        k = self._k
-        previous = self._resampled(before)
-        noise = self._rng.standard_normal(previous.particles.shape) @ self._mixing
-        bounds = state.motion.bounds(self.params)
-        particles = k.propose(previous.particles, drift, scale, noise, *detection, *bounds)
-        likelihood = state.appearance.log_likelihood(k, image, particles) + np.log(np.maximum(previous.weights, 1e-300))
-        weights, _ = k.reweight(likelihood, particles, previous.particles, drift, scale, *detection)
-        ellipse, _, effective = k.summarize(particles, weights)
-        return Swarm(particles, weights, ellipse, effective, state.appearance.judge(k, image, ellipse))
+        k, appearance = self._k, state.appearance
+        drift, scale, lower, upper = prediction
+        noise = self._rng.standard_normal(particles.shape) @ self._mixing
+        moved = k.propose(particles, drift, scale, noise, *detection, lower, upper)
+        likelihood = appearance.log_likelihood(k, appearance.look(k, image, moved))
+        likelihood += np.log(np.maximum(weights, LEAST))
+        weights, _ = k.reweight(likelihood, moved, particles, drift, scale, *detection)
+        ellipse, _, effective = k.summarize(moved, weights)
+        look = appearance.look(k, image, ellipse[None])
+        return Swarm(moved, weights, effective, ellipse, look, float(appearance.log_likelihood(k, look)[0]))
 
-    def _sweep_wide(self, state: State, image: Image, narrow: Swarm) -> Swarm:
+    def _sweep_wide(self, state: State, image: Image, narrow: Swarm, prediction: Prediction) -> Swarm:
         """Look all round the last place, then closely where it looked best; for jumps that the dynamics don't foresee."""
-        p, motion = self.params, state.motion
-        scale, still = motion.scale(p), np.zeros(4)
-        far = scale.copy()
-        far[:2] = p.sweep * side(motion.ellipse)
-        wide = self._sweep(state, image, self._gathered(motion.ellipse), still, far)
+        far = prediction.scale.copy()
+        far[:2] = self.params.sweep * state.motion.side
+        last = np.array([state.motion.ellipse])
+        wide = self._sweep(state, image, *self._gathered(last), prediction._replace(drift=STILL, scale=far))
         best = wide.particles[np.argmax(wide.weights)]
-        close = self._sweep(state, image, self._gathered(best), still, scale / 2)
-        return max(narrow, close, key=lambda swarm: swarm.judgement.log_likelihood)
+        nearby = prediction._replace(drift=STILL, scale=prediction.scale / 2)
+        close = self._sweep(state, image, *self._gathered(best[None]), nearby)
+        return max(narrow, close, key=lambda swarm: swarm.log_likelihood)
 
     def _search(self, state: State, image: Image) -> None:
-        """Look for a lost target in the whole frame; take it up again only where it is recognised."""
-        p = self.params
-        places = candidates(self._k, image, state.reference, state.motion, p, self._rng)
-        best = places[np.argmax(state.appearance.log_likelihood(self._k, image, places))]
-        found = Motion(best, np.zeros(2), state.motion.usual_size, state.motion.first_size)
-        searched = replace(state, motion=found)
-        swarm = self._sweep(searched, image, self._gathered(best), np.zeros(4), found.scale(p))
-        as_ever = swarm.judgement.log_likelihood >= state.trusted - MARGIN * p.surprise
-        if swarm.judgement.score < p.found_above or not as_ever:
-            state.swarm = replace(state.swarm, judgement=swarm.judgement)
-            return
-        state.swarm, state.motion, state.missed = swarm, replace(found, ellipse=swarm.ellipse), 0
+        """Look for a lost target in the whole frame; take it up again only where it is recognised and looks as ever."""
+        k, p, appearance = self._k, self.params, state.appearance
+        places = candidates(k, image, state.reference, state.motion, p, self._rng)
+        best = places[np.argmax(appearance.log_likelihood(k, appearance.look(k, image, places)))]
+        motion = state.motion.stopped_at(tuple(best.tolist()))
+        swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p))
+        state.score = appearance.recognition(k, swarm.look)
+        if state.score >= p.found_above and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
+            self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))
 
-    def _gathered(self, ellipse: Floats) -> Swarm:
-        """All particles at one place."""
-        n = self.params.particles
-        return Swarm(np.tile(ellipse, (n, 1)), np.full(n, 1 / n), ellipse, float(n), NO_JUDGEMENT)
-
-    def _resampled(self, swarm: Swarm) -> Swarm:
-        n = len(swarm.weights)
-        if swarm.effective >= self.params.resample_below * n:
-            return swarm
-        chosen = self._k.resample(swarm.weights, self._rng.random())
-        return replace(swarm, particles=swarm.particles[chosen], weights=np.full(n, 1 / n))
+    def _accept(self, state: State, swarm: Swarm, motion: Motion) -> None:
+        """Make the swarm the state of the target, and see whether it is recognised there."""
+        state.swarm, state.motion = swarm, motion
+        state.score = state.appearance.recognition(self._k, swarm.look)
+        state.usual += USUAL_RATE * (swarm.log_likelihood - state.usual)
+        if state.score >= self.params.lost_below:
+            state.trusted += USUAL_RATE * (swarm.log_likelihood - state.trusted)
+            state.missed = 0
+        else:
+            state.missed += 1
 
     def _learn(self, state: State, image: Image) -> None:
-        p = self.params
-        state.appearance.learn(self._k, image, state.motion.ellipse, p.learning_rate, p.color_rate)
+        swarm, p = state.swarm, self.params
+        window = swarm.ellipse[None]
+        state.appearance.learn(self._k, image, window, swarm.look, p.learning_rate, p.color_rate)
+
+    def _gathered(self, ellipse: Floats) -> tuple[Floats, Floats]:
+        """All particles at one place (1, 4), and their weights."""
+        n = self.params.particles
+        return np.repeat(ellipse, n, axis=0), np.full(n, 1 / n)
+
+    def _resampled(self, swarm: Swarm) -> tuple[Floats, Floats]:
+        """Particles and weights, by systematic resampling where too few particles carry the weight."""
+        n = len(swarm.weights)
+        if swarm.effective >= self.params.resample_below * n:
+            return swarm.particles, swarm.weights
+        chosen = self._k.resample(swarm.weights, self._rng.random())
+        return swarm.particles[chosen], np.full(n, 1 / n)
 
     def _track(self, state: State) -> Track:
         missed = state.missed
         status = Status.TRACKED if missed == 0 else Status.LOST if missed >= self.params.lost_after else Status.OCCLUDED
-        box = Box.from_ellipse(*state.motion.ellipse.tolist())
-        return Track(box, state.swarm.judgement.score, status)
+        box = Box.from_ellipse(*state.motion.ellipse)
+        return Track(box, state.score, status)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_k"}

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.color_params import ColorParticleParams
-from tricue.track.motion import Motion
+from tricue.track.motion import Ellipse, Motion, Prediction
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -28,7 +28,7 @@ class Detection(NamedTuple):
 NOTHING = Detection(np.zeros(2), np.eye(2), 0.0)
 
 
-def reference_color(k: Kernels, image: Image, ellipse: Floats) -> Image:
+def reference_color(k: Kernels, image: Image, ellipse: Ellipse) -> Image:
     """(3,): the color that appears most in the middle of the target, equation (3); of its pixels inside the image."""
     height, width = image.shape[:2]
     x, y, minor, major = ellipse
@@ -37,21 +37,23 @@ def reference_color(k: Kernels, image: Image, ellipse: Floats) -> Image:
     return k.skin_reference(image[top : bottom + 1, left : right + 1])
 
 
-def detect(k: Kernels, image: Image, reference: Image, motion: Motion, p: ColorParticleParams) -> Detection:
+def detect(
+    k: Kernels, image: Image, reference: Image, ellipse: Ellipse, prediction: Prediction, p: ColorParticleParams
+) -> Detection:
     """The Gaussian of the skin pixels, (11)-(16), in the part of the image that particles and their target can reach."""
     if p.skin_share == 0:
         return NOTHING
-    lower, upper = motion.bounds(p)
-    x, y, minor, major = motion.ellipse
-    region = (int(lower[0] - minor), int(lower[1] - major), int(upper[0] + minor) + 1, int(upper[1] + major) + 1)
-    count, mean_x, mean_y, xx, yy, xy = k.skin_moments(image, reference, p.skin_threshold, region).tolist()
+    (left, top, *_), (right, bottom, *_) = prediction.lower.tolist(), prediction.upper.tolist()
+    minor, major = ellipse[2:]
+    region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
+    count, x, y, xx, yy, xy = k.skin_moments(image, reference, p.skin_threshold, region).tolist()
     if count < ENOUGH * 4 * minor * major:
         return NOTHING
     # Cholesky of the covariance; a pixel's own extent keeps it positive.
     first = (xx + 1.0) ** 0.5
     cross = xy / first
-    root = np.array([[first, 0.0], [cross, (yy + 1.0 - cross * cross) ** 0.5]])
-    return Detection(np.array([mean_x, mean_y]), root, p.skin_share)
+    root = np.array(((first, 0.0), (cross, (yy + 1.0 - cross * cross) ** 0.5)))
+    return Detection(np.array((x, y)), root, p.skin_share)
 
 
 def candidates(
@@ -63,7 +65,7 @@ def candidates(
     """
     n = p.particles
     height, width = image.shape[:2]
-    size = motion.usual_size
+    size = motion.usual
     places = rng.random((2 * n, 2)) * (width, height)
     blobs = k.skin_blobs(image, reference, p.skin_threshold, max(1, int(ENOUGH * 4 * size[0] * size[1])))
     spread = rng.standard_normal((n, 2))
@@ -73,4 +75,4 @@ def candidates(
         each = chosen[np.arange(n) % len(chosen)]
         places[:n] = each[:, 5:7] + 0.25 * each[:, 2:4] * spread
     scales = np.exp(rng.uniform(-0.2, 0.2, 2 * n))
-    return np.concatenate([places, scales[:, None] * size], axis=1)
+    return np.concatenate([places, np.outer(scales, size)], axis=1)

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 """What every tracker checks before it touches its state."""
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import FrameLike, as_frame
+
+State = TypeVar("State")
 
 
 def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArray[np.uint8]:
@@ -34,7 +36,8 @@ def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
     return box
 
 
-def require_started(state: object | None) -> None:
-    """RuntimeError before ``init``."""
+def started(state: State | None) -> State:
+    """The state; RuntimeError where there is none, before ``init``."""
     if state is None:
         raise RuntimeError("update: expected init first, with a frame and a box")
+    return state

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """How an ellipse moves: equation (30) with the velocity in its mean, and a size that returns to what it usually is."""
 
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,56 +9,73 @@ from numpy.typing import NDArray
 from tricue.track.color_params import ColorParticleParams
 
 Floats = NDArray[np.float64]
+Pair = tuple[float, float]
+Ellipse = tuple[float, float, float, float]
+
+STILL = np.zeros(4)
+JITTER = 0.5  # pixels of position noise that even the smallest target has
 
 
-def side(ellipse: Floats) -> float:
-    """Pixels: the side of the square as large as the ellipse's box."""
-    return 2.0 * float(ellipse[2] * ellipse[3]) ** 0.5
+class Prediction(NamedTuple):
+    """p(x' | x) = N(x + drift, diag(scale²)) between lower and upper, (4,) each."""
+
+    drift: Floats
+    scale: Floats
+    lower: Floats
+    upper: Floats
 
 
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """The target's ellipse, its smoothed velocity (pixels a frame) and the size that it usually has."""
+class Motion(NamedTuple):
+    """The target's ellipse, its smoothed velocity (pixels a frame), the size that it usually has, and its first size."""
 
-    ellipse: Floats
-    velocity: Floats
-    usual_size: Floats
-    first_size: Floats
+    ellipse: Ellipse
+    velocity: Pair
+    usual: Pair
+    first: Pair
 
     @classmethod
-    def start(cls, ellipse: Floats) -> "Motion":
+    def start(cls, ellipse: Ellipse) -> "Motion":
         """At rest."""
-        return cls(ellipse, np.zeros(2), ellipse[2:], ellipse[2:])
+        return cls(ellipse, (0.0, 0.0), ellipse[2:], ellipse[2:])
 
-    def drift(self, p: ColorParticleParams) -> Floats:
-        """(4,): the mean of the next displacement, per dimension of the state."""
-        drift = np.empty(4)
-        drift[:2] = self.velocity
-        drift[2:] = p.size_pull * (self.usual_size - self.ellipse[2:])
-        return drift
+    @property
+    def side(self) -> float:
+        """Pixels: the side of the square as large as the ellipse's box."""
+        return 2.0 * (self.ellipse[2] * self.ellipse[3]) ** 0.5
 
-    def scale(self, p: ColorParticleParams) -> Floats:
-        """(4,): the standard deviations K of (30), which grow with the velocity."""
-        scale = np.empty(4)
-        scale[:2] = 0.5 + p.position_noise * side(self.ellipse) + p.velocity_noise * np.abs(self.velocity)
-        scale[2:] = (p.size_noise**2 + p.aspect_noise**2) ** 0.5 * self.ellipse[2:]
-        return scale
-
-    def bounds(self, p: ColorParticleParams) -> tuple[Floats, Floats]:
-        """(4,), (4,): how far a particle may go in this frame."""
-        reach = max(p.reach, p.reach_sizes * side(self.ellipse))
+    def predict(self, p: ColorParticleParams) -> Prediction:
+        """Where particles go next; K of (30) grows with the velocity."""
+        (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
+        noise, pull = JITTER + p.position_noise * self.side, p.size_pull
+        sizes = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
+        reach = max(p.reach, p.reach_sizes * self.side)
         smallest, largest = p.size_range
-        lower, upper = np.empty(4), np.empty(4)
-        lower[:2], upper[:2] = self.ellipse[:2] - reach, self.ellipse[:2] + reach
-        lower[2:], upper[2:] = smallest * self.first_size, largest * self.first_size
-        return lower, upper
+        return Prediction(
+            np.array((vx, vy, pull * (self.usual[0] - minor), pull * (self.usual[1] - major))),
+            np.array(
+                (
+                    noise + p.velocity_noise * abs(vx),
+                    noise + p.velocity_noise * abs(vy),
+                    sizes * minor,
+                    sizes * major,
+                )
+            ),
+            np.array((x - reach, y - reach, smallest * self.first[0], smallest * self.first[1])),
+            np.array((x + reach, y + reach, largest * self.first[0], largest * self.first[1])),
+        )
 
-    def moved(self, ellipse: Floats, p: ColorParticleParams) -> "Motion":
+    def moved(self, ellipse: Ellipse, p: ColorParticleParams) -> "Motion":
         """What one more estimate makes of it."""
-        rate, memory = p.velocity_rate, p.size_memory
-        velocity = (1 - rate) * self.velocity + rate * (ellipse[:2] - self.ellipse[:2])
-        usual = (1 - memory) * self.usual_size + memory * ellipse[2:]
-        return replace(self, ellipse=ellipse, velocity=velocity, usual_size=usual)
+        (x, y, *_), (vx, vy), rate = self.ellipse, self.velocity, p.velocity_rate
+        velocity = (vx + rate * (ellipse[0] - x - vx), vy + rate * (ellipse[1] - y - vy))
+        minor, major = self.usual
+        memory = p.size_memory
+        usual = (minor + memory * (ellipse[2] - minor), major + memory * (ellipse[3] - major))
+        return Motion(ellipse, velocity, usual, self.first)
+
+    def stopped_at(self, ellipse: Ellipse) -> "Motion":
+        """At rest in another place."""
+        return Motion(ellipse, (0.0, 0.0), self.usual, self.first)
 
 
 def size_mixing(p: ColorParticleParams) -> Floats:

@@ -24,19 +24,19 @@ def case(seed: int, ellipses: int, models: int, n: int) -> tuple[Image, Maps]:
 
 @given(st.integers(0, 2**32), st.integers(0, 5), st.integers(0, 3), st.integers(1, 300))
 def test_twin_measures_the_same(seed: int, ellipses: int, models: int, n: int) -> None:
-    """They agree within float32's rounding of sums of n / 16 + 16 terms a lane (at most 2 eps (n / 16 + 18))."""
+    """They agree to the last bit: sums of whole numbers and one division, by bytes and by integers alike."""
     samples, maps = case(seed, ellipses, models, n)
     native, twin = _core.rank_distance(samples, maps), reference.rank_distance(samples, maps)
-    assert native.dtype == twin.dtype == np.float32
-    assert_allclose(native, twin, rtol=2 * np.finfo(np.float32).eps * (n / 16 + 18), atol=1e-7)
+    assert native.dtype == twin.dtype == np.float64
+    assert_array_equal(native, twin)
 
 
 def test_agrees_with_scipy(kernels: Kernels) -> None:
-    """By hand from scipy's ranks: twice the mean absolute difference."""
+    """By hand from scipy's ranks: twice the mean absolute difference, but for the models' rounding to 1/2n."""
     samples, maps = case(1, 6, 2, 144)
     ranks = (rankdata(samples, axis=2) - 0.5) / 144
     expected = 2 * np.abs(ranks[:, None] - maps[None]).mean(axis=(2, 3))
-    assert_allclose(kernels.rank_distance(samples, maps), expected, rtol=1e-5)
+    assert_allclose(kernels.rank_distance(samples, maps), expected, rtol=0, atol=2 * 0.5 / (2 * 144))
 
 
 def test_ends_of_the_scale(kernels: Kernels) -> None:
@@ -73,6 +73,15 @@ def test_refuses_models_of_another_size(kernels: Kernels) -> None:
         kernels.rank_distance(samples, np.ascontiguousarray(maps[:, :, :19]))
     with pytest.raises(ValueError, match="samples: expected at least one an ellipse, got none"):
         kernels.rank_distance(samples[:, :, :0].copy(), maps[:, :, :0].copy())
+
+
+@pytest.mark.parametrize("rank", [np.nan, np.inf, -0.1, 1.1])
+def test_refuses_what_is_no_rank(kernels: Kernels, rank: float) -> None:
+    """A model's ranks lie in [0, 1]."""
+    samples, maps = case(0, 2, 1, 20)
+    maps[0, 1, 3] = rank
+    with pytest.raises(ValueError, match=r"models: expected ranks in \[0, 1\], got"):
+        kernels.rank_distance(samples, maps)
 
 
 def test_native_refuses_other_types() -> None:
