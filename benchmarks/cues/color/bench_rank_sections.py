@@ -24,7 +24,9 @@ def script(samples: Image, sections: int) -> NDArray[np.float32]:
     ]
     a = [(rank * ((q[s] <= rank) & (rank <= q[s + 1]))).sum(axis=1) for s in range(sections)]
     sums = np.stack(a, axis=1)
-    result: NDArray[np.float32] = (sums / sums.sum(axis=1, keepdims=True)).astype(np.float32).reshape(-1, 3, sections)
+    result: NDArray[np.float32] = (
+        (sums / sums.sum(axis=1, keepdims=True)).astype(np.float32).reshape(-1, 3, sections)
+    )
     return result
 
 

@@ -15,7 +15,9 @@ Image = NDArray[np.uint8]
 
 def script(sections: NDArray[np.float32], model: NDArray[np.float32]) -> NDArray[np.float32]:
     """The peer: norms of the channels, in floats as they come."""
-    result: NDArray[np.float32] = np.linalg.norm(sections - model, axis=2).sum(axis=1) / np.float32(3 * np.sqrt(2))
+    result: NDArray[np.float32] = np.linalg.norm(sections - model, axis=2).sum(axis=1) / np.float32(
+        3 * np.sqrt(2)
+    )
     return result
 
 

@@ -19,7 +19,7 @@ def script(image: Image, color: Image) -> NDArray[np.int16]:
     b, g, r = cv2.split(image)
     eta = cv2.max(cv2.max(b, g), r)
     b, g, r = cv2.split(cv2.absdiff(image, np.array([*color, 0.0])))
-    return cv2.subtract(eta, cv2.max(cv2.max(b, g), r), dtype=cv2.CV_16S)
+    return cv2.subtract(eta, cv2.max(cv2.max(b, g), r), dtype=cv2.CV_16S).astype(np.int16, copy=False)
 
 
 @pytest.mark.benchmark(group="skin_boundary")

@@ -22,7 +22,8 @@ def script(samples: Image, mean: NDArray[np.float64], precision: NDArray[np.floa
         np.float32
     )
     squared = np.einsum("nik,kl,nil->ni", chroma, precision.astype(np.float32), chroma)
-    return cv2.exp(-0.5 * squared)
+    density: NDArray[np.float32] = cv2.exp(-0.5 * squared)
+    return density
 
 
 @pytest.mark.benchmark(group="skin_gaussian")

@@ -19,7 +19,8 @@ def script(patch: Image) -> Image:
     _, inverse, counts = np.unique(
         pixels // 8 @ np.array([1024, 32, 1]), return_inverse=True, return_counts=True
     )
-    return np.floor(pixels[inverse == np.argmax(counts)].mean(axis=0) + 0.5).astype(np.uint8)
+    color: Image = np.floor(pixels[inverse == np.argmax(counts)].mean(axis=0) + 0.5).astype(np.uint8)
+    return color
 
 
 @pytest.mark.benchmark(group="skin_reference")

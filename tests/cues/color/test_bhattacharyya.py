@@ -33,7 +33,7 @@ def random_histograms(rows: int, groups: int, bins: int, seed: int = 0) -> Float
     st.sampled_from([1, 2, 3, 4, 6, 12]),
 )
 def test_twin_measures_the_same(histograms: Floats, model: Floats, groups: int) -> None:
-    """Native and reference agree; squares are compared, as the root enlarges an error where the distance is 0.
+    """Native and reference agree; squares are compared, as the root enlarges errors where the distance is 0.
 
     The sums, of up to 12 terms of at most 1, are rounded in another order.
     """

@@ -45,9 +45,7 @@ def test_twin_sums_the_same_at_every_size(samples: Image, sections: int) -> None
 def printed(levels: Image, sections: int) -> list[Fraction]:
     """(17), (19)-(28) on fractions, one level after the other."""
     ranks = [Fraction(sum(int(level) <= limit for level in levels), len(levels)) for limit in range(256)]
-    quantised = [
-        min(ranks, key=lambda rank, n=n: abs(rank - Fraction(n, sections))) for n in range(sections + 1)
-    ]  # type: ignore[misc]
+    quantised = [min((abs(r - Fraction(n, sections)), r) for r in ranks)[1] for n in range(sections + 1)]
     sums = [sum(rank for rank in ranks if quantised[n] <= rank <= quantised[n + 1]) for n in range(sections)]
     return [Fraction(a) / sum(sums) for a in sums]
 
@@ -112,9 +110,12 @@ def test_refuses_no_samples(kernels: Kernels) -> None:
         kernels.rank_sections(np.zeros((2, 3, 0), np.uint8), 16)
 
 
+WRONG_TYPE: Any = np.zeros((1, 3, 4))
+
+
 def test_native_refuses() -> None:
     """Samples of another type or shape are named."""
     with pytest.raises(TypeError, match="samples: expected uint8 samples"):
-        _core.rank_sections(np.zeros((1, 3, 4)), 16)
+        _core.rank_sections(WRONG_TYPE, 16)
     with pytest.raises(ValueError, match="samples: expected uint8 samples"):
         _core.rank_sections(np.zeros((1, 2, 4), np.uint8), 16)

@@ -24,7 +24,8 @@ shares = st.floats(0, 1, width=32)
 def random_sections(rows: int, sections: int = 16) -> Floats:
     """Rows of three channels, each of sum 1."""
     sums = np.random.default_rng(rows).exponential(size=(rows, 3, sections))
-    return (sums / sums.sum(axis=2, keepdims=True)).astype(np.float32)
+    shares: Floats = (sums / sums.sum(axis=2, keepdims=True)).astype(np.float32)
+    return shares
 
 
 @given(arrays(np.float32, (3, 3, 16), elements=shares), arrays(np.float32, (3, 16), elements=shares))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Connected regions of skin."""
 
+from typing import Any
+
 import cv2
 import numpy as np
 import pytest
@@ -74,7 +76,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
         ".#...##",
         "......."
     )  # fmt: skip
-    expected = [[0, 0, 3, 4, 7, 1.5, 12.5 / 7], [5, 2, 2, 2, 4, 6, 3]]
+    expected = np.array([[0, 0, 3, 4, 7, 1.5, 12.5 / 7], [5, 2, 2, 2, 4, 6, 3]])
     assert_allclose(kernels.skin_blobs(image, SKIN, BINARY, 2), expected, rtol=1e-14)
 
 
@@ -141,7 +143,10 @@ def test_refuses_other_thresholds(kernels: Kernels) -> None:
         kernels.skin_blobs(draw("#"), SKIN, 1.5, 1)
 
 
+WRONG_TYPE: Any = np.zeros((3, 3, 3))
+
+
 def test_native_refuses() -> None:
     """What isn't a BGR image is named."""
     with pytest.raises(TypeError, match="image: expected a uint8 BGR image"):
-        _core.skin_blobs(np.zeros((3, 3, 3)), SKIN, BINARY, 1)
+        _core.skin_blobs(WRONG_TYPE, SKIN, BINARY, 1)

@@ -24,7 +24,8 @@ regions = st.tuples(*[st.integers(-10, 150)] * 4)
 
 def tolerance(image: Image) -> float:
     """Bound of rounding: squares of coordinates, each rounded a few times on the way to a variance."""
-    return 16 * np.finfo(float).eps * max(1, *image.shape[:2]) ** 2
+    size = float(max(1, *image.shape[:2]))
+    return 16 * float(np.finfo(float).eps) * size * size
 
 
 def paint(height: int, width: int, rows: slice, columns: slice) -> Image:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The explicit skin rule."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
@@ -56,9 +58,12 @@ def test_decides_sample_by_sample(kernels: Kernels, samples: Image) -> None:
     assert_array_equal(kernels.skin_rule(turned), kernels.skin_rule(samples)[:, ::-1])
 
 
+WRONG_TYPE: Any = np.zeros((1, 3, 4))
+
+
 def test_native_refuses() -> None:
     """Samples of another type or shape are named."""
     with pytest.raises(TypeError, match="samples: expected uint8 samples"):
-        _core.skin_rule(np.zeros((1, 3, 4)))
+        _core.skin_rule(WRONG_TYPE)
     with pytest.raises(ValueError, match="samples: expected uint8 samples"):
         _core.skin_rule(np.zeros((3, 4), np.uint8))
