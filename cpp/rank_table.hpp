@@ -24,14 +24,15 @@ inline void rank_table_small(const std::uint8_t* samples, std::size_t n, RankTab
 
     alignas(64) std::uint8_t own[256], below[256];
     for (std::size_t level = 0; level < 256; ++level)
-        own[level] = static_cast<std::uint8_t>(counts[0][level] + counts[1][level] + counts[2][level] + counts[3][level]);
+        own[level] = static_cast<std::uint8_t>(counts[0][level] + counts[1][level] + counts[2][level] +
+                                               counts[3][level]);
     constexpr std::uint64_t kOnes = 0x0101010101010101;
     std::uint64_t before = 0;
     for (std::size_t word = 0; word < 256; word += 8) {
         std::uint64_t eight;
         std::memcpy(&eight, own + word, 8);
-        const std::uint64_t up_to = eight * kOnes;                           // no byte overflows: n < 256
-        const std::uint64_t lower = up_to - eight + before * kOnes;          // and none borrows
+        const std::uint64_t up_to = eight * kOnes;                   // no byte overflows: n < 256
+        const std::uint64_t lower = up_to - eight + before * kOnes;  // and none borrows
         before += up_to >> 56;
         std::memcpy(below + word, &lower, 8);
     }

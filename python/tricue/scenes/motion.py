@@ -8,10 +8,11 @@ Array = NDArray[np.float64]
 
 
 def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
-    """A smooth nonlinear motion, (frames, 2) offsets in pixels within ±reach, no step longer than ``max_speed``.
+    """A smooth nonlinear motion, (frames, 2) offsets in pixels within ±reach, no step longer than
+    ``max_speed``.
 
-    The target runs along a closed Lissajous curve with random phases. As its position is an arc length on that curve, and a chord is
-    never longer than its arc, the speed of the run bounds the steps.
+    The target runs along a closed Lissajous curve with random phases. As its position is an arc length on
+    that curve, and a chord is never longer than its arc, the speed of the run bounds the steps.
     """
     if frames < 1:
         raise ValueError(f"frames: expected 1 or more, got {frames}")
@@ -35,7 +36,9 @@ def _speeds(frames: int, max_speed: float, rng: np.random.Generator) -> Array:
 
 
 def steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Array:
-    """A gain per frame: 1 at first, then changed abruptly every 10 to 20 frames, by a quarter of [low, high] or more."""
+    """A gain per frame: 1 at first, then changed abruptly every 10 to 20 frames, by a quarter of [low, high]
+    or more.
+    """
     gains = np.ones(frames)
     start = int(rng.integers(10, 21))
     while start < frames:

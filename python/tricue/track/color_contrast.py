@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The color term of the likelihood: how much more a window has of the target's colors than its surround has.
 
-What the paper calls skin color modeling, but relative to what is round this target: Bayes' rule with equal priors on
-two joint color histograms. It says where the target ends, which ranks inside the window can't.
+What the paper calls skin color modeling, but relative to what is round this target: Bayes' rule with equal
+priors on two joint color histograms. It says where the target ends, which ranks inside the window can't.
 """
 
 from typing import Any
@@ -32,7 +32,10 @@ class ColorContrast:
     def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> None:
         """Blend the colors in and round the ellipse (1, 4) into the histograms; rate 1 starts them."""
         new = np.concatenate(
-            [k.joint_histogram(k.sample_ellipses(image, ellipse, places), BINS) for places in (TARGET, SURROUND)]
+            [
+                k.joint_histogram(k.sample_ellipses(image, ellipse, places), BINS)
+                for places in (TARGET, SURROUND)
+            ]
         )
         if rate >= 1:
             self.histograms = new

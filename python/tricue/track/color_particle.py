@@ -52,13 +52,15 @@ class State:
 class ColorParticleTracker:
     """Follows a face, or any target with a color and structure of its own, in BGR video.
 
-    Particles (x, y, minor, major) are drawn from the target's dynamics and from where a skin classifier sees its
-    color, and weighed by the order of their pixels' colors, which light does not change.
+    Particles (x, y, minor, major) are drawn from the target's dynamics and from where a skin classifier sees
+    its color, and weighed by the order of their pixels' colors, which light does not change.
 
-    ``ColorParticleTracker(seed=0, kernels="native", **parameters)``: the parameters are those of :attr:`Params`, or all at
-    once as ``params=``. The same seed gives the same track, bit for bit. Pickles with all of its state.
+    ``ColorParticleTracker(seed=0, kernels="native", **parameters)``: the parameters are those of
+    :attr:`Params`, or all at once as ``params=``. The same seed gives the same track, bit for bit. Pickles
+    with all of its state.
 
-    Source: Sabeti, Parvizi, Wu, "Visual Tracking Using Color Cameras and Time-of-Flight Range Imaging Sensors", 2008.
+    Source: Sabeti, Parvizi, Wu, "Visual Tracking Using Color Cameras and Time-of-Flight Range Imaging
+    Sensors", 2008.
     """
 
     Params = ColorParticleParams
@@ -87,10 +89,14 @@ class ColorParticleTracker:
         return np.empty((0, 4)) if self._state is None else self._state.swarm.particles
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on the target in ``box``: (x, y, width, height), pixels, at least partly in the image."""
+        """Start, or start again, on the target in ``box``: (x, y, width, height), pixels, at least partly in
+        the image.
+        """
         image = lifecycle.color_image(frame)
         if box is None:
-            raise ValueError("box: expected (x, y, width, height); the color particle tracker can't start without one")
+            raise ValueError(
+                "box: expected (x, y, width, height); the color particle tracker can't start without one"
+            )
         ellipse = np.array(lifecycle.box_in(as_box(box), image).ellipse)
         self._rng = np.random.default_rng(self.seed)
         appearance = Appearance(self.params)
@@ -100,7 +106,15 @@ class ColorParticleTracker:
         swarm = Swarm(np.tile(ellipse, (n, 1)), np.full(n, 1 / n), ellipse, float(n), judgement)
         reference = reference_color(self._k, image, ellipse)
         motion = Motion.start(ellipse)
-        self._state = State(image.shape, appearance, reference, motion, swarm, judgement.log_likelihood, judgement.log_likelihood)
+        self._state = State(
+            image.shape,
+            appearance,
+            reference,
+            motion,
+            swarm,
+            judgement.log_likelihood,
+            judgement.log_likelihood,
+        )
         return self._track(self._state)
 
     def update(self, frame: FrameLike) -> Track:
@@ -132,7 +146,13 @@ class ColorParticleTracker:
             state.trusted += USUAL_RATE * (swarm.judgement.log_likelihood - state.trusted)
 
     def _sweep(
-        self, state: State, image: Image, before: Swarm, drift: Floats, scale: Floats, detection: Detection = NOTHING
+        self,
+        state: State,
+        image: Image,
+        before: Swarm,
+        drift: Floats,
+        scale: Floats,
+        detection: Detection = NOTHING,
     ) -> Swarm:
         """One step of the particle filter: (30), (2), (31) and the expected value."""
         k = self._k
@@ -140,13 +160,17 @@ class ColorParticleTracker:
         noise = self._rng.standard_normal(previous.particles.shape) @ self._mixing
         bounds = state.motion.bounds(self.params)
         particles = k.propose(previous.particles, drift, scale, noise, *detection, *bounds)
-        likelihood = state.appearance.log_likelihood(k, image, particles) + np.log(np.maximum(previous.weights, 1e-300))
+        likelihood = state.appearance.log_likelihood(k, image, particles) + np.log(
+            np.maximum(previous.weights, 1e-300)
+        )
         weights, _ = k.reweight(likelihood, particles, previous.particles, drift, scale, *detection)
         ellipse, _, effective = k.summarize(particles, weights)
         return Swarm(particles, weights, ellipse, effective, state.appearance.judge(k, image, ellipse))
 
     def _sweep_wide(self, state: State, image: Image, narrow: Swarm) -> Swarm:
-        """Look all round the last place, then closely where it looked best; for jumps that the dynamics don't foresee."""
+        """Look all round the last place, then closely where it looked best; for jumps that the dynamics don't
+        foresee.
+        """
         p, motion = self.params, state.motion
         scale, still = motion.scale(p), np.zeros(4)
         far = scale.copy()
@@ -188,7 +212,13 @@ class ColorParticleTracker:
 
     def _track(self, state: State) -> Track:
         missed = state.missed
-        status = Status.TRACKED if missed == 0 else Status.LOST if missed >= self.params.lost_after else Status.OCCLUDED
+        status = (
+            Status.TRACKED
+            if missed == 0
+            else Status.LOST
+            if missed >= self.params.lost_after
+            else Status.OCCLUDED
+        )
         box = Box.from_ellipse(*state.motion.ellipse.tolist())
         return Track(box, state.swarm.judgement.score, status)
 

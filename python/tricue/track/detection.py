@@ -29,7 +29,9 @@ NOTHING = Detection(np.zeros(2), np.eye(2), 0.0)
 
 
 def reference_color(k: Kernels, image: Image, ellipse: Floats) -> Image:
-    """(3,): the color that appears most in the middle of the target, equation (3); of its pixels inside the image."""
+    """(3,): the color that appears most in the middle of the target, equation (3); of its pixels inside the
+    image.
+    """
     height, width = image.shape[:2]
     x, y, minor, major = ellipse
     left, right = np.clip([x - PATCH * minor, x + PATCH * minor], 0, width - 1).astype(int)
@@ -38,12 +40,19 @@ def reference_color(k: Kernels, image: Image, ellipse: Floats) -> Image:
 
 
 def detect(k: Kernels, image: Image, reference: Image, motion: Motion, p: ColorParticleParams) -> Detection:
-    """The Gaussian of the skin pixels, (11)-(16), in the part of the image that particles and their target can reach."""
+    """The Gaussian of the skin pixels, (11)-(16), in the part of the image that particles and their target
+    can reach.
+    """
     if p.skin_share == 0:
         return NOTHING
     lower, upper = motion.bounds(p)
-    x, y, minor, major = motion.ellipse
-    region = (int(lower[0] - minor), int(lower[1] - major), int(upper[0] + minor) + 1, int(upper[1] + major) + 1)
+    minor, major = motion.ellipse[2:]
+    region = (
+        int(lower[0] - minor),
+        int(lower[1] - major),
+        int(upper[0] + minor) + 1,
+        int(upper[1] + major) + 1,
+    )
     count, mean_x, mean_y, xx, yy, xy = k.skin_moments(image, reference, p.skin_threshold, region).tolist()
     if count < ENOUGH * 4 * minor * major:
         return NOTHING
@@ -55,9 +64,15 @@ def detect(k: Kernels, image: Image, reference: Image, motion: Motion, p: ColorP
 
 
 def candidates(
-    k: Kernels, image: Image, reference: Image, motion: Motion, p: ColorParticleParams, rng: np.random.Generator
+    k: Kernels,
+    image: Image,
+    reference: Image,
+    motion: Motion,
+    p: ColorParticleParams,
+    rng: np.random.Generator,
 ) -> Floats:
-    """(2 particles, 4): where to look for a lost target: half of them at blobs of its color, half anywhere in the frame.
+    """(2 particles, 4): where to look for a lost target: half of them at blobs of its color, half anywhere in
+    the frame.
 
     Blobs are drawn by their area. All have the remembered size, up to a fifth more or less.
     """

@@ -24,7 +24,9 @@ def case(seed: int, ellipses: int, models: int, n: int) -> tuple[Image, Maps]:
 
 @given(st.integers(0, 2**32), st.integers(0, 5), st.integers(0, 3), st.integers(1, 300))
 def test_twin_measures_the_same(seed: int, ellipses: int, models: int, n: int) -> None:
-    """They agree within float32's rounding of sums of n / 16 + 16 terms a lane (at most 2 eps (n / 16 + 18))."""
+    """They agree within float32's rounding of sums of n / 16 + 16 terms a lane (at most 2 eps (n / 16 +
+    18)).
+    """
     samples, maps = case(seed, ellipses, models, n)
     native, twin = _core.rank_distance(samples, maps), reference.rank_distance(samples, maps)
     assert native.dtype == twin.dtype == np.float32
@@ -54,7 +56,9 @@ def test_ends_of_the_scale(kernels: Kernels) -> None:
 
 @given(st.integers(0, 2**32), st.floats(0.2, 5))
 def test_light_does_not_matter(seed: int, gamma: float) -> None:
-    """A strictly increasing change of the light, another for each channel, leaves the distance as it is, bit for bit."""
+    """A strictly increasing change of the light, another for each channel, leaves the distance as it is,
+    bit for bit.
+    """
     rng = np.random.default_rng(seed)
     samples = rng.integers(0, 40, (3, 3, 100)).astype(np.uint8)
     curves = np.stack(
