@@ -34,7 +34,8 @@ format: $(VENV)/dev
 stubs: $(VENV)/dev
 	$(BIN)/python tools/stubs.py
 
-# The same tests on a build with the sanitizers, which must be loaded before Python. Python's own leaks are not looked at.
+# The same tests on a build with the sanitizers, which must be loaded before Python, and whose last words pytest must not
+# capture. What Python itself leaks is not looked at.
 sanitize: $(VENV)/dev
 	rm -rf $(SANITIZED)
 	SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
@@ -42,7 +43,7 @@ sanitize: $(VENV)/dev
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
 	PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest
+	    $(BIN)/python -m pytest --capture=sys
 
 clean:
 	rm -rf $(VENV) build dist

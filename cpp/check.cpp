@@ -54,14 +54,19 @@ void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const
         refuse(name, "shape " + shape(rows, cols), shape(values.rows(), values.cols()));
 }
 
-void require_finite(VectorRef values, const char* name) { require_finite(values.data(), values.size(), name); }
+void require_finite(VectorRef values, const char* name) {
+    require_finite(values.data(), values.size(), name);
+}
 
-void require_finite(StatesRef values, const char* name) { require_finite(values.data(), values.size(), name); }
+void require_finite(StatesRef values, const char* name) {
+    require_finite(values.data(), values.size(), name);
+}
 
 double require_weights(VectorRef weights) {
     double total = 0.0;
     for (const double weight : weights) {
-        if (!(weight >= 0.0 && std::isfinite(weight))) refuse("weights", "finite numbers, none negative", weight);
+        if (!(weight >= 0.0 && std::isfinite(weight)))
+            refuse("weights", "finite numbers, none negative", weight);
         total += weight;
     }
     if (!(total > 0.0 && std::isfinite(total))) refuse("weights", "a finite sum above 0", total);

@@ -14,8 +14,8 @@
 /// - The function may not throw: GCC takes the dispatched call for one that can't, and the program ends.
 /// - It needs GCC 12 (the names of the levels), and glibc (indirect functions). The sanitizers can't run when the
 ///   loader picks, before they are set up. Elsewhere it is empty; ARM's baseline has NEON anyway.
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && defined(__linux__) && \
-    defined(__GLIBC__) && !defined(TRICUE_SANITIZE)
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && \
+    defined(__linux__) && defined(__GLIBC__) && !defined(TRICUE_SANITIZE)
 #define TRICUE_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define TRICUE_MULTIVERSION

@@ -12,9 +12,9 @@ TWINS = ROOT / "python" / "tricue" / "reference"
 AREAS = ("cues", "fuse")
 
 
-def names_under(folder: Path, suffix: str) -> list[Path]:
-    """Paths without suffix, relative to the folder, of all kernels in it."""
-    files = (file for area in AREAS for file in (folder / area).rglob(f"*{suffix}"))
+def names_under(folder: Path, suffix: str, prefix: str = "") -> list[Path]:
+    """Paths without suffix, relative to the folder, of the files in it that are named like a kernel's."""
+    files = (file for area in AREAS for file in (folder / area).rglob(f"{prefix}*{suffix}"))
     return sorted(file.relative_to(folder).with_suffix("") for file in files if file.stem != "__init__")
 
 
@@ -60,7 +60,9 @@ def test_kernel_is_whole(kernel: Path) -> None:
 )
 def test_nothing_is_orphaned(folder: str, suffix: str, prefix: str) -> None:
     """No source, twin or benchmark is left of a kernel that has no header any more."""
-    found = {path.with_name(path.name.removeprefix(prefix)) for path in names_under(ROOT / folder, suffix)}
+    found = {
+        path.with_name(path.name.removeprefix(prefix)) for path in names_under(ROOT / folder, suffix, prefix)
+    }
     assert found <= set(KERNELS), f"without header in cpp: {sorted(found - set(KERNELS))}"
 
 

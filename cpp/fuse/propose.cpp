@@ -31,7 +31,8 @@ void detect(const Detection& detection, StatesRef noise, States& moved) {
     for (Eigen::Index i = 0; i < moved.rows(); ++i) {
         if (!detected(i, detection.share)) continue;
         moved(i, 0) = detection.mean[0] + detection.root(0, 0) * noise(i, 0);
-        moved(i, 1) = detection.mean[1] + detection.root(1, 0) * noise(i, 0) + detection.root(1, 1) * noise(i, 1);
+        moved(i, 1) =
+            detection.mean[1] + detection.root(1, 0) * noise(i, 0) + detection.root(1, 1) * noise(i, 1);
     }
 }
 

@@ -33,13 +33,14 @@ double log_mixture(double ratio, double share) {
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
-void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& dynamics, const Detection& detection,
-                       Vector& log_weights) {
+void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
+                       const Detection& detection, Vector& log_weights) {
     const auto& [drift, scale] = dynamics;
     const auto& [mean, root, share] = detection;
     const Vector x = proposed.col(0), y = proposed.col(1);
-    const Vector ratio = log_density(x - mean[0], y - mean[1], root(0, 0), root(1, 0), root(1, 1)) -
-                         log_density(x - previous.col(0) - drift[0], y - previous.col(1) - drift[1], scale[0], 0.0, scale[1]);
+    const Vector ratio =
+        log_density(x - mean[0], y - mean[1], root(0, 0), root(1, 0), root(1, 1)) -
+        log_density(x - previous.col(0) - drift[0], y - previous.col(1) - drift[1], scale[0], 0.0, scale[1]);
     for (Eigen::Index i = 0; i < log_weights.size(); ++i) log_weights[i] -= log_mixture(ratio[i], share);
 }
 
@@ -57,13 +58,14 @@ Reweighted normalized(Vector log_weights) {
 void require_valid(VectorRef log_likelihood) {
     if (log_likelihood.size() == 0) refuse("log_likelihood", "at least one particle", "none");
     for (Eigen::Index i = 0; i < log_likelihood.size(); ++i)
-        if (!(log_likelihood[i] < kInfinity)) refuse("log_likelihood", "numbers below infinity", log_likelihood[i]);
+        if (!(log_likelihood[i] < kInfinity))
+            refuse("log_likelihood", "numbers below infinity", log_likelihood[i]);
 }
 
 }  // namespace
 
-Reweighted reweight(VectorRef log_likelihood, StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
-                    const Detection& detection) {
+Reweighted reweight(VectorRef log_likelihood, StatesRef proposed, StatesRef previous,
+                    const Dynamics& dynamics, const Detection& detection) {
     if (proposed.cols() < 2) refuse("proposed", "states of 2 or more numbers", double(proposed.cols()));
     require_valid(log_likelihood);
     require_size(log_likelihood, proposed.rows(), "log_likelihood");

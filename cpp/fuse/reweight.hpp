@@ -7,8 +7,9 @@
 namespace tricue {
 
 struct Reweighted {
-    Vector weights;       ///< N, normalised to sum 1, equation (31)
-    double log_evidence;  ///< log of the mean weight before normalising: how well the frame fits, natural logarithm
+    Vector weights;  ///< N, normalised to sum 1, equation (31)
+    double
+        log_evidence;  ///< log of the mean weight before normalising: how well the frame fits, natural logarithm
 };
 
 /// Weighs the particles that `propose` drew, equation (2) with the mixture as the proposal, in the log domain:
@@ -28,7 +29,7 @@ struct Reweighted {
 /// @throws std::invalid_argument on no particles, sizes that don't agree, a log-likelihood that is NaN or +infinity, other
 ///         numbers that aren't finite, a share outside [0, 1), or (share above 0) a position's scale that isn't above 0
 /// Source: Sabeti, Parvizi, Wu 2008, equations (2), (30), (31).
-Reweighted reweight(VectorRef log_likelihood, StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
-                    const Detection& detection);
+Reweighted reweight(VectorRef log_likelihood, StatesRef proposed, StatesRef previous,
+                    const Dynamics& dynamics, const Detection& detection);
 
 }  // namespace tricue

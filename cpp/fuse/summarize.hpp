@@ -8,7 +8,8 @@ namespace tricue {
 struct Summary {
     Vector mean;        ///< D, the expected value
     States covariance;  ///< D x D, symmetric; divided by the sum of the weights, so 0 for one particle
-    double effective;   ///< effective sample size (Σw)² / Σw², from 1 (one particle has it all) to N (all are equal)
+    double
+        effective;  ///< effective sample size (Σw)² / Σw², from 1 (one particle has it all) to N (all are equal)
 };
 
 /// The estimate that weighted particles stand for: expected value, covariance, effective sample size.

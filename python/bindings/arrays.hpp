@@ -48,19 +48,22 @@ template <typename Scalar>
 const Scalar* contiguous(const py::array& array, const char* name) {
     constexpr int wanted = py::array::c_style | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
     if ((array.flags() & wanted) != wanted)
-        throw py::value_error(std::string(name) + ": expected a C-contiguous, aligned array; numpy.require makes one");
+        throw py::value_error(std::string(name) +
+                              ": expected a C-contiguous, aligned array; numpy.require makes one");
     return static_cast<const Scalar*>(array.data());
 }
 
 inline ImageView color_image(const py::object& object, const char* name) {
     const auto array = require<std::uint8_t>(object, name, 3, "a uint8 BGR image (H, W, 3)");
     if (array.shape(2) != 3)
-        throw py::value_error(std::string(name) + ": expected a uint8 BGR image (H, W, 3), got " + describe(array));
+        throw py::value_error(std::string(name) + ": expected a uint8 BGR image (H, W, 3), got " +
+                              describe(array));
     // NumPy leaves the stride of an axis of length 1 (and all of them in an empty array) undefined.
     const bool packed = array.strides(2) == 1 && (array.shape(1) == 1 || array.strides(1) == 3);
     const bool downward = array.shape(0) == 1 || array.strides(0) >= 0;
     if (array.size() > 0 && !(packed && downward))
-        throw py::value_error(std::string(name) + ": expected packed pixels; numpy.ascontiguousarray makes them");
+        throw py::value_error(std::string(name) +
+                              ": expected packed pixels; numpy.ascontiguousarray makes them");
     return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
             static_cast<int>(array.shape(1)), 3, array.strides(0)};
 }
@@ -68,7 +71,8 @@ inline ImageView color_image(const py::object& object, const char* name) {
 inline SampleView samples(const py::object& object, const char* name) {
     const char* expected = "uint8 samples (N, 3, n)";
     const auto array = require<std::uint8_t>(object, name, 3, expected);
-    if (array.shape(1) != 3) throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    if (array.shape(1) != 3)
+        throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
     return {contiguous<std::uint8_t>(array, name), array.shape(0), array.shape(2)};
 }
 
@@ -83,8 +87,8 @@ inline Eigen::Map<const Vector> vector(const py::object& object, const char* nam
 }
 
 /// A float array of a given shape (-1: any size), seen as rows of its last dimension.
-inline Eigen::Map<const Floats> floats(const py::object& object, const char* name, const std::vector<py::ssize_t>& shape,
-                                       const char* expected) {
+inline Eigen::Map<const Floats> floats(const py::object& object, const char* name,
+                                       const std::vector<py::ssize_t>& shape, const char* expected) {
     const auto array = require<float>(object, name, static_cast<int>(shape.size()), expected);
     py::ssize_t rows = 1;
     for (std::size_t i = 0; i < shape.size(); ++i) {
@@ -99,7 +103,8 @@ inline Eigen::Map<const Floats> floats(const py::object& object, const char* nam
 inline Bgr bgr(const py::object& object, const char* name) {
     const char* expected = "a uint8 color (3,): blue, green, red";
     const auto array = require<std::uint8_t>(object, name, 1, expected);
-    if (array.shape(0) != 3) throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    if (array.shape(0) != 3)
+        throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
     const auto* data = contiguous<std::uint8_t>(array, name);
     return {data[0], data[1], data[2]};
 }

@@ -13,9 +13,10 @@ Array<std::int64_t> resample_arrays(const Array<double>& weights, double offset)
     return give(unlocked([&] { return resample(view, offset); }));
 }
 
-Array<double> propose_arrays(const Array<double>& particles, const Array<double>& drift, const Array<double>& scale,
-                             const Array<double>& noise, const Array<double>& mean, const Array<double>& root,
-                             double share, const Array<double>& lower, const Array<double>& upper) {
+Array<double> propose_arrays(const Array<double>& particles, const Array<double>& drift,
+                             const Array<double>& scale, const Array<double>& noise,
+                             const Array<double>& mean, const Array<double>& root, double share,
+                             const Array<double>& lower, const Array<double>& upper) {
     const auto from = states(particles, "particles");
     const auto draws = states(noise, "noise");
     const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
@@ -24,7 +25,8 @@ Array<double> propose_arrays(const Array<double>& particles, const Array<double>
     return give(unlocked([&] { return propose(from, dynamics, draws, detection, bounds); }));
 }
 
-std::tuple<Array<double>, double> reweight_arrays(const Array<double>& log_likelihood, const Array<double>& proposed,
+std::tuple<Array<double>, double> reweight_arrays(const Array<double>& log_likelihood,
+                                                  const Array<double>& proposed,
                                                   const Array<double>& previous, const Array<double>& drift,
                                                   const Array<double>& scale, const Array<double>& mean,
                                                   const Array<double>& root, double share) {
@@ -50,13 +52,16 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
 void define_fuse(py::module_& m) {
     m.def("resample", resample_arrays, py::arg("weights"), py::arg("offset"),
           "Systematic resampling: N indices, ascending, drawn by one comb shifted by offset in [0, 1).");
-    m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"), py::arg("noise"),
-          py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"), py::arg("upper"),
-          "Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); the first floor(share N) "
+    m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
+          py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
+          py::arg("upper"),
+          "Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); the first "
+          "floor(share N) "
           "have their position from N(mean, root root^T) instead; all clamped to [lower, upper].");
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),
           py::arg("drift"), py::arg("scale"), py::arg("mean"), py::arg("root"), py::arg("share"),
-          "Weights (N,) of proposed particles, equation (2), with sum 1, and the log of their mean before normalising.");
+          "Weights (N,) of proposed particles, equation (2), with sum 1, and the log of their mean before "
+          "normalising.");
     m.def("summarize", summarize_arrays, py::arg("particles"), py::arg("weights"),
           "Expected value (D,), covariance (D, D) and effective sample size of weighted particles (N, D).");
 }

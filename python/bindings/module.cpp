@@ -8,7 +8,9 @@ void define_skin(pybind11::module_& m);
 }  // namespace tricue::bindings
 
 PYBIND11_MODULE(_core, m) {
-    m.doc() = "tricue's native kernels: arrays in, arrays out, no state. Their NumPy twins are in tricue.reference.";
+    m.doc() =
+        "tricue's native kernels: arrays in, arrays out, no state. Their NumPy twins are in "
+        "tricue.reference.";
     tricue::bindings::define_color(m);
     tricue::bindings::define_skin(m);
     tricue::bindings::define_fuse(m);

@@ -67,7 +67,9 @@ def test_moments_of_the_detection(kernels: Kernels) -> None:
 
 
 def test_the_detected_are_spread_evenly(kernels: Kernels) -> None:
-    """floor(share N) particles are detected, no two gaps between them differ by more than one, the rest is as without."""
+    """floor(share N) particles are detected, no two gaps between them differ by more than one, the rest is as
+    without.
+    """
     arguments = case(100, share=0.23)
     mixed, dynamics = kernels.propose(**arguments), kernels.propose(**arguments | {"share": 0.0})
     detected = np.flatnonzero(np.any(mixed[:, :2] != dynamics[:, :2], axis=1))

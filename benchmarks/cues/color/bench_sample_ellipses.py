@@ -29,7 +29,9 @@ def script(image: Image, ellipses: Floats, pattern: Floats) -> Image:
     ids=["native", "reference", "peer"],
 )
 def bench_sample_ellipses(benchmark: Any, sample_ellipses: Callable[..., Any], frame: Image) -> None:
-    """Twins read the same pixels; remap's places are rounded to 1/32 of a pixel, so it differs where they are near an edge."""
+    """Twins read the same pixels; remap's places are rounded to 1/32 of a pixel, so it differs where they are
+    near an edge.
+    """
     rng = np.random.default_rng(0)
     ellipses = rng.normal([160, 120, 25, 31], [20, 20, 1, 1], (100, 4))
     pattern = grid(12, 12)

@@ -10,8 +10,8 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void cells(const std::uint8_t* blue, const std::uint8_t* green, const std::uint8_t* red, std::ptrdiff_t n, int bits,
-           std::int32_t* __restrict out) {
+void cells(const std::uint8_t* blue, const std::uint8_t* green, const std::uint8_t* red, std::ptrdiff_t n,
+           int bits, std::int32_t* __restrict out) {
     const int shift = 8 - bits;
     for (std::ptrdiff_t k = 0; k < n; ++k)
         out[k] = (((blue[k] >> shift) << bits | (green[k] >> shift)) << bits) | (red[k] >> shift);

@@ -14,8 +14,8 @@ using Offsets = std::vector<std::int32_t>;
 
 /// The places of one ellipse as byte offsets into the image. Clamping comes first, so truncation is the floor.
 TRICUE_MULTIVERSION
-void place(const float* __restrict u, const float* __restrict v, std::ptrdiff_t n, const double* ellipse, int cols, int rows,
-           std::int32_t stride, std::int32_t* __restrict offsets) {
+void place(const float* __restrict u, const float* __restrict v, std::ptrdiff_t n, const double* ellipse,
+           int cols, int rows, std::int32_t stride, std::int32_t* __restrict offsets) {
     const auto x = static_cast<float>(ellipse[0]), y = static_cast<float>(ellipse[1]);
     const auto minor = static_cast<float>(ellipse[2]), major = static_cast<float>(ellipse[3]);
     const auto right = static_cast<float>(cols - 1), bottom = static_cast<float>(rows - 1);
@@ -50,8 +50,8 @@ void sample_ellipses(const ImageView& image, StatesRef ellipses, StatesRef patte
     const Eigen::ArrayXf u = pattern.col(0).cast<float>(), v = pattern.col(1).cast<float>();
     Offsets offsets(static_cast<std::size_t>(n));
     for (Eigen::Index i = 0; i < ellipses.rows(); ++i) {
-        place(u.data(), v.data(), n, ellipses.data() + 4 * i, image.cols, image.rows, static_cast<std::int32_t>(image.stride),
-              offsets.data());
+        place(u.data(), v.data(), n, ellipses.data() + 4 * i, image.cols, image.rows,
+              static_cast<std::int32_t>(image.stride), offsets.data());
         read(image.data, offsets, samples + 3 * n * i);
     }
 }

@@ -28,7 +28,9 @@ class Curve:
 
 
 def summarize(curves: Sequence[Curve]) -> str:
-    """Markdown: a line per model with the mean error ± its spread over runs, and the shares of frames lost and well overlapped."""
+    """Markdown: a line per model with the mean error ± its spread over runs, and the shares of frames lost
+    and well overlapped.
+    """
     lines = [
         "| model | mean error px | frames > 25 px off | frames IoU > 0.5 | runs |",
         "| --- | --- | --- | --- | --- |",

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What users would take instead: OpenCV's trackers, a scripted particle filter, and a box that never moves.
 
-All run in the same loop as tricue's trackers. Where a peer reports failure its last box stands, and the status is LOST.
+All run in the same loop as tricue's trackers. Where a peer reports failure its last box stands, and the
+status is LOST.
 """
 
 from collections.abc import Callable
@@ -143,7 +144,9 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
 
 
 def available() -> dict[str, Callable[[int], Any]]:
-    """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which most don't need."""
+    """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which most don't
+    need.
+    """
 
     def opencv(make: Callable[[], Any]) -> Callable[[int], Any]:
         return lambda seed: OpenCvTracker(make)
@@ -152,6 +155,6 @@ def available() -> dict[str, Callable[[int], Any]]:
         **{name: opencv(make) for name, make in _opencv_makers().items()},
         "CamShift": lambda seed: HueShift(cv2.CamShift),
         "meanShift": lambda seed: HueShift(cv2.meanShift),
-        "script-pf": lambda seed: ScriptedParticleFilter(seed),
+        "script-pf": ScriptedParticleFilter,
         "still-box": lambda seed: StillBox(),
     }

@@ -51,7 +51,9 @@ def _particles(observation: str, **parameters: Any) -> Callable[..., Contender]:
 
 
 def _alone(observation: str, likelihood: str = "exponential") -> Callable[..., Contender]:
-    """An observation model by itself, without the color contrast that the tracker adds to all of them by default."""
+    """An observation model by itself, without the color contrast that the tracker adds to all of them by
+    default.
+    """
     return _particles(observation, likelihood=likelihood, color_weight=0.0)
 
 
@@ -88,15 +90,17 @@ EXPERIMENTS = {
 def run(
     name: str,
     seeds: int = 20,
-    output: Path = Path("."),
+    output: Path = Path(),
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
     models: Models | None = None,
 ) -> Report:
-    """Run an experiment on every scene from ``seeds`` seeds and write ``output/NAME.png`` and ``.csv``, a line per frame.
+    """Run an experiment on every scene from ``seeds`` seeds and write ``output/NAME.png`` and ``.csv``, a
+    line per frame.
 
-    ``progress(done, total)`` is called after each scene, ``jobs`` scenes run at once. ``models`` takes the place of the paper's.
-    ValueError for an unknown name, ImportError that names the extra where scikit-image or matplotlib is missing.
+    ``progress(done, total)`` is called after each scene, ``jobs`` scenes run at once. ``models`` takes the
+    place of the paper's. ValueError for an unknown name, ImportError that names the extra where scikit-image
+    or matplotlib is missing.
     """
     if name not in EXPERIMENTS:
         raise ValueError(f"experiment: expected one of {', '.join(EXPERIMENTS)}, got {name!r}")

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""The receiver operating characteristic from which the threshold of the skin classifier is chosen (Sabeti 2008, III.A).
+"""The receiver operating characteristic from which the threshold of the skin classifier is chosen (Sabeti
+2008, III.A).
 
-A pixel is called skin where its score is above the threshold. Scores are integers in a known range (the skin boundary (10) times
-255 lies in [-255, 255]), so two histograms hold the whole curve exactly, however many images there are.
+A pixel is called skin where its score is above the threshold. Scores are integers in a known range (the skin
+boundary (10) times 255 lies in [-255, 255]), so two histograms hold the whole curve exactly, however many
+images there are.
 """
 
 from collections.abc import Iterable
@@ -19,7 +21,9 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Roc:
-    """A curve from (0, 0) to (1, 1), a point per threshold, thresholds falling: three float64 arrays of one length."""
+    """A curve from (0, 0) to (1, 1), a point per threshold, thresholds falling: three float64 arrays of one
+    length.
+    """
 
     fpr: NDArray[np.float64]
     """Share of the negatives above the threshold."""
@@ -33,7 +37,9 @@ class Roc:
         return float(np.sum(np.diff(self.fpr) * (self.tpr[1:] + self.tpr[:-1]) / 2))
 
     def at_false_positive_rate(self, rate: float) -> tuple[float, float]:
-        """The lowest threshold whose false-positive rate is at most ``rate``, and the true-positive rate there."""
+        """The lowest threshold whose false-positive rate is at most ``rate``, and the true-positive rate
+        there.
+        """
         if not 0.0 <= rate <= 1.0:
             raise ValueError(f"rate: expected a number in [0, 1], got {rate}")
         last = int(np.searchsorted(self.fpr, rate, side="right")) - 1
@@ -41,7 +47,9 @@ class Roc:
 
 
 def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]], low: int = -255, high: int = 255) -> Roc:
-    """The curve over pairs of an integer score map, values in [low, high], and a boolean mask of the same shape."""
+    """The curve over pairs of an integer score map, values in [low, high], and a boolean mask of the same
+    shape.
+    """
     counts = np.zeros((2, high - low + 1), dtype=np.int64)
     for scores, mask in pairs:
         counts += _histograms(scores, mask, low, high)
@@ -60,8 +68,9 @@ def skin_roc(
 ) -> Roc:
     """The curve of the skin classifier (10), thresholds on Δ in [-1, 1].
 
-    ``reference`` is the (3,) BGR color (3) for all images. Without it every image has its own, from its own skin pixels: the best that
-    a patch taken from the target can give. Images without skin are then left out, as they have no such patch.
+    ``reference`` is the (3,) BGR color (3) for all images. Without it every image has its own, from its own
+    skin pixels: the best that a patch taken from the target can give. Images without skin are then left out,
+    as they have no such patch.
     """
     curve = roc(_scored(images, masks, reference, kernel_set))
     return Roc(curve.fpr, curve.tpr, curve.thresholds / 255.0)

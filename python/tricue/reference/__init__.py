@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""The kernels in NumPy: slow and obvious, they read like the papers and say what the native kernels must compute."""
+"""The kernels in NumPy: slow and obvious, they read like the papers and say what the native kernels must
+compute.
+"""
 
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.color_histogram import color_histogram

@@ -13,7 +13,9 @@ State = TypeVar("State")
 
 
 def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArray[np.uint8]:
-    """The frame's BGR image, (H, W, 3). ValueError for a grey one, or for another shape than the first frame's."""
+    """The frame's BGR image, (H, W, 3). ValueError for a grey one, or for another shape than the first
+    frame's.
+    """
     channels = as_frame(frame)
     channels.require("color")
     image: Any = channels.color
@@ -27,10 +29,14 @@ def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArr
 
 
 def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
-    """The box itself; ValueError where no part of it is in the image, or it is under 2 pixels wide or high."""
+    """The box itself; ValueError where no part of it is in the image, or it is under 2 pixels wide or
+    high.
+    """
     height, width = image.shape[:2]
     if box.clip(width, height).area <= 0:
-        raise ValueError(f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}")
+        raise ValueError(
+            f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}"
+        )
     if min(box.width, box.height) < 2:
         raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     return box

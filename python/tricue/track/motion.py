@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How an ellipse moves: equation (30) with the velocity in its mean, and a size that returns to what it usually is."""
+"""How an ellipse moves: equation (30) with the velocity in its mean, and a size that returns to what it
+usually is.
+"""
 
 from typing import NamedTuple
 
@@ -79,7 +81,9 @@ class Motion(NamedTuple):
 
 
 def size_mixing(p: ColorParticleParams) -> Floats:
-    """(4, 4) for white noise from the right: makes the two semi-axes grow together, but for the noise of their ratio."""
+    """(4, 4) for white noise from the right: makes the two semi-axes grow together, but for the noise of
+    their ratio.
+    """
     variance = p.size_noise**2 + p.aspect_noise**2
     common = p.size_noise**2 / variance if variance > 0 else 0.0
     mixing = np.eye(4)

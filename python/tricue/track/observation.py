@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""What particles are compared by: the six observation models of the color particle tracker, behind one small Protocol.
+"""What particles are compared by: the six observation models of the color particle tracker, behind one small
+Protocol.
 
 An observation sees samples only: ``inside`` (N, 3, n) on the window's grid and ``ring`` (N, 3, m) round it.
 """
@@ -21,6 +22,7 @@ class Observation(Protocol):
 
     sharpness: float
     """What suits the exponential likelihood exp(-sharpness d²), by experiment."""
+
     def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
         """Blend the look of the first window into the model; rate 1 starts it."""
 
@@ -28,7 +30,9 @@ class Observation(Protocol):
         """(N,) distances in [0, 1]."""
 
     def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        """How surely the first window shows the target, in [0, 1]; about 0 for a window that has nothing to do with it."""
+        """How surely the first window shows the target, in [0, 1]; about 0 for a window that has nothing to
+        do with it.
+        """
 
 
 def blend(old: Floats | None, new: Floats, rate: float) -> Floats:
@@ -37,12 +41,16 @@ def blend(old: Floats | None, new: Floats, rate: float) -> Floats:
 
 
 def likeness(model: Observation, k: Kernels, inside: Samples, ring: Samples, unrelated: float) -> float:
-    """1 minus the first window's distance, in units of about the distance of a window that doesn't show the target."""
+    """1 minus the first window's distance, in units of about the distance of a window that doesn't show the
+    target.
+    """
     return max(1 - float(model.distance(k, inside[:1], ring[:1])[0]) / unrelated, 0.0)
 
 
 class RankSpatial:
-    """The order of corresponding pixels: what section III.B argues for in words. Keeps the first frame's map beside the model."""
+    """The order of corresponding pixels: what section III.B argues for in words. Keeps the first frame's map
+    beside the model.
+    """
 
     sharpness = 110.0
 
@@ -63,7 +71,9 @@ class RankSpatial:
         return np.sqrt(distances @ self.weights)
 
     def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        """Spearman's rank correlation with the model: a window without structure has none, unlike its distance."""
+        """Spearman's rank correlation with the model: a window without structure has none, unlike its
+        distance.
+        """
         ranks, model = k.color_ranks(inside[:1])[0] - 0.5, self.maps[0] - 0.5
         scale = float(np.vdot(ranks, ranks)) * float(np.vdot(model, model))
         return max(float(np.vdot(ranks, model)) / scale**0.5, 0.0) if scale > 0 else 0.0

@@ -28,7 +28,9 @@ def test_twin_ranks_the_same(samples: Image) -> None:
 
 @pytest.mark.parametrize("n", [1, 2, 63, 254, 255, 256, 257, 1000])
 def test_agrees_with_scipy(kernels: Kernels, n: int) -> None:
-    """scipy's average ranks are ours but for their origin; below and above 255 samples, where the native way changes."""
+    """scipy's average ranks are ours but for their origin; below and above 255 samples, where the native
+    way changes.
+    """
     samples = np.random.default_rng(n).normal(120, 30, (4, 3, n)).clip(0, 255).astype(np.uint8)
     ranks = kernels.color_ranks(samples)
     assert ranks.dtype == np.float32
@@ -38,13 +40,17 @@ def test_agrees_with_scipy(kernels: Kernels, n: int) -> None:
 @pytest.mark.parametrize("level", [0, 255])
 @pytest.mark.parametrize("n", [255, 256])
 def test_a_flat_window_has_one_rank(kernels: Kernels, level: int, n: int) -> None:
-    """All samples alike rank in the middle, in the first level and in the last, as full as a count can get."""
+    """All samples alike rank in the middle, in the first level and in the last, as full as a count can
+    get.
+    """
     assert_array_equal(kernels.color_ranks(np.full((1, 3, n), level, np.uint8)), 0.5)
 
 
 @given(few.filter(len), arrays(np.int32, 256, elements=st.integers(1, 1000)))
 def test_increasing_changes_keep_every_rank(samples: Image, steps: NDArray[np.int32]) -> None:
-    """Any strictly increasing change of a channel leaves the ranks as they are, bit for bit (levels that occur stay apart)."""
+    """Any strictly increasing change of a channel leaves the ranks as they are, bit for bit (levels that
+    occur stay apart).
+    """
     levels = np.unique(samples)
     curve = np.zeros(256, np.uint8)
     rising = np.cumsum(steps[: len(levels)]) - steps[0]

@@ -36,7 +36,9 @@ def test_twin_reads_the_same(seed: int, ellipses: int, n: int) -> None:
 
 
 def test_agrees_with_opencv(kernels: Kernels, picture: Image) -> None:
-    """OpenCV's remap with nearest neighbours and a replicated border reads the same pixels; crops with padded rows too."""
+    """OpenCV's remap with nearest neighbours and a replicated border reads the same pixels; crops with padded
+    rows too.
+    """
     if picture.size == 0:
         pytest.skip("remap takes no empty picture")
     height, width = picture.shape[:2]
@@ -97,7 +99,9 @@ def test_refuses_an_empty_image(kernels: Kernels) -> None:
 def test_native_refuses_other_images() -> None:
     """Another type, shape or layout is named, not converted."""
     grey = np.zeros((6, 8), np.uint8)
-    with pytest.raises(ValueError, match=r"image: expected a uint8 BGR image \(H, W, 3\), got uint8 \(6, 8\)"):
+    with pytest.raises(
+        ValueError, match=r"image: expected a uint8 BGR image \(H, W, 3\), got uint8 \(6, 8\)"
+    ):
         _core.sample_ellipses(grey, ONE, CENTER)
     with pytest.raises(TypeError, match="image: expected a uint8 BGR image"):
         _core.sample_ellipses(np.zeros((6, 8, 3), np.float32), ONE, CENTER)

@@ -8,7 +8,9 @@ from tricue.reference.checks import refuse
 
 
 def color_ranks(samples: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """(N, 3, n) ranks in (0, 1): (samples below + half of those equal) / n, within each ellipse and channel."""
+    """(N, 3, n) ranks in (0, 1): (samples below + half of those equal) / n, within each ellipse and
+    channel.
+    """
     n = samples.shape[2]
     if n < 1:
         refuse("samples", "at least one an ellipse", "none")

@@ -10,7 +10,9 @@ from tricue.reference.checks import refuse, require_finite, require_shape
 def sample_ellipses(
     image: NDArray[np.uint8], ellipses: NDArray[np.float64], pattern: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """(N, 3, n): for each ellipse (x, y, minor, major) the pixels at (x + minor u, y + major v), clamped to the image."""
+    """(N, 3, n): for each ellipse (x, y, minor, major) the pixels at (x + minor u, y + major v), clamped to
+    the image.
+    """
     require_shape("ellipses", ellipses, (len(ellipses), 4))
     require_shape("pattern", pattern, (len(pattern), 2))
     height, width = image.shape[:2]
