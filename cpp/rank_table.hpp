@@ -29,10 +29,12 @@ inline void rank_table(const std::uint8_t* samples, std::size_t n, RankTable<Cou
 
     alignas(64) Count own[256];
     for (std::size_t level = 0; level < 256; ++level)
-        own[level] = static_cast<Count>(counts[0][level] + counts[1][level] + counts[2][level] + counts[3][level]);
+        own[level] =
+            static_cast<Count>(counts[0][level] + counts[1][level] + counts[2][level] + counts[3][level]);
     // A word holds several counts, and one multiplication sums them up. None overflows into the next, being at most 2n.
     constexpr std::size_t kCounts = sizeof(std::uint64_t) / sizeof(Count);
-    constexpr std::uint64_t kOnes = std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
+    constexpr std::uint64_t kOnes =
+        std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
     std::uint64_t before = 0;
     for (std::size_t level = 0; level < 256; level += kCounts) {
         std::uint64_t word;

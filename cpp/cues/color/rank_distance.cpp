@@ -23,15 +23,16 @@ inline std::int64_t difference(const Count* __restrict a, const Count* __restric
 
 /// Adds the differences between the samples of one ellipse and each of the models (M x 3n) to the M sums.
 template <typename Count>
-TRICUE_MULTIVERSION void compare(const SampleView& samples, std::ptrdiff_t ellipse, const Count* models, std::ptrdiff_t M,
-                                 Count* ranks, std::int64_t* sums) {
+TRICUE_MULTIVERSION void compare(const SampleView& samples, std::ptrdiff_t ellipse, const Count* models,
+                                 std::ptrdiff_t M, Count* ranks, std::int64_t* sums) {
     const auto n = static_cast<std::size_t>(samples.n);
     RankTable<Count> table;
     for (int channel = 0; channel < 3; ++channel) {
         const std::uint8_t* plane = samples.plane(ellipse, channel);
         rank_table(plane, n, table);
         for (std::size_t k = 0; k < n; ++k) ranks[k] = table[plane[k]];
-        for (std::ptrdiff_t m = 0; m < M; ++m) sums[m] += difference(ranks, models + (3 * m + channel) * samples.n, n);
+        for (std::ptrdiff_t m = 0; m < M; ++m)
+            sums[m] += difference(ranks, models + (3 * m + channel) * samples.n, n);
     }
 }
 
@@ -55,14 +56,16 @@ States rank_distance(const SampleView& samples, FloatsRef models) {
     if (samples.n < 1) refuse("samples", "at least one an ellipse", "none");
     const auto n = static_cast<std::size_t>(samples.n);
     if (models.cols() != 3 * samples.n)
-        refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples", std::to_string(models.cols()));
+        refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples",
+               std::to_string(models.cols()));
 
     Sums sums = Sums::Zero(samples.ellipses, models.rows());
     with_count_for(n, [&](auto count) {
         const auto expected = rounded<decltype(count)>(models, n);
         std::vector<decltype(count)> ranks(n);
         for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
-            compare(samples, i, expected.data(), models.rows(), ranks.data(), sums.data() + i * models.rows());
+            compare(samples, i, expected.data(), models.rows(), ranks.data(),
+                    sums.data() + i * models.rows());
     });
     const auto size = static_cast<double>(n);
     return sums.cast<double>() / (3.0 * size * size);

@@ -36,7 +36,9 @@ class Appearance:
 
     def look(self, k: Kernels, image: Image, ellipses: Floats) -> Look:
         """Read the windows of N ellipses."""
-        return Look(k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring))
+        return Look(
+            k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
+        )
 
     def log_likelihood(self, k: Kernels, look: Look) -> Floats:
         """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
@@ -53,7 +55,9 @@ class Appearance:
         """How surely the first window shows the target, in [0, 1]."""
         return self.model.recognition(k, *look)
 
-    def learn(self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float) -> None:
+    def learn(
+        self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float
+    ) -> None:
         """Blend the window of one ellipse (1, 4) into the models; rates of 1 start them."""
         self.model.learn(k, *look, rate)
         if self.contrast:

@@ -34,7 +34,8 @@ class ColorContrast:
     def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> None:
         """Blend the colors in and round the ellipse (1, 4) into the histograms; a rate of 1 starts them."""
         target, surround = (
-            k.joint_histogram(k.sample_ellipses(image, ellipse, places), BINS)[0] for places in (TARGET, SURROUND)
+            k.joint_histogram(k.sample_ellipses(image, ellipse, places), BINS)[0]
+            for places in (TARGET, SURROUND)
         )
         if rate < 1:
             target, surround = blend(self.target, target, rate), blend(self.surround, surround, rate)

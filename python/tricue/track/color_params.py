@@ -20,17 +20,31 @@ class ColorParticleParams(Params):
         "rank-spatial", unit="-", source="section III.B", doc="what particles are compared by"
     )
     likelihood: Literal["linear", "exponential"] = parameter(
-        "exponential", unit="-", source="(18) is the linear form; " + OURS, doc="1 - d, or exp(-sharpness d^2)"
+        "exponential",
+        unit="-",
+        source="(18) is the linear form; " + OURS,
+        doc="1 - d, or exp(-sharpness d^2)",
     )
     sharpness: float | None = parameter(
         None, unit="nats", source=OURS, above=0, doc="of the exponential form; None: the observation's own"
     )
     grid: tuple[int, int] = parameter(
-        (12, 10), unit="samples", source=OURS, low=2, high=64, doc="rows, columns of the samples in the window"
+        (12, 10),
+        unit="samples",
+        source=OURS,
+        low=2,
+        high=64,
+        doc="rows, columns of the samples in the window",
     )
-    grid_reach: float = parameter(1.0, unit="semi-axes", source=OURS, above=0, high=4, doc="half side of that grid")
+    grid_reach: float = parameter(
+        1.0, unit="semi-axes", source=OURS, above=0, high=4, doc="half side of that grid"
+    )
     color_weight: float = parameter(
-        35.0, unit="nats", source=OURS, low=0, doc="of target against surround colors in the likelihood; 0: off"
+        35.0,
+        unit="nats",
+        source=OURS,
+        low=0,
+        doc="of target against surround colors in the likelihood; 0: off",
     )
     ring: tuple[float, float] = parameter(
         (1.3, 1.8), unit="semi-axes", source=OURS, low=1, high=8, doc="the surround: inner, outer radius"
@@ -38,36 +52,70 @@ class ColorParticleParams(Params):
     ring_samples: int = parameter(48, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
 
     skin_threshold: float = parameter(
-        0.45, unit="of 255 levels", source="(10); ROC", low=-1, high=1, doc="skin where the boundary value is above"
+        0.45,
+        unit="of 255 levels",
+        source="(10); ROC",
+        low=-1,
+        high=1,
+        doc="skin where the boundary value is above",
     )
     skin_share: float = parameter(
-        0.1, unit="of particles", source="section III.A; " + OURS, low=0, below=1, doc="drawn from the skin's Gaussian"
+        0.1,
+        unit="of particles",
+        source="section III.A; " + OURS,
+        low=0,
+        below=1,
+        doc="drawn from the skin's Gaussian",
     )
-    reach: float = parameter(40.0, unit="pixels", source="section V", low=0, doc="how far particles go in a frame,")
+    reach: float = parameter(
+        40.0, unit="pixels", source="section V", low=0, doc="how far particles go in a frame,"
+    )
     reach_sizes: float = parameter(1.0, unit="target", source=OURS, low=0, doc="or this, whichever is more")
 
-    velocity_rate: float = parameter(0.35, unit="-", source=OURS, low=0, high=1, doc="smoothing of the velocity; 1: none")
+    velocity_rate: float = parameter(
+        0.35, unit="-", source=OURS, low=0, high=1, doc="smoothing of the velocity; 1: none"
+    )
     position_noise: float = parameter(0.05, unit="target", source="K0 of (30); " + OURS, low=0)
     velocity_noise: float = parameter(0.6, unit="of |v|", source="K of (30); " + OURS, low=0)
     size_noise: float = parameter(0.02, unit="of the size", source=OURS, low=0)
     aspect_noise: float = parameter(0.004, unit="of the size", source=OURS, low=0)
     size_pull: float = parameter(
-        0.06, unit="per frame", source=OURS, low=0, high=1, doc="back to the remembered size; holds it in occlusions"
+        0.06,
+        unit="per frame",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="back to the remembered size; holds it in occlusions",
     )
-    size_memory: float = parameter(0.008, unit="per frame", source=OURS, low=0, high=1, doc="rate of that memory")
+    size_memory: float = parameter(
+        0.008, unit="per frame", source=OURS, low=0, high=1, doc="rate of that memory"
+    )
     size_range: tuple[float, float] = parameter(
         (0.3, 4.0), unit="of the first size", source=OURS, above=0, doc="smallest and largest size"
     )
 
     resample_below: float = parameter(
-        0.5, unit="of particles", source="Doucet et al. 2001", low=0, high=1, doc="effective sample size that resamples"
+        0.5,
+        unit="of particles",
+        source="Doucet et al. 2001",
+        low=0,
+        high=1,
+        doc="effective sample size that resamples",
     )
     surprise: float = parameter(
-        4.0, unit="nats", source=OURS, low=0, doc="log-likelihood under its usual value that starts a wider sweep"
+        4.0,
+        unit="nats",
+        source=OURS,
+        low=0,
+        doc="log-likelihood under its usual value that starts a wider sweep",
     )
-    sweep: float = parameter(0.35, unit="target", source=OURS, above=0, doc="standard deviation of that sweep")
+    sweep: float = parameter(
+        0.35, unit="target", source=OURS, above=0, doc="standard deviation of that sweep"
+    )
 
-    learning_rate: float = parameter(0.14, unit="per frame", source=OURS, low=0, high=1, doc="of the observation's model")
+    learning_rate: float = parameter(
+        0.14, unit="per frame", source=OURS, low=0, high=1, doc="of the observation's model"
+    )
     color_rate: float = parameter(0.04, unit="per frame", source=OURS, low=0, high=1, doc="of the colors")
     anchor: float = parameter(
         0.25, unit="-", source=OURS, low=0, high=1, doc="weight of the first frame's rank map in the distance"
@@ -75,6 +123,12 @@ class ColorParticleParams(Params):
     learn_above: float = parameter(
         0.3, unit="score", source="section III.C", low=0, high=1, doc="no learning under this score"
     )
-    lost_below: float = parameter(0.3, unit="score", source=OURS, low=0, high=1, doc="a frame under it counts as missed")
-    lost_after: int = parameter(5, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST")
-    found_above: float = parameter(0.7, unit="score", source=OURS, low=0, high=1, doc="that ends the search of a lost target")
+    lost_below: float = parameter(
+        0.3, unit="score", source=OURS, low=0, high=1, doc="a frame under it counts as missed"
+    )
+    lost_after: int = parameter(
+        5, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
+    )
+    found_above: float = parameter(
+        0.7, unit="score", source=OURS, low=0, high=1, doc="that ends the search of a lost target"
+    )

@@ -92,7 +92,9 @@ class ColorParticleTracker:
         """Start, or start again, on the target in ``box``: (x, y, width, height), pixels, at least partly in the image."""
         image = lifecycle.color_image(frame)
         if box is None:
-            raise ValueError("box: expected (x, y, width, height); the color particle tracker can't start without one")
+            raise ValueError(
+                "box: expected (x, y, width, height); the color particle tracker can't start without one"
+            )
         k, ellipse = self._k, lifecycle.box_in(as_box(box), image).ellipse
         self._rng = np.random.default_rng(self.seed)
         appearance, window = Appearance(self.params), np.array([ellipse])
@@ -202,7 +204,13 @@ class ColorParticleTracker:
 
     def _track(self, state: State) -> Track:
         missed = state.missed
-        status = Status.TRACKED if missed == 0 else Status.LOST if missed >= self.params.lost_after else Status.OCCLUDED
+        status = (
+            Status.TRACKED
+            if missed == 0
+            else Status.LOST
+            if missed >= self.params.lost_after
+            else Status.OCCLUDED
+        )
         box = Box.from_ellipse(*state.motion.ellipse)
         return Track(box, state.score, status)
 

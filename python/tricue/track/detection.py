@@ -38,7 +38,12 @@ def reference_color(k: Kernels, image: Image, ellipse: Ellipse) -> Image:
 
 
 def detect(
-    k: Kernels, image: Image, reference: Image, ellipse: Ellipse, prediction: Prediction, p: ColorParticleParams
+    k: Kernels,
+    image: Image,
+    reference: Image,
+    ellipse: Ellipse,
+    prediction: Prediction,
+    p: ColorParticleParams,
 ) -> Detection:
     """The Gaussian of the skin pixels, (11)-(16), in the part of the image that particles and their target can reach."""
     if p.skin_share == 0:
@@ -57,7 +62,12 @@ def detect(
 
 
 def candidates(
-    k: Kernels, image: Image, reference: Image, motion: Motion, p: ColorParticleParams, rng: np.random.Generator
+    k: Kernels,
+    image: Image,
+    reference: Image,
+    motion: Motion,
+    p: ColorParticleParams,
+    rng: np.random.Generator,
 ) -> Floats:
     """(2 particles, 4): where to look for a lost target: half of them at blobs of its color, half anywhere in the frame.
 
