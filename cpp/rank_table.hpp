@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "camera/sample_view.hpp"
+
 namespace tricue {
 
 /// Twice the mid-rank of every level as a count, samples below the level + samples up to it: from 0 to 2n, a whole number.
@@ -17,33 +19,48 @@ using RankTable = std::array<Count, 256>;
 template <typename Count>
 constexpr std::size_t kMostSamples = std::numeric_limits<Count>::max() / 2;
 
-/// The table of n <= kMostSamples<Count> samples of one channel.
+/// The tables of the three channels of one ellipse, n <= kMostSamples<Count>.
+///
+/// Each step is done for all channels before the next: a vector load has to wait for the narrow stores before it, and that
+/// wait then goes into the other channels' work.
 template <typename Count>
-inline void rank_table(const std::uint8_t* samples, std::size_t n, RankTable<Count>& table) {
-    // Neighbouring pixels are alike: several histograms, so that a count needn't wait for the one just written.
-    alignas(64) Count counts[4][256] = {};
-    std::size_t k = 0;
-    for (; k + 4 <= n; k += 4)
-        for (std::size_t lane = 0; lane < 4; ++lane) ++counts[lane][samples[k + lane]];
-    for (; k < n; ++k) ++counts[0][samples[k]];
+inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse, std::array<RankTable<Count>, 3>& tables) {
+    // Neighbouring pixels are alike: two histograms a channel, so that a count needn't wait for the one just written.
+    alignas(64) Count counts[3][2][256] = {};
+    const std::uint8_t* plane[] = {samples.plane(ellipse, 0), samples.plane(ellipse, 1), samples.plane(ellipse, 2)};
+    const std::ptrdiff_t even = samples.n & ~std::ptrdiff_t{1};
+    for (std::ptrdiff_t k = 0; k < even; k += 2)
+        for (int channel = 0; channel < 3; ++channel)
+            for (int lane = 0; lane < 2; ++lane) ++counts[channel][lane][plane[channel][k + lane]];
+    if (even < samples.n)
+        for (int channel = 0; channel < 3; ++channel) ++counts[channel][0][plane[channel][even]];
 
-    alignas(64) Count own[256];
-    for (std::size_t level = 0; level < 256; ++level)
-        own[level] =
-            static_cast<Count>(counts[0][level] + counts[1][level] + counts[2][level] + counts[3][level]);
     // A word holds several counts, and one multiplication sums them up. None overflows into the next, being at most 2n.
-    constexpr std::size_t kCounts = sizeof(std::uint64_t) / sizeof(Count);
-    constexpr std::uint64_t kOnes =
-        std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
-    std::uint64_t before = 0;
-    for (std::size_t level = 0; level < 256; level += kCounts) {
-        std::uint64_t word;
-        std::memcpy(&word, own + level, sizeof word);
-        const std::uint64_t up_to = word * kOnes;
-        const std::uint64_t twice = 2 * (up_to + before * kOnes) - word;
-        before += up_to >> (64 - 8 * sizeof(Count));
-        std::memcpy(table.data() + level, &twice, sizeof twice);
+    constexpr int kCounts = sizeof(std::uint64_t) / sizeof(Count), kWords = 256 / kCounts;
+    constexpr std::uint64_t kOnes = std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
+    std::uint64_t own[3][kWords], up_to[3][kWords], before[3][kWords];
+    for (int channel = 0; channel < 3; ++channel)
+        for (int word = 0; word < kWords; ++word) {
+            std::uint64_t lane[2];
+            std::memcpy(&lane[0], &counts[channel][0][kCounts * word], sizeof lane[0]);
+            std::memcpy(&lane[1], &counts[channel][1][kCounts * word], sizeof lane[1]);
+            own[channel][word] = lane[0] + lane[1];
+            up_to[channel][word] = own[channel][word] * kOnes;
+        }
+    for (int channel = 0; channel < 3; ++channel) {
+        std::uint64_t sum = 0;
+        for (int word = 0; word < kWords; ++word) {
+            before[channel][word] = sum;
+            sum += up_to[channel][word] >> (64 - 8 * sizeof(Count));
+        }
     }
+    for (int channel = 0; channel < 3; ++channel)
+        for (int word = 0; word < kWords; ++word) {
+            const std::uint64_t total = up_to[channel][word] + before[channel][word] * kOnes;
+            const std::uint64_t twice = 2 * total - own[channel][word];
+            std::memcpy(&tables[static_cast<std::size_t>(channel)][static_cast<std::size_t>(kCounts * word)], &twice,
+                        sizeof twice);
+        }
 }
 
 /// Calls `use` with a 0 of the smallest type that counts n samples.

@@ -22,7 +22,7 @@ Image = NDArray[np.uint8]
 
 USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
 LEAST = 1e-300  # what a weight of 0 counts as, in the logarithm
-AS_EVER = 2.0  # surprises: how much worse than usual a lost target may look when it is taken up again
+AS_EVER = 0.8  # surprises: how much worse than usual a lost target may look when it is taken up again
 
 
 class Swarm(NamedTuple):
@@ -81,6 +81,7 @@ class ColorParticleTracker:
         self._k = kernel_sets.load(kernels)
         self._rng = np.random.default_rng(seed)
         self._mixing = size_mixing(self.params)
+        self._uniform = np.full(self.params.particles, 1 / self.params.particles)
         self._state: State | None = None
 
     @property
@@ -145,7 +146,8 @@ class ColorParticleTracker:
         noise = self._rng.standard_normal(particles.shape) @ self._mixing
         moved = k.propose(particles, drift, scale, noise, *detection, lower, upper)
         likelihood = appearance.log_likelihood(k, appearance.look(k, image, moved))
-        likelihood += np.log(np.maximum(weights, LEAST))
+        if weights is not self._uniform:
+            likelihood += np.log(np.maximum(weights, LEAST))
         weights, _ = k.reweight(likelihood, moved, particles, drift, scale, *detection)
         ellipse, _, effective = k.summarize(moved, weights)
         look = appearance.look(k, image, ellipse[None])
@@ -191,8 +193,7 @@ class ColorParticleTracker:
 
     def _gathered(self, ellipse: Floats) -> tuple[Floats, Floats]:
         """All particles at one place (1, 4), and their weights."""
-        n = self.params.particles
-        return np.repeat(ellipse, n, axis=0), np.full(n, 1 / n)
+        return np.repeat(ellipse, self.params.particles, axis=0), self._uniform
 
     def _resampled(self, swarm: Swarm) -> tuple[Floats, Floats]:
         """Particles and weights, by systematic resampling where too few particles carry the weight."""
@@ -200,7 +201,7 @@ class ColorParticleTracker:
         if swarm.effective >= self.params.resample_below * n:
             return swarm.particles, swarm.weights
         chosen = self._k.resample(swarm.weights, self._rng.random())
-        return swarm.particles[chosen], np.full(n, 1 / n)
+        return swarm.particles[chosen], self._uniform
 
     def _track(self, state: State) -> Track:
         missed = state.missed
