@@ -22,9 +22,7 @@ def rows(report):
 
 
 def test_table_holds_the_errors_of_the_run(tmp_path):
-    """The CSV of a box that never moves holds, frame by frame, how far the truth of each seed has gone from
-    it.
-    """
+    """The CSV of a box that never moves holds how far the truth of each seed has gone from it."""
     report = reproduce.run("sabeti-fig2", seeds=2, output=tmp_path, models=STILL)
     for seed in (0, 1):
         truth = np.array(light_change(seed).boxes)
@@ -40,9 +38,7 @@ def test_table_holds_the_errors_of_the_run(tmp_path):
 
 @pytest.mark.parametrize("name", reproduce.EXPERIMENTS)
 def test_figure_is_drawn_and_progress_is_told(name, tmp_path):
-    """Each experiment writes a figure with content, one run per scene and model, and counts its scenes up to
-    the last.
-    """
+    """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""
     told = []
     report = reproduce.run(name, 1, tmp_path, progress=lambda *done: told.append(done), models=STILL)
     scenes = reproduce.EXPERIMENTS[name].scenes
@@ -73,9 +69,7 @@ def test_summary_counts_frames():
 
 
 def test_experiments_compare_all_observation_models():
-    """Figure 1 runs the paper's four models and both forms of ranks, with the likelihood as printed and the
-    defaults too, on two backgrounds or more.
-    """
+    """Figure 1 runs all six models, both likelihoods and the defaults, on two backgrounds or more."""
     experiment = reproduce.EXPERIMENTS["sabeti-fig1"]
     keywords = [maker.keywords for maker in experiment.models.values()]
     observations = {"region", "gaussian", "lookup", "histogram", "rank-sections", "rank-spatial"}
