@@ -8,9 +8,7 @@ from tricue.camera.frame import Frame
 
 @pytest.fixture(scope="session")
 def patrol():
-    """A textured red square of 40 px that moves 2 px a frame over dim noise: 20 frames, and its true
-    boxes.
-    """
+    """A textured red square of 40 px that moves 2 px a frame over dim noise: 20 frames, true boxes."""
     rng = np.random.default_rng(1)
     ground = rng.integers(20, 60, (120, 160, 3), dtype=np.uint8)
     square = cv2.resize(rng.integers(90, 255, (6, 6, 3), dtype=np.uint8), (40, 40)) // [4, 4, 1]

@@ -21,9 +21,7 @@ def folder(patrol, tmp_path):
 
 
 def test_sequence_comes_back_as_written(folder, patrol):
-    """Frames are those written, boxes count from 0 whatever the separator, and frames past the truth have
-    NaN.
-    """
+    """Frames are those written, boxes count from 0 whatever parts them, frames past the truth have NaN."""
     (path,) = sequences.find(folder)
     sequence = sequences.load(path)
     assert sequence.name == "patrol"
@@ -33,9 +31,7 @@ def test_sequence_comes_back_as_written(folder, patrol):
 
 
 def test_comparison_scores_what_the_tracker_said(folder, patrol, tmp_path, capsys):
-    """The CSV's numbers are the metrics of the same run made by hand, and the table shows each tracker
-    once.
-    """
+    """The CSV's numbers are the metrics of the same run made by hand; the table shows each tracker once."""
     path = tmp_path / "runs.csv"
     arguments = [str(folder), "--trackers", "still-box,script-pf", "--seeds", "2", "--csv", str(path)]
     assert compare.main(arguments) == 0
@@ -84,9 +80,7 @@ def test_recorded_sequences_load(data):
 
 
 def test_peer_gets_the_published_score(data):
-    """CSRT, where cv2 has it, follows Crossing as others measured it (AUC 0.70): the loop, the truth and the
-    metric are right.
-    """
+    """CSRT follows Crossing as measured elsewhere (AUC 0.70): loop, truth and metric are right."""
     if "CSRT" not in peers.available():
         pytest.skip("this cv2 has no CSRT: opencv-contrib-python-headless has")
     row = compare.measure("CSRT", peers.available()["CSRT"], 0, sequences.load(data / "color" / "Crossing"))

@@ -27,9 +27,7 @@ def test_overlap_counts_pixels(pairs):
 
 
 def test_shifted_box_has_its_closed_form():
-    """A box moved by a fraction t of its width overlaps by (1 - t) / (1 + t), and its center is off by t
-    times the width.
-    """
+    """A box moved by a share t of its width overlaps by (1 - t) / (1 + t), its center is t widths off."""
     shift = np.array([0.0, 0.25, 0.5, 0.9, 1.0, 2.0])
     true = np.tile([10.0, 20.0, 40.0, 30.0], (6, 1))
     found = true + shift[:, None] * [40.0, 0.0, 0.0, 0.0]
@@ -40,17 +38,13 @@ def test_shifted_box_has_its_closed_form():
 
 
 def test_center_error_does_not_depend_on_size():
-    """Boxes of different size with one center have no center error, and one 3 and 4 pixels away has an error
-    of 5.
-    """
+    """Boxes of different size with one center have no center error; one 3 and 4 pixels away has 5."""
     found = [[0, 0, 10, 10], [3, 4, 10, 10]]
     np.testing.assert_allclose(metrics.center_errors(found, [[-5, -5, 20, 20]] * 2), [0, 5])
 
 
 def test_success_curve_is_strict_and_has_its_closed_form():
-    """Overlaps exactly on the thresholds count below them only, so a perfect result has AUC 20/21 and a half
-    one 10/21.
-    """
+    """An overlap on a threshold is not above it: a perfect result has AUC 20/21, a half one 10/21."""
     np.testing.assert_array_equal(metrics.success_curve([1.0]), [1.0] * 20 + [0.0])
     np.testing.assert_array_equal(metrics.success_curve([0.5]), [1.0] * 10 + [0.0] * 11)
     assert metrics.score([[0, 0, 4, 4]], [[0, 0, 4, 4]]).auc == pytest.approx(20 / 21)

@@ -26,9 +26,7 @@ class Scripted:
 
 
 def test_run_records_every_frame_in_order(patrol):
-    """The tracker gets each frame once in order, and boxes, scores, statuses and times are those of its
-    answers.
-    """
+    """The tracker gets each frame once in order; boxes, scores, statuses and times are its answers'."""
     frames, boxes = patrol
     tracker = Scripted()
     result = run(tracker, frames[:4], boxes[0])

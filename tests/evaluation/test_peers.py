@@ -13,9 +13,7 @@ MOVING = [name for name in peers.available() if name != "still-box"]
 
 @pytest.mark.parametrize("name", MOVING)
 def test_peer_follows_an_easy_target(name, patrol):
-    """Every peer that moves stays with a square that moves 38 px in 20 frames, far better than the still box
-    does.
-    """
+    """Every peer that moves stays with a square that moves 38 px in 20 frames."""
     frames, boxes = patrol
     result = run(peers.available()[name](0), frames, boxes[0])
     error = metrics.center_errors(result.boxes, np.array(boxes))

@@ -7,7 +7,7 @@ from tricue.evaluation.roc import Roc, roc
 
 
 def random_pairs(seed, count=3):
-    """Score maps and masks of random size."""
+    """Score maps that overlap between the classes, and their masks."""
     rng = np.random.default_rng(seed)
     for _ in range(count):
         mask = rng.random((9, 7)) < 0.4
@@ -28,9 +28,7 @@ def test_curve_counts_pixels_above_each_threshold(seed):
 
 @given(st.integers(0, 2**32 - 1))
 def test_area_is_the_rank_statistic(seed):
-    """The area is the share of (skin, other) pixel pairs in the right order, ties counted half
-    (Mann-Whitney).
-    """
+    """The area is the share of pairs (skin, other) in the right order, ties counted half (Mann-Whitney)."""
     pairs = list(random_pairs(seed))
     scores = np.concatenate([score.ravel() for score, _ in pairs]).astype(int)
     mask = np.concatenate([mask.ravel() for _, mask in pairs])

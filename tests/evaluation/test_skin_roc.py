@@ -21,9 +21,7 @@ PICTURES = [picture(0.3), picture(0.0), picture(0.6)]
 
 @pytest.mark.parametrize("name", ["native", "reference"])
 def test_curve_is_that_of_equation_10(name):
-    """With one reference, each point counts the pixels with max(c) - max|c - c0| above the threshold, colors
-    in [0, 1].
-    """
+    """With one reference, each point counts the pixels with max(c) - max abs(c - c0) above its threshold."""
     curve = skin_roc(*zip(*PICTURES, strict=True), SKIN_COLOR.astype(np.uint8), kernel_set=name)
     colors = np.concatenate([image.reshape(-1, 3) for image, _ in PICTURES]) / 255.0
     mask = np.concatenate([mask.ravel() for _, mask in PICTURES])
@@ -46,9 +44,7 @@ def test_own_reference_leaves_out_pictures_without_skin(name):
 
 
 def test_classifier_tells_recorded_skin_from_the_rest(data):
-    """On recorded pictures of many people the classifier is far from chance, with one reference for all and
-    with each picture's own.
-    """
+    """On recorded pictures of many people the classifier is far from chance, with either reference."""
     folder = data / "skin"
     paths = sorted((folder / "image").iterdir())
     images = [cv2.imread(str(path)) for path in paths]

@@ -29,9 +29,7 @@ def test_path_is_fast_somewhere_and_not_a_line(seed):
 
 @given(seeds)
 def test_gains_step_within_bounds(seed):
-    """Gains start at 1, stay in the range, hold for 10 frames or more, and every step is a quarter of the
-    range or more.
-    """
+    """Gains start at 1, stay in range, hold for 10 frames or more, and step by a quarter of it or more."""
     gains = motion.steps(90, 0.45, 1.3, np.random.default_rng(seed))
     moments = np.flatnonzero(np.diff(gains)) + 1
     assert gains[0] == 1

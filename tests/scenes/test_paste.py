@@ -8,9 +8,7 @@ RNG_SEED = 4
 
 
 def test_whole_positions_copy_pixels():
-    """At whole coordinates an opaque cut-out lands pixel for pixel on [x, x + w) x [y, y + h), and nowhere
-    else.
-    """
+    """At whole coordinates a cut-out lands pixel for pixel on [x, x + w) x [y, y + h), and nowhere else."""
     cutout = np.random.default_rng(RNG_SEED).uniform(30, 200, (9, 7, 3)).astype(np.float32)
     image = paste(GROUND, cutout, np.ones((9, 7), np.float32), 11, 5)
     np.testing.assert_array_equal(image[5:14, 11:18], cutout)
@@ -20,9 +18,7 @@ def test_whole_positions_copy_pixels():
 
 @pytest.mark.parametrize(("x", "y"), [(10.0, 8.0), (10.25, 8.5), (17.96875, 3.03125)])
 def test_center_of_what_was_pasted_is_the_center_of_the_box(x, y):
-    """The centroid of the added light is the center of the true box, between pixels too (to cv2's 1/32
-    pixel).
-    """
+    """The centroid of the added light is the center of the true box, between pixels too."""
     image = paste(GROUND, np.full((12, 10, 3), 120, np.float32), ellipse_mask(12, 10, 2.0), x, y)
     added = image[..., 0] - 20
     rows, columns = np.indices(added.shape) + 0.5
@@ -38,9 +34,7 @@ def test_cutout_may_reach_over_the_edge():
 
 
 def test_mask_is_an_ellipse():
-    """The opacity is 1 at the center, 0 at the corners, symmetric, and its area is that of the ellipse at
-    half opacity.
-    """
+    """The opacity is 1 at the center, 0 at the corners, symmetric; half of it bounds the ellipse."""
     mask = ellipse_mask(63, 50, 2.0)
     assert mask[31, 25] == 1
     assert mask[0, 0] == mask[0, -1] == mask[-1, 0] == 0
@@ -49,9 +43,7 @@ def test_mask_is_an_ellipse():
 
 
 def test_sensor_adds_the_noise_asked_for():
-    """The noise has the standard deviation asked for (and rounding's 1/12), no bias, and saturates at 0 and
-    255.
-    """
+    """The noise has the deviation asked for (and rounding's 1/12), no bias, and saturates at 0 and 255."""
     image = expose(np.full((200, 200, 3), 100, np.float32), 3.0, np.random.default_rng(RNG_SEED))
     assert image.std() == pytest.approx(np.sqrt(9 + 1 / 12), rel=0.02)
     assert image.mean() == pytest.approx(100, abs=0.05)

@@ -9,7 +9,7 @@ pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tri
 
 
 def centers(scene):
-    """Centers of the true boxes, (M, 2)."""
+    """The centers of the true boxes, (M, 2)."""
     return np.array([box.center for box in scene.boxes])
 
 
@@ -34,9 +34,7 @@ def test_seed_decides_everything(make):
 
 @pytest.mark.parametrize("background", scenes.BACKGROUNDS)
 def test_face_stays_in_the_picture_at_its_size(background):
-    """On every background all 90 true boxes are 50x63 and inside the 320x240 picture, and no step is over 16
-    px.
-    """
+    """On every background all 90 boxes are 50x63 and inside the picture, and no step is over 16 px."""
     scene = scenes.face_over_clutter(1, background=background)
     assert len(scene.frames) == len(scene.boxes) == 90
     for frame, box in zip(scene.frames, scene.boxes, strict=True):
@@ -47,9 +45,7 @@ def test_face_stays_in_the_picture_at_its_size(background):
 
 
 def test_only_the_box_differs_from_the_background():
-    """Without noise, the pixels that differ from the median over time lie in the true box and nearly
-    fill it.
-    """
+    """Without noise, the pixels that differ from their median lie in the true box and nearly fill it."""
     scene = scenes.face_over_clutter(2, background="motorcycle", noise=0, brightness=(0.45, 0.46))
     images = np.stack([frame.color for frame in scene.frames]).astype(np.int16)
     static = np.median(images, axis=0)
@@ -63,9 +59,7 @@ def test_only_the_box_differs_from_the_background():
 
 
 def test_brightness_of_the_face_steps_at_the_changes():
-    """The face's mean level jumps by 10 % or more at each change, and stays within a tenth of that
-    elsewhere.
-    """
+    """The face's mean level jumps by 10 % or more at each change, and by less than 1 % elsewhere."""
     scene = scenes.face_over_clutter(5, background="cat", max_speed=3.0)
     level = np.array([face_pixels(scene, index).mean() for index in range(90)])
     ratio = np.abs(np.log(level[1:] / level[:-1]))
@@ -90,9 +84,7 @@ def test_light_changes_the_colors_of_face_and_cabin_at_once():
 
 
 def test_light_keeps_the_order_of_levels():
-    """Without noise, two pixels of the static cabin never swap their order in a channel when the light
-    changes.
-    """
+    """Without noise, no two pixels of the cabin swap their order in a channel when the light changes."""
     scene = scenes.light_change(7, noise=0)
     change = scene.changes[0]
     before, after = (scene.frames[index].color[180:, :].reshape(-1, 3) for index in (change - 1, change))

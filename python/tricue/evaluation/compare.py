@@ -22,9 +22,7 @@ OURS = ("color-particle",)
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One tracker on one sequence from one seed: metrics.Score's numbers, the share of lost frames, and
-    speed.
-    """
+    """One tracker on one sequence from one seed: metrics.Score's numbers, the share of lost frames, speed."""
 
     tracker: str
     sequence: str
@@ -55,9 +53,7 @@ def compare(makers: dict[str, Maker], seeds: int, found: Iterable[sequences.Sequ
 
 
 def table(rows: Sequence[Row]) -> str:
-    """Markdown: a line per tracker, a column per sequence with ``AUC/precision frames/s`` averaged over
-    seeds, and the means.
-    """
+    """Markdown, a line per tracker: ``AUC/precision frames/s`` a sequence, over seeds, and the means."""
     names = list(dict.fromkeys(row.sequence for row in rows))
     lines = [["tracker", *names, "mean AUC", "mean P20"], ["---"] * (len(names) + 3)]
     for tracker in dict.fromkeys(row.tracker for row in rows):
@@ -78,7 +74,7 @@ def write_csv(path: Path, rows: Iterable[Row]) -> None:
 
 
 def ours() -> dict[str, Maker]:
-    """tricue's trackers with their default parameters."""
+    """Tricue's trackers with their default parameters."""
 
     def maker(name: str) -> Maker:
         return lambda seed: tricue.create(name, seed=seed)
@@ -97,7 +93,7 @@ def _speed(result: Run) -> dict[str, float]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Print the table of a folder of sequences; the command line of this module."""
+    """Measure, tell each run on stderr, print the table; the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tricue.evaluation.compare", description=__doc__)
     parser.add_argument("folder", type=Path, nargs="?", default=sequences.data_folder() / "color")
     parser.add_argument("--seeds", type=int, default=5, help="runs of the trackers that draw random numbers")

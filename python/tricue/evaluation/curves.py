@@ -28,9 +28,7 @@ class Curve:
 
 
 def summarize(curves: Sequence[Curve]) -> str:
-    """Markdown: a line per model with the mean error ± its spread over runs, and the shares of frames lost
-    and well overlapped.
-    """
+    """Markdown, a line per model: mean error ± its spread over runs, share of frames lost, of frames held."""
     lines = [
         "| model | mean error px | frames > 25 px off | frames IoU > 0.5 | runs |",
         "| --- | --- | --- | --- | --- |",

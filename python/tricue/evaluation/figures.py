@@ -46,9 +46,7 @@ def save(draw: Draw, curves: Sequence[Curve], scenes: Mapping[str, Scene], path:
 
 
 def error_curves(figure: Any, curves: Sequence[Curve], scenes: Mapping[str, Scene]) -> None:
-    """Figure 1: the scenes with the true paths, and a panel per model: mean center error over the frames and
-    the 10-90 % range.
-    """
+    """Figure 1: the scenes with the true paths; each model's mean center error and its 10-90 % range."""
     models = list(dict.fromkeys(curve.model for curve in curves))
     columns = 4
     rows = -(-len(models) // columns)
@@ -73,9 +71,7 @@ def error_curves(figure: Any, curves: Sequence[Curve], scenes: Mapping[str, Scen
 
 
 def overlap_curves(figure: Any, curves: Sequence[Curve], scenes: Mapping[str, Scene]) -> None:
-    """Figure 2: frames round the changes of light with each model's box, and the mean overlap and its 10-90 %
-    range.
-    """
+    """Figure 2: frames round the changes of light with each model's box; mean overlap, its 10-90 % range."""
     models = list(dict.fromkeys(curve.model for curve in curves))
     (name, scene), *_ = scenes.items()
     first = {curve.model: curve for curve in curves if (curve.scene, curve.seed) == (name, 0)}

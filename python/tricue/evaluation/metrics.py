@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Overlap and center error against true boxes, and their one-pass summaries (Wu, Lim, Yang 2013: the OTB
-benchmark).
+"""Overlap and center error against true boxes, summarized as in OTB (Wu, Lim, Yang 2013).
 
 Boxes are (M, 4) arrays (x, y, width, height) in pixels, a row per frame. A row of NaN in the truth says that
 the frame has no truth, and such frames are left out of every summary; a row of NaN in the result says that
@@ -20,9 +19,7 @@ OVERLAP_THRESHOLDS: Array = np.arange(21) / 20.0  # OTB's: 0, 0.05, ..., 1
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """One result in four numbers: all but ``mean_error`` (pixels) are shares in [0, 1]; NaN where no frame
-    has truth.
-    """
+    """One result in four numbers: shares in [0, 1], and an error in pixels; NaN where no frame has truth."""
 
     auc: float
     """Area under the success curve, the mean over OVERLAP_THRESHOLDS."""
@@ -35,9 +32,7 @@ class Score:
 
 
 def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
-    """Intersection over union of each pair of rows, (M,), in [0, 1]; 0 for a missing box, NaN where there is
-    no truth.
-    """
+    """Intersection over union, row by row, (M,), in [0, 1]; 0 for a missing box, NaN without truth."""
     found, true = _pairs(boxes, truth)
     low = np.maximum(found[:, :2], true[:, :2])
     high = np.minimum(found[:, :2] + found[:, 2:], true[:, :2] + true[:, 2:])
@@ -47,9 +42,7 @@ def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
 
 
 def center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
-    """Distance between the centers of each pair of rows in pixels, (M,); inf for a missing box, NaN without
-    truth.
-    """
+    """Distance between the centers, row by row, (M,), pixels; inf for a missing box, NaN without truth."""
     found, true = _pairs(boxes, truth)
     offset = (found[:, :2] + found[:, 2:] / 2) - (true[:, :2] + true[:, 2:] / 2)
     return _missing(np.hypot(offset[:, 0], offset[:, 1]), found, true, np.inf)

@@ -144,9 +144,7 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
 
 
 def available() -> dict[str, Callable[[int], Any]]:
-    """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which most don't
-    need.
-    """
+    """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
 
     def opencv(make: Callable[[], Any]) -> Callable[[int], Any]:
         return lambda seed: OpenCvTracker(make)

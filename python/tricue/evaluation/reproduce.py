@@ -51,9 +51,7 @@ def _particles(observation: str, **parameters: Any) -> Callable[..., Contender]:
 
 
 def _alone(observation: str, likelihood: str = "exponential") -> Callable[..., Contender]:
-    """An observation model by itself, without the color contrast that the tracker adds to all of them by
-    default.
-    """
+    """An observation model without the color contrast that the tracker adds to each by default."""
     return _particles(observation, likelihood=likelihood, color_weight=0.0)
 
 
@@ -95,12 +93,11 @@ def run(
     progress: Callable[[int, int], None] | None = None,
     models: Models | None = None,
 ) -> Report:
-    """Run an experiment on every scene from ``seeds`` seeds and write ``output/NAME.png`` and ``.csv``, a
-    line per frame.
+    """Run an experiment and write ``output/NAME.png`` and ``output/NAME.csv``, a line per frame.
 
-    ``progress(done, total)`` is called after each scene, ``jobs`` scenes run at once. ``models`` takes the
-    place of the paper's. ValueError for an unknown name, ImportError that names the extra where scikit-image
-    or matplotlib is missing.
+    Every model runs on every scene from ``seeds`` seeds. ``progress(done, total)`` is called after each
+    scene, ``jobs`` scenes run at once. ``models`` takes the place of the paper's. ValueError for an unknown
+    name, ImportError that names the extra where scikit-image or matplotlib is missing.
     """
     if name not in EXPERIMENTS:
         raise ValueError(f"experiment: expected one of {', '.join(EXPERIMENTS)}, got {name!r}")

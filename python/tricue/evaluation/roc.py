@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The receiver operating characteristic from which the threshold of the skin classifier is chosen (Sabeti
-2008, III.A).
+"""The ROC curve from which the skin classifier's threshold is chosen (Sabeti 2008, III.A).
 
 A pixel is called skin where its score is above the threshold. Scores are integers in a known range (the skin
 boundary (10) times 255 lies in [-255, 255]), so two histograms hold the whole curve exactly, however many
@@ -21,9 +20,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Roc:
-    """A curve from (0, 0) to (1, 1), a point per threshold, thresholds falling: three float64 arrays of one
-    length.
-    """
+    """A curve from (0, 0) to (1, 1), a point per threshold, thresholds falling: arrays of one length."""
 
     fpr: NDArray[np.float64]
     """Share of the negatives above the threshold."""
@@ -37,9 +34,7 @@ class Roc:
         return float(np.sum(np.diff(self.fpr) * (self.tpr[1:] + self.tpr[:-1]) / 2))
 
     def at_false_positive_rate(self, rate: float) -> tuple[float, float]:
-        """The lowest threshold whose false-positive rate is at most ``rate``, and the true-positive rate
-        there.
-        """
+        """The lowest threshold with at most this false-positive rate, and the true-positive rate there."""
         if not 0.0 <= rate <= 1.0:
             raise ValueError(f"rate: expected a number in [0, 1], got {rate}")
         last = int(np.searchsorted(self.fpr, rate, side="right")) - 1
@@ -47,9 +42,7 @@ class Roc:
 
 
 def roc(pairs: Iterable[tuple[NDArray[np.integer], Mask]], low: int = -255, high: int = 255) -> Roc:
-    """The curve over pairs of an integer score map, values in [low, high], and a boolean mask of the same
-    shape.
-    """
+    """The curve over pairs of an integer score map, values in [low, high], and its boolean mask."""
     counts = np.zeros((2, high - low + 1), dtype=np.int64)
     for scores, mask in pairs:
         counts += _histograms(scores, mask, low, high)

@@ -22,8 +22,7 @@ def face_over_clutter(
     brightness: tuple[float, float] = (0.45, 1.3),
     noise: float = 2.0,
 ) -> Scene:
-    """A face of 50x63 pixels runs over a cluttered picture of 320x240, and its brightness changes several
-    times.
+    """A face of 50x63 pixels runs over clutter, 320x240, and its brightness changes several times.
 
     The seed decides the window of the background (one of BACKGROUNDS), the path, the moments and sizes of the
     brightness steps, and the noise (standard deviation in levels of 255). ``max_speed`` is in pixels a frame;

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An abrupt change of light: what figure 2 of Sabeti, Parvizi and Wu (2008), section V, shows on a driver's
-face.
-"""
+"""An abrupt change of light, as on the driver's face in figure 2 of Sabeti, Parvizi and Wu (2008)."""
 
 from typing import NamedTuple
 
@@ -20,9 +18,7 @@ REACH = (40.0, 10.0)  # pixels that the head moves to each side, up and down
 
 
 class Light(NamedTuple):
-    """A mapping of levels in [0, 1] a channel, ``gain * level ** gamma``: increasing, so the order of levels
-    stays.
-    """
+    """A mapping of each channel's levels in [0, 1], ``gain * level ** gamma``: increasing, so order stays."""
 
     gain: NDArray[np.float32]
     gamma: NDArray[np.float32]
@@ -32,8 +28,7 @@ class Light(NamedTuple):
 
 
 def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noise: float = 2.0) -> Scene:
-    """A head moves before a static cabin, 320x240, and twice the light on the whole picture changes from one
-    frame to the next.
+    """A head moves before a static cabin, 320x240, and twice the light on all of it changes at once.
 
     Each channel has its own curve in each light, so that the colors shift. The seed decides the path
     (``max_speed`` in pixels a frame), the curves, and the noise (standard deviation in levels of 255); the

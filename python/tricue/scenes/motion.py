@@ -8,37 +8,35 @@ Array = NDArray[np.float64]
 
 
 def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
-    """A smooth nonlinear motion, (frames, 2) offsets in pixels within ±reach, no step longer than
-    ``max_speed``.
+    """A smooth nonlinear motion: (frames, 2) offsets in pixels within ±reach, no step over ``max_speed``.
 
-    The target runs along a closed Lissajous curve with random phases. As its position is an arc length on
-    that curve, and a chord is never longer than its arc, the speed of the run bounds the steps.
+    Sums of two sines on each axis, their phases random and the pace uneven: fast on long stretches, slow in
+    turns. A step is never longer than the curve's longest derivative times the step in its angle, which
+    bounds the pace.
     """
     if frames < 1:
         raise ValueError(f"frames: expected 1 or more, got {frames}")
     if not (max_speed > 0 and np.isfinite(max_speed)):
         raise ValueError(f"max_speed: expected pixels a frame above 0, got {max_speed}")
-    angle = np.linspace(0, 2 * np.pi, 4001)
-    phase = rng.uniform(0, 2 * np.pi, 4)
-    x = reach[0] * (0.8 * np.sin(angle + phase[0]) + 0.2 * np.sin(3 * angle + phase[1]))
-    y = reach[1] * (0.8 * np.sin(2 * angle + phase[2]) + 0.2 * np.sin(3 * angle + phase[3]))
-    arc = np.append(0.0, np.cumsum(np.hypot(np.diff(x), np.diff(y))))
-    travelled = np.cumsum(_speeds(frames, max_speed, rng)) % arc[-1]
-    return np.column_stack([np.interp(travelled, arc, x), np.interp(travelled, arc, y)])
+    phases = rng.uniform(0, 2 * np.pi, (2, 2))
+    size = np.array(reach)[:, None] * _SHARES
+    longest = np.hypot(*_sines(np.linspace(0, 2 * np.pi, 4001), phases + np.pi / 2, size * _TURNS).T).max()
+    pace = 0.8 + 0.2 * np.sin(2 * np.pi * (np.arange(frames) / 23 + rng.random()))
+    return _sines(np.cumsum(pace) * max_speed / longest, phases, size)
 
 
-def _speeds(frames: int, max_speed: float, rng: np.random.Generator) -> Array:
-    """Speeds between a tenth of ``max_speed`` and all of it, two waves of 23 and 37 frames added."""
-    turns = np.arange(frames)[:, None] / [23.0, 37.0] + rng.random(2)
-    wave = (np.sin(2 * np.pi * turns).sum(axis=1) + 2) / 4
-    speeds: Array = max_speed * (0.1 + 0.9 * wave / wave.max())
-    return speeds
+_SHARES = np.array([0.75, 0.25])
+_TURNS = np.array([[1.0, 3.0], [2.0, 3.0]])  # of each sine on each axis, for one round of the curve
+
+
+def _sines(angle: Array, phases: Array, size: Array) -> Array:
+    """The curve at each angle, (n, 2); its derivative for phases a quarter on and sizes times their turns."""
+    curve: Array = (size * np.sin(angle[:, None, None] * _TURNS + phases)).sum(axis=2)
+    return curve
 
 
 def steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Array:
-    """A gain per frame: 1 at first, then changed abruptly every 10 to 20 frames, by a quarter of [low, high]
-    or more.
-    """
+    """A gain per frame: 1 at first, every 10 to 20 frames changed by a quarter of [low, high] or more."""
     gains = np.ones(frames)
     start = int(rng.integers(10, 21))
     while start < frames:

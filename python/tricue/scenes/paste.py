@@ -9,18 +9,14 @@ Picture = NDArray[np.float32]
 
 
 def ellipse_mask(height: int, width: int, edge: float) -> Picture:
-    """The opacity (height, width) of an ellipse that fills its box: 1 inside, falling to 0 over the last
-    ``edge`` pixels.
-    """
+    """The opacity (height, width) of an ellipse that fills its box: 1, falling to 0 in ``edge`` pixels."""
     v, u = (2 * (np.arange(size) + 0.5) / size - 1 for size in (height, width))
     depth = (1 - np.hypot(u[None, :], v[:, None])) * min(height, width) / 2
     return np.clip(depth / edge, 0, 1).astype(np.float32)
 
 
 def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: float) -> Picture:
-    """Lay a cut-out (h, w, 3) on a picture (H, W, 3) so that it covers [x, x + w) x [y, y + h), bilinear
-    between pixels.
-    """
+    """Lay a cut-out (h, w, 3) on a picture (H, W, 3), over [x, x + w) x [y, y + h), bilinearly."""
     height, width = picture.shape[:2]
     shift = np.array([[1, 0, x], [0, 1, y]], dtype=np.float64)
     moved = cv2.warpAffine(cutout, shift, (width, height), borderMode=cv2.BORDER_REPLICATE)
@@ -29,9 +25,7 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
 
 
 def expose(picture: Picture, noise: float, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The 8-bit image of a sensor with Gaussian noise of ``noise`` levels (standard deviation), saturated at
-    both ends.
-    """
+    """The 8-bit image of a sensor with Gaussian noise (its deviation in levels), saturated at both ends."""
     noisy = picture + np.float32(noise) * rng.standard_normal(picture.shape, dtype=np.float32)
     image: NDArray[np.uint8] = np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
     return image

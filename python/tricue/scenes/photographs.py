@@ -32,9 +32,7 @@ def photograph(name: str) -> Image:
 
 
 def background(name: str, height: int, width: int, rng: np.random.Generator) -> Image:
-    """A random window of a picture of BACKGROUNDS, as large as fits down to two thirds of that, scaled to
-    (height, width).
-    """
+    """A random window of one of BACKGROUNDS, the largest or down to two thirds of it, as (height, width)."""
     if name not in BACKGROUNDS:
         raise ValueError(f"background: expected one of {', '.join(BACKGROUNDS)}, got {name!r}")
     picture = photograph(name)

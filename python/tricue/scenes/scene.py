@@ -9,9 +9,7 @@ from tricue.camera.frame import Frame
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A sequence made by this package, so that its truth is exact. The same arguments and seed give the same
-    scene, bit for bit.
-    """
+    """A sequence made by this package, so that its truth is exact; the same arguments give the same bits."""
 
     name: str
     frames: tuple[Frame, ...]

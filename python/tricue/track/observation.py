@@ -159,7 +159,8 @@ class Gaussian:
         self.covariance = blend(self.covariance, np.cov(chroma, bias=True) + self.FLOOR * np.eye(2), rate)
 
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
-        precision = np.linalg.inv(self.covariance)
+        inverse = np.linalg.inv(self.covariance)
+        precision = (inverse + inverse.T) / 2  # rounding leaves the inverse not quite symmetric
         skin, around = (k.skin_gaussian(each, self.mean, precision) for each in (inside, ring))
         return lack(skin, around)
 
