@@ -29,7 +29,7 @@ class ColorParticleParams(Params):
         None, unit="nats", source=OURS, above=0, doc="of the exponential form; None: the observation's own"
     )
     grid: tuple[int, int] = parameter(
-        (10, 8),
+        (12, 10),
         unit="samples",
         source=OURS,
         low=2,
@@ -49,7 +49,7 @@ class ColorParticleParams(Params):
     ring: tuple[float, float] = parameter(
         (1.3, 1.8), unit="semi-axes", source=OURS, low=1, high=8, doc="the surround: inner, outer radius"
     )
-    ring_samples: int = parameter(32, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
+    ring_samples: int = parameter(48, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
 
     skin_threshold: float = parameter(
         0.45,
@@ -118,7 +118,7 @@ class ColorParticleParams(Params):
     )
     color_rate: float = parameter(0.04, unit="per frame", source=OURS, low=0, high=1, doc="of the colors")
     anchor: float = parameter(
-        0.25, unit="-", source=OURS, low=0, high=1, doc="weight of the first frame's rank map in the distance"
+        0.3, unit="-", source=OURS, low=0, high=1, doc="weight of the first frame's rank map in the distance"
     )
     learn_above: float = parameter(
         0.3, unit="score", source="section III.C", low=0, high=1, doc="no learning under this score"

@@ -124,7 +124,7 @@ class ColorParticleTracker:
     def _follow(self, state: State, image: Image) -> None:
         """Predict, measure, weigh, estimate; once more and wider where that comes as a surprise."""
         k, p, motion = self._k, self.params, state.motion
-        prediction = motion.predict(p)
+        prediction = motion.predict(p, state.shape)
         detection = detect(k, image, state.reference, motion.ellipse, prediction, p)
         swarm = self._sweep(state, image, *self._resampled(state.swarm), prediction, detection)
         if swarm.log_likelihood < state.usual - p.surprise:
@@ -170,7 +170,7 @@ class ColorParticleTracker:
         places = candidates(k, image, state.reference, state.motion, p, self._rng)
         best = places[np.argmax(appearance.log_likelihood(k, appearance.look(k, image, places)))]
         motion = state.motion.stopped_at(tuple(best.tolist()))
-        swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p))
+        swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p, state.shape))
         state.score = appearance.recognition(k, swarm.look)
         if state.score >= p.found_above and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
             self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))

@@ -45,25 +45,20 @@ class Motion(NamedTuple):
         """Pixels: the side of the square as large as the ellipse's box."""
         return 2.0 * (self.ellipse[2] * self.ellipse[3]) ** 0.5
 
-    def predict(self, p: ColorParticleParams) -> Prediction:
-        """Where particles go next; K of (30) grows with the velocity."""
+    def predict(self, p: ColorParticleParams, shape: tuple[int, ...]) -> Prediction:
+        """Where particles go next; K of (30) grows with the velocity. Centers stay in the image of this shape."""
         (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
-        noise, pull = JITTER + p.position_noise * self.side, p.size_pull
+        noise, k, pull = JITTER + p.position_noise * self.side, p.velocity_noise, p.size_pull
         sizes = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
         reach = max(p.reach, p.reach_sizes * self.side)
-        smallest, largest = p.size_range
+        left, right = (min(max(each, 0.0), shape[1]) for each in (x - reach, x + reach))
+        top, bottom = (min(max(each, 0.0), shape[0]) for each in (y - reach, y + reach))
+        (smallest, largest), (first_minor, first_major) = p.size_range, self.first
         return Prediction(
             np.array((vx, vy, pull * (self.usual[0] - minor), pull * (self.usual[1] - major))),
-            np.array(
-                (
-                    noise + p.velocity_noise * abs(vx),
-                    noise + p.velocity_noise * abs(vy),
-                    sizes * minor,
-                    sizes * major,
-                )
-            ),
-            np.array((x - reach, y - reach, smallest * self.first[0], smallest * self.first[1])),
-            np.array((x + reach, y + reach, largest * self.first[0], largest * self.first[1])),
+            np.array((noise + k * abs(vx), noise + k * abs(vy), sizes * minor, sizes * major)),
+            np.array((left, top, smallest * first_minor, smallest * first_major)),
+            np.array((right, bottom, largest * first_minor, largest * first_major)),
         )
 
     def moved(self, ellipse: Ellipse, p: ColorParticleParams) -> "Motion":

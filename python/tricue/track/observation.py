@@ -55,7 +55,7 @@ class RankSpatial:
     sharpness = 110.0
 
     def __init__(self, p: ColorParticleParams) -> None:
-        self.weights = np.array([1 - p.anchor, p.anchor], np.float32)
+        self.weights = np.array([1 - p.anchor, p.anchor])
         self.maps: Floats = np.empty(0)
 
     def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
@@ -66,9 +66,7 @@ class RankSpatial:
             self.maps[0] += np.float32(rate) * (ranks[0] - self.maps[0])
 
     def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
-        distances = k.rank_distance(inside, self.maps)
-        distances *= distances
-        return np.sqrt(distances @ self.weights)
+        return k.rank_distance(inside, self.maps) @ self.weights
 
     def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
         """Spearman's rank correlation with the model: a window without structure has none, unlike its
