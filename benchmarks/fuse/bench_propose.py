@@ -38,8 +38,8 @@ def script(
 ) -> Floats:
     """The peer: the same without any check."""
     moved = particles + drift + scale * noise
-    count = int(share * len(particles))
-    moved[:count, :2] = mean + noise[:count, :2] @ root.T
+    every = round(1 / share)
+    moved[every - 1 :: every, :2] = mean + noise[every - 1 :: every, :2] @ root.T
     return np.minimum(np.maximum(moved, lower), upper)
 
 

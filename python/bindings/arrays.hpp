@@ -120,7 +120,7 @@ auto unlocked(Kernel&& kernel) {
 template <typename Result>
 Array<typename Result::Scalar> give(Result&& result) {
     static_assert(!std::is_lvalue_reference_v<Result>, "give(std::move(result))");
-    auto* owned = new Result(std::move(result));
+    auto* owned = new Result(std::forward<Result>(result));
     const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
     if constexpr (Result::ColsAtCompileTime == 1)
         return py::array_t<typename Result::Scalar>(owned->size(), owned->data(), owner);

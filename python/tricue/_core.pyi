@@ -56,7 +56,7 @@ def propose(
 
 def rank_distance(
     samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
-) -> numpy.typing.NDArray[numpy.float32]:
+) -> numpy.typing.NDArray[numpy.float64]:
     """
     (N, M) twice the mean absolute difference between the samples' mid-ranks and each rank map (M, 3, n), in [0, 1].
     """
@@ -194,7 +194,7 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def rank_distance(
         self, samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def rank_sections(
         self, samples: numpy.typing.NDArray[numpy.uint8], sections: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
