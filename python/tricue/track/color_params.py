@@ -29,7 +29,7 @@ class ColorParticleParams(Params):
         None, unit="nats", source=OURS, above=0, doc="of the exponential form; None: the observation's own"
     )
     grid: tuple[int, int] = parameter(
-        (12, 10),
+        (12, 8),
         unit="samples",
         source=OURS,
         low=2,
@@ -49,7 +49,7 @@ class ColorParticleParams(Params):
     ring: tuple[float, float] = parameter(
         (1.3, 1.8), unit="semi-axes", source=OURS, low=1, high=8, doc="the surround: inner, outer radius"
     )
-    ring_samples: int = parameter(48, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
+    ring_samples: int = parameter(40, unit="samples", source=OURS, low=1, high=4096, doc="in the surround")
 
     skin_threshold: float = parameter(
         0.45,

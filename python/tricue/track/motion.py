@@ -51,8 +51,9 @@ class Motion(NamedTuple):
         noise, k, pull = JITTER + p.position_noise * self.side, p.velocity_noise, p.size_pull
         sizes = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
         reach = max(p.reach, p.reach_sizes * self.side)
-        left, right = (min(max(each, 0.0), shape[1]) for each in (x - reach, x + reach))
-        top, bottom = (min(max(each, 0.0), shape[0]) for each in (y - reach, y + reach))
+        height, width = shape[:2]
+        left, right = min(max(x - reach, 0.0), width), min(max(x + reach, 0.0), width)
+        top, bottom = min(max(y - reach, 0.0), height), min(max(y + reach, 0.0), height)
         (smallest, largest), (first_minor, first_major) = p.size_range, self.first
         return Prediction(
             np.array((vx, vy, pull * (self.usual[0] - minor), pull * (self.usual[1] - major))),

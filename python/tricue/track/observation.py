@@ -16,6 +16,8 @@ from tricue.track.color_params import ColorParticleParams
 Samples = NDArray[np.uint8]
 Floats = NDArray[np.floating[Any]]
 
+FLAT = 0.1  # a sum of squared deviations of ranks under which a window has no order to speak of
+
 
 class Observation(Protocol):
     """A model of the target's look and the distance of other windows to it."""
@@ -69,12 +71,13 @@ class RankSpatial:
         return k.rank_distance(inside, self.maps) @ self.weights
 
     def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        """Spearman's rank correlation with the model: a window without structure has none, unlike its
-        distance.
+        """Spearman's rank correlation with the model; unlike by its distance, a flat window isn't near to it.
+
+        Mid-ranks, and means of them, have a mean of 1/2: a sum of products of deviations is r m - N/4.
         """
-        ranks, model = k.color_ranks(inside[:1])[0] - 0.5, self.maps[0] - 0.5
-        scale = float(np.vdot(ranks, ranks)) * float(np.vdot(model, model))
-        return max(float(np.vdot(ranks, model)) / scale**0.5, 0.0) if scale > 0 else 0.0
+        ranks, model = k.color_ranks(inside[:1])[0], self.maps[0]
+        cross, own, usual = (float(np.vdot(a, b)) - ranks.size / 4 for a, b in ((ranks, model), (ranks, ranks), (model, model)))
+        return max(cross, 0.0) / (own * usual) ** 0.5 if min(own, usual) > FLAT else 0.0
 
 
 class RankSections:
