@@ -54,13 +54,16 @@ class State:
 class ColorParticleTracker:
     """Follows a face, or any target with a color and structure of its own, in BGR video.
 
-    Particles (x, y, minor, major) are drawn from the target's dynamics and from where a skin classifier sees its
-    color, and weighed by the order of their pixels' colors, which light does not change.
+    Particles (x, y, minor, major) are drawn from the target's dynamics and from where a skin classifier sees
+    its color, and weighed by the order of their pixels' colors, which light does not change, and by how much
+    more they have of the target's colors than what is round them.
 
-    ``ColorParticleTracker(seed=0, kernels="native", **parameters)``: the parameters are those of :attr:`Params`, or all at
-    once as ``params=``. The same seed gives the same track, bit for bit. Pickles with all of its state.
+    ``ColorParticleTracker(seed=0, kernels="native", **parameters)``: the parameters are those of
+    :attr:`Params`, one by one or all at once as ``params=``. The same seed gives the same track, bit for bit.
+    Pickles with all of its state.
 
-    Source: Sabeti, Parvizi, Wu, "Visual Tracking Using Color Cameras and Time-of-Flight Range Imaging Sensors", 2008.
+    Source: Sabeti, Parvizi, Wu, "Visual Tracking Using Color Cameras and Time-of-Flight Range Imaging
+    Sensors", 2008, section III.
     """
 
     Params = ColorParticleParams
@@ -90,7 +93,10 @@ class ColorParticleTracker:
         return np.empty((0, 4)) if self._state is None else self._state.swarm.particles
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on the target in ``box``: (x, y, width, height), pixels, at least partly in the image."""
+        """Start, or start again, on the target in ``box``: (x, y, width, height), pixels.
+
+        The box may reach over the image's edge. ValueError without one, or where no part of it is inside.
+        """
         image = lifecycle.color_image(frame)
         if box is None:
             raise ValueError(
@@ -110,14 +116,17 @@ class ColorParticleTracker:
         return self._track(self._state)
 
     def update(self, frame: FrameLike) -> Track:
-        """Follow the target into the next frame, of the same size as the first; RuntimeError before ``init``."""
+        """Follow the target into the next frame, of the same size as the first.
+
+        RuntimeError before ``init``. An error leaves the tracker as it was.
+        """
         state = lifecycle.started(self._state)
         image = lifecycle.color_image(frame, state.shape)
         if state.missed < self.params.lost_after:
             self._follow(state, image)
         else:
             self._search(state, image)
-        if state.score >= self.params.learn_above:
+        if state.missed == 0 and state.score >= self.params.learn_above:
             self._learn(state, image)
         return self._track(state)
 
@@ -154,7 +163,7 @@ class ColorParticleTracker:
         return Swarm(moved, weights, effective, ellipse, look, float(appearance.log_likelihood(k, look)[0]))
 
     def _sweep_wide(self, state: State, image: Image, narrow: Swarm, prediction: Prediction) -> Swarm:
-        """Look all round the last place, then closely where it looked best; for jumps that the dynamics don't foresee."""
+        """Look all round the last place, then closely where it looked best: for jumps."""
         far = prediction.scale.copy()
         far[:2] = self.params.sweep * state.motion.side
         last = np.array([state.motion.ellipse])
@@ -165,15 +174,17 @@ class ColorParticleTracker:
         return max(narrow, close, key=lambda swarm: swarm.log_likelihood)
 
     def _search(self, state: State, image: Image) -> None:
-        """Look for a lost target in the whole frame; take it up again only where it is recognised and looks as ever."""
+        """Look for a lost target in the whole frame; take it up where it is recognised and looks as ever."""
         k, p, appearance = self._k, self.params, state.appearance
         places = candidates(k, image, state.reference, state.motion, p, self._rng)
         best = places[np.argmax(appearance.log_likelihood(k, appearance.look(k, image, places)))]
         motion = state.motion.stopped_at(tuple(best.tolist()))
         swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p, state.shape))
-        state.score = appearance.recognition(k, swarm.look)
-        if state.score >= p.found_above and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
+        recognised = appearance.recognition(k, swarm.look) >= p.found_above
+        if recognised and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
             self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))
+        else:
+            state.score = 0.0
 
     def _accept(self, state: State, swarm: Swarm, motion: Motion) -> None:
         """Make the swarm the state of the target, and see whether it is recognised there."""
@@ -204,14 +215,10 @@ class ColorParticleTracker:
         return swarm.particles[chosen], self._uniform
 
     def _track(self, state: State) -> Track:
-        missed = state.missed
-        status = (
-            Status.TRACKED
-            if missed == 0
-            else Status.LOST
-            if missed >= self.params.lost_after
-            else Status.OCCLUDED
-        )
+        if state.missed == 0:
+            status = Status.TRACKED
+        else:
+            status = Status.OCCLUDED if state.missed < self.params.lost_after else Status.LOST
         box = Box.from_ellipse(*state.motion.ellipse)
         return Track(box, state.score, status)
 

@@ -29,7 +29,7 @@ NOTHING = Detection(np.zeros(2), np.eye(2), 0.0)
 
 
 def reference_color(k: Kernels, image: Image, ellipse: Ellipse) -> Image:
-    """(3,): the color that appears most in the middle of the target, equation (3); of its pixels inside the image."""
+    """(3,): the color that appears most in the middle of the target, of its pixels inside the image: (3)."""
     height, width = image.shape[:2]
     x, y, minor, major = ellipse
     left, right = np.clip([x - PATCH * minor, x + PATCH * minor], 0, width - 1).astype(int)
@@ -45,7 +45,7 @@ def detect(
     prediction: Prediction,
     p: ColorParticleParams,
 ) -> Detection:
-    """The Gaussian of the skin pixels, (11)-(16), in the part of the image that particles and their target can reach."""
+    """The Gaussian of the skin pixels, (11)-(16), in the part of the image that the target can reach."""
     if p.skin_share == 0:
         return NOTHING
     (left, top, *_), (right, bottom, *_) = prediction.lower.tolist(), prediction.upper.tolist()
@@ -69,7 +69,7 @@ def candidates(
     p: ColorParticleParams,
     rng: np.random.Generator,
 ) -> Floats:
-    """(2 particles, 4): where to look for a lost target: half of them at blobs of its color, half anywhere in the frame.
+    """(2 particles, 4): where to look for a lost target, half at blobs of its color, half anywhere.
 
     Blobs are drawn by their area. All have the remembered size, up to a fifth more or less.
     """

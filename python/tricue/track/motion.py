@@ -3,6 +3,7 @@
 usually is.
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -28,7 +29,7 @@ class Prediction(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """The target's ellipse, its smoothed velocity (pixels a frame), the size that it usually has, and its first size."""
+    """The target's ellipse, its smoothed velocity (pixels a frame), its usual size and its first size."""
 
     ellipse: Ellipse
     velocity: Pair
@@ -43,10 +44,10 @@ class Motion(NamedTuple):
     @property
     def side(self) -> float:
         """Pixels: the side of the square as large as the ellipse's box."""
-        return 2.0 * (self.ellipse[2] * self.ellipse[3]) ** 0.5
+        return 2.0 * math.sqrt(self.ellipse[2] * self.ellipse[3])
 
     def predict(self, p: ColorParticleParams, shape: tuple[int, ...]) -> Prediction:
-        """Where particles go next; K of (30) grows with the velocity. Centers stay in the image of this shape."""
+        """Where particles go next; K of (30) grows with the velocity. Centers stay in the image."""
         (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
         noise, k, pull = JITTER + p.position_noise * self.side, p.velocity_noise, p.size_pull
         sizes = (p.size_noise**2 + p.aspect_noise**2) ** 0.5

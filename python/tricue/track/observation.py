@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What particles are compared by: the six observation models of the color particle tracker, behind one small
-Protocol.
+"""What particles are compared by: the six observation models of the color particle tracker, as one Protocol.
 
-An observation sees samples only: ``inside`` (N, 3, n) on the window's grid and ``ring`` (N, 3, m) round it.
+An observation sees samples only: ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) round it.
 """
 
 from typing import Any, Protocol
@@ -14,8 +13,10 @@ from tricue.kernels import Kernels
 from tricue.track.color_params import ColorParticleParams
 
 Samples = NDArray[np.uint8]
-Floats = NDArray[np.floating[Any]]
+Floats = NDArray[np.float64]
+Model = NDArray[np.float32]
 
+UNKNOWN: Model = np.empty(0, np.float32)
 FLAT = 0.1  # a sum of squared deviations of ranks under which a window has no order to speak of
 
 
@@ -25,59 +26,64 @@ class Observation(Protocol):
     sharpness: float
     """What suits the exponential likelihood exp(-sharpness d²), by experiment."""
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
-        """Blend the look of the first window into the model; rate 1 starts it."""
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
+        """Blend the look of the first window into the model; a rate of 1 starts it."""
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
         """(N,) distances in [0, 1]."""
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        """How surely the first window shows the target, in [0, 1]; about 0 for a window that has nothing to
-        do with it.
-        """
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        """How surely the first window shows the target, in [0, 1]; about 0 for any that doesn't."""
 
 
-def blend(old: Floats | None, new: Floats, rate: float) -> Floats:
-    """The exponential average; ``new`` itself where there is nothing old."""
-    return new if old is None or rate >= 1 else old + np.float32(rate) * (new - old)
+def blended(old: NDArray[Any], new: NDArray[Any], rate: float) -> NDArray[Any]:
+    """The exponential average."""
+    return new if rate >= 1 else old + new.dtype.type(rate) * (new - old)
 
 
-def likeness(model: Observation, k: Kernels, inside: Samples, ring: Samples, unrelated: float) -> float:
-    """1 minus the first window's distance, in units of about the distance of a window that doesn't show the
-    target.
-    """
-    return max(1 - float(model.distance(k, inside[:1], ring[:1])[0]) / unrelated, 0.0)
+def likeness(model: Observation, k: Kernels, inside: Samples, around: Samples, unrelated: float) -> float:
+    """1 - d / unrelated, at least 0; unrelated: about the distance of windows that don't show the target."""
+    return max(1 - float(model.distance(k, inside[:1], around[:1])[0]) / unrelated, 0.0)
+
+
+def lack(inside: Model, around: Model) -> Floats:
+    """(N,) 1 minus how much more skin there is in the window than round it, in [0, 1]."""
+    return 1 - np.clip(inside.mean(axis=1, dtype=np.float64) - around.mean(axis=1, dtype=np.float64), 0, 1)
 
 
 class RankSpatial:
-    """The order of corresponding pixels: what section III.B argues for in words. Keeps the first frame's map
-    beside the model.
+    """The order of corresponding pixels: what section III.B argues for in words.
+
+    Keeps the first frame's rank map beside the model, so that errors don't add up.
     """
 
     sharpness = 110.0
 
     def __init__(self, p: ColorParticleParams) -> None:
         self.weights = np.array([1 - p.anchor, p.anchor])
-        self.maps: Floats = np.empty(0)
+        self.maps = UNKNOWN
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         ranks = k.color_ranks(inside[:1])
         if rate >= 1:
             self.maps = np.concatenate([ranks, ranks])
         else:
             self.maps[0] += np.float32(rate) * (ranks[0] - self.maps[0])
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
-        return k.rank_distance(inside, self.maps) @ self.weights
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+        distances: Floats = k.rank_distance(inside, self.maps) @ self.weights
+        return distances
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        """Spearman's rank correlation with the model; unlike by its distance, a flat window isn't near to it.
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        """Spearman's rank correlation with the model; a flat window has none, though its distance is small.
 
         Mid-ranks, and means of them, have a mean of 1/2: a sum of products of deviations is r m - N/4.
         """
         ranks, model = k.color_ranks(inside[:1])[0], self.maps[0]
-        cross, own, usual = (float(np.vdot(a, b)) - ranks.size / 4 for a, b in ((ranks, model), (ranks, ranks), (model, model)))
-        return max(cross, 0.0) / (own * usual) ** 0.5 if min(own, usual) > FLAT else 0.0
+        quarter = ranks.size / 4
+        own, usual = float(np.vdot(ranks, ranks)) - quarter, float(np.vdot(model, model)) - quarter
+        both = float(np.vdot(ranks, model)) - quarter
+        return min(max(both, 0.0) / (own * usual) ** 0.5, 1.0) if min(own, usual) > FLAT else 0.0
 
 
 class RankSections:
@@ -87,16 +93,16 @@ class RankSections:
     SECTIONS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
-        self.sections: Floats | None = None
+        self.sections = UNKNOWN
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
-        self.sections = blend(self.sections, k.rank_sections(inside[:1], self.SECTIONS)[0], rate)
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
+        self.sections = blended(self.sections, k.rank_sections(inside[:1], self.SECTIONS)[0], rate)
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
         return k.section_distance(k.rank_sections(inside, self.SECTIONS), self.sections)
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        return likeness(self, k, inside, ring, unrelated=0.3)
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        return likeness(self, k, inside, around, unrelated=0.3)
 
 
 class Histogram:
@@ -106,22 +112,16 @@ class Histogram:
     BINS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
-        self.histogram: Floats | None = None
+        self.histogram = UNKNOWN
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
-        self.histogram = blend(self.histogram, k.color_histogram(inside[:1], self.BINS)[0], rate)
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
+        self.histogram = blended(self.histogram, k.color_histogram(inside[:1], self.BINS)[0], rate)
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
         return k.bhattacharyya(k.color_histogram(inside, self.BINS), self.histogram, 3)
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        return likeness(self, k, inside, ring, unrelated=0.6)
-
-
-def lack(inside: Floats, ring: Floats) -> Floats:
-    """(N,) 1 minus how much more skin there is in the window than round it, at least 0, at most 1."""
-    more: Floats = inside.mean(axis=1) - ring.mean(axis=1)
-    return 1 - np.clip(more, 0, 1)
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        return likeness(self, k, inside, around, unrelated=0.6)
 
 
 class Region:
@@ -132,41 +132,41 @@ class Region:
     def __init__(self, p: ColorParticleParams) -> None:
         pass
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         pass
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
-        return lack(k.skin_rule(inside), k.skin_rule(ring))
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+        return lack(k.skin_rule(inside), k.skin_rule(around))
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        return likeness(self, k, inside, ring, unrelated=1.0)
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        return likeness(self, k, inside, around, unrelated=1.0)
 
 
 class Gaussian:
     """Parametric: a Gaussian over the target's chrominance (Cb, Cr)."""
 
     sharpness = 10.0
-    FLOOR = 4.0  # levels²; what sensors' noise leaves of a uniform color
+    FLOOR = 4.0  # levels²; what a sensor's noise leaves of a uniform color
 
     def __init__(self, p: ColorParticleParams) -> None:
-        self.mean: Floats | None = None
-        self.covariance: Floats | None = None
+        self.mean = np.zeros(2)
+        self.covariance = np.eye(2)
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         b, g, r = inside[0].astype(np.float64)
         luma = 0.299 * r + 0.587 * g + 0.114 * b
         chroma = np.stack([(b - luma) * 0.564 + 128, (r - luma) * 0.713 + 128])
-        self.mean = blend(self.mean, chroma.mean(axis=1), rate)
-        self.covariance = blend(self.covariance, np.cov(chroma, bias=True) + self.FLOOR * np.eye(2), rate)
+        self.mean = blended(self.mean, chroma.mean(axis=1), rate)
+        self.covariance = blended(self.covariance, np.cov(chroma, bias=True) + self.FLOOR * np.eye(2), rate)
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
-        inverse = np.linalg.inv(self.covariance)
-        precision = (inverse + inverse.T) / 2  # rounding leaves the inverse not quite symmetric
-        skin, around = (k.skin_gaussian(each, self.mean, precision) for each in (inside, ring))
-        return lack(skin, around)
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+        precision = np.linalg.inv(self.covariance)
+        precision = (precision + precision.T) / 2  # inv leaves it symmetric but for rounding
+        skin, other = (k.skin_gaussian(each, self.mean, precision) for each in (inside, around))
+        return lack(skin, other)
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        return likeness(self, k, inside, ring, unrelated=1.0)
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        return likeness(self, k, inside, around, unrelated=1.0)
 
 
 class Lookup:
@@ -176,18 +176,18 @@ class Lookup:
     BINS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
-        self.histogram: Floats | None = None
-        self.table: Floats = np.empty(0)
+        self.histogram = UNKNOWN
+        self.table = UNKNOWN
 
-    def learn(self, k: Kernels, inside: Samples, ring: Samples, rate: float) -> None:
-        self.histogram = blend(self.histogram, k.joint_histogram(inside[:1], self.BINS)[0], rate)
+    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
+        self.histogram = blended(self.histogram, k.joint_histogram(inside[:1], self.BINS)[0], rate)
         self.table = (self.histogram / self.histogram.max()).reshape(3 * [self.BINS])
 
-    def distance(self, k: Kernels, inside: Samples, ring: Samples) -> Floats:
-        return lack(k.color_lookup(inside, self.table), k.color_lookup(ring, self.table))
+    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+        return lack(k.color_lookup(inside, self.table), k.color_lookup(around, self.table))
 
-    def recognition(self, k: Kernels, inside: Samples, ring: Samples) -> float:
-        return likeness(self, k, inside, ring, unrelated=1.0)
+    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+        return likeness(self, k, inside, around, unrelated=1.0)
 
 
 MODELS: dict[str, type[Any]] = {

@@ -32,7 +32,7 @@ def test_twin_measures_the_same(seed: int, ellipses: int, models: int, n: int) -
 
 
 def test_agrees_with_scipy(kernels: Kernels) -> None:
-    """By hand from scipy's ranks: twice the mean absolute difference, but for the models' rounding to 1/2n."""
+    """From scipy's ranks: twice the mean absolute difference, but for the models' rounding to 1/2n."""
     samples, maps = case(1, 6, 2, 144)
     ranks = (rankdata(samples, axis=2) - 0.5) / 144
     expected = 2 * np.abs(ranks[:, None] - maps[None]).mean(axis=(2, 3))
@@ -54,7 +54,7 @@ def test_ends_of_the_scale(kernels: Kernels) -> None:
 
 @given(st.integers(0, 2**32), st.floats(0.2, 5))
 def test_light_does_not_matter(seed: int, gamma: float) -> None:
-    """A strictly increasing change of the light, another for each channel, leaves the distance as it is, bit for bit."""
+    """A strictly increasing change of each channel leaves the distance as it is, bit for bit."""
     rng = np.random.default_rng(seed)
     samples = rng.integers(0, 40, (3, 3, 100)).astype(np.uint8)
     curves = np.stack(

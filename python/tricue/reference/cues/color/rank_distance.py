@@ -22,4 +22,5 @@ def rank_distance(samples: NDArray[np.uint8], models: NDArray[np.float32]) -> ND
         refuse("models", "ranks in [0, 1]", float(outside[0]))
     expected = (models * np.float32(2 * n) + np.float32(0.5)).astype(int)
     sums = np.abs(ranks[:, None] - expected[None]).sum(axis=(2, 3))
-    return sums / (3.0 * n * n)
+    distances: NDArray[np.float64] = sums / (3.0 * n * n)
+    return distances
