@@ -48,7 +48,9 @@ def likeness(model: Observation, k: Kernels, inside: Samples, around: Samples, u
 
 def lack(inside: Model, around: Model) -> Floats:
     """(N,) 1 minus how much more skin there is in the window than round it, in [0, 1]."""
-    return 1 - np.clip(inside.mean(axis=1, dtype=np.float64) - around.mean(axis=1, dtype=np.float64), 0, 1)
+    more = inside.mean(axis=1, dtype=np.float64) - around.mean(axis=1, dtype=np.float64)
+    less: Floats = 1 - np.clip(more, 0, 1)
+    return less
 
 
 class RankSpatial:
