@@ -75,8 +75,10 @@ class ColorParticleTracker:
     ) -> None:
         if params is not None and parameters:
             raise TypeError(f"params: expected alone, got also {', '.join(parameters)}")
+        if not isinstance(params, ColorParticleParams | None):
+            raise TypeError(f"params: expected ColorParticleParams, got {type(params).__name__}")
         self.params = ColorParticleParams(**parameters) if params is None else params
-        self.seed = seed
+        self.seed = lifecycle.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._rng = np.random.default_rng(seed)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What every tracker checks before it touches its state."""
 
+from numbers import Integral
 from typing import Any, TypeVar
 
 import numpy as np
@@ -26,6 +27,15 @@ def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArr
         hint = "init starts again on another size"
         raise ValueError(f"frame.color: expected the first frame's shape {shape}, got {image.shape}; {hint}")
     return image  # type: ignore[no-any-return]
+
+
+def seed(value: int) -> int:
+    """The seed itself; TypeError for what isn't a whole number, ValueError for one below 0."""
+    if not isinstance(value, Integral) or isinstance(value, bool):
+        raise TypeError(f"seed: expected a whole number, got {value!r:.80}")
+    if value < 0:
+        raise ValueError(f"seed: expected 0 or more, got {value}")
+    return int(value)
 
 
 def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
