@@ -119,7 +119,7 @@ class ColorParticleTracker:
             self._follow(state, image)
         else:
             self._search(state, image)
-        if state.score >= self.params.learn_above:
+        if state.missed == 0 and state.score >= self.params.learn_above:
             self._learn(state, image)
         return self._track(state)
 
