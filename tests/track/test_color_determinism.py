@@ -31,7 +31,9 @@ print(list(map(tracker.update, face_over_clutter(seed=3, frames=36).frames[18:])
 
 def elsewhere(code: str, *arguments: str) -> str:
     """What another Python process prints; repr shows floats to the last bit."""
-    done = subprocess.run([sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code, *arguments], capture_output=True, text=True, check=True
+    )
     return done.stdout.strip()
 
 
@@ -100,7 +102,10 @@ def test_pickled_before_init(scene: Scene, follow, run):
     """A tracker can be pickled before its init; seed, parameters and kernels come back."""
     restored = pickle.loads(pickle.dumps(ColorParticleTracker(seed=7, kernels="reference", particles=50)))
     assert (restored.seed, restored.kernels, restored.params.particles) == (7, "reference", 50)
-    assert follow(restored, scene.frames[:5], scene.boxes[0]) == run(seed=7, kernels="reference", particles=50)[:5]
+    assert (
+        follow(restored, scene.frames[:5], scene.boxes[0])
+        == run(seed=7, kernels="reference", particles=50)[:5]
+    )
 
 
 def test_pickled_while_lost(scene: Scene):

@@ -37,7 +37,9 @@ def test_one_step_agrees(observation, likelihood, scene: Scene):
         twin = on_reference_kernels(tracker)
         ours, theirs = tracker.update(frame), twin.update(frame)
         extent = float(np.ptp(tracker.particles, axis=0).max())
-        assert np.abs(np.subtract(ours.box, theirs.box)).max() <= 2 * (2 * e * extent)  # width is twice the semi-axis
+        assert np.abs(np.subtract(ours.box, theirs.box)).max() <= 2 * (
+            2 * e * extent
+        )  # width is twice the semi-axis
         assert ours.score == pytest.approx(theirs.score, abs=16 * EPS32)
         assert ours.status is theirs.status
 

@@ -55,7 +55,9 @@ def test_follows_recorded_faces(name, data: Path, follow):
 
 
 @pytest.mark.parametrize("background", ["coffee", "cat"])
-@pytest.mark.parametrize(("dx", "dy"), [(-1, 0), (1, 0), (0, -1), (0, 1)], ids=["left", "right", "top", "bottom"])
+@pytest.mark.parametrize(
+    ("dx", "dy"), [(-1, 0), (1, 0), (0, -1), (0, 1)], ids=["left", "right", "top", "bottom"]
+)
 def test_follows_half_out_of_the_picture(background, dx, dy, stage, follow):
     """A face that leaves the picture half over any edge, stays and comes back is followed within 6 px and never missed."""
     way = np.concatenate([np.linspace(0, 1, 30), np.ones(5), np.linspace(1, 0, 30)])

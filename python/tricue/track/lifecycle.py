@@ -43,12 +43,12 @@ def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
     high.
     """
     height, width = image.shape[:2]
+    if min(box.width, box.height) < 2:
+        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     if box.clip(width, height).area <= 0:
         raise ValueError(
             f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}"
         )
-    if min(box.width, box.height) < 2:
-        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     return box
 
 
