@@ -22,7 +22,7 @@ Image = NDArray[np.uint8]
 
 USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
 LEAST = 1e-300  # what a weight of 0 counts as, in the logarithm
-AS_EVER = 0.8  # surprises: how much worse than usual a lost target may look when it is taken up again
+AS_EVER = 1.6  # surprises: how much worse than usual a lost target may look when it is taken up again
 
 
 class Swarm(NamedTuple):
