@@ -21,5 +21,5 @@ def load(name: Name) -> Kernels:
     """Give the kernels as a module of functions: C++ for "native", their NumPy twins for "reference"."""
     try:
         return _KERNELS[name]
-    except KeyError:
+    except (KeyError, TypeError):
         raise ValueError(f"kernels: expected 'native' or 'reference', got {name!r}") from None

@@ -130,5 +130,12 @@ class ColorParticleParams(Params):
         5, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
     )
     found_above: float = parameter(
-        0.7, unit="score", source=OURS, low=0, high=1, doc="that ends the search of a lost target"
+        0.6, unit="score", source=OURS, low=0, high=1, doc="that ends the search of a lost target"
     )
+
+    def __post_init__(self) -> None:
+        Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
+        for name in ("ring", "size_range"):
+            low, high = getattr(self, name)
+            if low > high:
+                raise ValueError(f"{name}: expected the lower number first, got {(low, high)}")

@@ -22,7 +22,7 @@ Image = NDArray[np.uint8]
 
 USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
 LEAST = 1e-300  # what a weight of 0 counts as, in the logarithm
-AS_EVER = 0.8  # surprises: how much worse than usual a lost target may look when it is taken up again
+AS_EVER = 1.6  # surprises: how much worse than usual a lost target may look when it is taken up again
 
 
 class Swarm(NamedTuple):
@@ -78,8 +78,10 @@ class ColorParticleTracker:
     ) -> None:
         if params is not None and parameters:
             raise TypeError(f"params: expected alone, got also {', '.join(parameters)}")
+        if not isinstance(params, ColorParticleParams | None):
+            raise TypeError(f"params: expected ColorParticleParams, got {type(params).__name__}")
         self.params = ColorParticleParams(**parameters) if params is None else params
-        self.seed = seed
+        self.seed = lifecycle.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._rng = np.random.default_rng(seed)

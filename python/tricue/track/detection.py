@@ -77,7 +77,8 @@ def candidates(
     height, width = image.shape[:2]
     size = motion.usual
     places = rng.random((2 * n, 2)) * (width, height)
-    blobs = k.skin_blobs(image, reference, p.skin_threshold, max(1, int(ENOUGH * 4 * size[0] * size[1])))
+    enough = min(max(1, int(ENOUGH * 4 * size[0] * size[1])), width * height)
+    blobs = k.skin_blobs(image, reference, p.skin_threshold, enough)
     spread = rng.standard_normal((n, 2))
     if len(blobs):
         area = blobs[:, 4]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What every tracker checks before it touches its state."""
 
+from numbers import Integral
 from typing import Any, TypeVar
 
 import numpy as np
@@ -28,17 +29,26 @@ def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArr
     return image  # type: ignore[no-any-return]
 
 
+def seed(value: int) -> int:
+    """The seed itself; TypeError for what isn't a whole number, ValueError for one below 0."""
+    if not isinstance(value, Integral) or isinstance(value, bool):
+        raise TypeError(f"seed: expected a whole number, got {value!r:.80}")
+    if value < 0:
+        raise ValueError(f"seed: expected 0 or more, got {value}")
+    return int(value)
+
+
 def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
     """The box itself; ValueError where no part of it is in the image, or it is under 2 pixels wide or
     high.
     """
     height, width = image.shape[:2]
+    if min(box.width, box.height) < 2:
+        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     if box.clip(width, height).area <= 0:
         raise ValueError(
             f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}"
         )
-    if min(box.width, box.height) < 2:
-        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     return box
 
 

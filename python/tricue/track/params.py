@@ -51,7 +51,7 @@ def parameter(
 class Params:
     """Base of every tracker's parameters: checks types and ranges, reads and writes TOML, describes itself.
 
-    TypeError for an unknown name or a wrong type, ValueError for a value out of range; NaN never passes.
+    TypeError for an unknown name or a wrong type, ValueError for a value out of range, NaN or infinity.
     An int is kept as a float where a float is expected.
     """
 
@@ -122,8 +122,8 @@ def _checked(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
         _check_choice(value, typing.get_args(kind), f.name)
         return value
     value = _converted(value, kind, f)
-    if isinstance(value, float) and math.isnan(value):
-        raise ValueError(f"{f.name}: expected a number, got nan")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{f.name}: expected a finite number, got {value}")
     _check_choice(value, f.metadata.get("choices"), f.name)
     _check_bounds(value, f)
     return value
