@@ -23,7 +23,9 @@ class Stage(Protocol):
 
 
 class Follow(Protocol):
-    def __call__(self, tracker: ColorParticleTracker, frames: Sequence[FrameLike], box: Box) -> list[Track]: ...
+    def __call__(
+        self, tracker: ColorParticleTracker, frames: Sequence[FrameLike], box: Box
+    ) -> list[Track]: ...
 
 
 @pytest.fixture(scope="session")

@@ -40,9 +40,9 @@ class Appearance:
             k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
         )
 
-    def log_likelihood(self, k: Kernels, look: Look) -> Floats:
+    def log_likelihood(self, k: Kernels, look: Look, searching: bool = False) -> Floats:
         """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
-        distance = self.model.distance(k, *look)
+        distance = self.model.distance(k, *look, searching)
         if self.linear:
             likelihood = np.log(np.maximum(1 - distance, 1e-12), dtype=np.float64)
         else:

@@ -22,7 +22,8 @@ Image = NDArray[np.uint8]
 
 USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
 LEAST = 1e-300  # what a weight of 0 counts as, in the logarithm
-AS_EVER = 1.6  # surprises: how much worse than usual a lost target may look when it is taken up again
+BACK_RATE = 0.5  # learning, once, of how a lost target looks when it is taken up again
+AS_EVER = 0.8  # surprises: how much worse than usual a lost target may look when it is taken up again
 
 
 class Swarm(NamedTuple):
@@ -129,7 +130,7 @@ class ColorParticleTracker:
         else:
             self._search(state, image)
         if state.missed == 0 and state.score >= self.params.learn_above:
-            self._learn(state, image)
+            self._learn(state, image, self.params.learning_rate)
         return self._track(state)
 
     def _follow(self, state: State, image: Image) -> None:
@@ -156,13 +157,15 @@ class ColorParticleTracker:
         drift, scale, lower, upper = prediction
         noise = self._rng.standard_normal(particles.shape) @ self._mixing
         moved = k.propose(particles, drift, scale, noise, *detection, lower, upper)
-        likelihood = appearance.log_likelihood(k, appearance.look(k, image, moved))
+        searching = state.missed >= self.params.lost_after
+        likelihood = appearance.log_likelihood(k, appearance.look(k, image, moved), searching)
         if weights is not self._uniform:
             likelihood += np.log(np.maximum(weights, LEAST))
         weights, _ = k.reweight(likelihood, moved, particles, drift, scale, *detection)
         ellipse, _, effective = k.summarize(moved, weights)
         look = appearance.look(k, image, ellipse[None])
-        return Swarm(moved, weights, effective, ellipse, look, float(appearance.log_likelihood(k, look)[0]))
+        estimated = float(appearance.log_likelihood(k, look, searching)[0])
+        return Swarm(moved, weights, effective, ellipse, look, estimated)
 
     def _sweep_wide(self, state: State, image: Image, narrow: Swarm, prediction: Prediction) -> Swarm:
         """Look all round the last place, then closely where it looked best: for jumps."""
@@ -179,12 +182,14 @@ class ColorParticleTracker:
         """Look for a lost target in the whole frame; take it up where it is recognised and looks as ever."""
         k, p, appearance = self._k, self.params, state.appearance
         places = candidates(k, image, state.reference, state.motion, p, self._rng)
-        best = places[np.argmax(appearance.log_likelihood(k, appearance.look(k, image, places)))]
+        likelihood = appearance.log_likelihood(k, appearance.look(k, image, places), searching=True)
+        best = places[np.argmax(likelihood)]
         motion = state.motion.stopped_at(tuple(best.tolist()))
         swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p, state.shape))
         recognised = appearance.recognition(k, swarm.look) >= p.found_above
         if recognised and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
             self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))
+            self._learn(state, image, BACK_RATE)
         else:
             state.score = 0.0
 
@@ -199,10 +204,10 @@ class ColorParticleTracker:
         else:
             state.missed += 1
 
-    def _learn(self, state: State, image: Image) -> None:
-        swarm, p = state.swarm, self.params
+    def _learn(self, state: State, image: Image, rate: float) -> None:
+        swarm = state.swarm
         window = swarm.ellipse[None]
-        state.appearance.learn(self._k, image, window, swarm.look, p.learning_rate, p.color_rate)
+        state.appearance.learn(self._k, image, window, swarm.look, rate, self.params.color_rate)
 
     def _gathered(self, ellipse: Floats) -> tuple[Floats, Floats]:
         """All particles at one place (1, 4), and their weights."""

@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 Model = NDArray[np.float32]
 
 UNKNOWN: Model = np.empty(0, np.float32)
-FLAT = 0.1  # a sum of squared deviations of ranks under which a window has no order to speak of
+FLAT = 0.1  # a sum of squared deviations of ranks under which there is no order to speak of
 
 
 class Observation(Protocol):
@@ -29,8 +29,8 @@ class Observation(Protocol):
     def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         """Blend the look of the first window into the model; a rate of 1 starts it."""
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
-        """(N,) distances in [0, 1]."""
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
+        """(N,) distances in [0, 1]; of a lost target to the nearest look that the model remembers."""
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
         """How surely the first window shows the target, in [0, 1]; about 0 for any that doesn't."""
@@ -53,6 +53,12 @@ def lack(inside: Model, around: Model) -> Floats:
     return less
 
 
+def correlation(a: Model, b: Model) -> float:
+    """Of two rank maps, at least 0. Their mean is 1/2, so sum(a b) - N/4 is that of their deviations."""
+    both, own, other = (float(np.vdot(x, y)) - a.size / 4 for x, y in ((a, b), (a, a), (b, b)))
+    return min(max(both, 0.0) / (own * other) ** 0.5, 1.0) if min(own, other) > FLAT else 0.0
+
+
 class RankSpatial:
     """The order of corresponding pixels: what section III.B argues for in words.
 
@@ -72,20 +78,18 @@ class RankSpatial:
         else:
             self.maps[0] += np.float32(rate) * (ranks[0] - self.maps[0])
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
-        distances: Floats = k.rank_distance(inside, self.maps) @ self.weights
-        return distances
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
+        distances = k.rank_distance(inside, self.maps)
+        chosen: Floats = distances.min(axis=1) if searching else distances @ self.weights
+        return chosen
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
-        """Spearman's rank correlation with the model; a flat window has none, though its distance is small.
+        """Spearman's rank correlation with the model, or with the first look where that is higher.
 
-        Mid-ranks, and means of them, have a mean of 1/2: a sum of products of deviations is r m - N/4.
+        A flat window has none, though its distance is small.
         """
-        ranks, model = k.color_ranks(inside[:1])[0], self.maps[0]
-        quarter = ranks.size / 4
-        own, usual = float(np.vdot(ranks, ranks)) - quarter, float(np.vdot(model, model)) - quarter
-        both = float(np.vdot(ranks, model)) - quarter
-        return min(max(both, 0.0) / (own * usual) ** 0.5, 1.0) if min(own, usual) > FLAT else 0.0
+        ranks = k.color_ranks(inside[:1])[0]
+        return max(correlation(ranks, self.maps[0]), correlation(ranks, self.maps[1]))
 
 
 class RankSections:
@@ -100,7 +104,7 @@ class RankSections:
     def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         self.sections = blended(self.sections, k.rank_sections(inside[:1], self.SECTIONS)[0], rate)
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.section_distance(k.rank_sections(inside, self.SECTIONS), self.sections)
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
@@ -119,7 +123,7 @@ class Histogram:
     def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         self.histogram = blended(self.histogram, k.color_histogram(inside[:1], self.BINS)[0], rate)
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.bhattacharyya(k.color_histogram(inside, self.BINS), self.histogram, 3)
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
@@ -137,7 +141,7 @@ class Region:
     def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
         pass
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return lack(k.skin_rule(inside), k.skin_rule(around))
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
@@ -161,7 +165,7 @@ class Gaussian:
         self.mean = blended(self.mean, chroma.mean(axis=1), rate)
         self.covariance = blended(self.covariance, np.cov(chroma, bias=True) + self.FLOOR * np.eye(2), rate)
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         precision = np.linalg.inv(self.covariance)
         precision = (precision + precision.T) / 2  # inv leaves it symmetric but for rounding
         skin, other = (k.skin_gaussian(each, self.mean, precision) for each in (inside, around))
@@ -185,7 +189,7 @@ class Lookup:
         self.histogram = blended(self.histogram, k.joint_histogram(inside[:1], self.BINS)[0], rate)
         self.table = (self.histogram / self.histogram.max()).reshape(3 * [self.BINS])
 
-    def distance(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+    def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return lack(k.color_lookup(inside, self.table), k.color_lookup(around, self.table))
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
