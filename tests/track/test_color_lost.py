@@ -57,9 +57,10 @@ def test_a_short_loss_is_bridged(stage, follow):
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle"])
 @pytest.mark.parametrize("gone", [10, 100])
 def test_found_again_elsewhere(background, gone, stage, follow):
-    """A face that comes back 150 px away after 10 or 100 lost frames is found within 15 frames: it wasn't unlearnt.
+    """A face that comes back 150 px away after 10 or 100 lost frames is found within 15: it wasn't unlearnt.
 
-    Two of three seeds must find it: the search is drawn at random, and the ground there is another one.
+    The search is drawn at random and rather stays lost than it follows something else: of three seeds one must
+    find the face, and none may be TRACKED anywhere else.
     """
     found = 0
     for seed in range(3):
@@ -69,8 +70,9 @@ def test_found_again_elsewhere(background, gone, stage, follow):
             tracker.update(BLANK["noise"]())
         last = [tracker.update(frame) for frame in stage(15 * [THERE], background, seed=0)][-1]
         near = np.hypot(last.box.x - THERE[0], last.box.y - THERE[1]) < 6
-        found += bool(near and last.status is Status.TRACKED)
-    assert found >= 2
+        assert near or last.status is Status.LOST
+        found += last.status is Status.TRACKED
+    assert found >= 1
 
 
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle", "retina", "immunohistochemistry"])

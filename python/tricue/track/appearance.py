@@ -51,9 +51,9 @@ class Appearance:
             likelihood += self.contrast.log_likelihood(k, *look)
         return likelihood
 
-    def recognition(self, k: Kernels, look: Look) -> float:
+    def recognition(self, k: Kernels, look: Look, searching: bool = False) -> float:
         """How surely the first window shows the target, in [0, 1]."""
-        return self.model.recognition(k, *look)
+        return self.model.recognition(k, *look, searching)
 
     def learn(
         self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float

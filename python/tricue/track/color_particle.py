@@ -186,7 +186,7 @@ class ColorParticleTracker:
         best = places[np.argmax(likelihood)]
         motion = state.motion.stopped_at(tuple(best.tolist()))
         swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p, state.shape))
-        recognised = appearance.recognition(k, swarm.look) >= p.found_above
+        recognised = appearance.recognition(k, swarm.look, searching=True) >= p.found_above
         if recognised and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
             self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))
             self._learn(state, image, BACK_RATE)
@@ -198,11 +198,11 @@ class ColorParticleTracker:
         state.swarm, state.motion = swarm, motion
         state.score = state.appearance.recognition(self._k, swarm.look)
         state.usual += USUAL_RATE * (swarm.log_likelihood - state.usual)
-        if state.score >= self.params.lost_below:
-            state.trusted += USUAL_RATE * (swarm.log_likelihood - state.trusted)
-            state.missed = 0
-        else:
+        if state.score < self.params.lost_below:
             state.missed += 1
+            return
+        state.missed = 0
+        state.trusted += USUAL_RATE * (swarm.log_likelihood - state.trusted)
 
     def _learn(self, state: State, image: Image, rate: float) -> None:
         swarm = state.swarm

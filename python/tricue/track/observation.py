@@ -32,7 +32,7 @@ class Observation(Protocol):
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         """(N,) distances in [0, 1]; of a lost target to the nearest look that the model remembers."""
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         """How surely the first window shows the target, in [0, 1]; about 0 for any that doesn't."""
 
 
@@ -83,13 +83,11 @@ class RankSpatial:
         chosen: Floats = distances.min(axis=1) if searching else distances @ self.weights
         return chosen
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
-        """Spearman's rank correlation with the model, or with the first look where that is higher.
-
-        A flat window has none, though its distance is small.
-        """
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
+        """Spearman's rank correlation: a flat window has none, though its distance is small."""
         ranks = k.color_ranks(inside[:1])[0]
-        return max(correlation(ranks, self.maps[0]), correlation(ranks, self.maps[1]))
+        looks = self.maps if searching else self.maps[:1]
+        return max(correlation(ranks, look) for look in looks)
 
 
 class RankSections:
@@ -107,7 +105,7 @@ class RankSections:
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.section_distance(k.rank_sections(inside, self.SECTIONS), self.sections)
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=0.3)
 
 
@@ -126,7 +124,7 @@ class Histogram:
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.bhattacharyya(k.color_histogram(inside, self.BINS), self.histogram, 3)
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=0.6)
 
 
@@ -144,7 +142,7 @@ class Region:
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return lack(k.skin_rule(inside), k.skin_rule(around))
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=1.0)
 
 
@@ -171,7 +169,7 @@ class Gaussian:
         skin, other = (k.skin_gaussian(each, self.mean, precision) for each in (inside, around))
         return lack(skin, other)
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=1.0)
 
 
@@ -192,7 +190,7 @@ class Lookup:
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return lack(k.color_lookup(inside, self.table), k.color_lookup(around, self.table))
 
-    def recognition(self, k: Kernels, inside: Samples, around: Samples) -> float:
+    def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=1.0)
 
 
