@@ -23,7 +23,9 @@ Image = NDArray[np.uint8]
 USUAL_RATE = 0.05  # per frame, of the log-likelihood's running mean
 LEAST = 1e-300  # what a weight of 0 counts as, in the logarithm
 BACK_RATE = 0.5  # learning, once, of how a lost target looks when it is taken up again
-AS_EVER = 0.8  # surprises: how much worse than usual a lost target may look when it is taken up again
+AS_EVER = (
+    0.85  # of the way from what the frame shows elsewhere to its usual look: a lost target must come as far
+)
 
 
 class Swarm(NamedTuple):
@@ -187,7 +189,8 @@ class ColorParticleTracker:
         motion = state.motion.stopped_at(tuple(best.tolist()))
         swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p, state.shape))
         recognised = appearance.recognition(k, swarm.look, searching=True) >= p.found_above
-        if recognised and swarm.log_likelihood >= state.trusted - AS_EVER * p.surprise:
+        elsewhere = float(np.median(likelihood))
+        if recognised and swarm.log_likelihood >= elsewhere + AS_EVER * (state.trusted - elsewhere):
             self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))
             self._learn(state, image, BACK_RATE)
         else:
