@@ -93,7 +93,7 @@ class RankSpatial:
 class RankSections:
     """Equations (19)-(29) as printed, each a^k of sum 1: how many levels each quantile spans."""
 
-    sharpness = 60.0
+    sharpness = 400.0
     SECTIONS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -112,7 +112,7 @@ class RankSections:
 class Histogram:
     """The 16-bin color histogram of figure 2, Bhattacharyya distance."""
 
-    sharpness = 40.0
+    sharpness = 300.0
     BINS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -149,7 +149,7 @@ class Region:
 class Gaussian:
     """Parametric: a Gaussian over the target's chrominance (Cb, Cr)."""
 
-    sharpness = 10.0
+    sharpness = 100.0
     FLOOR = 4.0  # levels²; what a sensor's noise leaves of a uniform color
 
     def __init__(self, p: ColorParticleParams) -> None:
@@ -176,7 +176,7 @@ class Gaussian:
 class Lookup:
     """Non-parametric: a look-up table, the target's joint histogram scaled to a maximum of 1."""
 
-    sharpness = 10.0
+    sharpness = 100.0
     BINS = 16
 
     def __init__(self, p: ColorParticleParams) -> None:
