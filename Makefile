@@ -18,7 +18,9 @@ test: $(VENV)/dev
 setup: $(VENV)/dev
 
 bench: $(VENV)/dev
-	$(BIN)/python -m pytest benchmarks --benchmark-group-by=group --benchmark-columns=min,median,rounds
+	$(BIN)/python -m pytest benchmarks --benchmark-group-by=group --benchmark-columns=min,median,rounds \
+	    --benchmark-json=build/benchmarks.json
+	$(BIN)/python benchmarks/report.py build/benchmarks.json
 
 lint: $(VENV)/dev
 	$(BIN)/ruff check
