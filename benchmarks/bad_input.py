@@ -39,6 +39,7 @@ class Case(NamedTuple):
 
 
 def gray(image: Any) -> Any:
+    """One channel."""
     return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
 
 
@@ -118,6 +119,7 @@ def shown(answer: Any) -> str:
 
 
 def numbers(box: Any) -> str:
+    """A box in four digits a number."""
     return f"box {' '.join(f'{number:.4g}' for number in box)}"
 
 
@@ -130,6 +132,7 @@ def shortened(message: str) -> str:
 
 
 def told(send: Connection, make: Callable[[], Any], case: Case) -> None:
+    """Send the outcome from the case's own process."""
     cv2.setNumThreads(1)
     send.send(outcome(make, case))
 

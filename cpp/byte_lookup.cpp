@@ -17,9 +17,11 @@ void look_up_each(const Table& table, const std::uint8_t* indices, std::size_t n
 
 #ifdef TRICUE_VBMI
 /// A permutation takes 7 bits of an index; the eighth chooses between the halves of the table.
-TRICUE_VBMI void look_up_permuting(const Table& table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out) {
+TRICUE_VBMI void look_up_permuting(const Table& table, const std::uint8_t* indices, std::size_t n,
+                                   std::uint8_t* out) {
     const __m512i quarter[] = {_mm512_loadu_si512(table.data()), _mm512_loadu_si512(table.data() + 64),
-                               _mm512_loadu_si512(table.data() + 128), _mm512_loadu_si512(table.data() + 192)};
+                               _mm512_loadu_si512(table.data() + 128),
+                               _mm512_loadu_si512(table.data() + 192)};
     for (std::size_t k = 0; k < n; k += 64) {
         const __mmask64 some = n - k >= 64 ? ~__mmask64{0} : (__mmask64{1} << (n - k)) - 1;
         const __m512i index = _mm512_maskz_loadu_epi8(some, indices + k);

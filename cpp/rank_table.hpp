@@ -24,10 +24,12 @@ constexpr std::size_t kMostSamples = std::numeric_limits<Count>::max() / 2;
 /// Each step is done for all channels before the next: a vector load has to wait for the narrow stores before it, and that
 /// wait then goes into the other channels' work.
 template <typename Count>
-inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse, std::array<RankTable<Count>, 3>& tables) {
+inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse,
+                        std::array<RankTable<Count>, 3>& tables) {
     // Neighbouring pixels are alike: two histograms a channel, so that a count needn't wait for the one just written.
     alignas(64) Count counts[3][2][256] = {};
-    const std::uint8_t* plane[] = {samples.plane(ellipse, 0), samples.plane(ellipse, 1), samples.plane(ellipse, 2)};
+    const std::uint8_t* plane[] = {samples.plane(ellipse, 0), samples.plane(ellipse, 1),
+                                   samples.plane(ellipse, 2)};
     const std::ptrdiff_t even = samples.n & ~std::ptrdiff_t{1};
     for (std::ptrdiff_t k = 0; k < even; k += 2)
         for (int channel = 0; channel < 3; ++channel)
@@ -37,7 +39,8 @@ inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse, std::
 
     // A word holds several counts, and one multiplication sums them up. None overflows into the next, being at most 2n.
     constexpr int kCounts = sizeof(std::uint64_t) / sizeof(Count), kWords = 256 / kCounts;
-    constexpr std::uint64_t kOnes = std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
+    constexpr std::uint64_t kOnes =
+        std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
     std::uint64_t own[3][kWords], up_to[3][kWords], before[3][kWords];
     for (int channel = 0; channel < 3; ++channel)
         for (int word = 0; word < kWords; ++word) {
@@ -58,8 +61,8 @@ inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse, std::
         for (int word = 0; word < kWords; ++word) {
             const std::uint64_t total = up_to[channel][word] + before[channel][word] * kOnes;
             const std::uint64_t twice = 2 * total - own[channel][word];
-            std::memcpy(&tables[static_cast<std::size_t>(channel)][static_cast<std::size_t>(kCounts * word)], &twice,
-                        sizeof twice);
+            std::memcpy(&tables[static_cast<std::size_t>(channel)][static_cast<std::size_t>(kCounts * word)],
+                        &twice, sizeof twice);
         }
 }
 

@@ -16,7 +16,8 @@
 ///   loader picks, before they are set up. Elsewhere it is empty; ARM's baseline has NEON anyway.
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && \
     defined(__linux__) && defined(__GLIBC__) && !defined(TRICUE_SANITIZE)
-#define TRICUE_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v2", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define TRICUE_MULTIVERSION \
+    __attribute__((target_clones("default", "arch=x86-64-v2", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define TRICUE_MULTIVERSION
 #endif

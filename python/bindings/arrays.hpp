@@ -109,9 +109,12 @@ inline Bgr bgr(const py::object& object, const char* name) {
     return {data[0], data[1], data[2]};
 }
 
-/// Runs a kernel without the GIL.
+/// Runs a kernel, without the GIL where it has enough work, in pixels or numbers to go through: to hand the GIL over and get it
+/// back takes longer than a small kernel, and two trackers in two threads would do little else.
 template <typename Kernel>
-auto unlocked(Kernel&& kernel) {
+auto unlocked(std::ptrdiff_t work, Kernel&& kernel) {
+    constexpr std::ptrdiff_t kEnough = 65536;
+    if (work < kEnough) return kernel();
     const py::gil_scoped_release release;
     return kernel();
 }

@@ -22,7 +22,7 @@ Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses,
     const auto places = states(pattern, "pattern");
     py::array_t<std::uint8_t> pixels({each.rows(), Eigen::Index{3}, places.rows()});
     auto* out = pixels.mutable_data();
-    unlocked([&] {
+    unlocked(each.rows() * places.rows(), [&] {
         sample_ellipses(view, each, places, out);
         return 0;
     });
@@ -31,7 +31,7 @@ Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses,
 
 Array<float> color_ranks_arrays(const Bytes& pixels) {
     const auto view = samples(pixels, "samples");
-    const py::array rows = give(unlocked([&] { return color_ranks(view); }));
+    const py::array rows = give(unlocked(view.ellipses * view.n, [&] { return color_ranks(view); }));
     return rows.attr("reshape")(view.ellipses, 3, view.n);
 }
 
@@ -40,23 +40,23 @@ Array<double> rank_distance_arrays(const Bytes& pixels, const Array<float>& mode
     const auto view = samples(pixels, "samples");
     const auto maps = floats(models, "models", {-1, 3, view.n}, expected);
     const Eigen::Map<const Floats> rows(maps.data(), maps.rows() / 3, 3 * maps.cols());
-    return give(unlocked([&] { return rank_distance(view, rows); }));
+    return give(unlocked(3 * view.ellipses * view.n, [&] { return rank_distance(view, rows); }));
 }
 
 Array<float> joint_histogram_arrays(const Bytes& pixels, int bins) {
     const auto view = samples(pixels, "samples");
-    return give(unlocked([&] { return joint_histogram(view, bins); }));
+    return give(unlocked(view.ellipses * view.n, [&] { return joint_histogram(view, bins); }));
 }
 
 Array<float> color_histogram_arrays(const Bytes& pixels, int bins) {
     const auto view = samples(pixels, "samples");
-    return give(unlocked([&] { return color_histogram(view, bins); }));
+    return give(unlocked(view.ellipses * view.n, [&] { return color_histogram(view, bins); }));
 }
 
 Array<double> bhattacharyya_arrays(const Array<float>& histograms, const Array<float>& model, int groups) {
     const auto each = floats(histograms, "histograms", {-1, -1}, "float32 (N, K)");
     const auto target = floats(model, "model", {-1}, "float32 (K,)");
-    return give(unlocked([&] { return bhattacharyya(each, target, groups); }));
+    return give(unlocked(each.size(), [&] { return bhattacharyya(each, target, groups); }));
 }
 
 Array<float> color_lookup_arrays(const Bytes& pixels, const Array<float>& table) {
@@ -64,19 +64,20 @@ Array<float> color_lookup_arrays(const Bytes& pixels, const Array<float>& table)
     const auto view = samples(pixels, "samples");
     const auto side = require<float>(table, "table", 3, expected).shape(0);
     const auto cube = floats(table, "table", {side, side, side}, expected);
-    return give(unlocked([&] { return color_lookup(view, cube); }));
+    return give(unlocked(view.ellipses * view.n, [&] { return color_lookup(view, cube); }));
 }
 
 Array<float> rank_sections_arrays(const Bytes& pixels, int sections) {
     const auto view = samples(pixels, "samples");
-    const py::array rows = give(unlocked([&] { return rank_sections(view, sections); }));
+    const py::array rows =
+        give(unlocked(view.ellipses * view.n, [&] { return rank_sections(view, sections); }));
     return rows.attr("reshape")(view.ellipses, 3, sections);
 }
 
 Array<double> section_distance_arrays(const Array<float>& sections, const Array<float>& model) {
     const auto each = floats(sections, "sections", {-1, 3, -1}, "float32 (N, 3, S)");
     const auto target = floats(model, "model", {3, -1}, "float32 (3, S)");
-    return give(unlocked([&] { return section_distance(each, target); }));
+    return give(unlocked(each.size(), [&] { return section_distance(each, target); }));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 Array<std::int64_t> resample_arrays(const Array<double>& weights, double offset) {
     const auto view = vector(weights, "weights");
-    return give(unlocked([&] { return resample(view, offset); }));
+    return give(unlocked(view.size(), [&] { return resample(view, offset); }));
 }
 
 Array<double> propose_arrays(const Array<double>& particles, const Array<double>& drift,
@@ -22,7 +22,7 @@ Array<double> propose_arrays(const Array<double>& particles, const Array<double>
     const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
     const Detection detection{vector(mean, "mean"), states(root, "root"), share};
     const Bounds bounds{vector(lower, "lower"), vector(upper, "upper")};
-    return give(unlocked([&] { return propose(from, dynamics, draws, detection, bounds); }));
+    return give(unlocked(from.size(), [&] { return propose(from, dynamics, draws, detection, bounds); }));
 }
 
 std::tuple<Array<double>, double> reweight_arrays(const Array<double>& log_likelihood,
@@ -35,7 +35,7 @@ std::tuple<Array<double>, double> reweight_arrays(const Array<double>& log_likel
     const auto from = states(previous, "previous");
     const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
     const Detection detection{vector(mean, "mean"), states(root, "root"), share};
-    auto result = unlocked([&] { return reweight(likelihood, to, from, dynamics, detection); });
+    auto result = unlocked(to.size(), [&] { return reweight(likelihood, to, from, dynamics, detection); });
     return {give(std::move(result.weights)), result.log_evidence};
 }
 
@@ -43,7 +43,7 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
                                                                   const Array<double>& weights) {
     const auto points = states(particles, "particles");
     const auto masses = vector(weights, "weights");
-    auto result = unlocked([&] { return summarize(points, masses); });
+    auto result = unlocked(points.size(), [&] { return summarize(points, masses); });
     return {give(std::move(result.mean)), give(std::move(result.covariance)), result.effective};
 }
 

@@ -17,14 +17,14 @@ using Corners = std::tuple<int, int, int, int>;
 
 Bytes skin_reference_arrays(const Bytes& patch) {
     const auto view = color_image(patch, "patch");
-    const Bgr color = unlocked([&] { return skin_reference(view); });
+    const Bgr color = unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return skin_reference(view); });
     return py::array_t<std::uint8_t>(3, color.data());
 }
 
 Array<std::int16_t> skin_boundary_arrays(const Bytes& image, const Bytes& reference) {
     const auto view = color_image(image, "image");
     const auto color = bgr(reference, "reference");
-    return give(unlocked([&] { return skin_boundary(view, color); }));
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return skin_boundary(view, color); }));
 }
 
 Array<double> skin_moments_arrays(const Bytes& image, const Bytes& reference, double threshold,
@@ -33,18 +33,20 @@ Array<double> skin_moments_arrays(const Bytes& image, const Bytes& reference, do
     const auto color = bgr(reference, "reference");
     const auto [x0, y0, x1, y1] = region;
     const Region corners{x0, y0, x1, y1};
-    return give(unlocked([&] { return skin_moments(view, color, threshold, corners); }));
+    return give(unlocked(std::ptrdiff_t{x1 - x0} * (y1 - y0),
+                         [&] { return skin_moments(view, color, threshold, corners); }));
 }
 
 Array<double> skin_blobs_arrays(const Bytes& image, const Bytes& reference, double threshold, int min_area) {
     const auto view = color_image(image, "image");
     const auto color = bgr(reference, "reference");
-    return give(unlocked([&] { return skin_blobs(view, color, threshold, min_area); }));
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols,
+                         [&] { return skin_blobs(view, color, threshold, min_area); }));
 }
 
 Array<float> skin_rule_arrays(const Bytes& pixels) {
     const auto view = samples(pixels, "samples");
-    return give(unlocked([&] { return skin_rule(view); }));
+    return give(unlocked(view.ellipses * view.n, [&] { return skin_rule(view); }));
 }
 
 Array<float> skin_gaussian_arrays(const Bytes& pixels, const Array<double>& mean,
@@ -52,7 +54,7 @@ Array<float> skin_gaussian_arrays(const Bytes& pixels, const Array<double>& mean
     const auto view = samples(pixels, "samples");
     const auto centre = vector(mean, "mean");
     const auto inverse = states(precision, "precision");
-    return give(unlocked([&] { return skin_gaussian(view, centre, inverse); }));
+    return give(unlocked(view.ellipses * view.n, [&] { return skin_gaussian(view, centre, inverse); }));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What the color particle tracker makes of input that isn't what it expects: a named error or a sane track."""
+"""What the color particle tracker makes of input that isn't what it expects: a named error or a sane
+track.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -120,7 +122,9 @@ EXPECTED = started().update(NEXT)
 
 @pytest.mark.parametrize("name", BAD_FRAMES)
 def test_bad_frames_are_named(name):
-    """A frame that is no BGR image gets an error that says so, at init and update, and nothing changes by it."""
+    """A frame that is no BGR image gets an error that says so, at init and update, and nothing changes by
+    it.
+    """
     frame, error, message = BAD_FRAMES[name]
     tracker = started()
     with pytest.raises(error, match=message):
@@ -132,7 +136,9 @@ def test_bad_frames_are_named(name):
 
 @pytest.mark.parametrize("name", BAD_BOXES)
 def test_bad_boxes_are_named(name):
-    """A box that can't be started on gets an error that names it, and the tracker follows the old target on."""
+    """A box that can't be started on gets an error that names it, and the tracker follows the old target
+    on.
+    """
     box, error, message = BAD_BOXES[name]
     tracker = started()
     with pytest.raises(error, match=f"^box: .*{message}"):
@@ -155,17 +161,19 @@ def test_another_size_is_named(shape):
 def test_update_before_init_is_named():
     """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
     tracker = ColorParticleTracker()
-    with pytest.raises(RuntimeError, match="^update: expected init first"):
+    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
         tracker.update(IMAGE)
-    with pytest.raises(ValueError, match="^box: "):
+    with pytest.raises(ValueError, match=r"^box: "):
         tracker.init(IMAGE, (0, 0, 0, 0))
-    with pytest.raises(RuntimeError, match="^update: expected init first"):
+    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
         tracker.update(IMAGE)
 
 
 @pytest.mark.parametrize("name", VIEWS)
 def test_views_are_read_as_they_look(name):
-    """Crops, mirrored and reordered views, also read-only ones, give the track of a packed copy, bit for bit."""
+    """Crops, mirrored and reordered views, also read-only ones, give the track of a packed copy, bit for
+    bit.
+    """
     tracks = []
     for layout in (VIEWS[name], lambda image: VIEWS[name](image).copy(order="C")):
         tracker = ColorParticleTracker(seed=1, particles=30)
@@ -177,7 +185,9 @@ def test_views_are_read_as_they_look(name):
 
 @pytest.mark.parametrize("name", GOOD_BOXES)
 def test_odd_boxes_are_followed(name):
-    """Boxes of other number types, very small, reaching over the edge or larger than the image give sane tracks."""
+    """Boxes of other number types, very small, reaching over the edge or larger than the image give sane
+    tracks.
+    """
     tracker = ColorParticleTracker(seed=1, particles=30)
     first = tracker.init(IMAGE, GOOD_BOXES[name])
     assert first.box == pytest.approx(tuple(map(float, GOOD_BOXES[name])))
@@ -190,7 +200,9 @@ def test_odd_boxes_are_followed(name):
 )
 @pytest.mark.parametrize("name", FRAMES)
 def test_odd_frames_are_sane(name, observation, kernels_name):
-    """Black, saturated, uniform, tiny and huge images give sane tracks, at init, at update and until long lost."""
+    """Black, saturated, uniform, tiny and huge images give sane tracks, at init, at update and until long
+    lost.
+    """
     image = FRAMES[name]
     if kernels_name == "reference" and image.size > IMAGE.size:
         pytest.skip("the twins are too slow for a huge image")
@@ -216,12 +228,14 @@ anything = st.floats() | st.floats(-300, 300) | st.integers(-(10**9), 10**9)
 @settings(max_examples=300)
 @given(st.tuples(*4 * [anything]))
 def test_any_four_numbers(box):
-    """Whatever four numbers the box is, it is refused by name or gives sane tracks: no crash, no warning, no hang."""
+    """Whatever four numbers the box is, it is refused by name or gives sane tracks: no crash, no warning,
+    no hang.
+    """
     tracker = ColorParticleTracker(seed=1, particles=10)
     try:
         tracks = [tracker.init(IMAGE, box)]
     except ValueError as error:
-        assert str(error).startswith("box: expected")
+        assert str(error).startswith("box: expected")  # noqa: PT017
         return
     tracks += [tracker.update(IMAGE), tracker.update(NEXT)]
     for track in tracks:

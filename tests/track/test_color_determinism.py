@@ -71,7 +71,9 @@ def test_another_process_gives_the_same(run):
 
 
 def test_trackers_do_not_meet(scene: Scene, run):
-    """Trackers that take turns frame by frame, and NumPy's global random numbers, leave each other's track alone."""
+    """Trackers that take turns frame by frame, and NumPy's global random numbers, leave each other's track
+    alone.
+    """
     trackers = [ColorParticleTracker(seed=seed) for seed in (7, 8, 7)]
     tracks = [[tracker.init(scene.frames[0], scene.boxes[0])] for tracker in trackers]
     for frame in scene.frames[1:]:

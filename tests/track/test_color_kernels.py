@@ -24,10 +24,14 @@ def on_reference_kernels(tracker: ColorParticleTracker) -> ColorParticleTracker:
 def test_one_step_agrees(observation, likelihood, scene: Scene):
     """From one state, one update gives the same track on both sets of kernels, in each of 35 frames.
 
-    Rounding changes a log weight by at most e, so the normalised weights by at most a share of 2 e, and the weighted
-    mean by at most 2 e times the particles' extent. The models that count pixels are exact to float64: e is a few hundred
-    roundings of it (weights, color term, cumulative sums), 1e-13 with an allowance of ten. The Gaussian's float32 densities of
-    144 pixels are off by up to 16 EPS32 each (the squared Mahalanobis distance, some 10 where the density counts, times
+    Rounding changes a log weight by at most e, so the normalised weights by at most a share of 2 e, and the
+    weighted
+    mean by at most 2 e times the particles' extent. The models that count pixels are exact to float64: e is
+    a few hundred
+    roundings of it (weights, color term, cumulative sums), 1e-13 with an allowance of ten. The Gaussian's
+    float32 densities of
+    144 pixels are off by up to 16 EPS32 each (the squared Mahalanobis distance, some 10 where the density
+    counts, times
     its roundings), the distance by that, and e by 2 sharpness d, at most 20, times that.
     """
     e = 20 * 16 * EPS32 if observation == "gaussian" else 5000 * EPS64
@@ -49,9 +53,12 @@ def test_one_step_agrees(observation, likelihood, scene: Scene):
 def test_whole_tracks_agree(observation, likelihood, run):
     """Over 36 frames the tracks agree within 1e-9 px.
 
-    One step differs by up to 1e-10 px (see above). Later steps carry a difference on, they don't multiply it: the particles
-    are drawn with the same noise and pulled to the same place. Only a sample that crosses the border of a pixel, or a
-    resampled index that crosses a tooth, would; for 100 particles of 208 samples over 36 frames and 1e-10 px that is
+    One step differs by up to 1e-10 px (see above). Later steps carry a difference on, they don't multiply
+    it: the particles
+    are drawn with the same noise and pulled to the same place. Only a sample that crosses the border of a
+    pixel, or a
+    resampled index that crosses a tooth, would; for 100 particles of 208 samples over 36 frames and 1e-10
+    px that is
     a chance of about 1e-4. The largest difference seen is 4e-12 px.
     """
     ours, theirs = (
@@ -67,8 +74,10 @@ def test_whole_tracks_agree(observation, likelihood, run):
 def test_gaussian_tracks_agree(likelihood, run):
     """Over 36 frames the Gaussian's tracks agree within 10 px.
 
-    Its float32 differences of about 1e-6 px a step make it likely that one of 700,000 samples crosses the border of a pixel
-    within the 36 frames; from there on the tracks are two draws of the same filter, as a start that is 0.001 px off gives two
+    Its float32 differences of about 1e-6 px a step make it likely that one of 700,000 samples crosses the
+    border of a pixel
+    within the 36 frames; from there on the tracks are two draws of the same filter, as a start that is
+    0.001 px off gives two
     native tracks that differ by 3 to 9 px. Where none crosses (the rule) they agree within 1e-5 px.
     """
     ours, theirs = (

@@ -24,7 +24,9 @@ START = Box(100, 90, 50, 63)
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("blank", BLANK)
 def test_a_frame_without_target_is_told(blank, seed, stage, follow):
-    """Black, white and noise frames give a score under 0.3 and OCCLUDED at the first, LOST at the fifth, never TRACKED."""
+    """Black, white and noise frames give a score under 0.3 and OCCLUDED at the first, LOST at the fifth,
+    never TRACKED.
+    """
     tracker = ColorParticleTracker(seed=seed)
     follow(tracker, stage(HERE), START)
     tracks = [tracker.update(BLANK[blank]()) for _ in range(40)]
@@ -59,7 +61,8 @@ def test_a_short_loss_is_bridged(stage, follow):
 def test_found_again_elsewhere(background, gone, stage, follow):
     """A face that comes back 150 px away after 10 or 100 lost frames is found within 15: it wasn't unlearnt.
 
-    The search is drawn at random and rather stays lost than it follows something else: of three seeds one must
+    The search is drawn at random and rather stays lost than it follows something else: of three seeds one
+    must
     find the face, and none may be TRACKED anywhere else.
     """
     found = 0

@@ -89,19 +89,21 @@ def test_pairs_out_of_order_are_named(name, pair):
 
 def test_unknown_names_are_errors():
     """A misspelt parameter is a TypeError that proposes the right one."""
-    with pytest.raises(TypeError, match="^particle: unknown parameter of .*did you mean particles"):
+    with pytest.raises(TypeError, match=r"^particle: unknown parameter of .*did you mean particles"):
         ColorParticleTracker(particle=50)
 
 
 def test_params_and_keywords_are_the_same(run):
-    """Parameters by params=, by keywords and through create() give one track; both ways at once are an error."""
+    """Parameters by params=, by keywords and through create() give one track; both ways at once are an
+    error.
+    """
     assert run(params=Params(particles=50)) == run(particles=50)
     tracker = tricue.create("color-particle", seed=3, particles=50)
     assert isinstance(tracker, ColorParticleTracker)
     assert (tracker.seed, tracker.params) == (3, Params(particles=50))
-    with pytest.raises(TypeError, match="^params: expected alone, got also particles"):
+    with pytest.raises(TypeError, match=r"^params: expected alone, got also particles"):
         ColorParticleTracker(params=Params(), particles=50)
-    with pytest.raises(TypeError, match="^params: expected ColorParticleParams, got dict"):
+    with pytest.raises(TypeError, match=r"^params: expected ColorParticleParams, got dict"):
         ColorParticleTracker(params={})
 
 
@@ -110,7 +112,7 @@ def test_params_and_keywords_are_the_same(run):
 )
 def test_seeds_are_whole_numbers(seed, error):
     """A seed that is no whole number from 0 up is named: None, which would mean chance, too."""
-    with pytest.raises(error, match="^seed: expected"):
+    with pytest.raises(error, match=r"^seed: expected"):
         ColorParticleTracker(seed=seed)
     assert ColorParticleTracker(seed=np.int64(5)).seed == 5
 
@@ -118,7 +120,7 @@ def test_seeds_are_whole_numbers(seed, error):
 @pytest.mark.parametrize("name", ["", "cuda", None, []])
 def test_kernels_are_native_or_reference(name):
     """Another set of kernels is a ValueError that names both."""
-    with pytest.raises(ValueError, match="^kernels: expected 'native' or 'reference'"):
+    with pytest.raises(ValueError, match=r"^kernels: expected 'native' or 'reference'"):
         ColorParticleTracker(kernels=name)
 
 

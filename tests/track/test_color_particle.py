@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""That the color particle tracker follows its target, in scenes and on real video, and over the image's edge."""
+"""That the color particle tracker follows its target, in scenes and on real video, and over the image's
+edge.
+"""
 
 import tracemalloc
 from collections.abc import Sequence
@@ -22,7 +24,9 @@ def errors(tracks: Sequence[Track], boxes: Sequence[Box]) -> NDArray[np.float64]
 
 @pytest.mark.parametrize("background", ["coffee", "immunohistochemistry"])
 def test_follows_a_face_over_clutter(background, follow):
-    """In the scene of figure 1 the mean error is at most 3 px, and at most 2 % of the frames are over 25 px off."""
+    """In the scene of figure 1 the mean error is at most 3 px, and at most 2 % of the frames are over 25
+    px off.
+    """
     scenes = [face_over_clutter(seed=seed, background=background) for seed in SEEDS]
     off = np.array(
         [
@@ -45,7 +49,9 @@ def test_holds_through_a_change_of_light(seed, follow):
 
 @pytest.mark.parametrize("name", ["David", "Girl", "FaceOcc2"])
 def test_follows_recorded_faces(name, data: Path, follow):
-    """On recorded faces the success AUC is at least 0.5 with the default parameters: a floor, so that a regression shows."""
+    """On recorded faces the success AUC is at least 0.5 with the default parameters: a floor, so that a
+    regression shows.
+    """
     folder = data / "color" / name
     if not folder.is_dir():
         pytest.skip(f"no sequence {folder}")
@@ -59,7 +65,9 @@ def test_follows_recorded_faces(name, data: Path, follow):
     ("dx", "dy"), [(-1, 0), (1, 0), (0, -1), (0, 1)], ids=["left", "right", "top", "bottom"]
 )
 def test_follows_half_out_of_the_picture(background, dx, dy, stage, follow):
-    """A face that leaves the picture half over any edge, stays and comes back is followed within 6 px and never missed."""
+    """A face that leaves the picture half over any edge, stays and comes back is followed within 6 px and
+    never missed.
+    """
     way = np.concatenate([np.linspace(0, 1, 30), np.ones(5), np.linspace(1, 0, 30)])
     center = np.array([160 + dx * 60, 120 + dy * 30])
     edge = np.array([160 + dx * 160, 120 + dy * 120])
@@ -80,7 +88,9 @@ def test_starts_on_a_box_over_the_edge(stage, follow):
 
 
 def test_ranks_alone_see_no_light(scene: Scene, follow):
-    """With ranks alone, a strictly increasing change of each channel of all frames leaves the track bit for bit as it is."""
+    """With ranks alone, a strictly increasing change of each channel of all frames leaves the track bit
+    for bit as it is.
+    """
     rng = np.random.default_rng(2)
     curves = [np.sort(rng.choice(256, 128, replace=False)).astype(np.uint8) for _ in range(3)]
     half = [np.asarray(frame.color) // 2 for frame in scene.frames]
@@ -94,7 +104,9 @@ def test_ranks_alone_see_no_light(scene: Scene, follow):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_every_track_is_sane(seed, follow):
-    """In clutter, noise, black and foreign frames boxes are finite, sizes within their range, scores in [0, 1]."""
+    """In clutter, noise, black and foreign frames boxes are finite, sizes within their range, scores in
+    [0, 1].
+    """
     rng = np.random.default_rng(seed)
     scene = face_over_clutter(seed=seed, frames=40)
     frames = [np.asarray(frame.color) for frame in scene.frames]

@@ -28,7 +28,8 @@ void rank_ellipse(const SampleView& samples, std::ptrdiff_t ellipse, float* rank
 Floats color_ranks(const SampleView& samples) {
     if (samples.n < 1) refuse("samples", "at least one an ellipse", "none");
     Floats ranks(samples.ellipses, 3 * samples.n);
-    for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i) rank_ellipse(samples, i, ranks.data() + 3 * i * samples.n);
+    for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
+        rank_ellipse(samples, i, ranks.data() + 3 * i * samples.n);
     return ranks;
 }
 

@@ -15,7 +15,8 @@ namespace {
 using Sums = Eigen::Array<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The sum of |a - b| of bytes, in the form in which compilers see the instruction for it.
-inline std::int64_t difference(const std::uint8_t* __restrict a, const std::uint8_t* __restrict b, std::size_t n) {
+inline std::int64_t difference(const std::uint8_t* __restrict a, const std::uint8_t* __restrict b,
+                               std::size_t n) {
     int sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += std::abs(a[k] - b[k]);
     return sum;
@@ -40,8 +41,8 @@ inline void rank_all(const RankTable<Count>& table, const std::uint8_t* levels, 
 
 /// Adds the differences between the samples of one ellipse and each of the models (M x 3n) to the M sums.
 template <typename Count>
-TRICUE_MULTIVERSION void compare(const SampleView& samples, std::ptrdiff_t ellipse, const Count* models, std::ptrdiff_t M,
-                                 Count* ranks, std::int64_t* sums) {
+TRICUE_MULTIVERSION void compare(const SampleView& samples, std::ptrdiff_t ellipse, const Count* models,
+                                 std::ptrdiff_t M, Count* ranks, std::int64_t* sums) {
     const auto n = static_cast<std::size_t>(samples.n);
     std::array<RankTable<Count>, 3> tables;
     rank_tables(samples, ellipse, tables);
