@@ -25,16 +25,13 @@ def test_one_step_agrees(observation, likelihood, scene: Scene):
     """From one state, one update gives the same track on both sets of kernels, in each of 35 frames.
 
     Rounding changes a log weight by at most e, so the normalised weights by at most a share of 2 e, and the
-    weighted
-    mean by at most 2 e times the particles' extent. The models that count pixels are exact to float64: e is
-    a few hundred
-    roundings of it (weights, color term, cumulative sums), 1e-13 with an allowance of ten. The Gaussian's
-    float32 densities of
-    144 pixels are off by up to 16 EPS32 each (the squared Mahalanobis distance, some 10 where the density
-    counts, times
-    its roundings), the distance by that, and e by 2 sharpness d, at most 20, times that.
+    weighted mean by at most 2 e times the particles' extent. The models that count pixels are exact to float64:
+    e is a few hundred roundings of it (weights, color term, cumulative sums), 1e-13 with an allowance of ten. The
+    Gaussian's float32 densities of the pixels are off by up to 16 EPS32 each (the squared Mahalanobis distance,
+    some 10 where the density counts, times its roundings), the distance by that, and e by 2 sharpness d, at most
+    200, times that. Its whole tracks part where a sample crosses the border of a pixel, and aren't compared.
     """
-    e = 20 * 16 * EPS32 if observation == "gaussian" else 5000 * EPS64
+    e = 200 * 16 * EPS32 if observation == "gaussian" else 5000 * EPS64
     tracker = ColorParticleTracker(seed=1, observation=observation, likelihood=likelihood)
     tracker.init(scene.frames[0], scene.boxes[0])
     for frame in scene.frames[1:]:
@@ -53,13 +50,10 @@ def test_one_step_agrees(observation, likelihood, scene: Scene):
 def test_whole_tracks_agree(observation, likelihood, run):
     """Over 36 frames the tracks agree within 1e-9 px.
 
-    One step differs by up to 1e-10 px (see above). Later steps carry a difference on, they don't multiply
-    it: the particles
-    are drawn with the same noise and pulled to the same place. Only a sample that crosses the border of a
-    pixel, or a
-    resampled index that crosses a tooth, would; for 100 particles of 208 samples over 36 frames and 1e-10
-    px that is
-    a chance of about 1e-4. The largest difference seen is 4e-12 px.
+    One step differs by up to 1e-10 px (see above). Later steps carry a difference on, they don't multiply it: the
+    particles are drawn with the same noise and pulled to the same place. Only a sample that crosses the border of
+    a pixel, or a resampled index that crosses a tooth, would; for 100 particles of 136 samples over 36 frames and
+    1e-10 px that is a chance of about 1e-4. The largest difference seen is 4e-12 px.
     """
     ours, theirs = (
         run(seed=1, observation=observation, likelihood=likelihood, kernels=kernels)
@@ -68,24 +62,6 @@ def test_whole_tracks_agree(observation, likelihood, run):
     off = np.subtract([track.box for track in ours], [track.box for track in theirs])
     assert np.abs(off).max() <= 1e-9
     assert [track.status for track in ours] == [track.status for track in theirs]
-
-
-@pytest.mark.parametrize("likelihood", ["linear", "exponential"])
-def test_gaussian_tracks_agree(likelihood, run):
-    """Over 36 frames the Gaussian's tracks agree within 10 px.
-
-    Its float32 differences of about 1e-6 px a step make it likely that one of 700,000 samples crosses the
-    border of a pixel
-    within the 36 frames; from there on the tracks are two draws of the same filter, as a start that is
-    0.001 px off gives two
-    native tracks that differ by 3 to 9 px. Where none crosses (the rule) they agree within 1e-5 px.
-    """
-    ours, theirs = (
-        run(seed=1, observation="gaussian", likelihood=likelihood, kernels=kernels)
-        for kernels in ("native", "reference")
-    )
-    off = np.subtract([track.box for track in ours], [track.box for track in theirs])
-    assert np.abs(off).max() <= 10
 
 
 def test_lost_and_found_alike(stage, follow):
