@@ -24,12 +24,13 @@ def on_reference_kernels(tracker: ColorParticleTracker) -> ColorParticleTracker:
 def test_one_step_agrees(observation, likelihood, scene: Scene):
     """From one state, one update gives the same track on both sets of kernels, in each of 35 frames.
 
-    Rounding changes a log weight by at most e, so the normalised weights by at most a share of 2 e, and the
-    weighted mean by at most 2 e times the particles' extent. The models that count pixels are exact to float64:
-    e is a few hundred roundings of it (weights, color term, cumulative sums), 1e-13 with an allowance of ten. The
-    Gaussian's float32 densities of the pixels are off by up to 16 EPS32 each (the squared Mahalanobis distance,
-    some 10 where the density counts, times its roundings), the distance by that, and e by 2 sharpness d, at most
-    200, times that. Its whole tracks part where a sample crosses the border of a pixel, and aren't compared.
+    Rounding changes a log weight by at most e, so the normalised weights by at most a share of 2 e, and
+    the weighted mean by at most 2 e times the particles' extent. The models that count pixels are exact
+    to float64: e is a few hundred roundings of it (weights, color term, cumulative sums), 1e-13 with an
+    allowance of ten. The Gaussian's float32 densities of the pixels are off by up to 16 EPS32 each (the
+    squared Mahalanobis distance, some 10 where the density counts, times its roundings), the distance by
+    that, and e by 2 sharpness d, at most 200, times that. Its whole tracks part where a sample crosses
+    the border of a pixel, and aren't compared.
     """
     e = 200 * 16 * EPS32 if observation == "gaussian" else 5000 * EPS64
     tracker = ColorParticleTracker(seed=1, observation=observation, likelihood=likelihood)
@@ -50,10 +51,11 @@ def test_one_step_agrees(observation, likelihood, scene: Scene):
 def test_whole_tracks_agree(observation, likelihood, run):
     """Over 36 frames the tracks agree within 1e-9 px.
 
-    One step differs by up to 1e-10 px (see above). Later steps carry a difference on, they don't multiply it: the
-    particles are drawn with the same noise and pulled to the same place. Only a sample that crosses the border of
-    a pixel, or a resampled index that crosses a tooth, would; for 100 particles of 136 samples over 36 frames and
-    1e-10 px that is a chance of about 1e-4. The largest difference seen is 4e-12 px.
+    One step differs by up to 1e-10 px (see above). Later steps carry a difference on, they don't multiply
+    it: the particles are drawn with the same noise and pulled to the same place. Only a sample that
+    crosses the border of a pixel, or a resampled index that crosses a tooth, would; for 100 particles of
+    136 samples over 36 frames and 1e-10 px that is a chance of about 1e-4. The largest difference seen is
+    4e-12 px.
     """
     ours, theirs = (
         run(seed=1, observation=observation, likelihood=likelihood, kernels=kernels)
