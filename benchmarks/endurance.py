@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Memory over 100,000 updates: ``python benchmarks/endurance.py`` prints the process's resident size as it goes."""
+"""Memory over 100,000 updates: ``python benchmarks/endurance.py`` prints the resident size as it goes."""
 
 from pathlib import Path
 
