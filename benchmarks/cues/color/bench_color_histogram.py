@@ -20,7 +20,7 @@ def script(samples: Image, bins: int) -> NDArray[np.float32]:
     histograms = np.empty((ellipses, 3, bins), np.float32)
     for i in range(ellipses):
         for k in range(3):
-            histograms[i, k] = cv2.calcHist([samples[i, k]], [0], None, [bins], [0, 256])[:, 0] / n
+            histograms[i, k] = cv2.calcHist([samples[i, k]], [0], None, [bins], [0, 256]).ravel() / n
     return histograms.reshape(ellipses, 3 * bins)
 
 

@@ -22,7 +22,7 @@ def script(samples: Image, models: Maps) -> Maps:
     ranks = np.empty((3, n), np.float32)
     for i in range(ellipses):
         for k in range(3):
-            counts = cv2.calcHist([samples[i, k]], [0], None, [256], [0, 256])[:, 0]
+            counts = cv2.calcHist([samples[i, k]], [0], None, [256], [0, 256]).ravel()
             ranks[k] = ((np.cumsum(counts) - counts / 2) / n)[samples[i, k]]
         distances[i] = 2 * np.abs(ranks - models).mean(axis=(1, 2))
     return distances
