@@ -3,6 +3,7 @@
 
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -30,11 +31,12 @@ def _narrowed(square: Box) -> Box:
 
 
 @cache
-def _cascade() -> "cv2.CascadeClassifier":
+def _cascade() -> Any:  # cv2 5's types don't know it
     folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
-    if folder is None or not hasattr(cv2, "CascadeClassifier"):
+    classifier = getattr(cv2, "CascadeClassifier", None)
+    if folder is None or classifier is None:
         raise ImportError(
             f"--detect face: cv2 {cv2.__version__} has no face cascade; "
             "give --box x,y,width,height, or pip install 'opencv-python-headless<5'"
         )
-    return cv2.CascadeClassifier(str(Path(folder) / "haarcascade_frontalface_default.xml"))
+    return classifier(str(Path(folder) / "haarcascade_frontalface_default.xml"))

@@ -130,13 +130,14 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
     """How to make each cv2 tracker; parameters are built here, as cv2 takes long for the first ones."""
     legacy = getattr(cv2, "legacy", None)
     makers: dict[str, Callable[[], Any]] = {}
-    if hasattr(cv2, "TrackerCSRT"):
-        makers["CSRT"] = cv2.TrackerCSRT.create
-    if hasattr(cv2, "TrackerKCF"):
-        eager = cv2.TrackerKCF.Params()
+    csrt, kcf = getattr(cv2, "TrackerCSRT", None), getattr(cv2, "TrackerKCF", None)
+    if csrt:
+        makers["CSRT"] = csrt.create
+    if kcf:
+        eager = kcf.Params()
         eager.detect_thresh = 0.1
-        makers["KCF"] = cv2.TrackerKCF.create
-        makers["KCF-0.1"] = lambda: cv2.TrackerKCF.create(eager)
+        makers["KCF"] = kcf.create
+        makers["KCF-0.1"] = lambda: kcf.create(eager)
     for name in ("MOSSE", "MedianFlow"):
         if hasattr(legacy, f"Tracker{name}"):
             makers[name] = getattr(legacy, f"Tracker{name}").create
