@@ -38,10 +38,11 @@ inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse,
         for (int channel = 0; channel < 3; ++channel) ++counts[channel][0][plane[channel][even]];
 
     // A word holds several counts, and one multiplication sums them up. None overflows into the next, being at most 2n.
-    constexpr int kCounts = sizeof(std::uint64_t) / sizeof(Count), kWords = 256 / kCounts;
+    constexpr auto kCounts = static_cast<int>(sizeof(std::uint64_t) / sizeof(Count));
+    constexpr int kWords = 256 / kCounts;
     constexpr std::uint64_t kOnes =
         std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
-    std::uint64_t own[3][kWords], up_to[3][kWords], before[3][kWords];
+    std::uint64_t own[3][std::size_t{kWords}], up_to[3][std::size_t{kWords}], before[3][std::size_t{kWords}];
     for (int channel = 0; channel < 3; ++channel)
         for (int word = 0; word < kWords; ++word) {
             std::uint64_t lane[2];
