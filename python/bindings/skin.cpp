@@ -33,7 +33,7 @@ Array<double> skin_moments_arrays(const Bytes& image, const Bytes& reference, do
     const auto color = bgr(reference, "reference");
     const auto [x0, y0, x1, y1] = region;
     const Region corners{x0, y0, x1, y1};
-    return give(unlocked(std::ptrdiff_t{x1 - x0} * (y1 - y0),
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols,
                          [&] { return skin_moments(view, color, threshold, corners); }));
 }
 
