@@ -27,6 +27,12 @@ int bits_of_bins(std::ptrdiff_t bins, const char* name) {
     refuse(name, "a power of two from 1 to 64", std::to_string(bins));
 }
 
+int bits_of_cube(FloatsRef cube, const char* name) {
+    for (int bits = 0; bits <= 6; ++bits)
+        if (cube.cols() == 1 << bits && cube.rows() == 1 << (2 * bits)) return bits;
+    refuse(name, "shape (B, B, B), B a power of two up to 64", "B = " + std::to_string(cube.cols()));
+}
+
 void color_cells(const SampleView& samples, std::ptrdiff_t ellipse, int bits, std::int32_t* cells) {
     cells_of(samples.plane(ellipse, 0), samples.plane(ellipse, 1), samples.plane(ellipse, 2), samples.n, bits,
              cells);

@@ -113,22 +113,27 @@ inline Bgr bgr(const py::object& object, const char* name) {
 /// back takes longer than a small kernel, and two trackers in two threads would do little else.
 template <typename Kernel>
 auto unlocked(std::ptrdiff_t work, Kernel&& kernel) {
-    constexpr std::ptrdiff_t kEnough = 65536;
+    constexpr std::ptrdiff_t kEnough = 4096;
     if (work < kEnough) return kernel();
     const py::gil_scoped_release release;
     return kernel();
 }
 
-/// Hands a result's memory to NumPy without a copy.
+/// Hands a result's memory to NumPy without a copy, in the shape given.
 template <typename Result>
-Array<typename Result::Scalar> give(Result&& result) {
+Array<typename Result::Scalar> give(Result&& result, const std::vector<py::ssize_t>& shape) {
     static_assert(!std::is_lvalue_reference_v<Result>, "give(std::move(result))");
     auto* owned = new Result(std::forward<Result>(result));
     const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
-    if constexpr (Result::ColsAtCompileTime == 1)
-        return py::array_t<typename Result::Scalar>(owned->size(), owned->data(), owner);
-    else
-        return py::array_t<typename Result::Scalar>({owned->rows(), owned->cols()}, owned->data(), owner);
+    return py::array_t<typename Result::Scalar>(shape, owned->data(), owner);
+}
+
+/// In its own shape.
+template <typename Result>
+Array<typename Result::Scalar> give(Result&& result) {
+    std::vector<py::ssize_t> shape{result.rows()};
+    if constexpr (Result::ColsAtCompileTime != 1) shape.push_back(result.cols());
+    return give(std::forward<Result>(result), shape);
 }
 
 }  // namespace tricue::bindings

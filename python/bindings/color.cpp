@@ -5,6 +5,8 @@
 #include "cues/color/color_lookup.hpp"
 #include "cues/color/color_ranks.hpp"
 #include "cues/color/joint_histogram.hpp"
+#include "cues/color/learn_contrast.hpp"
+#include "cues/color/rank_contrast.hpp"
 #include "cues/color/rank_distance.hpp"
 #include "cues/color/rank_sections.hpp"
 #include "cues/color/sample_ellipses.hpp"
@@ -14,6 +16,18 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
+
+/// (M, 3, n) seen as M rows.
+Eigen::Map<const Floats> rank_maps(const Array<float>& models, py::ssize_t n) {
+    const auto maps = floats(models, "models", {-1, 3, n}, "float32 (M, 3, n)");
+    return {maps.data(), maps.rows() / 3, 3 * maps.cols()};
+}
+
+Eigen::Map<const Floats> color_cube(const Array<float>& table, const char* name = "table") {
+    const char* expected = "float32 (B, B, B)";
+    const auto side = require<float>(table, name, 3, expected).shape(0);
+    return floats(table, name, {side, side, side}, expected);
+}
 
 Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses,
                              const Array<double>& pattern) {
@@ -31,16 +45,38 @@ Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses,
 
 Array<float> color_ranks_arrays(const Bytes& pixels) {
     const auto view = samples(pixels, "samples");
-    const py::array rows = give(unlocked(view.ellipses * view.n, [&] { return color_ranks(view); }));
-    return rows.attr("reshape")(view.ellipses, 3, view.n);
+    auto ranks = unlocked(view.ellipses * view.n, [&] { return color_ranks(view); });
+    return give(std::move(ranks), {view.ellipses, 3, view.n});
 }
 
 Array<double> rank_distance_arrays(const Bytes& pixels, const Array<float>& models) {
-    const char* expected = "float32 (M, 3, n)";
     const auto view = samples(pixels, "samples");
-    const auto maps = floats(models, "models", {-1, 3, view.n}, expected);
-    const Eigen::Map<const Floats> rows(maps.data(), maps.rows() / 3, 3 * maps.cols());
+    const auto rows = rank_maps(models, view.n);
     return give(unlocked(3 * view.ellipses * view.n, [&] { return rank_distance(view, rows); }));
+}
+
+std::tuple<Array<double>, Array<double>> rank_contrast_arrays(
+    const Bytes& image, const Array<double>& ellipses, const Array<double>& inside,
+    const Array<double>& around, const Array<float>& models, const Array<float>& table) {
+    const auto view = color_image(image, "image");
+    const auto each = states(ellipses, "ellipses");
+    const Windows windows{states(inside, "inside"), states(around, "around")};
+    const auto places = windows.inside.rows();
+    const ColorLook look{rank_maps(models, places), color_cube(table)};
+    auto measured = unlocked(each.rows() * places, [&] { return rank_contrast(view, each, windows, look); });
+    return {give(std::move(measured.distances)), give(std::move(measured.contrast))};
+}
+
+std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(const Bytes& inside,
+                                                                           const Bytes& around,
+                                                                           const Array<float>& target,
+                                                                           const Array<float>& surround,
+                                                                           double rate, double rare) {
+    const auto within = samples(inside, "inside"), without = samples(around, "around");
+    const auto known = color_cube(target, "target"), other = color_cube(surround, "surround");
+    auto [own, round, rule] = learn_contrast(within, without, known, other, rate, rare);
+    const std::vector<py::ssize_t> cube(3, known.cols());
+    return {give(std::move(own), cube), give(std::move(round), cube), give(std::move(rule), cube)};
 }
 
 Array<float> joint_histogram_arrays(const Bytes& pixels, int bins) {
@@ -60,18 +96,15 @@ Array<double> bhattacharyya_arrays(const Array<float>& histograms, const Array<f
 }
 
 Array<float> color_lookup_arrays(const Bytes& pixels, const Array<float>& table) {
-    const char* expected = "float32 (B, B, B)";
     const auto view = samples(pixels, "samples");
-    const auto side = require<float>(table, "table", 3, expected).shape(0);
-    const auto cube = floats(table, "table", {side, side, side}, expected);
+    const auto cube = color_cube(table);
     return give(unlocked(view.ellipses * view.n, [&] { return color_lookup(view, cube); }));
 }
 
 Array<float> rank_sections_arrays(const Bytes& pixels, int sections) {
     const auto view = samples(pixels, "samples");
-    const py::array rows =
-        give(unlocked(view.ellipses * view.n, [&] { return rank_sections(view, sections); }));
-    return rows.attr("reshape")(view.ellipses, 3, sections);
+    auto sums = unlocked(view.ellipses * view.n, [&] { return rank_sections(view, sections); });
+    return give(std::move(sums), {view.ellipses, 3, sections});
 }
 
 Array<double> section_distance_arrays(const Array<float>& sections, const Array<float>& model) {
@@ -89,9 +122,19 @@ void define_color(py::module_& m) {
           "minor, major.");
     m.def("color_ranks", color_ranks_arrays, py::arg("samples"),
           "Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).");
+    m.def(
+        "learn_contrast", learn_contrast_arrays, py::arg("inside"), py::arg("around"), py::arg("target"),
+        py::arg("surround"), py::arg("rate"), py::arg("rare"),
+        "The joint histograms (B, B, B) of target and surround with the colors of samples inside and around "
+        "blended in, and the table target / (target + surround + rare).");
     m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"),
           "(N, M) twice the mean absolute difference between the samples' mid-ranks and each rank map (M, 3, "
           "n), in [0, 1].");
+    m.def("rank_contrast", rank_contrast_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
+          py::arg("around"), py::arg("models"), py::arg("table"),
+          "rank_distance (N, M) of the pixels at the places inside each ellipse (N, 4), and (N,) how much "
+          "higher "
+          "the table's mean is over them than over those around.");
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),
           "Joint color histograms (N, bins^3) of sum 1; cell (b bins + g) bins + r.");
     m.def("color_histogram", color_histogram_arrays, py::arg("samples"), py::arg("bins"),

@@ -39,6 +39,22 @@ def joint_histogram(
     Joint color histograms (N, bins^3) of sum 1; cell (b bins + g) bins + r.
     """
 
+def learn_contrast(
+    inside: numpy.typing.NDArray[numpy.uint8],
+    around: numpy.typing.NDArray[numpy.uint8],
+    target: numpy.typing.NDArray[numpy.float32],
+    surround: numpy.typing.NDArray[numpy.float32],
+    rate: float,
+    rare: float,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+]:
+    """
+    The joint histograms (B, B, B) of target and surround with the colors of samples inside and around blended in, and the table target / (target + surround + rare).
+    """
+
 def propose(
     particles: numpy.typing.NDArray[numpy.float64],
     drift: numpy.typing.NDArray[numpy.float64],
@@ -52,6 +68,18 @@ def propose(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); the first floor(share N) have their position from N(mean, root root^T) instead; all clamped to [lower, upper].
+    """
+
+def rank_contrast(
+    image: numpy.typing.NDArray[numpy.uint8],
+    ellipses: numpy.typing.NDArray[numpy.float64],
+    inside: numpy.typing.NDArray[numpy.float64],
+    around: numpy.typing.NDArray[numpy.float64],
+    models: numpy.typing.NDArray[numpy.float32],
+    table: numpy.typing.NDArray[numpy.float32],
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    rank_distance (N, M) of the pixels at the places inside each ellipse (N, 4), and (N,) how much higher the table's mean is over them than over those around.
     """
 
 def rank_distance(
@@ -180,6 +208,19 @@ class Kernels(Protocol):
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def learn_contrast(
+        self,
+        inside: numpy.typing.NDArray[numpy.uint8],
+        around: numpy.typing.NDArray[numpy.uint8],
+        target: numpy.typing.NDArray[numpy.float32],
+        surround: numpy.typing.NDArray[numpy.float32],
+        rate: float,
+        rare: float,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ]: ...
     def propose(
         self,
         particles: numpy.typing.NDArray[numpy.float64],
@@ -192,6 +233,15 @@ class Kernels(Protocol):
         lower: numpy.typing.NDArray[numpy.float64],
         upper: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def rank_contrast(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        ellipses: numpy.typing.NDArray[numpy.float64],
+        inside: numpy.typing.NDArray[numpy.float64],
+        around: numpy.typing.NDArray[numpy.float64],
+        models: numpy.typing.NDArray[numpy.float32],
+        table: numpy.typing.NDArray[numpy.float32],
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
     def rank_distance(
         self, samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float64]: ...

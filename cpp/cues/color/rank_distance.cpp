@@ -1,89 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/rank_distance.hpp"
 
-#include <cstdlib>
-#include <vector>
-
-#include "byte_lookup.hpp"
-#include "check.hpp"
-#include "rank_table.hpp"
-#include "simd.hpp"
+#include "rank_maps.hpp"
 
 namespace tricue {
-namespace {
-
-using Sums = Eigen::Array<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// The sum of |a - b| of bytes, in the form in which compilers see the instruction for it.
-inline std::int64_t difference(const std::uint8_t* __restrict a, const std::uint8_t* __restrict b,
-                               std::size_t n) {
-    int sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += std::abs(a[k] - b[k]);
-    return sum;
-}
-
-template <typename Count>
-inline std::int64_t difference(const Count* __restrict a, const Count* __restrict b, std::size_t n) {
-    std::int64_t sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += a[k] > b[k] ? a[k] - b[k] : b[k] - a[k];
-    return sum;
-}
-
-inline void rank_all(const RankTable<std::uint8_t>& table, const std::uint8_t* levels, std::size_t n,
-                     std::uint8_t* ranks) {
-    look_up(table, levels, n, ranks);
-}
-
-template <typename Count>
-inline void rank_all(const RankTable<Count>& table, const std::uint8_t* levels, std::size_t n, Count* ranks) {
-    for (std::size_t k = 0; k < n; ++k) ranks[k] = table[levels[k]];
-}
-
-/// Adds the differences between the samples of one ellipse and each of the models (M x 3n) to the M sums.
-template <typename Count>
-TRICUE_MULTIVERSION void compare(const SampleView& samples, std::ptrdiff_t ellipse, const Count* models,
-                                 std::ptrdiff_t M, Count* ranks, std::int64_t* sums) {
-    const auto n = static_cast<std::size_t>(samples.n);
-    std::array<RankTable<Count>, 3> tables;
-    rank_tables(samples, ellipse, tables);
-    for (std::size_t channel = 0; channel < 3; ++channel)
-        rank_all(tables[channel], samples.plane(ellipse, static_cast<int>(channel)), n, ranks + channel * n);
-    for (std::ptrdiff_t m = 0; m < M; ++m) sums[m] += difference(ranks, models + 3 * m * samples.n, 3 * n);
-}
-
-/// The models in units of 1/2n.
-template <typename Count>
-std::vector<Count> rounded(FloatsRef models, std::size_t n) {
-    std::vector<Count> counts;
-    counts.reserve(static_cast<std::size_t>(models.size()));
-    const auto twice = static_cast<float>(2 * n);
-    for (Eigen::Index i = 0; i < models.size(); ++i) {
-        const float rank = models.data()[i];
-        if (!(rank >= 0.0f && rank <= 1.0f)) refuse("models", "ranks in [0, 1]", static_cast<double>(rank));
-        counts.push_back(static_cast<Count>(rank * twice + 0.5f));
-    }
-    return counts;
-}
-
-}  // namespace
 
 States rank_distance(const SampleView& samples, FloatsRef models) {
-    if (samples.n < 1) refuse("samples", "at least one an ellipse", "none");
-    const auto n = static_cast<std::size_t>(samples.n);
-    if (models.cols() != 3 * samples.n)
-        refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples",
-               std::to_string(models.cols()));
-
-    Sums sums = Sums::Zero(samples.ellipses, models.rows());
-    with_count_for(n, [&](auto count) {
-        const auto expected = rounded<decltype(count)>(models, n);
-        std::vector<decltype(count)> ranks(3 * n);
-        for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
-            compare(samples, i, expected.data(), models.rows(), ranks.data(),
-                    sums.data() + i * models.rows());
-    });
-    const auto size = static_cast<double>(n);
-    return sums.cast<double>() / (3.0 * size * size);
+    RankMaps maps(models, samples.n);
+    States distances(samples.ellipses, maps.size());
+    for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
+        maps.compare(samples, i, distances.data() + i * maps.size());
+    return distances;
 }
 
 }  // namespace tricue

@@ -13,6 +13,7 @@ namespace {
 
 // Tiles this wide and high keep every inner sum within 16-bit factors and 32-bit totals.
 constexpr int kTile = 1024;
+constexpr int kAhead = 4;
 using Lanes = std::array<std::int16_t, kTile>;
 
 constexpr Lanes ascending() {
@@ -45,12 +46,21 @@ RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t lea
     return {count, sum};
 }
 
+/// A new frame isn't in the cache yet, and a region's rows lie too far apart for the processor to foresee the next.
+void prefetch(const std::uint8_t* bytes, int n) {
+#ifdef __GNUC__
+    for (int k = 0; k < n; k += 64) __builtin_prefetch(bytes + k);
+#endif
+}
+
 void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region,
               const Region& tile, Sums& sums) {
     const int width = tile.x1 - tile.x0;
     const std::int64_t left = tile.x0 - region.x0;
     Lanes boundary, columns{};
     for (int row = tile.y0; row < tile.y1; ++row) {
+        if (row + kAhead < tile.y1)
+            prefetch(image.row(row + kAhead) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
         skin_boundary_row(image.row(row) + 3 * std::ptrdiff_t{tile.x0}, width, reference, boundary.data());
         const RowSums skin = sum_row(boundary.data(), width, least, columns.data());
         const std::int64_t y = row - region.y0, x = skin.x + left * skin.count;

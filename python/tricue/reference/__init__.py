@@ -8,6 +8,8 @@ from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.joint_histogram import joint_histogram
+from tricue.reference.cues.color.learn_contrast import learn_contrast
+from tricue.reference.cues.color.rank_contrast import rank_contrast
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
@@ -29,7 +31,9 @@ __all__ = [
     "color_lookup",
     "color_ranks",
     "joint_histogram",
+    "learn_contrast",
     "propose",
+    "rank_contrast",
     "rank_distance",
     "rank_sections",
     "resample",

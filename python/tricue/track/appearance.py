@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.color_contrast import ColorContrast
 from tricue.track.color_params import ColorParticleParams
-from tricue.track.observation import observation
+from tricue.track.observation import RankSpatial, observation
 from tricue.track.pattern import grid, ring
 
 Floats = NDArray[Any]
@@ -40,16 +40,26 @@ class Appearance:
             k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
         )
 
-    def log_likelihood(self, k: Kernels, look: Look, searching: bool = False) -> Floats:
+    def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
         """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
-        distance = self.model.distance(k, *look, searching)
+        distance, contrast = self.measure(k, image, ellipses, searching)
         if self.linear:
-            likelihood = np.log(np.maximum(1 - distance, 1e-12), dtype=np.float64)
+            contrast += np.log(np.maximum(1 - distance, 1e-12))
         else:
-            likelihood = -self.sharpness * np.square(distance, dtype=np.float64)
-        if self.contrast:
-            likelihood += self.contrast.log_likelihood(k, *look)
-        return likelihood
+            contrast -= self.sharpness * distance * distance
+        return contrast
+
+    def measure(
+        self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False
+    ) -> tuple[Floats, Floats]:
+        """(N,) distances to the model, and (N,) of the color term; both in one pass where a kernel does."""
+        if self.contrast and isinstance(self.model, RankSpatial):
+            maps, table = self.model.maps, self.contrast.table
+            distances, contrast = k.rank_contrast(image, ellipses, self.grid, self.ring, maps, table)
+            return self.model.chosen(distances, searching), self.contrast.weight * contrast
+        look = self.look(k, image, ellipses)
+        distance = self.model.distance(k, *look, searching).astype(np.float64)
+        return distance, self.contrast.log_likelihood(k, *look) if self.contrast else np.zeros(len(ellipses))
 
     def recognition(self, k: Kernels, look: Look, searching: bool = False) -> float:
         """How surely the first window shows the target, in [0, 1]."""

@@ -35,7 +35,6 @@ class Swarm(NamedTuple):
     weights: Floats
     effective: float
     ellipse: Floats
-    look: Look
     log_likelihood: float
 
 
@@ -48,6 +47,7 @@ class State:
     reference: Image
     motion: Motion
     swarm: Swarm
+    look: Look  # of the target, where it was seen last
     score: float
     usual: float  # the log-likelihood's running mean
     trusted: float  # the same over the frames in which the target was recognised
@@ -112,12 +112,19 @@ class ColorParticleTracker:
         appearance, window = Appearance(self.params), np.array([ellipse])
         look = appearance.look(k, image, window)
         appearance.learn(k, image, window, look, 1.0, 1.0)
-        likelihood = float(appearance.log_likelihood(k, look)[0])
+        likelihood = float(appearance.log_likelihood(k, image, window)[0])
         particles, weights = self._gathered(window)
-        swarm = Swarm(particles, weights, len(weights), window[0], look, likelihood)
-        reference, score = reference_color(k, image, ellipse), appearance.recognition(k, look)
-        motion = Motion.start(ellipse)
-        self._state = State(image.shape, appearance, reference, motion, swarm, score, likelihood, likelihood)
+        self._state = State(
+            shape=image.shape,
+            appearance=appearance,
+            reference=reference_color(k, image, ellipse),
+            motion=Motion.start(ellipse),
+            swarm=Swarm(particles, weights, len(weights), window[0], likelihood),
+            look=look,
+            score=appearance.recognition(k, look),
+            usual=likelihood,
+            trusted=likelihood,
+        )
         return self._track(self._state)
 
     def update(self, frame: FrameLike) -> Track:
@@ -143,7 +150,8 @@ class ColorParticleTracker:
         swarm = self._sweep(state, image, *self._resampled(state.swarm), prediction, detection)
         if swarm.log_likelihood < state.usual - p.surprise:
             swarm = self._sweep_wide(state, image, swarm, prediction)
-        self._accept(state, swarm, motion.moved(tuple(swarm.ellipse.tolist()), p))
+        look = state.appearance.look(k, image, swarm.ellipse[None])
+        self._accept(state, swarm, look, motion.moved(tuple(swarm.ellipse.tolist()), p))
 
     def _sweep(
         self,
@@ -160,14 +168,13 @@ class ColorParticleTracker:
         noise = self._rng.standard_normal(particles.shape) @ self._mixing
         moved = k.propose(particles, drift, scale, noise, *detection, lower, upper)
         searching = state.missed >= self.params.lost_after
-        likelihood = appearance.log_likelihood(k, appearance.look(k, image, moved), searching)
+        likelihood = appearance.log_likelihood(k, image, moved, searching)
         if weights is not self._uniform:
             likelihood += np.log(np.maximum(weights, LEAST))
         weights, _ = k.reweight(likelihood, moved, particles, drift, scale, *detection)
         ellipse, _, effective = k.summarize(moved, weights)
-        look = appearance.look(k, image, ellipse[None])
-        estimated = float(appearance.log_likelihood(k, look, searching)[0])
-        return Swarm(moved, weights, effective, ellipse, look, estimated)
+        estimated = float(appearance.log_likelihood(k, image, ellipse[None], searching)[0])
+        return Swarm(moved, weights, effective, ellipse, estimated)
 
     def _sweep_wide(self, state: State, image: Image, narrow: Swarm, prediction: Prediction) -> Swarm:
         """Look all round the last place, then closely where it looked best: for jumps."""
@@ -184,22 +191,23 @@ class ColorParticleTracker:
         """Look for a lost target in the whole frame; take it up where it is recognised and looks as ever."""
         k, p, appearance = self._k, self.params, state.appearance
         places = candidates(k, image, state.reference, state.motion, p, self._rng)
-        likelihood = appearance.log_likelihood(k, appearance.look(k, image, places), searching=True)
+        likelihood = appearance.log_likelihood(k, image, places, searching=True)
         best = places[np.argmax(likelihood)]
         motion = state.motion.stopped_at(tuple(best.tolist()))
         swarm = self._sweep(state, image, *self._gathered(best[None]), motion.predict(p, state.shape))
-        recognised = appearance.recognition(k, swarm.look, searching=True) >= p.found_above
+        look = appearance.look(k, image, swarm.ellipse[None])
+        recognised = appearance.recognition(k, look, searching=True) >= p.found_above
         elsewhere = float(np.median(likelihood))
         if recognised and swarm.log_likelihood >= elsewhere + AS_EVER * (state.trusted - elsewhere):
-            self._accept(state, swarm, motion.stopped_at(tuple(swarm.ellipse.tolist())))
+            self._accept(state, swarm, look, motion.stopped_at(tuple(swarm.ellipse.tolist())))
             self._learn(state, image, BACK_RATE)
         else:
             state.score = 0.0
 
-    def _accept(self, state: State, swarm: Swarm, motion: Motion) -> None:
+    def _accept(self, state: State, swarm: Swarm, look: Look, motion: Motion) -> None:
         """Make the swarm the state of the target, and see whether it is recognised there."""
-        state.swarm, state.motion = swarm, motion
-        state.score = state.appearance.recognition(self._k, swarm.look)
+        state.swarm, state.look, state.motion = swarm, look, motion
+        state.score = state.appearance.recognition(self._k, look)
         state.usual += USUAL_RATE * (swarm.log_likelihood - state.usual)
         if state.score < self.params.lost_below:
             state.missed += 1
@@ -208,9 +216,8 @@ class ColorParticleTracker:
         state.trusted += USUAL_RATE * (swarm.log_likelihood - state.trusted)
 
     def _learn(self, state: State, image: Image, rate: float) -> None:
-        swarm = state.swarm
-        window = swarm.ellipse[None]
-        state.appearance.learn(self._k, image, window, swarm.look, rate, self.params.color_rate)
+        window = state.swarm.ellipse[None]
+        state.appearance.learn(self._k, image, window, state.look, rate, self.params.color_rate)
 
     def _gathered(self, ellipse: Floats) -> tuple[Floats, Floats]:
         """All particles at one place (1, 4), and their weights."""

@@ -4,6 +4,7 @@
 An observation sees samples only: ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) round it.
 """
 
+import math
 from typing import Any, Protocol
 
 import numpy as np
@@ -55,8 +56,9 @@ def lack(inside: Model, around: Model) -> Floats:
 
 def correlation(a: Model, b: Model) -> float:
     """Of two rank maps, at least 0. Their mean is 1/2, so sum(a b) - N/4 is that of their deviations."""
-    both, own, other = (float(np.vdot(x, y)) - a.size / 4 for x, y in ((a, b), (a, a), (b, b)))
-    return min(max(both, 0.0) / (own * other) ** 0.5, 1.0) if min(own, other) > FLAT else 0.0
+    a, b = a.ravel(), b.ravel()
+    both, own, other = (float(x.dot(y)) - a.size / 4 for x, y in ((a, b), (a, a), (b, b)))
+    return min(max(both, 0.0) / math.sqrt(own * other), 1.0) if min(own, other) > FLAT else 0.0
 
 
 class RankSpatial:
@@ -79,7 +81,10 @@ class RankSpatial:
             self.maps[0] += np.float32(rate) * (ranks[0] - self.maps[0])
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
-        distances = k.rank_distance(inside, self.maps)
+        return self.chosen(k.rank_distance(inside, self.maps), searching)
+
+    def chosen(self, distances: Floats, searching: bool) -> Floats:
+        """(N,) what counts of the distances (N, 2) to both maps."""
         chosen: Floats = distances.min(axis=1) if searching else distances @ self.weights
         return chosen
 

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""The order of the pixels in an ellipse and its colors against its surround, measured in one pass."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from numpy.typing import NDArray
+from tricue import _core, reference
+from tricue.kernels import Kernels
+
+EPS = float(np.finfo(np.float64).eps)
+
+
+def case(seed: int, ellipses: int = 5, n: int = 30, m: int = 7, models: int = 2, side: int = 16) -> list[Any]:
+    """All arguments: a picture, ellipses over its edge, two patterns, rank maps, a table."""
+    rng = np.random.default_rng(seed)
+    image = rng.integers(0, 256, (rng.integers(1, 40), rng.integers(1, 60), 3)).astype(np.uint8)
+    places = rng.uniform(-10, 60, (ellipses, 2))
+    sizes = rng.uniform(0, 20, (ellipses, 2))
+    inside, around = rng.uniform(-1, 1, (n, 2)), rng.uniform(-2, 2, (m, 2))
+    maps, table = rng.random((models, 3, n), np.float32), rng.random((side, side, side), np.float32)
+    return [image, np.concatenate([places, sizes], axis=1), inside, around, maps, table]
+
+
+@given(
+    st.integers(0, 2**32),
+    st.integers(0, 20),
+    st.integers(1, 300),
+    st.integers(1, 70),
+    st.integers(0, 3),
+    st.sampled_from([1, 2, 16, 64]),
+)
+def test_twin_measures_the_same(seed: int, ellipses: int, n: int, m: int, models: int, side: int) -> None:
+    """Distances agree to the last bit; the contrast to the order of a sum of float64: n roundings of 1."""
+    arguments = case(seed, ellipses, n, m, models, side)
+    (native, contrast), (twin, expected) = (
+        _core.rank_contrast(*arguments),
+        reference.rank_contrast(*arguments),
+    )
+    assert native.shape == (ellipses, models)
+    assert contrast.shape == (ellipses,)
+    assert_array_equal(native, twin)
+    assert_allclose(contrast, expected, rtol=0, atol=(n + m) * EPS)
+
+
+@pytest.mark.parametrize("view", [np.s_[3:40, 5:50], np.s_[:1, :1], np.s_[:1], np.s_[:, :1], np.s_[::2]])
+def test_odd_images(view: Any) -> None:
+    """Padded rows, one pixel, one row, one column, every second row: read by both alike."""
+    _, *others = case(3)
+    image = np.random.default_rng(0).integers(0, 256, (60, 90, 3)).astype(np.uint8)[view]
+    native, twin = (k.rank_contrast(image, *others) for k in (_core, reference))
+    assert_array_equal(native[0], twin[0])
+    assert_allclose(native[1], twin[1], rtol=0, atol=40 * EPS)
+
+
+def test_joins_the_kernels_that_it_stands_for(kernels: Kernels) -> None:
+    """It is sample_ellipses, rank_distance and the mean of color_lookup, for 1, 8, 9 and 100 ellipses."""
+    for count in (1, 8, 9, 100):
+        image, ellipses, inside, around, maps, table = case(count, count)
+        distances, contrast = kernels.rank_contrast(image, ellipses, inside, around, maps, table)
+        within, without = (kernels.sample_ellipses(image, ellipses, each) for each in (inside, around))
+        assert_array_equal(distances, kernels.rank_distance(within, maps))
+        means = [kernels.color_lookup(each, table).mean(axis=1, dtype=float) for each in (within, without)]
+        assert_allclose(contrast, means[0] - means[1], rtol=0, atol=40 * EPS)
+
+
+def test_a_target_of_its_own_color(kernels: Kernels) -> None:
+    """A red disk on blue, with a table that is 1 for red, has contrast 1; beside it -0 or less."""
+    y, x = np.indices((80, 80)) - 40
+    image: NDArray[np.uint8] = np.where((x**2 + y**2 < 200)[..., None], [0, 0, 255], [255, 0, 0]).astype(
+        np.uint8
+    )
+    table = np.zeros((2, 2, 2), np.float32)
+    table[0, 0, 1] = 1
+    angle = np.linspace(0, 6, 20)
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    ellipses = np.array([[40.5, 40.5, 13, 13], [70, 40.5, 13, 13]])
+    maps = np.full((1, 3, 20), 0.5, np.float32)
+    distances, contrast = kernels.rank_contrast(image, ellipses, 0.9 * circle, 1.5 * circle, maps, table)
+    assert contrast[0] == 1
+    assert contrast[1] <= 0
+    assert distances[0] == 0
+
+
+@given(st.integers(0, 2**32))
+def test_light_does_not_change_the_order(seed: int) -> None:
+    """A strictly increasing change of each channel leaves the distances as they are, bit for bit."""
+    image, *others = case(seed)
+    rng = np.random.default_rng(seed)
+    curves = [np.sort(rng.choice(256, 128, replace=False)) for _ in range(3)]
+    lit = np.stack([curve[image[..., c] // 2] for c, curve in enumerate(curves)], axis=-1).astype(np.uint8)
+    for k in (_core, reference):
+        assert_array_equal(k.rank_contrast(lit, *others)[0], k.rank_contrast(image // 2, *others)[0])
+
+
+BAD: list[tuple[int, Any, str]] = [
+    (0, np.zeros((0, 4, 3), np.uint8), "image: expected at least one pixel, got none"),
+    (1, np.full((2, 4), np.nan), "ellipses: expected finite numbers, got nan"),
+    (1, np.zeros((2, 5)), "ellipses: expected shape"),
+    (2, np.zeros((30, 3)), "pattern: expected shape|inside: expected shape"),
+    (3, np.zeros((0, 2)), "around: expected at least one place, got none"),
+    (
+        3,
+        np.full((2, 2), np.inf),
+        "pattern: expected finite numbers, got inf|around: expected finite numbers, got inf",
+    ),
+    (4, np.full((1, 3, 30), 1.5, np.float32), r"models: expected ranks in \[0, 1\], got 1.5"),
+    (4, np.zeros((1, 3, 29), np.float32), "models: expected"),
+    (5, np.zeros((3, 3, 3), np.float32), r"table: expected shape \(B, B, B\), B a power of two"),
+]
+
+
+@pytest.mark.parametrize(("place", "value", "message"), BAD)
+def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None:
+    """Wrong values and shapes are named."""
+    arguments = case(0)
+    arguments[place] = value
+    with pytest.raises(ValueError, match=message):
+        kernels.rank_contrast(*arguments)
+
+
+def test_refuses_to_rank_nothing(kernels: Kernels) -> None:
+    """Without places inside there is no order."""
+    arguments = case(0)
+    arguments[2], arguments[4] = np.zeros((0, 2)), np.zeros((1, 3, 0), np.float32)
+    with pytest.raises(ValueError, match="inside: expected at least one place, got none"):
+        kernels.rank_contrast(*arguments)
+
+
+@pytest.mark.parametrize("place", range(6))
+def test_native_refuses_other_types(place: int) -> None:
+    """No argument is converted."""
+    arguments = case(0)
+    arguments[place] = arguments[place].astype(np.float16)
+    with pytest.raises(TypeError, match="float16"):
+        _core.rank_contrast(*arguments)
