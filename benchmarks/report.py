@@ -2,10 +2,12 @@
 """Writes docs/benchmarks.md (``make bench``) from pytest-benchmark's JSON file; measures the trackers itself."""
 
 import json
+import multiprocessing
 import platform
 import sys
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -20,7 +22,7 @@ from tricue.evaluation.one_pass import Contender, one_thread, run
 from tricue.scenes import Scene, face_over_clutter
 
 ROUNDS = 12
-THREAD_ROUNDS = 6
+PAIR_ROUNDS = 30
 SLOW = 3  # rounds for what takes over 2 ms a frame
 OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 Make = Callable[[], Contender]
@@ -62,30 +64,35 @@ The same scene scaled; frames/s from each frame's minimum over {rounds} rounds.
 | | 100 particles | 300 | 1000 |
 | --- | --- | --- | --- |
 """
-THREADS = """
-## Two trackers in two threads
+PAIRS = """
+## Two trackers at once
 
-Updates/s of both together against one alone, best of {rounds} rounds each. Kernels release the GIL where they have
-enough work; the loop itself is Python and holds it, and with few particles the loop is half of the time. Two
-processes have no such limit.
+Updates/s of both together against one alone, best of {rounds} rounds in turn. Kernels release the GIL where they have
+enough work; the loop itself is Python and holds it, and with few particles the loop is half of the time, and to hand
+the GIL over takes as long as a small kernel. Two processes have no such limit.
 
-| particles | one | two | ratio |
-| --- | --- | --- | --- |
+| particles | one | two threads | ratio | two processes | ratio |
+| --- | --- | --- | --- | --- | --- |
 """
 
 
 def main(path: Path) -> None:
     """Put the document together."""
-    scene = face_over_clutter(seed=0)
     with one_thread():
         parts = [
             HEAD.format(machine=machine()),
             KERNELS + "\n".join(kernel_rows(json.loads(path.read_text()))),
-            TRACKERS.format(rounds=ROUNDS) + "\n".join(tracker_rows(scene)),
-            SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene)),
-            THREADS.format(rounds=THREAD_ROUNDS) + "\n".join(thread_rows(scene)) + "\n",
+            TRACKERS.format(rounds=ROUNDS) + "\n".join(tracker_rows(scene())),
+            SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())),
+            PAIRS.format(rounds=PAIR_ROUNDS) + "\n".join(pair_rows()) + "\n",
         ]
     OUT.write_text("\n".join(parts))
+
+
+@cache
+def scene() -> Scene:
+    """What all trackers are timed on."""
+    return face_over_clutter(seed=0)
 
 
 def machine() -> str:
@@ -151,29 +158,37 @@ def rate(make: Make, frames: Any, box: Box) -> float:
     return float(1 / np.min([run(make(), frames, box).seconds for _ in range(ROUNDS)], axis=0).mean())
 
 
-def thread_rows(scene: Scene) -> Iterator[str]:
-    """A line a number of particles: two trackers at once against one alone."""
-    for particles in (100, 300, 1000):
-        one, two = (together(scene, particles, count) for count in (1, 2))
-        yield f"| {particles} | {one:,.0f} | {two:,.0f} | {two / one:.2f} |"
+def pair_rows() -> Iterator[str]:
+    """A line a number of particles: two trackers at once, in threads and in processes, against one alone."""
+    scene()  # before a process is forked
+    context = multiprocessing.get_context("fork")
+    with (
+        ThreadPoolExecutor(1) as alone,
+        ThreadPoolExecutor(2) as threads,
+        ProcessPoolExecutor(2, context) as processes,
+    ):
+        for particles in (100, 300, 1000):
+            pools = ((alone, 1), (threads, 2), (processes, 2))
+            rounds = [[rate_in(pool, count, particles) for pool, count in pools] for _ in range(PAIR_ROUNDS)]
+            one, *two = np.max(rounds, axis=0)
+            ratios = [f"{each:,.0f} | {each / one:.2f}" for each in two]
+            yield f"| {particles} | {one:,.0f} | " + " | ".join(ratios) + " |"
 
 
-def together(scene: Scene, particles: int, count: int) -> float:
-    """Updates/s of so many trackers in so many threads."""
+def rate_in(pool: Executor, count: int, particles: int) -> float:
+    """Updates/s of so many trackers, each in a worker of the pool."""
+    start = perf_counter()
+    updates = sum(pool.map(follow, range(count), count * [particles]))
+    return updates / (perf_counter() - start)
 
-    def follow(seed: int) -> None:
-        tracker = ours(particles=particles, seed=seed)()
-        tracker.init(scene.frames[0], scene.boxes[0])
-        for frame in 3 * scene.frames:
-            tracker.update(frame)
 
-    def seconds() -> float:
-        with ThreadPoolExecutor(count) as pool:
-            start = perf_counter()
-            list(pool.map(follow, range(count)))
-            return perf_counter() - start
-
-    return count * 3 * len(scene.frames) / min(seconds() for _ in range(THREAD_ROUNDS))
+def follow(seed: int, particles: int) -> int:
+    """Three times through the scene; how many updates that are."""
+    tracker = ours(particles=particles, seed=seed)()
+    tracker.init(scene().frames[0], scene().boxes[0])
+    for frame in 3 * scene().frames:
+        tracker.update(frame)
+    return 3 * len(scene().frames)
 
 
 if __name__ == "__main__":
