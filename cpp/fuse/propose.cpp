@@ -30,9 +30,10 @@ bool detected(Eigen::Index i, double share) {
 void detect(const Detection& detection, StatesRef noise, States& moved) {
     for (Eigen::Index i = 0; i < moved.rows(); ++i) {
         if (!detected(i, detection.share)) continue;
-        moved(i, 0) = detection.mean[0] + detection.root(0, 0) * noise(i, 0);
-        moved(i, 1) =
-            detection.mean[1] + detection.root(1, 0) * noise(i, 0) + detection.root(1, 1) * noise(i, 1);
+        for (Eigen::Index d = 0; d < detection.mean.size(); ++d) {
+            moved(i, d) = detection.mean[d];
+            for (Eigen::Index e = 0; e <= d; ++e) moved(i, d) += detection.root(d, e) * noise(i, e);
+        }
     }
 }
 
@@ -46,12 +47,11 @@ void clamp(const Bounds& bounds, States& moved) {
 
 States propose(StatesRef particles, const Dynamics& dynamics, StatesRef noise, const Detection& detection,
                const Bounds& bounds) {
-    if (particles.cols() < 2) refuse("particles", "states of 2 or more numbers", double(particles.cols()));
     require_shape(noise, particles.rows(), particles.cols(), "noise");
     require_finite(particles, "particles");
     require_finite(noise, "noise");
     require_valid(dynamics, particles.cols());
-    require_valid(detection);
+    require_valid(detection, particles.cols());
     require_valid(bounds, particles.cols());
 
     States moved(particles.rows(), particles.cols());

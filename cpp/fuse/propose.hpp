@@ -13,11 +13,11 @@ struct Bounds {
 };
 
 /// Draws the next particles from the mixture proposal: x' = x + drift + scale * noise, equation (30) with the velocity in
-/// the mean; floor(share N) of them instead have their position at mean + root * noise. Those are spread evenly over the
+/// the mean; floor(share N) of them instead have their first K numbers at mean + root * noise. Those are spread evenly over the
 /// particles, which resampling leaves in the order of their ancestors. The same row of noise serves both, so a particle's
 /// draw doesn't depend on which side of the share it falls. All are clamped to the bounds.
 ///
-/// @param particles N states of D >= 2 numbers, the position first
+/// @param particles N states of D numbers, those that a detection is about first
 /// @param noise     N x D independent standard normal numbers
 /// @returns         N x D
 /// @throws std::invalid_argument on sizes that don't agree, numbers that aren't finite, a negative scale, a share outside

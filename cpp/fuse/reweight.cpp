@@ -13,16 +13,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// At 1e150 deviations a density is zero all the same, and the square is still finite.
-template <typename Values>
-auto bounded(const Values& z) {
-    return z.max(-1e150).min(1e150);
-}
-
-/// A zero-mean Gaussian in the plane with the root (xx 0; yx yy); the constant -log 2π is left out.
-Vector log_density(const Vector& x, const Vector& y, double xx, double yx, double yy) {
-    const Vector u = bounded(bounded(x) / xx);
-    const Vector v = bounded((bounded(y) - bounded(yx * u)) / yy);
-    return -0.5 * (u.square() + v.square()) - (std::log(xx) + std::log(yy));
+double bounded(double z) {
+    return std::min(std::max(z, -1e150), 1e150);
 }
 
 /// log(share e^ratio + 1 - share), ratio = log(detection / dynamics): what the mixture divides a likelihood by. The greater
@@ -33,15 +25,44 @@ double log_mixture(double ratio, double share) {
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
+/// Log density of N(0, root rootᵀ) at the offset by forward substitution, but for its constants; z is room for K numbers.
+double log_density(const double* offset, StatesRef root, double* z) {
+    double squares = 0.0;
+    for (Eigen::Index d = 0; d < root.rows(); ++d) {
+        double rest = bounded(offset[d]);
+        for (Eigen::Index e = 0; e < d; ++e) rest -= bounded(root(d, e) * z[e]);
+        z[d] = bounded(rest / root(d, d));
+        squares += z[d] * z[d];
+    }
+    return -0.5 * squares;
+}
+
+/// The same of N(0, diag(scale²)).
+double log_density(const double* offset, VectorRef scale) {
+    double squares = 0.0;
+    for (Eigen::Index d = 0; d < scale.size(); ++d) {
+        const double z = bounded(bounded(offset[d]) / scale[d]);
+        squares += z * z;
+    }
+    return -0.5 * squares;
+}
+
 void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
                        const Detection& detection, Vector& log_weights) {
-    const auto& [drift, scale] = dynamics;
     const auto& [mean, root, share] = detection;
-    const Vector x = proposed.col(0), y = proposed.col(1);
-    const Vector ratio =
-        log_density(x - mean[0], y - mean[1], root(0, 0), root(1, 0), root(1, 1)) -
-        log_density(x - previous.col(0) - drift[0], y - previous.col(1) - drift[1], scale[0], 0.0, scale[1]);
-    for (Eigen::Index i = 0; i < log_weights.size(); ++i) log_weights[i] -= log_mixture(ratio[i], share);
+    const Eigen::Index size = mean.size();
+    const Vector drift = dynamics.drift.head(size), scale = dynamics.scale.head(size);
+    const double constants = scale.log().sum() - root.matrix().diagonal().array().log().sum();
+    Vector seen(size), moved(size), z(size);
+    for (Eigen::Index i = 0; i < log_weights.size(); ++i) {
+        for (Eigen::Index d = 0; d < size; ++d) {
+            seen[d] = proposed(i, d) - mean[d];
+            moved[d] = proposed(i, d) - previous(i, d) - drift[d];
+        }
+        const double ratio =
+            log_density(seen.data(), root, z.data()) - log_density(moved.data(), scale) + constants;
+        log_weights[i] -= log_mixture(ratio, share);
+    }
 }
 
 /// Equation (31) by log-sum-exp.
@@ -66,19 +87,18 @@ void require_valid(VectorRef log_likelihood) {
 
 Reweighted reweight(VectorRef log_likelihood, StatesRef proposed, StatesRef previous,
                     const Dynamics& dynamics, const Detection& detection) {
-    if (proposed.cols() < 2) refuse("proposed", "states of 2 or more numbers", double(proposed.cols()));
     require_valid(log_likelihood);
     require_size(log_likelihood, proposed.rows(), "log_likelihood");
     require_shape(previous, proposed.rows(), proposed.cols(), "previous");
     require_finite(proposed, "proposed");
     require_finite(previous, "previous");
     require_valid(dynamics, proposed.cols());
-    require_valid(detection);
+    require_valid(detection, proposed.cols());
 
     Vector log_weights = log_likelihood;
     if (detection.share > 0.0) {
-        const double smallest = std::min(dynamics.scale[0], dynamics.scale[1]);
-        if (!(smallest > 0.0)) refuse("scale", "numbers above 0 for the position", smallest);
+        const double smallest = dynamics.scale.head(detection.mean.size()).minCoeff();
+        if (!(smallest > 0.0)) refuse("scale", "numbers above 0 where the mean has some", smallest);
         divide_by_mixture(proposed, previous, dynamics, detection, log_weights);
     }
     return normalized(std::move(log_weights));

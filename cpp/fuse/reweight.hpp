@@ -16,7 +16,7 @@ struct Reweighted {
 ///
 ///     w = L p / (share N(x; mean, root rootᵀ) + (1 - share) p),    p = N(x; previous + drift, diag(scale²))
 ///
-/// over the position (x, y) alone, since the other dimensions come from the dynamics and cancel. So w <= L / (1 - share),
+/// over the K numbers that the detection is about, since the others come from the dynamics and cancel. So w <= L / (1 - share),
 /// and w = L where share is 0. The previous weights are equal (particles were resampled). Nothing overflows: where
 /// every likelihood is 0 the weights are uniform and the evidence is -infinity.
 ///
@@ -24,10 +24,10 @@ struct Reweighted {
 /// clamping heaps on the bounds counts as if it had not been clamped.
 ///
 /// @param log_likelihood N, natural logarithms, -infinity for the impossible
-/// @param proposed       N x D, D >= 2, what `propose` returned
+/// @param proposed       N x D, what `propose` returned
 /// @param previous       N x D, what it was given
 /// @throws std::invalid_argument on no particles, sizes that don't agree, a log-likelihood that is NaN or +infinity, other
-///         numbers that aren't finite, a share outside [0, 1), or (share above 0) a position's scale that isn't above 0
+///         numbers that aren't finite, a share outside [0, 1), or (share above 0) one of the first K scales that isn't above 0
 /// Source: Sabeti, Parvizi, Wu 2008, equations (2), (30), (31).
 Reweighted reweight(VectorRef log_likelihood, StatesRef proposed, StatesRef previous,
                     const Dynamics& dynamics, const Detection& detection);

@@ -52,12 +52,11 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
 void define_fuse(py::module_& m) {
     m.def("resample", resample_arrays, py::arg("weights"), py::arg("offset"),
           "Systematic resampling: N indices, ascending, drawn by one comb shifted by offset in [0, 1).");
-    m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
-          py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
-          py::arg("upper"),
-          "Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); the first "
-          "floor(share N) "
-          "have their position from N(mean, root root^T) instead; all clamped to [lower, upper].");
+    m.def(
+        "propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"), py::arg("noise"),
+        py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"), py::arg("upper"),
+        "Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); floor(share N) of "
+        "them have their first K numbers from N(mean, root root^T) instead; all clamped to [lower, upper].");
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),
           py::arg("drift"), py::arg("scale"), py::arg("mean"), py::arg("root"), py::arg("share"),
           "Weights (N,) of proposed particles, equation (2), with sum 1, and the log of their mean before "

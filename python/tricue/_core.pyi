@@ -67,7 +67,7 @@ def propose(
     upper: numpy.typing.NDArray[numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); the first floor(share N) have their position from N(mean, root root^T) instead; all clamped to [lower, upper].
+    Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); floor(share N) of them have their first K numbers from N(mean, root root^T) instead; all clamped to [lower, upper].
     """
 
 def rank_contrast(

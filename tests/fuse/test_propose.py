@@ -32,11 +32,14 @@ def case(count: int = 40, dimensions: int = 4, seed: int = 0, **changes: object)
 
 @pytest.mark.parametrize("seed", range(20))
 def test_twin_moves_the_same(seed: int) -> None:
-    """Native and reference agree to the last bit for any N, D and share: both add up in one order."""
+    """Native and reference agree to the last bit for any N, D, K and share: both add up in one order."""
     random = np.random.default_rng(seed)
     count, dimensions = int(random.integers(0, 70)), int(random.integers(2, 8))
     bounds = {"lower": np.full(dimensions, 80.0), "upper": np.full(dimensions, 120.0)}
-    arguments = case(count, dimensions, seed, share=random.uniform(), **bounds)
+    seen = int(random.integers(1, dimensions + 1))
+    gaussian = {"mean": random.normal(100, 20, seen), "root": np.tril(random.normal(0, 3, (seen, seen)))}
+    gaussian["root"][np.diag_indices(seen)] = random.uniform(1, 5, seen)
+    arguments = case(count, dimensions, seed, share=random.uniform(), **bounds, **gaussian)
     assert_array_equal(_core.propose(**arguments), reference.propose(**arguments))
 
 
@@ -104,7 +107,7 @@ def test_inputs_untouched(kernels: Kernels) -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"particles": np.zeros((40, 1))}, "particles: expected states of 2 or more numbers, got 1"),
+        ({"particles": np.zeros((40, 1))}, r"noise: expected shape \(40, 1\), got \(40, 4\)"),
         ({"particles": np.full((40, 4), np.nan)}, "particles: expected finite numbers, got nan"),
         ({"noise": np.zeros((39, 4))}, r"noise: expected shape \(40, 4\), got \(39, 4\)"),
         ({"noise": np.full((40, 4), -np.inf)}, "noise: expected finite numbers, got -inf"),
@@ -115,7 +118,9 @@ def test_inputs_untouched(kernels: Kernels) -> None:
         ({"share": 1.0}, r"share: expected a number in \[0, 1\), got 1"),
         ({"share": -0.5}, r"share: expected a number in \[0, 1\), got -0.5"),
         ({"share": np.nan}, r"share: expected a number in \[0, 1\), got nan"),
-        ({"mean": np.zeros(4)}, r"mean: expected shape \(2,\), got \(4,\)"),
+        ({"mean": np.zeros(5)}, "mean: expected 1 to 4 numbers, got 5"),
+        ({"mean": np.zeros(0)}, "mean: expected 1 to 4 numbers, got 0"),
+        ({"mean": np.zeros(3)}, r"root: expected shape \(3, 3\), got \(2, 2\)"),
         ({"mean": np.full(2, np.nan)}, "mean: expected finite numbers, got nan"),
         ({"root": np.eye(3)}, r"root: expected shape \(2, 2\), got \(3, 3\)"),
         ({"root": np.full((2, 2), np.inf)}, "root: expected finite numbers, got inf"),

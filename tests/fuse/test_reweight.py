@@ -37,9 +37,10 @@ def case(count: int = 40, dimensions: int = 4, seed: int = 0, **changes: object)
 
 def log_ratio(arguments: Case) -> Any:
     """Log of detection over dynamics, N / p, by SciPy."""
-    position = arguments["proposed"][:, :2]
-    moved = position - arguments["previous"][:, :2] - arguments["drift"][:2]
-    log_p = norm.logpdf(moved, scale=arguments["scale"][:2]).sum(axis=1)
+    seen = len(arguments["mean"])
+    position = arguments["proposed"][:, :seen]
+    moved = position - arguments["previous"][:, :seen] - arguments["drift"][:seen]
+    log_p = norm.logpdf(moved, scale=arguments["scale"][:seen]).sum(axis=1)
     covariance = arguments["root"] @ arguments["root"].T
     return multivariate_normal.logpdf(position, arguments["mean"], covariance) - log_p
 
@@ -56,9 +57,12 @@ def test_twin_weighs_the_same(seed: int) -> None:
     assert_allclose(native[1], twin[1], atol=32 * EPSILON * size)
 
 
-def test_equation_2(kernels: Kernels) -> None:
+@pytest.mark.parametrize("seen", [1, 2, 4])
+def test_equation_2(kernels: Kernels, seen: int) -> None:
     """Weights are L p / (share N + (1 - share) p) with SciPy's densities, the evidence is their log mean."""
     arguments = case()
+    arguments["mean"] = arguments["proposed"].mean(axis=0)[:seen]
+    arguments["root"] = np.tril(np.random.default_rng(seen).normal(0, 3, (seen, seen))) + 20 * np.eye(seen)
     share, log_likelihood = arguments["share"], arguments["log_likelihood"]
     expected = log_likelihood - np.log(share * np.exp(log_ratio(arguments)) + 1 - share)
     weights, log_evidence = kernels.reweight(**arguments)
@@ -153,14 +157,18 @@ def test_never_overflows(
         ({"log_likelihood": np.zeros(0)}, "log_likelihood: expected at least one particle, got none"),
         ({"log_likelihood": np.full(40, np.nan)}, "log_likelihood: expected numbers below infinity, got nan"),
         ({"log_likelihood": np.full(40, np.inf)}, "log_likelihood: expected numbers below infinity, got inf"),
-        ({"proposed": np.zeros((40, 1))}, "proposed: expected states of 2 or more numbers, got 1"),
+        ({"proposed": np.zeros((40, 1))}, r"previous: expected shape \(40, 1\), got \(40, 4\)"),
         ({"proposed": np.full((40, 4), np.nan)}, "proposed: expected finite numbers, got nan"),
         ({"previous": np.zeros((40, 5))}, r"previous: expected shape \(40, 4\), got \(40, 5\)"),
         ({"previous": np.full((40, 4), np.inf)}, "previous: expected finite numbers, got inf"),
         ({"drift": np.zeros(3)}, r"drift: expected shape \(4,\), got \(3,\)"),
-        ({"scale": np.array([1.0, 0.0, 1.0, 1.0])}, "scale: expected numbers above 0 for the position"),
+        (
+            {"scale": np.array([1.0, 0.0, 1.0, 1.0])},
+            "scale: expected numbers above 0 where the mean has some",
+        ),
         ({"scale": np.array([1.0, 1.0, 1.0, -1.0])}, "scale: expected no negative number, got -1"),
-        ({"mean": np.zeros(3)}, r"mean: expected shape \(2,\), got \(3,\)"),
+        ({"mean": np.zeros(5)}, "mean: expected 1 to 4 numbers, got 5"),
+        ({"mean": np.zeros(3)}, r"root: expected shape \(3, 3\), got \(2, 2\)"),
         ({"root": np.diag([-1.0, 1.0])}, "root: expected a diagonal above 0, got -1"),
         ({"share": 1.0}, r"share: expected a number in \[0, 1\), got 1"),
     ],

@@ -48,13 +48,16 @@ def require_dynamics(drift: Floats, scale: Floats, dimensions: int) -> None:
         refuse("scale", "no negative number", float(scale.min()))
 
 
-def require_detection(mean: Floats, root: Floats, share: float) -> None:
+def require_detection(mean: Floats, root: Floats, share: float, dimensions: int) -> None:
     """Refuse a share outside [0, 1), and, where the share is above 0, a Gaussian that is none."""
     if not 0 <= share < 1:
         refuse("share", "a number in [0, 1)", share)
-    for name, values, shape in (("mean", mean, (2,)), ("root", root, (2, 2))):
-        require_shape(name, values, shape)
-        if share > 0:
-            require_finite(name, values)
-    if share > 0 and not root.diagonal().min() > 0:
+    if not 1 <= mean.size <= dimensions:
+        refuse("mean", f"1 to {dimensions} numbers", mean.size)
+    require_shape("root", root, (mean.size, mean.size))
+    if share == 0:
+        return
+    for name, values in (("mean", mean), ("root", root)):
+        require_finite(name, values)
+    if not root.diagonal().min() > 0:
         refuse("root", "a diagonal above 0", float(root.diagonal().min()))

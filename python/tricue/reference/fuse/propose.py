@@ -18,15 +18,17 @@ def propose(
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Move particles (N, D) by (30); the position of every 1/share-th is from N(mean, root root^T)."""
+    """Move particles (N, D) by (30); every 1/share-th starts with K numbers from N(mean, root root^T)."""
     _check(particles, noise, lower, upper)
     checks.require_dynamics(drift, scale, particles.shape[1])
-    checks.require_detection(mean, root, share)
+    checks.require_detection(mean, root, share, particles.shape[1])
     moved = particles + drift + scale * noise
     passed = np.floor(np.arange(len(particles) + 1) * share)
     detected = np.diff(passed) > 0
-    moved[detected, 0] = mean[0] + root[0, 0] * noise[detected, 0]
-    moved[detected, 1] = mean[1] + root[1, 0] * noise[detected, 0] + root[1, 1] * noise[detected, 1]
+    for d in range(len(mean)):
+        moved[detected, d] = mean[d]
+        for e in range(d + 1):
+            moved[detected, d] += root[d, e] * noise[detected, e]
     return np.clip(moved, lower, upper)
 
 
@@ -37,8 +39,6 @@ def _check(
     upper: NDArray[np.float64],
 ) -> None:
     dimensions = particles.shape[1]
-    if dimensions < 2:
-        checks.refuse("particles", "states of 2 or more numbers", dimensions)
     checks.require_shape("noise", noise, particles.shape)
     checks.require_finite("particles", particles)
     checks.require_finite("noise", noise)

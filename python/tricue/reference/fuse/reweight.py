@@ -20,26 +20,30 @@ def reweight(
     """Weigh proposed particles: weights (N,) with sum 1, and the log of their mean before normalising."""
     _check(log_likelihood, proposed, previous)
     checks.require_dynamics(drift, scale, proposed.shape[1])
-    checks.require_detection(mean, root, share)
+    checks.require_detection(mean, root, share, proposed.shape[1])
     log_weights = log_likelihood
     if share > 0:
-        if not scale[:2].min() > 0:
-            checks.refuse("scale", "numbers above 0 for the position", float(scale[:2].min()))
-        position = proposed[:, :2]
-        log_p = _log_gaussian(position - previous[:, :2] - drift[:2], np.diag(scale[:2]))
-        log_detection = _log_gaussian(position - mean, root)
+        size = len(mean)
+        if not scale[:size].min() > 0:
+            checks.refuse("scale", "numbers above 0 where the mean has some", float(scale[:size].min()))
+        to = proposed[:, :size]
+        log_p = _log_gaussian(to - previous[:, :size] - drift[:size], np.diag(scale[:size]))
+        log_detection = _log_gaussian(to - mean, root)
         # (2) with numerator and denominator divided by p: L / (share N / p + 1 - share)
         log_weights = log_likelihood - np.logaddexp(np.log(share) + log_detection - log_p, np.log1p(-share))
     return _normalized(log_weights)
 
 
 def _log_gaussian(offsets: NDArray[np.float64], root: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Log density of N(0, root root^T) but for the constant -log 2 pi, by forward substitution."""
-    x, y = _bounded(offsets).T
+    """Log density of N(0, root root^T) but for the constant -K/2 log 2 pi, by forward substitution."""
+    z = np.empty_like(offsets)
     with np.errstate(over="ignore"):
-        u = _bounded(x / root[0, 0])
-        v = _bounded((y - _bounded(root[1, 0] * u)) / root[1, 1])
-    return np.asarray(-0.5 * (u**2 + v**2) - np.log(root.diagonal()).sum())
+        for d in range(offsets.shape[1]):
+            rest = _bounded(offsets[:, d])
+            for e in np.flatnonzero(root[d, :d]):
+                rest = rest - _bounded(root[d, e] * z[:, e])
+            z[:, d] = _bounded(rest / root[d, d])
+    return np.asarray(-0.5 * (z**2).sum(axis=1) - np.log(root.diagonal()).sum())
 
 
 def _bounded(z: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -60,8 +64,6 @@ def _normalized(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float64], 
 def _check(
     log_likelihood: NDArray[np.float64], proposed: NDArray[np.float64], previous: NDArray[np.float64]
 ) -> None:
-    if proposed.shape[1] < 2:
-        checks.refuse("proposed", "states of 2 or more numbers", proposed.shape[1])
     if log_likelihood.size == 0:
         checks.refuse("log_likelihood", "at least one particle", "none")
     strange = log_likelihood[~(log_likelihood < np.inf)]
