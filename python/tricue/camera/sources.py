@@ -1,42 +1,62 @@
 # SPDX-License-Identifier: MIT
 """Whatever can be tracked in: a video, a folder of images, a sequence of a benchmark, a camera."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
+from tricue.camera.depth_images import DepthReader, known_scale
 from tricue.camera.frame import Frame
-from tricue.camera.streams import DEFAULT_FPS, Camera, Images, Stream, Video, image_paths, is_image
-from tricue.camera.truth import find_truth
+from tricue.camera.layouts import read_layout
+from tricue.camera.streams import Camera, Images, Stream, Video, image_paths, is_image
 
-_COLOR_FOLDERS = ("img", "color", "left")  # OTB, VOT, stereo pairs
-_VIDEOS = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
+CALIBRATION = "intrinsics.toml"  # looked for in a sequence's folder, and in the folder of all sequences
 
 
 @dataclass(frozen=True)
 class Source:
     """Frames in order, made of one stream a channel, with what is known about them.
 
+    channels: "color", "depth" or both; images that belong together are at the same place of each. Times and
+        frame rate are the first channel's.
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where unknown; M may differ from the
         number of frames.
+    calibration: a file with the cameras' intrinsics that lies beside the images.
+    notes: what was left out of a folder and why, a sentence each.
+
+    ValueError where the channels are known to differ in length, also while iterating.
     """
 
     name: str
-    color: Stream
+    channels: Mapping[str, Stream]
     truth: NDArray[np.float64] | None = None
+    calibration: Path | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        known = {name: stream.length for name, stream in self.channels.items() if stream.length is not None}
+        if len(set(known.values())) > 1:
+            got = " and ".join(f"{length} {name}" for name, length in known.items())
+            raise ValueError(f"{self.name}: expected as many color as depth images, got {got}")
 
     @property
     def fps(self) -> float:
-        return self.color.fps
+        return self._first.fps
 
     @property
     def length(self) -> int | None:
         """The number of frames, None where only reading them tells."""
-        return self.color.length
+        lengths = (stream.length for stream in self.channels.values())
+        return next((length for length in lengths if length is not None), None)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height, pixels, that a calibration has to fit: the depth images', else the color's."""
+        return self.channels.get("depth", self._first).size
 
     @property
     def first_box(self) -> Box | None:
@@ -46,58 +66,88 @@ class Source:
         return Box(*self.truth[0].tolist())
 
     def __iter__(self) -> Iterator[Frame]:
-        for seconds, image in self.color:
-            yield Frame(image, timestamp=seconds)
+        streams = {name: iter(stream) for name, stream in self.channels.items()}
+        count = 0
+        while moment := {
+            name: image for name, stream in streams.items() if (image := next(stream, None)) is not None
+        }:
+            if len(moment) < len(streams):
+                ended = next(name for name in streams if name not in moment)
+                raise ValueError(
+                    f"{self.name}: expected as many color as depth images, "
+                    f"got {count} {ended} and more {next(iter(moment))}"
+                )
+            images = {name: image for name, (_, image) in moment.items()}
+            seconds, _ = next(iter(moment.values()))
+            yield Frame(images.get("color"), images.get("depth"), timestamp=seconds)
+            count += 1
+
+    @property
+    def _first(self) -> Stream:
+        return next(iter(self.channels.values()))
 
 
-def open_source(place: str | Path) -> Source:
+def open_source(
+    place: str | Path, *, depth: str | Path | None = None, depth_scale: float | None = None
+) -> Source:
     """Open a video file, a folder of images, a sequence folder, or a camera by its number.
 
-    A sequence folder is OTB's (``img/``), VOT's (``sequence``), or one video, with a file of true boxes.
+    A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
+    benchmark's (``rgb/r-0-1.png``), or one video, with a file of true boxes. 16-bit images are depth.
+
+    depth: a folder of 16-bit images, or a sequence folder with depth, beside the color of ``place``; they are
+        paired by order.
+    depth_scale: metres per unit of depth; needed but for VOT's, TUM's and Princeton's, whose format says it.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
+    source = _opened(place, depth_scale)
+    if depth is not None:
+        source = _with_depth(source, place, Path(depth), depth_scale)
+    if depth_scale is not None and "depth" not in source.channels:
+        raise ValueError(f"{place}: expected depth images where --depth-scale is given, found only color")
+    return source
+
+
+def _opened(place: str | Path, scale: float | None) -> Source:
     if isinstance(place, str) and place.isdecimal():
-        return Source(f"camera {place}", Camera(int(place)))
-    path = Path(place)
+        return Source(f"camera {place}", {"color": Camera(int(place))})
+    path = _existing(Path(place))
     if path.is_dir():
-        return _folder(path)
-    if not path.exists():
-        raise FileNotFoundError(f"{place}: there is no such file or folder")
+        layout = read_layout(path, scale)
+        return Source(path.resolve().name, layout.channels, layout.truth, _calibration(path), layout.notes)
     if is_image(path):
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
-    return Source(path.stem, Video(path))
+    return Source(path.stem, {"color": Video(path)})
 
 
-def _folder(folder: Path) -> Source:
-    name = folder.resolve().name
-    if (folder / "sequence").is_file():
-        return Source(name, _vot(folder), find_truth(folder))
-    places = [folder / sub for sub in _COLOR_FOLDERS if (folder / sub).is_dir()]
-    for place in (*places, folder):
-        if paths := image_paths(place):
-            return Source(name, Images(paths), find_truth(folder))
-    videos = [path for path in sorted(folder.iterdir()) if path.suffix.lower() in _VIDEOS]
-    if len(videos) == 1:
-        return Source(name, Video(videos[0]), find_truth(folder))
-    found = f"{len(videos)} videos; name one of them" if videos else "neither images nor a video"
-    raise ValueError(f"{folder}: expected a folder of images or a sequence, found {found}")
+def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | None) -> Source:
+    """The source's color with another place's depth."""
+    color = source.channels.get("color")
+    if color is None:
+        raise ValueError(f"{place}: expected color images beside --depth {depth}, found only depth")
+    if isinstance(color, Camera):
+        raise ValueError(f"--depth {depth}: expected with a video or a folder, got {source.name}")
+    channels = {"color": color, "depth": _depth_stream(_existing(depth), scale)}
+    return replace(source, channels=channels, calibration=source.calibration or _calibration(depth))
 
 
-def _vot(folder: Path) -> Images:
-    """VOT's color channel: a pattern such as color/%08d.jpg, counted from 1."""
-    lines = (folder / "sequence").read_text(encoding="utf-8", errors="replace").splitlines()
-    values = {
-        key.strip(): value.strip() for key, found, value in (line.partition("=") for line in lines) if found
-    }
-    pattern = values.get("channels.color") or values.get(f"channels.{values.get('channel.default')}", "")
-    place = (folder / pattern).parent
-    if "%" not in pattern or not place.is_dir():
-        raise ValueError(f"{folder / 'sequence'}: expected channels.color=color/%08d.jpg, got {pattern!r}")
-    paths = image_paths(place)
-    if not paths:
-        raise ValueError(f"{place}: expected the images of the color channel, found none")
-    try:
-        fps = float(values.get("fps", ""))
-    except ValueError:
-        fps = 0.0
-    return Images(paths, fps if 0 < fps <= 1000 else DEFAULT_FPS)
+def _depth_stream(place: Path, scale: float | None) -> Stream:
+    if not place.is_dir():
+        raise ValueError(f"{place}: expected a folder of 16-bit images of depth, got a file")
+    if paths := image_paths(place):
+        return Images(paths, read=DepthReader(known_scale(place, scale)))
+    stream = read_layout(place, scale).channels.get("depth")
+    if stream is None:
+        raise ValueError(f"{place}: expected a folder of 16-bit images of depth, found only color")
+    return stream
+
+
+def _calibration(folder: Path) -> Path | None:
+    places = (folder / CALIBRATION, folder.resolve().parent / CALIBRATION)
+    return next((path for path in places if path.is_file()), None)
+
+
+def _existing(path: Path) -> Path:
+    if not path.exists():
+        raise FileNotFoundError(f"{path}: there is no such file or folder")
+    return path

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """One channel's images in order: from a folder, a video file, or a live camera."""
 
+import os
 import re
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -15,6 +16,12 @@ DEFAULT_FPS = 30.0
 _IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
 
 Image = NDArray[Any]
+Read = Callable[[Path], Image]
+
+
+def read_color(path: Path) -> Image:
+    """A picture as BGR, (H, W, 3) uint8; ValueError or FileNotFoundError that names the file."""
+    return decode(path, cv2.IMREAD_COLOR)
 
 
 class Stream(Protocol):
@@ -22,6 +29,10 @@ class Stream(Protocol):
 
     @property
     def fps(self) -> float: ...
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the first image, pixels."""
 
     @property
     def length(self) -> int | None:
@@ -32,19 +43,27 @@ class Stream(Protocol):
 
 @dataclass(frozen=True)
 class Images:
-    """Image files, in the given order; ValueError names the first that can't be read."""
+    """Image files, in the given order; the error of ``read`` names the first that can't be read.
+
+    times: seconds, one an image; without them they follow from ``fps``.
+    """
 
     paths: Sequence[Path]
     fps: float = DEFAULT_FPS
-    flag: int = cv2.IMREAD_COLOR
+    read: Read = read_color
+    times: Sequence[float] | None = None
 
     @property
     def length(self) -> int:
         return len(self.paths)
 
+    @property
+    def size(self) -> tuple[int, int]:
+        return _size(self.read(self.paths[0]))
+
     def __iter__(self) -> Iterator[tuple[float, Image]]:
         for index, path in enumerate(self.paths):
-            yield index / self.fps, _picture(path, self.flag)
+            yield index / self.fps if self.times is None else self.times[index], self.read(path)
 
 
 class Video:
@@ -58,6 +77,10 @@ class Video:
         rate = capture.get(cv2.CAP_PROP_FPS)
         self.fps = rate if 0 < rate <= 1000 else DEFAULT_FPS
         capture.release()
+
+    @property
+    def size(self) -> tuple[int, int]:
+        return _size(next(iter(self))[1])
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
         capture, index = self._open(), 0
@@ -90,6 +113,11 @@ class Camera:
         rate = self.capture.get(cv2.CAP_PROP_FPS)
         self.fps = rate if 0 < rate <= 1000 else DEFAULT_FPS
 
+    @property
+    def size(self) -> tuple[int, int]:
+        width, height = (self.capture.get(p) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT))
+        return int(width), int(height)
+
     def __iter__(self) -> Iterator[tuple[float, Image]]:
         start = time.monotonic()
         try:
@@ -111,14 +139,26 @@ def is_image(path: Path) -> bool:
     return path.suffix.lower() in _IMAGES
 
 
-def _picture(path: Path, flag: int) -> Image:
+def decode(path: Path, flag: int) -> Image:
+    """The picture in a file as cv2.imread gives it; ValueError or FileNotFoundError that names the file."""
+    if not path.exists():
+        raise FileNotFoundError(f"{path}: there is no such file")
     try:
-        image = cv2.imread(str(path), flag)
+        image = None if _cut_off(path) else cv2.imread(str(path), flag)
     except cv2.error:  # a picture larger than OpenCV allows
         image = None
     if image is None:
         raise ValueError(f"{path}: expected an image, this file can't be read as one")
     return image
+
+
+def _cut_off(path: Path) -> bool:
+    """Whether a PNG file lacks its end, about which libpng would write to stderr by itself."""
+    if path.suffix.lower() != ".png":
+        return False
+    with path.open("rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - 4096))  # some tools write more behind the end
+        return b"IEND" not in file.read()
 
 
 def _natural(name: str) -> list[tuple[int, str]]:
@@ -128,3 +168,7 @@ def _natural(name: str) -> list[tuple[int, str]]:
 def _read(capture: cv2.VideoCapture) -> Image | None:
     there, image = capture.read()
     return image if there else None
+
+
+def _size(image: Image) -> tuple[int, int]:
+    return image.shape[1], image.shape[0]
