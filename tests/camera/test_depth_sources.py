@@ -397,6 +397,17 @@ def test_bad_depth_is_named(tmp_path: Path, opened: Callable[[Path], Source], me
         list(opened(tmp_path))
 
 
+def test_a_cut_off_image_is_one_error(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """It proves that of an image that ends in the middle only the exception tells: libpng keeps quiet."""
+    path = tmp_path / "1.png"
+    noise = np.random.default_rng(0).integers(500, 4000, (120, 160)).astype(np.uint16)
+    cv2.imwrite(str(path), noise)
+    path.write_bytes(path.read_bytes()[:10_000])
+    with pytest.raises(ValueError, match=r"1\.png: expected an image"):
+        list(open_source(tmp_path))
+    assert capfd.readouterr() == ("", "")
+
+
 def test_a_camera_has_no_depth_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that a live camera can't be paired with recorded depth."""
 
