@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Status, Track
-from tricue.draw import STATUS_COLORS, OverlayWriter, overlay
+from tricue.draw import STATUS_COLORS, OverlayWriter, depth_overlay, depth_picture, depth_range, overlay
 
 BLACK = np.zeros((480, 640, 3), np.uint8)
 
@@ -59,6 +59,99 @@ def test_particles_are_dots() -> None:
 def test_boxes_anywhere_are_drawn(box: Box) -> None:
     """It proves that boxes outside, across the edge, huge or tiny don't disturb the drawing."""
     assert overlay(BLACK, track(box), particles=[[math.inf, 0], [-1e9, 1e9]]).shape == BLACK.shape
+
+
+def ramp() -> NDArray[np.float32]:
+    """Depth from 1 m at the left to 5 m at the right, 480x640, and a corner without measurement."""
+    depth = np.tile(np.linspace(1, 5, 640, dtype=np.float32), (480, 1))
+    depth[:20, :20] = np.nan
+    return depth
+
+
+def lightness(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """L of CIE Lab."""
+    return cv2.cvtColor(picture, cv2.COLOR_BGR2LAB)[..., 0]
+
+
+def test_near_is_bright_and_missing_is_black() -> None:
+    """It proves that the lightness falls with the depth all the way, and only what is missing is black."""
+    picture = depth_picture(ramp(), 1.0, 5.0)
+    assert (picture.shape, picture.dtype) == ((480, 640, 3), np.uint8)
+    row = lightness(picture)[100].astype(int)
+    assert row[0] > 200
+    assert row[-1] < 50
+    assert np.diff(row[::8]).max() <= 0
+    assert (picture.max(axis=2) == 0).sum() == 400
+    assert not picture[:20, :20].any()
+
+
+def test_the_range_of_shades() -> None:
+    """It proves that depths beyond near and far have their shades, and without them a few far pixels don't
+    darken the rest: the 2nd and the 98th percentile are taken.
+    """
+    picture = depth_picture(ramp(), 2.0, 3.0)
+    assert (picture[100, :150] == picture[100, 0]).all()
+    assert (picture[100, 330:] == picture[100, -1]).all()
+    assert depth_range(ramp()) == pytest.approx((1.08, 4.92), abs=0.03)
+    outlier = ramp()
+    outlier[400:404] = 4000.0
+    apart = np.abs(depth_picture(outlier).astype(int) - depth_picture(ramp()))[100]
+    assert apart.max() < 12
+
+
+@pytest.mark.parametrize("value", [np.nan, 2.0])
+def test_flat_depth_is_drawn(value: float) -> None:
+    """It proves that a wall, and an image without any measurement, don't disturb the drawing."""
+    flat = np.full((48, 64), value, np.float32)
+    assert depth_picture(flat).any() == np.isfinite(value)
+    assert (depth_range(flat) is None) == np.isnan(value)
+    assert depth_overlay(flat, track()).shape == (480, 640, 3)
+
+
+def test_scattered_depth_has_a_range() -> None:
+    """It proves that depth measured in a few pixels only still has its own range."""
+    depth = np.full((480, 640), np.nan, np.float32)
+    depth[[1, 3], [1, 3]] = 2.0, 4.0
+    assert depth_range(depth) == pytest.approx((2.04, 3.96))
+
+
+@pytest.mark.parametrize(("near", "far"), [(2.0, 2.0), (3.0, 1.0), (math.nan, 1.0)])
+def test_a_bad_range_is_refused(near: float, far: float) -> None:
+    """It proves that a near that isn't below far is an error that names both."""
+    with pytest.raises(ValueError, match="near, far: expected near below far, metres, got"):
+        depth_picture(ramp(), near, far)
+
+
+def test_what_a_depth_overlay_shows() -> None:
+    """It proves that box, particles, objects, truth and position are each drawn where they belong."""
+    plain = depth_picture(ramp())
+    where = {
+        "particles": ({"particles": [[500, 200, 20, 40, 2.0]]}, (200, 500)),
+        "objects": ({"objects": [Box(400, 100, 50, 60)]}, (130, 400)),
+        "truth": ({"truth": Box(450, 300, 50, 60)}, (330, 450)),
+    }
+    bare = depth_overlay(ramp(), track())
+    for row, column in [(300, 230), (379, 230), (340, 200), (340, 259)]:
+        assert tuple(bare[row, column]) == STATUS_COLORS[Status.TRACKED]
+    for options, place in where.values():
+        assert tuple(bare[place]) == tuple(plain[place])
+        assert tuple(depth_overlay(ramp(), track(), **options)[place]) != tuple(plain[place])  # type: ignore[arg-type]
+
+
+def test_the_position_is_written() -> None:
+    """It proves that a position adds a line of text, to color and to depth, and its numbers change it."""
+    texts = []
+    for z in (2.84, 3.84):
+        solid = Track(BOX, 0.5, Status.TRACKED, np.array([0.31, -0.1, z]))
+        for flat, drawn in (
+            (overlay(BLACK, track()), overlay(BLACK, solid)),
+            (depth_overlay(ramp(), track()), depth_overlay(ramp(), solid)),
+        ):
+            changed = np.argwhere((flat != drawn).any(axis=2))
+            assert changed[:, 0].min() > 40  # under the two other lines
+            assert changed[:, 0].max() < 80
+        texts.append(drawn)
+    assert not np.array_equal(*texts)
 
 
 def _write_seven(writer: OverlayWriter, picture: NDArray[np.uint8]) -> None:
