@@ -4,7 +4,9 @@
 import argparse
 import os
 import sys
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NoReturn
 
@@ -21,6 +23,8 @@ examples:
   tricue track sequences/David --json track.json              starts on the sequence's first true box
   tricue track images/ --box 10,20,30,40 --set particles=300 --seed 7
   tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
+  tricue track depth/ --depth-scale 0.001 --tracker depth-particle --fov 57,43 --plot path.png
+  tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
 """
 _DEMO_EXAMPLES = """\
 examples:
@@ -46,7 +50,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _silence_opencv()
     options = parser().parse_args(arguments)
     try:
-        code: int = options.run(options)
+        with _warnings_in_a_line(options.verb):
+            code: int = options.run(options)
         return code
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"tricue {options.verb}: {_one_line(error)}", file=sys.stderr)
@@ -90,18 +95,38 @@ def _add_track(verb: argparse.ArgumentParser) -> None:
     start = verb.add_mutually_exclusive_group()
     start.add_argument("--box", type=_box, metavar="X,Y,W,H", help="the box to start on, in pixels")
     start.add_argument(
-        "--detect", choices=("face",), help="start on the largest face, as soon as there is one"
+        "--detect",
+        choices=("face", "person"),
+        help="start on the largest face, or on whom a depth tracker finds, as soon as there is one",
     )
+    _add_depth(verb)
     verb.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
     verb.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
     verb.add_argument(
         "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
     )
+    verb.add_argument("--plot", type=Path, metavar="FILE", help="the path in metres from above, .png")
     verb.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
     )
     verb.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
     _add_common(verb)
+
+
+def _add_depth(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument(
+        "--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images beside a color INPUT"
+    )
+    verb.add_argument(
+        "--depth-scale", type=float, metavar="M", help="metres per unit of depth, 0.001 for millimetres"
+    )
+    camera = verb.add_mutually_exclusive_group()
+    camera.add_argument(
+        "--calibration", type=Path, metavar="FILE", help="the camera's, by OpenCV, KITTI or in TOML"
+    )
+    camera.add_argument(
+        "--fov", type=_angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
+    )
 
 
 def _add_demo(verb: argparse.ArgumentParser) -> None:
@@ -158,6 +183,31 @@ def _box(text: str) -> Box:
             else f"expected four numbers x,y,width,height, got {text!r}"
         )
         raise argparse.ArgumentTypeError(reason.removeprefix("box: ")) from None
+
+
+def _angles(text: str) -> tuple[float, ...]:
+    try:
+        angles = tuple(float(number) for number in text.split(","))
+    except ValueError:
+        angles = ()
+    if len(angles) not in (1, 2):
+        raise argparse.ArgumentTypeError(f"expected one angle or two, H,V in degrees, got {text!r}")
+    return angles
+
+
+@contextmanager
+def _warnings_in_a_line(verb: str) -> Iterator[None]:
+    """Warnings as short as errors; a place in the code warns once, for the next frames would say the same."""
+    told: set[tuple[str, int]] = set()
+
+    def show(message: Warning | str, _category: object, filename: str, lineno: int, *_: object) -> None:
+        if (filename, lineno) not in told:
+            told.add((filename, lineno))
+            print(f"tricue {verb}: warning: {message}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = show  # type: ignore[assignment]  # it takes all that it is given
+        yield
 
 
 def _silence_opencv() -> None:

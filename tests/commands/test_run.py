@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from tricue import Box, Frame, Status
+from tricue import Box, Frame, Status, Track
 from tricue.commands.run import Clock, steps, stoppable
 from tricue.track.track import Tracker
 
@@ -35,6 +35,61 @@ def test_it_waits_for_a_box(drift: Tracker) -> None:
     answers = iter([None, None, BOX])
     found = list(steps(drift, frames(5), lambda _: next(answers), Clock()))
     assert [step.number for step in found] == [2, 3, 4]
+
+
+class Shy:
+    """A tracker with ``objects`` that starts by itself where the frame is bright, else with this error."""
+
+    def __init__(self, error: str) -> None:
+        self.error = error
+        self.objects = [BOX]
+        self.particles = np.array([[5.0, 6.0]])
+
+    def init(self, frame: Frame, box: Box | None = None) -> Track:
+        if frame.color is None or frame.color.max() < 100:
+            raise ValueError(self.error)
+        return Track(box or BOX, 1.0, Status.TRACKED)
+
+    update = init
+
+
+def dark_then_bright() -> list[Frame]:
+    """Two dark frames, then two bright ones."""
+    return [Frame(np.full((20, 30, 3), level, np.uint8)) for level in (0, 0, 200, 200)]
+
+
+@pytest.mark.parametrize("error", ["box: found nobody", "frame: nothing was measured in it"])
+def test_it_waits_until_the_tracker_finds_somebody(error: str) -> None:
+    """It proves that a tracker that looks for its target is asked again on every frame until it starts, the
+    reason is kept, and its particles and objects come with every step.
+    """
+    clock = Clock()
+    found = list(steps(Shy(error), dark_then_bright(), None, clock))  # type: ignore[arg-type]
+    assert [step.number for step in found] == [2, 3]
+    assert (clock.decoded, clock.updates, clock.waiting) == (4, 1, error)
+    assert all(step.objects == [BOX] and len(step.particles) == 1 for step in found)
+
+
+@pytest.mark.parametrize(
+    "error",
+    ["frame: expected the channel depth, which this tracker needs", "frame.depth: expected 4 rows", "gamma"],
+)
+def test_other_errors_are_not_waited_out(error: str) -> None:
+    """It proves that an error that the next frame can't mend comes at once."""
+    with pytest.raises(ValueError, match=error):
+        next(steps(Shy(error), dark_then_bright(), None, Clock()))  # type: ignore[arg-type]
+
+
+def test_a_given_box_is_not_waited_out() -> None:
+    """It proves that an error about a box that was given comes at once."""
+    with pytest.raises(ValueError, match="box: outside"):
+        next(steps(Shy("box: outside"), dark_then_bright(), lambda _: BOX, Clock()))  # type: ignore[arg-type]
+
+
+def test_a_tracker_that_needs_a_box_says_so_at_once(drift: Tracker) -> None:
+    """It proves that a tracker that doesn't look for its target isn't asked again."""
+    with pytest.raises(ValueError, match="box: expected the target's box"):
+        next(steps(drift, frames(3), None, Clock()))
 
 
 def test_decoding_is_told_apart(drift: Tracker) -> None:

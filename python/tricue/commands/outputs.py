@@ -8,22 +8,28 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
-from tricue.draw import OverlayWriter, overlay
+from tricue.draw import Image, OverlayWriter, depth_overlay, depth_range, overlay
 from tricue.track.track import Track
 
+CALM = 0.1  # a frame's share in the range of the video's shades
 COLUMNS = ("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m")
 
 
 class Step(NamedTuple):
-    """One tracked frame: its number from 0, what was seen, what the tracker said, and its seconds."""
+    """One tracked frame: its number from 0, what was seen, what the tracker said, and its seconds.
+
+    particles, objects: the tracker's own, where it has them.
+    """
 
     number: int
     frame: Frame
     track: Track
     seconds: float
     particles: Any = None
+    objects: Any = None
 
 
 class Output(AbstractContextManager[Any], Protocol):
@@ -87,21 +93,43 @@ class JsonOutput:
 
 
 class VideoOutput:
-    """The overlay video."""
+    """The overlay video: on the depth where the tracker segments it or there is nothing else."""
 
     def __init__(self, path: Path, fps: float) -> None:
         self._writer = OverlayWriter(path, fps)
+        self._range: tuple[float, float] | None = None
 
     @property
     def path(self) -> Path:
         return self._writer.path
 
     def write(self, step: Step) -> None:
-        image = step.frame.color
-        if image is not None:
-            speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
-            picture = overlay(image, step.track, particles=step.particles, note=f"frame {step.number}{speed}")
-            self._writer.write(picture)
+        speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
+        self._writer.write(self._picture(step, f"frame {step.number}{speed}"))
+
+    def _picture(self, step: Step, note: str) -> Image:
+        color, depth = step.frame.color, step.frame.depth
+        if depth is not None and (color is None or step.objects is not None):
+            near, far = self._shades(depth)
+            return depth_overlay(
+                depth,
+                step.track,
+                particles=step.particles,
+                objects=step.objects or (),
+                note=note,
+                near=near,
+                far=far,
+            )
+        assert color is not None  # a frame has one of the two
+        return overlay(color, step.track, particles=step.particles, note=note)
+
+    def _shades(self, depth: NDArray[np.float32]) -> tuple[float, float]:
+        """The range of depths shown, metres; it follows the frames' slowly, so that nothing flickers."""
+        now = depth_range(depth) or self._range or (0.0, 1.0)
+        before = self._range or now
+        near, far = (b + CALM * (n - b) for b, n in zip(before, now, strict=True))
+        self._range = near, max(far, near + 0.01)  # a wall has no range
+        return self._range
 
     def __enter__(self) -> "VideoOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self

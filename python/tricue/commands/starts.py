@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""How a tracker starts: on a given box, on a face, on a sequence's first true box, or by itself."""
+
+from argparse import Namespace
+from typing import Any
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.camera.sources import Source
+from tricue.commands.run import Start, finds_by_itself
+from tricue.track.create import names
+from tricue.track.track import Tracker
+
+BOX, FACE = "give --box x,y,width,height", "--detect face"
+IN_DEPTH = "depth-particle"
+
+
+def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:
+    """What gives the first box; None where the tracker finds its target by itself."""
+    if options.detect == "person" and not finds_by_itself(tracker):
+        raise ValueError(f"--detect person: {options.tracker} doesn't look for people; {BOX} or {FACE}")
+    if options.detect == "face":
+        from tricue.commands.faces import find_face
+
+        return lambda frame: _face(frame, find_face)
+    box = options.box or (None if options.detect else source.first_box)
+    return None if box is None else lambda _: box
+
+
+def advice(message: str, source: Source, tracker: Tracker) -> str:
+    """What to do about an error on the first frame; "" where the error says enough."""
+    if message.startswith("box:"):
+        return f"; {BOX}" if finds_by_itself(tracker) else f"; {BOX} or {FACE}"
+    if message.startswith("frame: expected the channel depth"):
+        return "; ".join(("", "give its depth images with --depth FOLDER", *source.notes))
+    if message.startswith("frame: expected the channel color") and IN_DEPTH in names():
+        return f"; --tracker {IN_DEPTH} tracks in depth"
+    return ""
+
+
+def _face(frame: Frame, find: Any) -> Box | None:
+    if frame.color is None:
+        raise ValueError("--detect face: expected color images")
+    face: Box | None = find(frame.color)
+    return face
