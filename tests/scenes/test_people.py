@@ -116,6 +116,18 @@ def test_exact_depths_at_the_target_are_the_truths():
             assert np.median(body) == pytest.approx(position[2], abs=0.15)
 
 
+def test_only_the_visible_box_differs_from_the_empty_room():
+    """Without noise and gaps, the pixels nearer than they ever were fill the visible box to its sides."""
+    scene = scenes.walker(1, missing=0, noise=0)
+    depths = np.stack([np.nan_to_num(frame.depth, nan=99) for frame in scene.frames])
+    empty = depths.max(axis=0)  # the walker leaves every place
+    for index in (0, 45, 89):
+        rows, columns = np.nonzero(depths[index] < empty)
+        left, top, right, bottom = scene.visible_boxes[index].xyxy
+        assert (columns.min(), columns.max() + 1) == (left, right)
+        assert (rows.min(), rows.max() + 1) == (top, bottom)
+
+
 def test_target_is_hidden_and_comes_free(crossings):
     """In each of 20 seeds the target is seen at first, hidden for four frames or more, and then free."""
     for scene in crossings:

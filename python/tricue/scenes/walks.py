@@ -86,7 +86,7 @@ def loop(floor: Floor, crouch: Array, rate: float, rng: np.random.Generator) -> 
     """
     frames = len(crouch)
     waves = 1 + 0.25 * np.sin(2 * np.pi * (np.arange(frames) / rate / 2.3 + rng.random()))
-    pace = np.clip(rng.uniform(0.8, 1.1) * waves * (1 - 0.7 * crouch), SLOWEST, 0.95 * FASTEST)
+    pace = np.clip(rng.uniform(0.8, 1.1) * waves * (1 - 0.7 * crouch), SLOWEST, FASTEST)
     walked = np.concatenate([[0.0], np.cumsum(pace[1:] / rate)])
     angle = np.linspace(0, 2 * np.pi, 1441)
     shape = _loop_shape(angle, rng)
