@@ -32,6 +32,15 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def height_above(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    plane: numpy.typing.NDArray[numpy.float64],
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where nothing was measured. camera (4,): fx, fy, cx, cy.
+    """
+
 def joint_histogram(
     samples: numpy.typing.NDArray[numpy.uint8], bins: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -204,6 +213,12 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def height_above(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        plane: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int

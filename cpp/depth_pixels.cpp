@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "depth_pixels.hpp"
+
+#include "check.hpp"
+
+namespace tricue {
+namespace {
+
+std::vector<float> slopes(int n, double focal_length, double center) {
+    std::vector<float> slopes(static_cast<std::size_t>(n));
+    for (int i = 0; i < n; ++i)
+        slopes[static_cast<std::size_t>(i)] = static_cast<float>((i - center) / focal_length);
+    return slopes;
+}
+
+std::string shape(int rows, int cols) {
+    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+}
+
+}  // namespace
+
+Rays rays(VectorRef camera, const DepthView& depth) {
+    require_size(camera, 4, "camera");
+    require_finite(camera, "camera");
+    for (Eigen::Index i = 0; i < 2; ++i)
+        if (!(camera[i] > 0.0)) refuse("camera", "focal lengths above 0", camera[i]);
+    return {slopes(depth.cols, camera[0], camera[2]), slopes(depth.rows, camera[1], camera[3])};
+}
+
+void require_mask(const ImageView& mask, const DepthView& depth) {
+    if (mask.rows != depth.rows || mask.cols != depth.cols)
+        refuse("mask", "shape " + shape(depth.rows, depth.cols), shape(mask.rows, mask.cols));
+}
+
+}  // namespace tricue
