@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
+#include "cues/depth/depth_histogram.hpp"
+#include "cues/depth/divide_depth.hpp"
 #include "cues/depth/height_above.hpp"
 
 namespace tricue::bindings {
@@ -9,6 +11,21 @@ using Bytes = Array<std::uint8_t>;
 
 std::ptrdiff_t pixels(const DepthView& depth) {
     return std::ptrdiff_t{depth.rows} * depth.cols;
+}
+
+Array<double> depth_histogram_arrays(const Array<float>& depth, const Bytes& mask, double near, double far,
+                                     int levels) {
+    const auto view = depth_image(depth, "depth");
+    const auto under = mask_image(mask, "mask");
+    const DepthLevels range{near, far, levels};
+    return give(unlocked(pixels(view), [&] { return depth_histogram(view, under, range); }));
+}
+
+Bytes divide_depth_arrays(const Array<float>& depth, const Bytes& mask, const Array<double>& dividers) {
+    const auto view = depth_image(depth, "depth");
+    const auto under = mask_image(mask, "mask");
+    const auto limits = vector(dividers, "dividers");
+    return give(unlocked(pixels(view), [&] { return divide_depth(view, under, limits); }));
 }
 
 Array<float> height_above_arrays(const Array<float>& depth, const Array<double>& camera,
@@ -22,6 +39,13 @@ Array<float> height_above_arrays(const Array<float>& depth, const Array<double>&
 }  // namespace
 
 void define_depth(py::module_& m) {
+    m.def("depth_histogram", depth_histogram_arrays, py::arg("depth"), py::arg("mask"), py::arg("near"),
+          py::arg("far"), py::arg("levels"),
+          "Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, "
+          "far).");
+    m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
+          "The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), "
+          "equations (35), (36).");
     m.def("height_above", height_above_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           "Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where "
           "nothing was measured. camera (4,): fx, fy, cx, cy.");

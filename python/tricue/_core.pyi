@@ -32,6 +32,26 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def depth_histogram(
+    depth: numpy.typing.NDArray[numpy.float32],
+    mask: numpy.typing.NDArray[numpy.uint8],
+    near: float,
+    far: float,
+    levels: int,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, far).
+    """
+
+def divide_depth(
+    depth: numpy.typing.NDArray[numpy.float32],
+    mask: numpy.typing.NDArray[numpy.uint8],
+    dividers: numpy.typing.NDArray[numpy.float64],
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
+    """
+
 def height_above(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -214,6 +234,20 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def depth_histogram(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        mask: numpy.typing.NDArray[numpy.uint8],
+        near: float,
+        far: float,
+        levels: int,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def divide_depth(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        mask: numpy.typing.NDArray[numpy.uint8],
+        dividers: numpy.typing.NDArray[numpy.float64],
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def height_above(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/depth_histogram.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "blocks.hpp"
+#include "check.hpp"
+#include "depth_pixels.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+// Neighbours mostly share a level, and a count that was just written takes its time to be read again: so
+// neighbours count in different tables.
+constexpr std::size_t kTables = 4;
+
+void require_levels(const DepthLevels& levels) {
+    if (!std::isfinite(levels.near)) refuse("near", "a finite number", levels.near);
+    if (!(std::isfinite(levels.far) && levels.far > levels.near))
+        refuse("far", "a finite number above near", levels.far);
+    if (levels.count < 1 || levels.count > 65536)
+        refuse("levels", "1 to 65536", std::to_string(levels.count));
+}
+
+/// The level of every pixel of a row; `levels.count` for what isn't counted.
+TRICUE_MULTIVERSION
+void levels_of_row(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
+                   const DepthLevels& levels, std::int32_t* __restrict level) {
+    const double near = levels.near, far = levels.far;
+    const double scale = levels.count / (far - near), top = levels.count - 1;
+    const std::int32_t none = levels.count;
+    in_blocks(n, [=](std::ptrdiff_t x) {
+        const double z = depth[x], place = (z - near) * scale;
+        const bool counts = has_depth(depth[x]) & (mask[x] != 0) & (z >= near) & (z < far);
+        const double within = counts & (place < top) ? place : top;
+        level[x] = counts ? static_cast<std::int32_t>(within) : none;
+    });
+}
+
+}  // namespace
+
+Vector depth_histogram(const DepthView& depth, const ImageView& mask, const DepthLevels& levels) {
+    require_mask(mask, depth);
+    require_levels(levels);
+    const auto bins = static_cast<std::size_t>(levels.count) + 1;
+    const auto cols = static_cast<std::size_t>(depth.cols);
+    std::vector<std::int64_t> counts(kTables * bins);
+    std::vector<std::int32_t> level((cols + kTables - 1) / kTables * kTables, levels.count);
+    for (int y = 0; y < depth.rows; ++y) {
+        levels_of_row(depth.row(y), mask.row(y), depth.cols, levels, level.data());
+        for (std::size_t x = 0; x < level.size(); x += kTables)
+            for (std::size_t t = 0; t < kTables; ++t)
+                ++counts[t * bins + static_cast<std::size_t>(level[x + t])];
+    }
+    Vector histogram = Vector::Zero(levels.count);
+    for (std::size_t t = 0; t < kTables; ++t)
+        for (Eigen::Index i = 0; i < histogram.size(); ++i)
+            histogram[i] += static_cast<double>(counts[t * bins + static_cast<std::size_t>(i)]);
+    return histogram;
+}
+
+}  // namespace tricue
