@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
+#include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/height_above.hpp"
@@ -11,6 +12,11 @@ using Bytes = Array<std::uint8_t>;
 
 std::ptrdiff_t pixels(const DepthView& depth) {
     return std::ptrdiff_t{depth.rows} * depth.cols;
+}
+
+Bytes depth_edges_arrays(const Array<float>& depth, double gap, double slope) {
+    const auto view = depth_image(depth, "depth");
+    return give(unlocked(pixels(view), [&] { return depth_edges(view, gap, slope); }));
 }
 
 Array<double> depth_histogram_arrays(const Array<float>& depth, const Bytes& mask, double near, double far,
@@ -39,6 +45,9 @@ Array<float> height_above_arrays(const Array<float>& depth, const Array<double>&
 }  // namespace
 
 void define_depth(py::module_& m) {
+    m.def("depth_edges", depth_edges_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
+          "1 at the farther of each two neighbours whose depths differ by more than gap + slope z^2, z the "
+          "nearer: (H, W).");
     m.def("depth_histogram", depth_histogram_arrays, py::arg("depth"), py::arg("mask"), py::arg("near"),
           py::arg("far"), py::arg("levels"),
           "Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, "

@@ -32,6 +32,13 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def depth_edges(
+    depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    1 at the farther of each two neighbours whose depths differ by more than gap + slope z^2, z the nearer: (H, W).
+    """
+
 def depth_histogram(
     depth: numpy.typing.NDArray[numpy.float32],
     mask: numpy.typing.NDArray[numpy.uint8],
@@ -234,6 +241,9 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def depth_edges(
+        self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def depth_histogram(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

@@ -20,6 +20,7 @@ from tricue.reference.cues.color.skin_gaussian import skin_gaussian
 from tricue.reference.cues.color.skin_moments import skin_moments
 from tricue.reference.cues.color.skin_reference import skin_reference
 from tricue.reference.cues.color.skin_rule import skin_rule
+from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.height_above import height_above
@@ -33,6 +34,7 @@ __all__ = [
     "color_histogram",
     "color_lookup",
     "color_ranks",
+    "depth_edges",
     "depth_histogram",
     "divide_depth",
     "height_above",
