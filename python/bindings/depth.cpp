@@ -3,6 +3,7 @@
 #include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
 #include "cues/depth/divide_depth.hpp"
+#include "cues/depth/floor_plane.hpp"
 #include "cues/depth/height_above.hpp"
 
 namespace tricue::bindings {
@@ -34,6 +35,25 @@ Bytes divide_depth_arrays(const Array<float>& depth, const Bytes& mask, const Ar
     return give(unlocked(pixels(view), [&] { return divide_depth(view, under, limits); }));
 }
 
+Eigen::Map<const Triples> index_triples(const Array<std::int64_t>& triples) {
+    const char* expected = "int64 triples (K, 3)";
+    const auto array = require<std::int64_t>(triples, "triples", 2, expected);
+    if (array.shape(1) != 3)
+        throw py::value_error(std::string("triples: expected ") + expected + ", got " + describe(array));
+    return {contiguous<std::int64_t>(array, "triples"), array.shape(0), 3};
+}
+
+Array<double> floor_plane_arrays(const Array<float>& depth, const Array<double>& camera,
+                                 const Array<std::int64_t>& triples, double tolerance,
+                                 const Array<double>& up, double least_cosine) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto draws = index_triples(triples);
+    const auto upward = vector(up, "up");
+    return give(unlocked(draws.rows() * pixels(view),
+                         [&] { return floor_plane(view, lens, draws, tolerance, {upward, least_cosine}); }));
+}
+
 Array<float> height_above_arrays(const Array<float>& depth, const Array<double>& camera,
                                  const Array<double>& plane) {
     const auto view = depth_image(depth, "depth");
@@ -55,6 +75,13 @@ void define_depth(py::module_& m) {
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
           "The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), "
           "equations (35), (36).");
+    m.def(
+        "floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
+        py::arg("tolerance"), py::arg("up"), py::arg("least_cosine"),
+        "(6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of "
+        "it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three "
+        "pixels, "
+        "row * cols + col.");
     m.def("height_above", height_above_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           "Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where "
           "nothing was measured. camera (4,): fx, fy, cx, cy.");

@@ -59,6 +59,18 @@ def divide_depth(
     The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
     """
 
+def floor_plane(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    triples: numpy.typing.NDArray[numpy.int64],
+    tolerance: float,
+    up: numpy.typing.NDArray[numpy.float64],
+    least_cosine: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three pixels, row * cols + col.
+    """
+
 def height_above(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -258,6 +270,15 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def floor_plane(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        triples: numpy.typing.NDArray[numpy.int64],
+        tolerance: float,
+        up: numpy.typing.NDArray[numpy.float64],
+        least_cosine: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def height_above(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

@@ -23,6 +23,7 @@ from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
+from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
@@ -37,6 +38,7 @@ __all__ = [
     "depth_edges",
     "depth_histogram",
     "divide_depth",
+    "floor_plane",
     "height_above",
     "joint_histogram",
     "learn_contrast",
