@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "camera/arrays.hpp"
+#include "camera/depth_view.hpp"
 #include "camera/image_view.hpp"
 #include "camera/sample_view.hpp"
 
@@ -66,6 +67,25 @@ inline ImageView color_image(const py::object& object, const char* name) {
                               ": expected packed pixels; numpy.ascontiguousarray makes them");
     return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
             static_cast<int>(array.shape(1)), 3, array.strides(0)};
+}
+
+inline DepthView depth_image(const py::object& object, const char* name) {
+    const auto array = require<float>(object, name, 2, "a float32 depth image (H, W)");
+    constexpr py::ssize_t kSize = sizeof(float);
+    constexpr int kAligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    const bool packed = (array.flags() & kAligned) && (array.shape(1) == 1 || array.strides(1) == kSize);
+    const bool downward = array.shape(0) == 1 || (array.strides(0) >= 0 && array.strides(0) % kSize == 0);
+    if (array.size() > 0 && !(packed && downward))
+        throw py::value_error(std::string(name) +
+                              ": expected packed pixels; numpy.ascontiguousarray makes them");
+    return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), array.strides(0) / kSize};
+}
+
+inline ImageView mask_image(const py::object& object, const char* name) {
+    const auto array = require<std::uint8_t>(object, name, 2, "a uint8 mask (H, W)");
+    return {contiguous<std::uint8_t>(array, name), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), 1, array.shape(1)};
 }
 
 inline SampleView samples(const py::object& object, const char* name) {

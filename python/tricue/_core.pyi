@@ -32,6 +32,13 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def depth_density(
+    histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    p(z) of equation (32), (L,) of sum 1: a histogram (L,) of depth levels, smoothed by a Gaussian.
+    """
+
 def joint_histogram(
     samples: numpy.typing.NDArray[numpy.uint8], bins: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -205,6 +212,9 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def depth_density(
+        self, histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
