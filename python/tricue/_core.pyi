@@ -32,6 +32,13 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def density_extrema(
+    density: numpy.typing.NDArray[numpy.float64], prominence: float
+) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int64]]:
+    """
+    Levels (M,) of a density's maxima of at least this prominence, and (M - 1,) of its minima between them, equations (32)-(34).
+    """
+
 def depth_density(
     histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -212,6 +219,9 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def density_extrema(
+        self, density: numpy.typing.NDArray[numpy.float64], prominence: float
+    ) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int64]]: ...
     def depth_density(
         self, histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
     ) -> numpy.typing.NDArray[numpy.float64]: ...
