@@ -21,6 +21,7 @@ from tricue.reference.cues.color.skin_moments import skin_moments
 from tricue.reference.cues.color.skin_reference import skin_reference
 from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.cues.depth.density_extrema import density_extrema
+from tricue.reference.cues.depth.depth_components import depth_components
 from tricue.reference.cues.depth.depth_density import depth_density
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
@@ -33,6 +34,7 @@ __all__ = [
     "color_lookup",
     "color_ranks",
     "density_extrema",
+    "depth_components",
     "depth_density",
     "joint_histogram",
     "learn_contrast",
