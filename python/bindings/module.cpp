@@ -4,6 +4,7 @@
 namespace tricue::bindings {
 void define_color(pybind11::module_& m);
 void define_depth(pybind11::module_& m);
+void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
 void define_skin(pybind11::module_& m);
 }  // namespace tricue::bindings
@@ -15,5 +16,6 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_color(m);
     tricue::bindings::define_skin(m);
     tricue::bindings::define_depth(m);
+    tricue::bindings::define_depth_objects(m);
     tricue::bindings::define_fuse(m);
 }

@@ -32,6 +32,39 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def density_extrema(
+    density: numpy.typing.NDArray[numpy.float64], prominence: float
+) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int64]]:
+    """
+    Levels (M,) of a density's maxima of at least this prominence, and (M - 1,) of its minima between them, equations (32)-(34).
+    """
+
+def depth_components(
+    labels: numpy.typing.NDArray[numpy.uint8],
+    depth: numpy.typing.NDArray[numpy.float32],
+    near: float,
+    far: float,
+    levels: int,
+    bins: int,
+    min_area: int,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.int32],
+]:
+    """
+    The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which region has a pixel, from 1.
+    """
+
+def depth_density(
+    histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    p(z) of equation (32), (L,) of sum 1: a histogram (L,) of depth levels, smoothed by a Gaussian.
+    """
+
 def depth_edges(
     depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float
 ) -> numpy.typing.NDArray[numpy.uint8]:
@@ -253,6 +286,28 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def density_extrema(
+        self, density: numpy.typing.NDArray[numpy.float64], prominence: float
+    ) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int64]]: ...
+    def depth_components(
+        self,
+        labels: numpy.typing.NDArray[numpy.uint8],
+        depth: numpy.typing.NDArray[numpy.float32],
+        near: float,
+        far: float,
+        levels: int,
+        bins: int,
+        min_area: int,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.int32],
+    ]: ...
+    def depth_density(
+        self, histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_edges(
         self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float
     ) -> numpy.typing.NDArray[numpy.uint8]: ...

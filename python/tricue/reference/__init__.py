@@ -20,6 +20,9 @@ from tricue.reference.cues.color.skin_gaussian import skin_gaussian
 from tricue.reference.cues.color.skin_moments import skin_moments
 from tricue.reference.cues.color.skin_reference import skin_reference
 from tricue.reference.cues.color.skin_rule import skin_rule
+from tricue.reference.cues.depth.density_extrema import density_extrema
+from tricue.reference.cues.depth.depth_components import depth_components
+from tricue.reference.cues.depth.depth_density import depth_density
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
@@ -35,6 +38,9 @@ __all__ = [
     "color_histogram",
     "color_lookup",
     "color_ranks",
+    "density_extrema",
+    "depth_components",
+    "depth_density",
     "depth_edges",
     "depth_histogram",
     "divide_depth",

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/depth_components.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "runs.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+using Counts = std::vector<std::int32_t>;
+
+/// Neighbours in a row, mostly of one level, have counters and sums of their own: they needn't wait for each other.
+constexpr std::size_t kLanes = 4;
+
+/// Levels of a row's pixels, `levels` where nothing was measured, and their depths, 0 there.
+TRICUE_MULTIVERSION
+void find_levels(const float* __restrict depth, int n, double near, double scale, int levels,
+                 std::int32_t* __restrict level, double* __restrict metres) {
+    const double last = levels - 1;
+    for (int x = 0; x < n; ++x) {
+        const bool measured = (depth[x] > 0.0f) & (depth[x] <= std::numeric_limits<float>::max());
+        const double z = measured ? static_cast<double>(depth[x]) : 0.0;
+        const auto clamped = static_cast<std::int32_t>(std::min(std::max((z - near) * scale, 0.0), last));
+        level[x] = measured ? clamped : levels;
+        metres[x] = z;
+    }
+}
+
+Runs label_runs(const ImageView& labels) {
+    Runs runs(labels.cols);
+    for (int row = 0; row < labels.rows; ++row) runs.add_row(labels.row(row));
+    return runs;
+}
+
+struct Component {
+    int x0, y0, x1, y1;
+    std::int64_t area;
+    std::uint8_t label;
+
+    void add(const Run& run) {
+        x0 = std::min(x0, run.begin);
+        x1 = std::max(x1, run.end);
+        y1 = run.row + 1;
+        area += run.length();
+    }
+};
+
+/// The components that are large enough, in order, and for every run the place of its own among them; -1 if it has none.
+struct Grouping {
+    std::vector<Component> components;
+    std::vector<std::int32_t> place;
+};
+
+/// All components; `place` becomes theirs.
+std::vector<Component> gather(Runs& runs, std::vector<std::int32_t>& place) {
+    std::vector<Component> components;
+    place.resize(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const std::size_t first = runs.root(i);
+        const Run& run = runs[i];
+        if (first == i) {
+            place[i] = static_cast<std::int32_t>(components.size());
+            components.push_back({run.begin, run.row, run.end, run.row, 0, run.label});
+        }
+        place[i] = place[first];
+        components[static_cast<std::size_t>(place[i])].add(run);
+    }
+    return components;
+}
+
+Grouping group(Runs& runs, int min_area) {
+    Grouping groups;
+    const auto all = gather(runs, groups.place);
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].area >= min_area) order.push_back(i);
+    std::stable_sort(order.begin(), order.end(),
+                     [&all](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
+
+    std::vector<std::int32_t> place(all.size(), -1);
+    for (const std::size_t i : order) {
+        place[i] = static_cast<std::int32_t>(groups.components.size());
+        groups.components.push_back(all[i]);
+    }
+    for (auto& each : groups.place) each = place[static_cast<std::size_t>(each)];
+    return groups;
+}
+
+/// What is counted of one component. A run adds 1 to the columns from where it begins, and takes it back where it ends.
+struct Tally {
+    Component box;
+    Counts levels, columns, rows;
+    std::array<double, kLanes> metres{};
+
+    Tally(const Component& component, int level_count)
+        : box(component),
+          levels(kLanes * (static_cast<std::size_t>(level_count) + 1)),
+          columns(static_cast<std::size_t>(box.x1 - box.x0) + 1),
+          rows(static_cast<std::size_t>(box.y1 - box.y0)) {}
+
+    void add_box(const Run& run) {
+        ++columns[static_cast<std::size_t>(run.begin - box.x0)];
+        --columns[static_cast<std::size_t>(run.end - box.x0)];
+        rows[static_cast<std::size_t>(run.row - box.y0)] += run.length();
+    }
+
+    void add_depth(const std::int32_t* level, const double* depth, std::size_t n) {
+        std::int32_t* counts = levels.data();
+        auto sums = metres;
+        std::size_t x = 0;
+        for (; x + kLanes <= n; x += kLanes)
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                ++counts[kLanes * static_cast<std::size_t>(level[x + lane]) + lane];
+                sums[lane] += depth[x + lane];
+            }
+        for (std::size_t lane = 0; x < n; ++x, ++lane) {
+            ++counts[kLanes * static_cast<std::size_t>(level[x]) + lane];
+            sums[lane] += depth[x];
+        }
+        metres = sums;
+    }
+
+    /// Afterwards columns and levels are what their names say. Returns how many pixels were measured.
+    std::int64_t finish() {
+        std::partial_sum(columns.begin(), columns.end(), columns.begin());
+        columns.pop_back();
+        std::int64_t measured = 0;
+        for (std::size_t level = 0; level + 1 < levels.size() / kLanes; ++level) {
+            const auto first = levels.begin() + static_cast<std::ptrdiff_t>(kLanes * level);
+            measured += levels[level] = std::accumulate(first, first + kLanes, 0);
+        }
+        levels.resize(levels.size() / kLanes - 1);
+        return measured;
+    }
+};
+
+void write_shares(const Counts& counts, std::int64_t total, float* shares) {
+    if (total == 0) return;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        shares[i] = static_cast<float>(static_cast<double>(counts[i]) / static_cast<double>(total));
+}
+
+/// Counts of the columns (or rows) of a box, summed in `bins` equal parts of it.
+Counts spread(const Counts& counts, int bins) {
+    Counts parts(static_cast<std::size_t>(bins));
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        parts[(2 * i + 1) * parts.size() / (2 * counts.size())] += counts[i];
+    return parts;
+}
+
+/// Goes through the runs once more, in reading order: counts, and paints the image of components.
+std::vector<Tally> count(const Runs& runs, const Grouping& groups, const DepthView& depth,
+                         const Signature& signature, LabelImage& components) {
+    const double scale = signature.levels / (signature.far - signature.near);
+    std::vector<std::int32_t> level(static_cast<std::size_t>(depth.cols));
+    std::vector<double> metres(level.size());
+    std::vector<Tally> tallies;
+    for (const Component& each : groups.components) tallies.emplace_back(each, signature.levels);
+    int row = -1;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const std::int32_t place = groups.place[i];
+        if (place < 0) continue;
+        const Run& run = runs[i];
+        if (run.row != row) {
+            row = run.row;
+            find_levels(depth.row(row), depth.cols, signature.near, scale, signature.levels, level.data(),
+                        metres.data());
+        }
+        Tally& tally = tallies[static_cast<std::size_t>(place)];
+        tally.add_box(run);
+        tally.add_depth(level.data() + run.begin, metres.data() + run.begin,
+                        static_cast<std::size_t>(run.length()));
+        std::fill_n(components.row(row).data() + run.begin, run.length(), place + 1);
+    }
+    return tallies;
+}
+
+std::string shape(int rows, int cols) {
+    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+}
+
+void require(const ImageView& labels, const DepthView& depth, const Signature& signature, int min_area) {
+    if (labels.rows != depth.rows || labels.cols != depth.cols)
+        refuse("labels", "shape " + shape(depth.rows, depth.cols), shape(labels.rows, labels.cols));
+    if (!(signature.near >= 0.0 && std::isfinite(signature.near)))
+        refuse("near", "a finite number, not negative", signature.near);
+    if (!(signature.far > signature.near && std::isfinite(signature.far)))
+        refuse("far", "a finite number above near", signature.far);
+    if (signature.levels < 1) refuse("levels", "at least 1", signature.levels);
+    if (signature.bins < 1) refuse("bins", "at least 1", signature.bins);
+    if (min_area < 1) refuse("min_area", "at least 1", min_area);
+}
+
+}  // namespace
+
+DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
+                                 int min_area) {
+    require(labels, depth, signature, min_area);
+    Runs runs = label_runs(labels);
+    const Grouping groups = group(runs, min_area);
+    const auto C = static_cast<Eigen::Index>(groups.components.size());
+    DepthComponents result{States(C, 7), Floats::Zero(C, signature.levels), Floats::Zero(C, signature.bins),
+                           Floats::Zero(C, signature.bins), LabelImage::Zero(depth.rows, depth.cols)};
+    auto tallies = count(runs, groups, depth, signature, result.components);
+    for (Eigen::Index i = 0; i < C; ++i) {
+        Tally& tally = tallies[static_cast<std::size_t>(i)];
+        const Component& box = tally.box;
+        const std::int64_t measured = tally.finish();
+        const double sum = std::accumulate(tally.metres.begin(), tally.metres.end(), 0.0);
+        result.table.row(i) << box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0,
+            static_cast<double>(box.area), sum / static_cast<double>(measured), box.label;
+        write_shares(tally.levels, measured, result.histograms.row(i).data());
+        write_shares(spread(tally.columns, signature.bins), box.area, result.columns.row(i).data());
+        write_shares(spread(tally.rows, signature.bins), box.area, result.rows.row(i).data());
+    }
+    return result;
+}
+
+}  // namespace tricue

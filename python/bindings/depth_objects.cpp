@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.hpp"
+#include "cues/depth/density_extrema.hpp"
+#include "cues/depth/depth_components.hpp"
+#include "cues/depth/depth_density.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+Array<double> depth_density_arrays(const Array<double>& histogram, double bandwidth) {
+    const auto counts = vector(histogram, "histogram");
+    return give(unlocked(counts.size(), [&] { return depth_density(counts, bandwidth); }));
+}
+
+std::tuple<Array<std::int64_t>, Array<std::int64_t>> density_extrema_arrays(const Array<double>& density,
+                                                                            double prominence) {
+    const auto levels = vector(density, "density");
+    auto extrema = unlocked(levels.size(), [&] { return density_extrema(levels, prominence); });
+    return {give(std::move(extrema.maxima)), give(std::move(extrema.minima))};
+}
+
+ImageView label_image(const Array<std::uint8_t>& labels) {
+    const auto array = require<std::uint8_t>(labels, "labels", 2, "uint8 labels (H, W)");
+    return {contiguous<std::uint8_t>(array, "labels"), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), 1, array.shape(1)};
+}
+
+std::tuple<Array<double>, Array<float>, Array<float>, Array<float>, Array<std::int32_t>>
+depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& depth, double near, double far,
+                        int levels, int bins, int min_area) {
+    const auto regions = label_image(labels);
+    const auto metres = depth_image(depth, "depth");
+    const Signature signature{near, far, levels, bins};
+    auto found = unlocked(std::ptrdiff_t{metres.rows} * metres.cols,
+                          [&] { return depth_components(regions, metres, signature, min_area); });
+    return {give(std::move(found.table)), give(std::move(found.histograms)), give(std::move(found.columns)),
+            give(std::move(found.rows)), give(std::move(found.components))};
+}
+
+}  // namespace
+
+void define_depth_objects(py::module_& m) {
+    m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
+          "p(z) of equation (32), (L,) of sum 1: a histogram (L,) of depth levels, smoothed by a Gaussian.");
+    m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
+          "Levels (M,) of a density's maxima of at least this prominence, and (M - 1,) of its minima between "
+          "them, equations (32)-(34).");
+    m.def(
+        "depth_components", depth_components_arrays, py::arg("labels"), py::arg("depth"), py::arg("near"),
+        py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"),
+        "The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, "
+        "label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which "
+        "region has a pixel, from 1.");
+}
+
+}  // namespace tricue::bindings

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""Regions of a divided depth image and their signatures (Sabeti, Parvizi, Wu 2008, section IV.A)."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+
+Labels = NDArray[np.uint8]
+Depth = NDArray[np.float32]
+Pixels = NDArray[np.intp]
+Shares = NDArray[np.float32]
+
+
+def depth_components(
+    labels: Labels, depth: Depth, near: float, far: float, levels: int, bins: int, min_area: int
+) -> tuple[NDArray[np.float64], Shares, Shares, Shares, NDArray[np.int32]]:
+    """Of every 8-connected region of one label with at least ``min_area`` pixels: (C, 7) x, y, width, height,
+    area, mean depth, label; (C, levels) its depth histogram; (C, bins) and (C, bins) how its pixels are
+    spread over its columns and its rows; and (H, W) which region has a pixel, from 1.
+
+    Largest area first, then by the first pixel in reading order. Pixels without a measurement don't count
+    for mean and histogram.
+    """
+    _require(labels, depth, near, far)
+    for name, least in (("levels", levels), ("bins", bins), ("min_area", min_area)):
+        if least < 1:
+            refuse(name, "at least 1", least)
+    found = [pixels for pixels in _regions(labels) if len(pixels) >= min_area]
+    found.sort(key=len, reverse=True)  # stable
+
+    table = np.empty((len(found), 7))
+    histograms = np.empty((len(found), levels), np.float32)
+    columns, rows = (np.empty((len(found), bins), np.float32) for _ in range(2))
+    components = np.zeros(labels.shape, np.int32)
+    for i, pixels in enumerate(found):
+        y, x = pixels.T
+        z = depth[y, x].astype(np.float64)
+        z = z[(z > 0) & (z < np.inf)]
+        size = np.ptp(x) + 1, np.ptp(y) + 1
+        mean = z.mean() if z.size else np.nan
+        table[i] = x.min(), y.min(), *size, len(x), mean, labels[y[0], x[0]]
+        level = np.clip((z - near) * (levels / (far - near)), 0, levels - 1).astype(np.intp)
+        histograms[i] = _shares(level, levels)
+        columns[i] = _shares((2 * (x - x.min()) + 1) * bins // (2 * size[0]), bins)
+        rows[i] = _shares((2 * (y - y.min()) + 1) * bins // (2 * size[1]), bins)
+        components[y, x] = i + 1
+    return table, histograms, columns, rows, components
+
+
+def _require(labels: Labels, depth: Depth, near: float, far: float) -> None:
+    if labels.shape != depth.shape:
+        refuse("labels", f"shape {depth.shape}", labels.shape)
+    if not 0 <= near < np.inf:
+        refuse("near", "a finite number, not negative", float(near))
+    if not near < far < np.inf:
+        refuse("far", "a finite number above near", float(far))
+
+
+def _regions(labels: Labels) -> Iterator[Pixels]:
+    """The pixels (row, column) of each region, regions in the reading order of their first pixels."""
+    left = {(int(y), int(x)): labels[y, x] for y, x in np.argwhere(labels)}
+    for start in list(left):
+        if start not in left:
+            continue
+        label = left.pop(start)
+        pixels = [start]
+        for row, column in pixels:  # grows while it is read
+            for y in (row - 1, row, row + 1):
+                for x in (column - 1, column, column + 1):
+                    if left.get((y, x)) == label:
+                        del left[y, x]
+                        pixels.append((y, x))
+        yield np.array(pixels, np.intp)
+
+
+def _shares(parts: Pixels, count: int) -> Shares:
+    """How the pixels are shared out among the parts; zeros where there are none."""
+    return (np.bincount(parts, minlength=count) / max(parts.size, 1)).astype(np.float32)
