@@ -20,12 +20,14 @@ from tricue.track.track import Status, Track
 
 if TYPE_CHECKING:
     from tricue.track.color_particle import ColorParticleTracker
+    from tricue.track.depth_particle import DepthParticleTracker
 
     __version__: str
 
 __all__ = [
     "Box",
     "ColorParticleTracker",
+    "DepthParticleTracker",
     "Frame",
     "Intrinsics",
     "Status",
@@ -37,10 +39,13 @@ __all__ = [
 ]
 
 
+_TRACKERS = {"ColorParticleTracker": "color-particle", "DepthParticleTracker": "depth-particle"}
+
+
 def __getattr__(name: str) -> Any:
     """Trackers and the version are looked up when first asked for, so that the import stays quick."""
-    if name == "ColorParticleTracker":
-        return tracker_class("color-particle")
+    if name in _TRACKERS:
+        return tracker_class(_TRACKERS[name])
     if name == "__version__":
         from importlib.metadata import version
 

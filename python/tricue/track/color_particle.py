@@ -79,11 +79,7 @@ class ColorParticleTracker:
         params: ColorParticleParams | None = None,
         **parameters: Any,
     ) -> None:
-        if params is not None and parameters:
-            raise TypeError(f"params: expected alone, got also {', '.join(parameters)}")
-        if not isinstance(params, ColorParticleParams | None):
-            raise TypeError(f"params: expected ColorParticleParams, got {type(params).__name__}")
-        self.params = ColorParticleParams(**parameters) if params is None else params
+        self.params = lifecycle.parameters(ColorParticleParams, params, parameters)
         self.seed = lifecycle.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)

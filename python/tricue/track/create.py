@@ -6,7 +6,10 @@ from typing import Any
 
 from tricue.track.track import Tracker
 
-_TRACKERS = {"color-particle": "tricue.track.color_particle:ColorParticleTracker"}
+_TRACKERS = {
+    "color-particle": "tricue.track.color_particle:ColorParticleTracker",
+    "depth-particle": "tricue.track.depth_particle:DepthParticleTracker",
+}
 
 
 def names() -> tuple[str, ...]:

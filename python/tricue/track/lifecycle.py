@@ -9,8 +9,13 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import FrameLike, as_frame
+from tricue.camera.rig import Intrinsics
+from tricue.track.params import Params
 
 State = TypeVar("State")
+P = TypeVar("P", bound=Params)
+
+USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
 
 
 def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArray[np.uint8]:
@@ -38,7 +43,7 @@ def seed(value: int) -> int:
     return int(value)
 
 
-def box_in(box: Box, image: NDArray[np.uint8]) -> Box:
+def box_in(box: Box, image: NDArray[Any]) -> Box:
     """The box itself; ValueError where no part of it is in the image, or it is under 2 pixels wide or
     high.
     """
@@ -57,3 +62,45 @@ def started(state: State | None) -> State:
     if state is None:
         raise RuntimeError("update: expected init first, with a frame and a box")
     return state
+
+
+def depth_image(
+    frame: FrameLike, shape: tuple[int, ...] | None = None
+) -> tuple[NDArray[np.float32], float | None]:
+    """The frame's depth, (H, W) float32 metres with NaN, and its timestamp. ValueError for another shape than
+    the first frame's.
+    """
+    channels = as_frame(frame)
+    channels.require("depth")
+    depth: Any = channels.depth
+    if shape is not None and depth.shape != shape:
+        hint = "init starts again on another size"
+        raise ValueError(f"frame.depth: expected the first frame's shape {shape}, got {depth.shape}; {hint}")
+    return depth, channels.timestamp
+
+
+def intrinsics(value: Intrinsics | None) -> Intrinsics | None:
+    """The camera itself; TypeError for anything else."""
+    if value is not None and not isinstance(value, Intrinsics):
+        raise TypeError(f"intrinsics: expected tricue.Intrinsics, got {type(value).__name__}")
+    return value
+
+
+def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
+    """The camera, or a usual one where none is given. ValueError where it has another size than the image."""
+    height, width = shape[:2]
+    if camera is None:
+        return Intrinsics.from_fov(width, height, USUAL_VIEW)
+    if (camera.width, camera.height) != (width, height):
+        expected = f"the camera's size, {camera.width}x{camera.height}"
+        raise ValueError(f"frame.depth: expected {expected}, got {width}x{height}")
+    return camera
+
+
+def parameters(kind: type[P], params: P | None, values: dict[str, Any]) -> P:
+    """The parameters given all at once or one by one; TypeError for both."""
+    if params is not None and values:
+        raise TypeError(f"params: expected alone, got also {', '.join(values)}")
+    if params is not None and not isinstance(params, kind):
+        raise TypeError(f"params: expected {kind.__name__}, got {type(params).__name__}")
+    return kind(**values) if params is None else params

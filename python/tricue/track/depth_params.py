@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""The parameters of the depth particle tracker."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from tricue.track.params import Params, parameter
+
+OURS = "our experiment: benchmarks/README.md"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DepthParticleParams(Params):
+    """Lengths are in metres: a person has about the same size everywhere in front of the camera.
+
+    The paper's own form is ``histogram="absolute"``, ``likelihood="linear"``, ``contrast=0``,
+    ``measurement=0``, ``floor=False``, ``edges=False``.
+    """
+
+    particles: int = parameter(100, unit="particles", source="section V", low=2, high=100_000)
+    near: float = parameter(0.3, unit="m", source="section V: the SR-3000's", above=0, doc="least depth used")
+    far: float = parameter(8.0, unit="m", source="SR-3000 7.5, RGB-D 8", above=0, doc="depth used below it")
+    resolution: int = parameter(
+        320, unit="pixels", source=OURS, low=16, doc="wider images are thinned out to about this width"
+    )
+    rate: float = parameter(
+        15.0, unit="frames/s", source=OURS, above=0, doc="where frames have no timestamps"
+    )
+
+    floor: bool = parameter(True, unit="-", source=OURS, doc="find the floor and take it out")
+    floor_clear: float = parameter(0.12, unit="m", source=OURS, low=0, doc="taken out up to this height")
+    edges: bool = parameter(True, unit="-", source=OURS, doc="cut objects apart at jumps of the depth")
+    edge_gap: float = parameter(0.06, unit="m", source=OURS, low=0, doc="jump that cuts, plus")
+    edge_slope: float = parameter(0.01, unit="1/m", source=OURS, low=0, doc="this times z²: noise grows")
+    levels: int = parameter(256, unit="levels", source="section IV.B", low=8, high=4096, doc="of the range")
+    bandwidth: float = parameter(
+        0.12, unit="m", source=OURS, above=0, doc="of the depth's kernel density (32)"
+    )
+    prominence: float = parameter(
+        0.05, unit="of the greatest", source=OURS, low=0, high=1, doc="of a maximum that counts"
+    )
+    least_area: float = parameter(0.03, unit="m² at far", source=OURS, above=0, doc="of an object")
+    aspect: tuple[float, float] = parameter(
+        (1.0, 5.0), unit="height/width", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
+    )
+    human_height: tuple[float, float] = parameter(
+        (0.9, 2.2), unit="m", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
+    )
+
+    histogram: Literal["relative", "absolute"] = parameter(
+        "relative", unit="-", source="absolute: (38) as printed; " + OURS, doc="to the particle's own depth"
+    )
+    likelihood: Literal["linear", "exponential"] = parameter(
+        "exponential", unit="-", source="(37) is linear; " + OURS, doc="1 - d, or exp(-sharpness d²)"
+    )
+    sharpness: float = parameter(30.0, unit="nats", source=OURS, above=0, doc="of the exponential form")
+    reach: float = parameter(0.5, unit="m", source=OURS, above=0, doc="half the relative histogram's range")
+    bins: int = parameter(64, unit="levels", source=OURS, low=4, high=4096, doc="of the relative histogram")
+    grid: tuple[int, int] = parameter(
+        (14, 10), unit="samples", source=OURS, low=2, high=64, doc="rows, columns read in a rectangle"
+    )
+    contrast: float = parameter(
+        8.0, unit="nats", source=OURS, low=0, doc="of the target's depth inside against around"
+    )
+    margin: float = parameter(1.25, unit="half sizes", source=OURS, above=1, doc="where around is read")
+    measurement: float = parameter(
+        1.0, unit="-", source=OURS, low=0, doc="weight of the segmented object in the likelihood; 0: only (2)"
+    )
+    object_share: float = parameter(
+        0.4, unit="of particles", source="section IV.A; " + OURS, low=0, below=1, doc="drawn at the object"
+    )
+
+    fastest: float = parameter(2.0, unit="m/s", source="a brisk walk", above=0, doc="speed of the target")
+    velocity_rate: float = parameter(0.5, unit="-", source=OURS, low=0, high=1, doc="its smoothing; 1: none")
+    agility: float = parameter(0.5, unit="m/s", source="K of (39); " + OURS, low=0, doc="position noise")
+    size_noise: float = parameter(0.06, unit="of the size", source=OURS, above=0)
+    size_rate: float = parameter(0.15, unit="per frame", source=OURS, low=0, high=1, doc="memory of the size")
+
+    learning_rate: float = parameter(0.08, unit="per frame", source="section IV.C", low=0, high=1)
+    nearer: float = parameter(0.3, unit="m", source=OURS, above=0, doc="so much nearer is in front")
+    hidden_above: float = parameter(
+        0.25, unit="of its area", source=OURS, low=0, high=1, doc="in front of the target: it is occluded"
+    )
+    seen_above: float = parameter(
+        0.5, unit="of usual", source=OURS, low=0, high=1, doc="share of its area at its depth: it is seen"
+    )
+    surprise: float = parameter(
+        6.0, unit="nats", source=OURS, low=0, doc="log-likelihood under its usual value that isn't the target"
+    )
+    lost_after: int = parameter(
+        20, unit="frames", source=OURS, low=1, doc="missed in a row, nothing in front, until LOST"
+    )
+
+    def __post_init__(self) -> None:
+        Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
+        for name in ("aspect", "human_height"):
+            low, high = getattr(self, name)
+            if low > high:
+                raise ValueError(f"{name}: expected the lower number first, got {(low, high)}")
+        if self.near >= self.far:
+            raise ValueError(f"near: expected under far, {self.far:g} m, got {self.near:g}")

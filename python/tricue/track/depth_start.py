@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""On whom the depth particle tracker starts: on what is in a box, or on the most prominent person."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.track.depth_model import states_of
+from tricue.track.depth_objects import EDGE, Objects
+from tricue.track.depth_params import DepthParticleParams
+from tricue.track.foreground import Foreground
+from tricue.track.matching import Found, Signature
+
+ALIKE = 0.3  # overlap of a box and the object that is meant by it
+
+
+def humans(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
+    """Indices of those that may be people: by aspect ratio and size, largest first.
+
+    A size that the image's border cuts is a lower bound.
+    """
+    width, height = objects.states[:, 3], objects.states[:, 4]
+    aspect = height / width
+    tall = (height >= p.human_height[0]) & (height <= p.human_height[1])
+    upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | ~objects.whole[:, 0])
+    return np.flatnonzero(tall & upright)
+
+
+def somebody(objects: Objects, p: DepthParticleParams) -> Found:
+    """The largest of the human candidates; ValueError where there is none."""
+    people = humans(objects, p)
+    if len(people) == 0:
+        raise ValueError("box: expected (x, y, width, height), as nobody was found in this frame")
+    chosen = int(people[0])
+    return Found(objects.states[chosen], objects.whole[chosen], Signature.of(objects, chosen))
+
+
+def in_box(box: Box, objects: Objects, fg: Foreground) -> Found:
+    """The box itself, at the depth of the object that fills it best, or else of what is in its middle."""
+    overlaps = [box.iou(each) for each in objects.boxes]
+    best = int(np.argmax(overlaps)) if overlaps else -1
+    meant = best >= 0 and overlaps[best] > ALIKE
+    z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box)
+    rectangle = np.array([[*box.center, box.width, box.height, z]])
+    return Found(
+        states_of(rectangle, fg.camera * fg.step)[0],
+        _whole(box, fg),
+        Signature.of(objects, best) if meant else Signature.unknown(),
+    )
+
+
+def _whole(box: Box, fg: Foreground) -> NDArray[np.bool_]:
+    height, width = np.multiply(fg.depth.shape, fg.step)
+    left, top, right, bottom = box.xyxy
+    return np.array(
+        [left >= EDGE and right <= width - EDGE, top >= EDGE and bottom <= height - EDGE], np.bool_
+    )
+
+
+def _middle_depth(fg: Foreground, box: Box) -> float:
+    """The median depth in the middle of a box; ValueError where nothing there has one."""
+    left, top, right, bottom = (int(number / fg.step) for number in box.xyxy)
+    across, down = (right - left) // 4, (bottom - top) // 4
+    rows = slice(max(0, top + down), max(1, bottom - down))
+    middle = fg.depth[rows, max(0, left + across) : max(1, right - across)]
+    middle = middle[np.isfinite(middle)]
+    if middle.size == 0:
+        raise ValueError(
+            f"box: expected a target with measured depth in its middle, got none in {tuple(box)}"
+        )
+    return float(np.median(middle))

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.rig import Intrinsics
+from tricue.kernels import Kernels
+from tricue.track.depth_params import DepthParticleParams
+
+Floats = NDArray[np.float64]
+Depth = NDArray[np.float32]
+
+NO_FLOOR = np.zeros(6)
+UP = np.array([0.0, -1.0, 0.0])
+LEAST_COSINE = 0.6  # a camera looks down, up, or aside by up to 53 degrees
+COARSE = 80  # columns of the image in which the floor is looked for
+TOLERANCE = 0.04  # metres, of a point on the floor
+TRIALS, MORE_TRIALS = 64, 256  # planes tried in a frame, and while none is known
+FLOOR_SHARE, BELOW_SHARE = 0.06, 0.03  # of all points: the least on a floor, the most under it
+
+
+class Foreground(NamedTuple):
+    """Depth (h, w) with NaN wherever no target is, and the camera (4,) that sees it: fx, fy, cx, cy.
+
+    Its pixel (i, j) is the frame's (step i, step j).
+    """
+
+    depth: Depth
+    camera: Floats
+    step: int
+
+
+def numbers(camera: Intrinsics) -> Floats:
+    """(4,) fx, fy, cx, cy: what kernels know of a camera."""
+    return np.array([camera.fx, camera.fy, camera.cx, camera.cy])
+
+
+def foreground(
+    k: Kernels,
+    depth: Depth,
+    camera: Floats,
+    plane: Floats,
+    rng: np.random.Generator,
+    p: DepthParticleParams,
+) -> tuple[Foreground, Floats]:
+    """The foreground, and the floor's plane (6,), what floor_plane gives: zeros while none is known."""
+    step = max(1, round(depth.shape[1] / p.resolution))
+    thin = np.ascontiguousarray(depth[::step, ::step])
+    thinned = camera / step
+    inside = (thin >= p.near) & (thin < p.far)
+    if p.floor:
+        plane = floor(k, thin, thinned, plane, rng)
+        if plane.any():
+            inside &= k.height_above(thin, thinned, plane[:4].copy()) > p.floor_clear
+    return Foreground(np.where(inside, thin, np.float32(np.nan)), thinned, step), plane
+
+
+def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator) -> Floats:
+    """The plane with many points on it and hardly any below; the known one where this frame has none."""
+    step = max(1, round(depth.shape[1] / COARSE))
+    coarse = np.ascontiguousarray(depth[::step, ::step])
+    triples = rng.integers(0, coarse.size, (TRIALS if known.any() else MORE_TRIALS, 3))
+    plane = k.floor_plane(coarse, camera / step, triples, TOLERANCE, UP, LEAST_COSINE)
+    return plane if plane[4] > FLOOR_SHARE and plane[5] < BELOW_SHARE else known
