@@ -23,6 +23,7 @@ from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
 from tricue.reference.cues.depth.depth_density import depth_density
+from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
@@ -36,6 +37,7 @@ __all__ = [
     "density_extrema",
     "depth_components",
     "depth_density",
+    "depth_distance",
     "joint_histogram",
     "learn_contrast",
     "propose",
