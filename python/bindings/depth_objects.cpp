@@ -3,6 +3,7 @@
 #include "cues/depth/density_extrema.hpp"
 #include "cues/depth/depth_components.hpp"
 #include "cues/depth/depth_density.hpp"
+#include "cues/depth/depth_distance.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -37,6 +38,17 @@ depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& d
             give(std::move(found.rows)), give(std::move(found.components))};
 }
 
+Array<double> depth_distance_arrays(const Array<float>& depth, const Array<double>& rectangles,
+                                    const Array<double>& model, const Array<double>& pattern, double reach,
+                                    double nearer) {
+    const auto metres = depth_image(depth, "depth");
+    const auto each = states(rectangles, "rectangles");
+    const DepthModel target{vector(model, "model"), reach};
+    const auto places = states(pattern, "pattern");
+    return give(unlocked(each.rows() * places.rows(),
+                         [&] { return depth_distance(metres, each, target, places, nearer); }));
+}
+
 }  // namespace
 
 void define_depth_objects(py::module_& m) {
@@ -51,6 +63,12 @@ void define_depth_objects(py::module_& m) {
         "The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, "
         "label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which "
         "region has a pixel, from 1.");
+    m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
+          py::arg("pattern"), py::arg("reach"), py::arg("nearer"),
+          "(N, 3) of each rectangle (N, 5) x, y, width, height, z: equation (38) over sqrt 2 between its "
+          "depths "
+          "relative to z and the model (L,); the share of the places (n, 2) within reach of z; the share "
+          "nearer than z - nearer.");
 }
 
 }  // namespace tricue::bindings

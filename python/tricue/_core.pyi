@@ -65,6 +65,18 @@ def depth_density(
     p(z) of equation (32), (L,) of sum 1: a histogram (L,) of depth levels, smoothed by a Gaussian.
     """
 
+def depth_distance(
+    depth: numpy.typing.NDArray[numpy.float32],
+    rectangles: numpy.typing.NDArray[numpy.float64],
+    model: numpy.typing.NDArray[numpy.float64],
+    pattern: numpy.typing.NDArray[numpy.float64],
+    reach: float,
+    nearer: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (N, 3) of each rectangle (N, 5) x, y, width, height, z: equation (38) over sqrt 2 between its depths relative to z and the model (L,); the share of the places (n, 2) within reach of z; the share nearer than z - nearer.
+    """
+
 def depth_edges(
     depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float
 ) -> numpy.typing.NDArray[numpy.uint8]:
@@ -307,6 +319,15 @@ class Kernels(Protocol):
     ]: ...
     def depth_density(
         self, histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def depth_distance(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        rectangles: numpy.typing.NDArray[numpy.float64],
+        model: numpy.typing.NDArray[numpy.float64],
+        pattern: numpy.typing.NDArray[numpy.float64],
+        reach: float,
+        nearer: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_edges(
         self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float

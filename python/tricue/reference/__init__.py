@@ -23,6 +23,7 @@ from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
 from tricue.reference.cues.depth.depth_density import depth_density
+from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
@@ -41,6 +42,7 @@ __all__ = [
     "density_extrema",
     "depth_components",
     "depth_density",
+    "depth_distance",
     "depth_edges",
     "depth_histogram",
     "divide_depth",
