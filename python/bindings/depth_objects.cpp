@@ -4,6 +4,7 @@
 #include "cues/depth/depth_components.hpp"
 #include "cues/depth/depth_density.hpp"
 #include "cues/depth/depth_distance.hpp"
+#include "cues/depth/rectangle_histogram.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -49,6 +50,15 @@ Array<double> depth_distance_arrays(const Array<float>& depth, const Array<doubl
                          [&] { return depth_distance(metres, each, target, places, nearer); }));
 }
 
+Array<double> rectangle_histogram_arrays(const Array<float>& depth, const Array<double>& rectangle,
+                                         int levels, const Array<double>& pattern, double reach) {
+    const auto metres = depth_image(depth, "depth");
+    const auto numbers = vector(rectangle, "rectangle");
+    const auto places = states(pattern, "pattern");
+    return give(
+        unlocked(places.rows(), [&] { return rectangle_histogram(metres, numbers, levels, places, reach); }));
+}
+
 }  // namespace
 
 void define_depth_objects(py::module_& m) {
@@ -69,6 +79,10 @@ void define_depth_objects(py::module_& m) {
           "depths "
           "relative to z and the model (L,); the share of the places (n, 2) within reach of z; the share "
           "nearer than z - nearer.");
+    m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),
+          py::arg("levels"), py::arg("pattern"), py::arg("reach"),
+          "(levels,) of sum 1: the depths in a rectangle (5,) x, y, width, height, z, relative to z, in "
+          "[-reach, reach).");
 }
 
 }  // namespace tricue::bindings

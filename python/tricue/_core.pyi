@@ -189,6 +189,17 @@ def rank_sections(
     Sums of rank measures over the levels of every section, (N, 3, S), equations (17), (19)-(28), each of sum 1.
     """
 
+def rectangle_histogram(
+    depth: numpy.typing.NDArray[numpy.float32],
+    rectangle: numpy.typing.NDArray[numpy.float64],
+    levels: int,
+    pattern: numpy.typing.NDArray[numpy.float64],
+    reach: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (levels,) of sum 1: the depths in a rectangle (5,) x, y, width, height, z, relative to z, in [-reach, reach).
+    """
+
 def resample(
     weights: numpy.typing.NDArray[numpy.float64], offset: float
 ) -> numpy.typing.NDArray[numpy.int64]:
@@ -404,6 +415,14 @@ class Kernels(Protocol):
     def rank_sections(
         self, samples: numpy.typing.NDArray[numpy.uint8], sections: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def rectangle_histogram(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        rectangle: numpy.typing.NDArray[numpy.float64],
+        levels: int,
+        pattern: numpy.typing.NDArray[numpy.float64],
+        reach: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def resample(
         self, weights: numpy.typing.NDArray[numpy.float64], offset: float
     ) -> numpy.typing.NDArray[numpy.int64]: ...

@@ -29,6 +29,7 @@ from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.height_above import height_above
+from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
@@ -54,6 +55,7 @@ __all__ = [
     "rank_contrast",
     "rank_distance",
     "rank_sections",
+    "rectangle_histogram",
     "resample",
     "reweight",
     "sample_ellipses",

@@ -94,7 +94,7 @@ def size_term(states: Floats, size: Floats) -> Floats:
 def object_term(states: Floats, seen: Floats) -> Floats:
     """(N,) log-likelihood of states (N, 5) by a segmented object's (5,), taken as a measurement."""
     off = (states - seen) / (TRUST * SHARP)
-    return -np.minimum(0.5 * (off * off).sum(axis=1), FAR_OFF)
+    return np.asarray(-np.minimum(0.5 * (off * off).sum(axis=1), FAR_OFF))
 
 
 def frame(margin: float) -> Floats:

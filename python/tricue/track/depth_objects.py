@@ -166,7 +166,7 @@ def _with_union(objects: Objects, index: int, pieces: NDArray[np.intp]) -> Objec
 
 def completed(objects: Objects, expected: Floats, size: Floats) -> Floats:
     """The states as if nothing cut the objects: of the usual ``size``, ending on the side that is free."""
-    states = objects.states.copy()
+    states: Floats = objects.states.copy()
     for axis in (0, 1):
         before, after = objects.cut[:, 2 * axis], objects.cut[:, 2 * axis + 1]
         middle, extent = objects.states[:, axis], objects.states[:, 3 + axis]

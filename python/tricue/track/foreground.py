@@ -62,6 +62,15 @@ def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.rando
     """The plane with many points on it and hardly any below; the known one where this frame has none."""
     step = max(1, round(depth.shape[1] / COARSE))
     coarse = np.ascontiguousarray(depth[::step, ::step])
-    triples = rng.integers(0, coarse.size, (TRIALS if known.any() else MORE_TRIALS, 3))
+    trials = TRIALS if known.any() else MORE_TRIALS
+    triples = rng.integers(
+        coarse.size // 2, coarse.size, (trials, 3)
+    )  # below the middle: there it is seen best
     plane = k.floor_plane(coarse, camera / step, triples, TOLERANCE, UP, LEAST_COSINE)
-    return plane if plane[4] > FLOOR_SHARE and plane[5] < BELOW_SHARE else known
+    if plane[4] <= FLOOR_SHARE or plane[5] >= BELOW_SHARE:
+        return known
+    if known.any():
+        on_known = np.abs(k.height_above(coarse, camera / step, known[:4].copy())) <= TOLERANCE
+        if np.count_nonzero(on_known) > plane[4] * np.count_nonzero(coarse > 0):
+            return known
+    return plane

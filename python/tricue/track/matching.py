@@ -87,7 +87,7 @@ def without(objects: Objects, place: Floats) -> Objects:
 
 
 def cover(objects: Objects, expected: Floats, nearer: float) -> int | None:
-    """The index of the object that covers most of the expected rectangle, state (5,), from in front, if any."""
+    """The index of what covers most of the expected rectangle, state (5,), from in front, if anything."""
     if len(objects.states) == 0:
         return None
     near = objects.states[:, 2] < expected[2] - nearer

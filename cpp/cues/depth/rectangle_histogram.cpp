@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/rectangle_histogram.hpp"
+
+#include "check.hpp"
+#include "depth_reader.hpp"
+
+namespace tricue {
+
+Vector rectangle_histogram(const DepthView& depth, VectorRef rectangle, int levels, StatesRef pattern,
+                           double reach) {
+    require_size(rectangle, 5, "rectangle");
+    require_finite(rectangle, "rectangle");
+    if (levels < 1 || levels > 65536) refuse("levels", "1 to 65536", levels);
+    DepthReader reader(depth, pattern, levels, reach, 0.0);
+
+    reader.read(rectangle.data());
+    if (reader.counted() == 0.0) return Vector::Zero(levels);
+    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(reader.counts(), levels)
+               .cast<double>() /
+           reader.counted();
+}
+
+}  // namespace tricue
