@@ -163,7 +163,7 @@ class DepthParticleTracker:
         swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found), found)
         seen = state.model.look(k, fg, swarm.state[None])
         if self._recognised(state, seen, found):
-            self._accept(state, swarm, seen, found, seconds)
+            self._accept(state, fg, swarm, seen, found, seconds)
         else:
             self._miss(state, fg, prediction)
         return self._track(state)
@@ -244,7 +244,9 @@ class DepthParticleTracker:
             and log_likelihood >= state.usual - self.params.surprise
         )
 
-    def _accept(self, state: State, swarm: Swarm, seen: Seen, found: Found | None, seconds: float) -> None:
+    def _accept(
+        self, state: State, fg: Foreground, swarm: Swarm, seen: Seen, found: Found | None, seconds: float
+    ) -> None:
         """Make the swarm the state of the target, and learn from it where nothing is in front."""
         p = self.params
         front = float(seen.front[0])
@@ -254,6 +256,7 @@ class DepthParticleTracker:
         state.score, state.missed, state.hidden, state.front = _score(seen), 0, False, None
         if front >= FREE:
             return
+        state.model.learn(self._k, fg, swarm.state, p.learning_rate)
         state.usual += USUAL_RATE * (float(state.model.log_likelihood(seen)[0]) - state.usual)
         state.filled += USUAL_RATE * (float(seen.inside[0]) - state.filled)
         if found is not None:

@@ -18,7 +18,8 @@ UP = np.array([0.0, -1.0, 0.0])
 LEAST_COSINE = 0.6  # a camera looks down, up, or aside by up to 53 degrees
 COARSE = 80  # columns of the image in which the floor is looked for
 TOLERANCE = 0.04  # metres, of a point on the floor
-TRIALS, MORE_TRIALS = 64, 256  # planes tried in a frame, and while none is known
+TRIALS = 128  # planes tried
+STEADY = 0.8  # of the points that were on the floor when it was found: the camera hasn't moved
 FLOOR_SHARE, BELOW_SHARE = 0.06, 0.03  # of all points: the least on a floor, the most under it
 
 
@@ -61,16 +62,16 @@ def foreground(
 def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator) -> Floats:
     """The plane with many points on it and hardly any below; the known one where this frame has none."""
     step = max(1, round(depth.shape[1] / COARSE))
-    coarse = np.ascontiguousarray(depth[::step, ::step])
-    trials = TRIALS if known.any() else MORE_TRIALS
-    triples = rng.integers(
-        coarse.size // 2, coarse.size, (trials, 3)
-    )  # below the middle: there it is seen best
-    plane = k.floor_plane(coarse, camera / step, triples, TOLERANCE, UP, LEAST_COSINE)
-    if plane[4] <= FLOOR_SHARE or plane[5] >= BELOW_SHARE:
-        return known
+    coarse, seen_by = np.ascontiguousarray(depth[::step, ::step]), camera / step
+    support = 0.0
     if known.any():
-        on_known = np.abs(k.height_above(coarse, camera / step, known[:4].copy())) <= TOLERANCE
-        if np.count_nonzero(on_known) > plane[4] * np.count_nonzero(coarse > 0):
+        heights = k.height_above(coarse, seen_by, known[:4].copy())
+        on_it, valid = (int(np.count_nonzero(each)) for each in (np.abs(heights) <= TOLERANCE, coarse > 0))
+        support = on_it / max(valid, 1)
+        if support >= STEADY * known[4]:
             return known
-    return plane
+    # Below the middle of the image: there it is seen best.
+    triples = rng.integers(coarse.size // 2, coarse.size, (TRIALS, 3))
+    plane = k.floor_plane(coarse, seen_by, triples, TOLERANCE, UP, LEAST_COSINE)
+    found = plane[4] > max(FLOOR_SHARE, support) and plane[5] < BELOW_SHARE
+    return plane if found else known
