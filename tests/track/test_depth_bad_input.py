@@ -276,7 +276,7 @@ def test_odd_frames_are_sane(name, form, kernels):
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "depth: its median", UserWarning)
         frame = Frame(depth=FRAMES[name])
-    tracker = started(kernels=kernels, particles=20, lost_after=3, **form)
+    tracker = started(kernels=kernels, particles=20, lost_after=0.2, **form)
     for _ in range(6):
         assert_sane(tracker.update(frame))
     assert_sane(tracker.update(NEXT))

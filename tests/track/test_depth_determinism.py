@@ -147,7 +147,7 @@ def test_pickled_before_init(passing: DepthScene, follow, pass_by):
 
 def test_pickled_while_lost(passing: DepthScene):
     """A tracker pickled in the middle of a search goes on as the original does, bit for bit."""
-    tracker, _ = part_way(passing, HALF, seed=7, lost_after=5)
+    tracker, _ = part_way(passing, HALF, seed=7, lost_after=0.3)
     empty = Frame(depth=np.full_like(passing.frames[0].depth, np.nan))
     statuses = [tracker.update(empty).status for _ in range(9)]
     assert statuses[-1] is Status.LOST

@@ -53,7 +53,7 @@ REFUSED: dict[str, tuple[Any, ...]] = {
     "hidden_above": (-0.1, 1.1),
     "seen_above": (-0.1, 1.1),
     "surprise": (-0.1,),
-    "lost_after": (0, -1),
+    "lost_after": (-0.1,),
 }
 
 PRINTED: dict[str, Any] = {
@@ -255,7 +255,8 @@ def test_one_choice_of_the_paper_still_follows(name, walkers, follow):
         {"nearer": 1e9, "hidden_above": 1},
         {"seen_above": 0, "surprise": 1e9},
         {"seen_above": 1, "surprise": 0},
-        {"lost_after": 1},
+        {"lost_after": 0},
+        {"lost_after": 1e9},
     ],
     ids=str,
 )

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics, Status, Track
-from tricue.scenes import DepthScene, walker
+from tricue.scenes import DepthScene, crossing, walker
 
 WITHIN = 3  # frames, until an occlusion is told
 BACK = 5  # frames, until somebody is followed again
@@ -308,12 +308,12 @@ def test_particles_and_objects_are_shown(passing: DepthScene):
 
 
 @pytest.mark.parametrize("company", [False, True], ids=["alone", "beside somebody"])
-def test_lost_when_gone_and_found_when_back(company, walkers, passing: DepthScene, follow):
-    """Somebody whom nothing hides and who isn't there is OCCLUDED at first, LOST after lost_after frames, and
-    TRACKED within five frames of standing there again.
+def test_lost_when_gone_and_found_when_back(company, walkers, follow):
+    """Somebody whom nothing hides and who isn't there is OCCLUDED at first, LOST after lost_after seconds,
+    and TRACKED within five frames of standing there again.
     """
-    scene = passing if company else walkers[0]
-    tracker = DepthParticleTracker(intrinsics=scene.intrinsics, lost_after=7)
+    scene = crossing(1, frames=36) if company else walkers[0]
+    tracker = DepthParticleTracker(intrinsics=scene.intrinsics, lost_after=0.45)
     follow(tracker, scene.frames[:10], scene.boxes[0])
     empty = Frame(depth=np.full_like(scene.frames[0].depth, 7.4))
     statuses = [tracker.update(empty).status for _ in range(12)]

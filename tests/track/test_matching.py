@@ -10,6 +10,7 @@ TARGET = [0.0, 0.0, 3.0, 0.6, 1.7]
 EXPECTED = np.array(TARGET)
 KNOWN = Walk.start(EXPECTED, np.array([True, True]))
 UNKNOWN = Walk.start(EXPECTED, np.array([False, False]))
+EVEN = Signature.unknown()
 FRAME = 1 / 15
 
 
@@ -18,9 +19,9 @@ def moved(*by: float) -> list[float]:
     return (EXPECTED + np.pad(by, (0, 5 - len(by)))).tolist()
 
 
-def match(objects, walk=KNOWN, seconds=FRAME, worst=WORST):
+def match(objects, walk=KNOWN, seconds=FRAME, worst=WORST, signature=EVEN):
     """The best match among objects that nothing completes."""
-    return best_match(objects.states, objects, EXPECTED, walk, seconds, worst)
+    return best_match(objects.states, objects, EXPECTED, walk, signature, seconds, worst)
 
 
 def test_nothing_matches_nothing(objects_of):
@@ -67,16 +68,16 @@ def test_a_stricter_limit_refuses_more(objects_of):
 def test_a_crumb_is_no_target(objects_of):
     """An object of under a quarter of the target's area isn't the target, though completed to its size."""
     crumb = objects_of([[0, 0, 3.0, 0.2, 0.5]])
-    assert best_match(EXPECTED[None], crumb, EXPECTED, KNOWN, FRAME, WORST) is None
+    assert best_match(EXPECTED[None], crumb, EXPECTED, KNOWN, EVEN, FRAME, WORST) is None
     half = objects_of([[0, 0, 3.0, 0.6, 0.85]])
-    assert best_match(EXPECTED[None], half, EXPECTED, KNOWN, FRAME, WORST) == 0
+    assert best_match(EXPECTED[None], half, EXPECTED, KNOWN, EVEN, FRAME, WORST) == 0
 
 
 def test_an_unknown_size_may_grow(objects_of):
     """A larger object is the target where its size was only a lower bound, and isn't where it was known."""
     larger = objects_of([moved(0, 0, 0, 0.4, 1.0)])
-    assert match(larger, UNKNOWN) == 0
-    assert match(larger, KNOWN) is None
+    assert match(larger, UNKNOWN, worst=6.0) == 0
+    assert match(larger, KNOWN, worst=6.0) is None
 
 
 def test_an_unknown_size_rather_grows_than_shrinks(objects_of):
@@ -87,6 +88,28 @@ def test_an_unknown_size_rather_grows_than_shrinks(objects_of):
     assert match(objects_of([shorter, taller]), UNKNOWN) == 1
     assert match(objects_of([taller, shorter]), UNKNOWN) == 0
     assert match(objects_of([shorter, taller]), KNOWN) == 0
+
+
+@pytest.mark.parametrize("cut", [False, True], ids=["whole", "cut"])
+def test_a_whole_object_is_known_by_its_signature(cut, objects_of):
+    """Of two in the same place the one spread over its box as the target is the target; what is cut isn't
+    judged by that, and the first is taken.
+    """
+    two = objects_of([TARGET, TARGET], 2 * [[0, 0, 0, int(cut)]])
+    rows = two.rows.copy()
+    rows[0] = np.eye(1, rows.shape[1], dtype=np.float32)
+    assert match(two._replace(rows=rows)) == (0 if cut else 1)
+
+
+def test_signatures_differ_by_at_most_one(objects_of):
+    """Equal signatures are 0 apart, those that share no slice 1, and half of the columns alone a quarter."""
+    objects = objects_of([TARGET, TARGET, TARGET])
+    slices = objects.columns.shape[1]
+    first, last = np.eye(slices, dtype=np.float32)[[0, -1]]
+    half = (first + last) / 2
+    objects = objects._replace(columns=np.stack([first, last, half]), rows=np.stack([first, last, first]))
+    distances = Signature.of(objects, 0).distances(objects)
+    np.testing.assert_allclose(distances, [0, 1, 0.25], atol=1e-7)
 
 
 def test_matching_changes_nothing(objects_of):
