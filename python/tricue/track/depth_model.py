@@ -111,8 +111,15 @@ def rectangles_of(states: Floats, camera: Floats) -> Floats:
     Box coordinates: (0, 0) is the first pixel's corner.
     """
     fx, fy, cx, cy = camera
-    x, y, z, w, h = states.T
-    return np.stack([fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, fx * w / z, fy * h / z, z], axis=1)
+    rectangles = np.empty((len(states), 5))
+    z = states[:, 2]
+    per_x, per_y = fx / z, fy / z
+    rectangles[:, 0] = states[:, 0] * per_x + (cx + 0.5)
+    rectangles[:, 1] = states[:, 1] * per_y + (cy + 0.5)
+    rectangles[:, 2] = states[:, 3] * per_x
+    rectangles[:, 3] = states[:, 4] * per_y
+    rectangles[:, 4] = z
+    return rectangles
 
 
 def states_of(rectangles: Floats, camera: Floats) -> Floats:

@@ -167,14 +167,13 @@ def _with_union(objects: Objects, index: int, pieces: NDArray[np.intp]) -> Objec
 def completed(objects: Objects, expected: Floats, size: Floats) -> Floats:
     """The states as if nothing cut the objects: of the usual ``size``, ending on the side that is free."""
     states: Floats = objects.states.copy()
-    for axis in (0, 1):
-        before, after = objects.cut[:, 2 * axis], objects.cut[:, 2 * axis + 1]
-        middle, extent = objects.states[:, axis], objects.states[:, 3 + axis]
-        shorter = (before | after) & (extent < size[axis])
-        from_high = middle + (extent - size[axis]) / 2
-        from_low = middle - (extent - size[axis]) / 2
-        between = np.minimum(np.maximum(expected[axis], from_high), from_low)
-        moved = np.where(before & after, between, np.where(before, from_high, from_low))
-        states[:, axis] = np.where(shorter, moved, middle)
-        states[:, 3 + axis] = np.where(shorter, size[axis], extent)
+    middle, extent = objects.states[:, :2], objects.states[:, 3:]
+    before, after = objects.cut[:, ::2], objects.cut[:, 1::2]
+    half = (extent - size) / 2
+    shorter = (before | after) & (half < 0)
+    if shorter.any():
+        between = np.minimum(np.maximum(expected[:2], middle + half), middle - half)
+        moved = np.where(before & after, between, middle + np.where(before, half, -half))
+        states[:, :2] = np.where(shorter, moved, middle)
+        states[:, 3:] = np.where(shorter, size, extent)
     return states

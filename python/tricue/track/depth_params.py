@@ -87,8 +87,8 @@ class DepthParticleParams(Params):
     surprise: float = parameter(
         6.0, unit="nats", source=OURS, low=0, doc="log-likelihood under its usual value that isn't the target"
     )
-    lost_after: int = parameter(
-        20, unit="frames", source=OURS, low=1, doc="missed in a row, nothing in front, until LOST"
+    lost_after: float = parameter(
+        1.5, unit="s", source=OURS, low=0, doc="not seen, though nothing is in front, until LOST"
     )
 
     def __post_init__(self) -> None:

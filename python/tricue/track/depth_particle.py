@@ -57,7 +57,7 @@ class State:
     usual: float  # the log-likelihood's running mean
     filled: float  # the same of the share of the rectangle that is at the target's depth
     timestamp: float | None
-    missed: int = 0  # frames in a row in which it was not seen
+    missed: float = 0.0  # seconds for which it was not seen
     hidden: bool = False  # by something nearer
     front: Floats | None = None  # (3,) metres: where that is, while the target is missed
 
@@ -165,7 +165,7 @@ class DepthParticleTracker:
         if self._recognised(state, seen, found):
             self._accept(state, fg, swarm, seen, found, seconds)
         else:
-            self._miss(state, fg, prediction)
+            self._miss(state, fg, prediction, seconds)
         return self._track(state)
 
     def _elapsed(self, state: State, timestamp: float | None) -> float:
@@ -177,11 +177,11 @@ class DepthParticleTracker:
     def _matched(self, state: State, prediction: Prediction, seconds: float) -> Found | None:
         """Which object is the target, if any; a size never seen whole grows to what is seen of it."""
         expected = state.walk.state + prediction.drift
-        time = min(seconds * (1 + state.missed), ANYWHERE if self._lost(state) else LONG)
+        time = min(seconds + state.missed, ANYWHERE if self._lost(state) else LONG)
         objects = self._candidates(state, seconds)
         states = completed(objects, expected, state.walk.size)
         worst = WORST if state.missed == 0 else WORST_AGAIN
-        found = best_match(states, objects, expected, state.walk, time, worst)
+        found = best_match(states, objects, expected, state.walk, state.signature, time, worst)
         if found is None:
             return None
         objects = joined(objects, found, expected)
@@ -253,7 +253,7 @@ class DepthParticleTracker:
         steady = state.missed == 0 and front < p.hidden_above
         state.swarm = swarm
         state.walk = state.walk.seen(swarm.state, p, seconds, steady)
-        state.score, state.missed, state.hidden, state.front = _score(seen), 0, False, None
+        state.score, state.missed, state.hidden, state.front = _score(seen), 0.0, False, None
         if front >= FREE:
             return
         state.model.learn(self._k, fg, swarm.state, p.learning_rate)
@@ -264,7 +264,7 @@ class DepthParticleTracker:
             if found.whole.all():
                 state.signature = state.signature.learnt(found.signature)
 
-    def _miss(self, state: State, fg: Foreground, prediction: Prediction) -> None:
+    def _miss(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> None:
         """Coast on the memory of the walk: neither velocity nor size nor model learn."""
         p = self.params
         expected = np.clip(state.walk.state + prediction.drift, prediction.lower, prediction.upper)
@@ -275,7 +275,7 @@ class DepthParticleTracker:
             state.front = None if covering is None else state.objects.states[covering, :3]
         state.walk = state.walk.coasted(expected, KEPT if state.hidden else SLOWED)
         state.swarm = self._gathered(expected)
-        state.missed += 1
+        state.missed += seconds
         state.score = 0.0
 
     def _gathered(self, state: Floats) -> Swarm:

@@ -11,13 +11,14 @@ from tricue.track.walk import Walk
 
 Floats = NDArray[np.float64]
 
-NEAR = np.array([0.12, 0.2, 0.12])  # metres: standard deviation of X, Y, Z in no time,
+NEAR = np.array([0.15, 0.35, 0.15])  # metres: standard deviation of X, Y, Z in no time,
 PER_SECOND = np.array([0.45, 0.2, 0.45])  # and with time
 SIZE = 0.2  # of the size, plus
 SIZE_AT_LEAST = 0.05  # metres
 LARGER = 0.3  # of its weight has a size that is more than what was ever seen of it
+UNLIKE = 3.0  # nats of the most different signature
 ENOUGH = 0.25  # of the target's area has to be seen
-WORST, WORST_AGAIN = 6.0, 3.0  # nats up to which an object is the target, and one that was missed
+WORST, WORST_AGAIN = 8.0, 2.0  # nats up to which an object is the target, and one that was missed
 BODY = 0.5  # metres round the middle of a body
 FLAT = np.array([1.0, 0.3, 1.0])  # heights say less: they change with what is cut
 REACHED = 0.3  # metres
@@ -44,6 +45,13 @@ class Signature(NamedTuple):
         columns, rows = (each[index].astype(np.float64) for each in (objects.columns, objects.rows))
         return cls(columns, rows, objects.shift[index])
 
+    def distances(self, objects: Objects) -> Floats:
+        """(C,) in [0, 1]: how differently objects are spread over their boxes."""
+        columns = np.abs(objects.columns - self.columns).sum(axis=1)
+        rows = np.abs(objects.rows - self.rows).sum(axis=1)
+        distances: Floats = (columns + rows) / 4
+        return distances
+
     def learnt(self, new: "Signature") -> "Signature":
         """With another one blended in."""
         return Signature(*(old + RATE * (each - old) for old, each in zip(self, new, strict=True)))
@@ -60,9 +68,15 @@ class Found(NamedTuple):
 
 
 def best_match(
-    states: Floats, objects: Objects, expected: Floats, walk: Walk, seconds: float, worst: float
+    states: Floats,
+    objects: Objects,
+    expected: Floats,
+    walk: Walk,
+    signature: Signature,
+    seconds: float,
+    worst: float,
 ) -> int | None:
-    """The index of the object nearest to the expected state (5,) in position and size, if any.
+    """The index of the object nearest to the expected state (5,) in position, size and signature, if any.
 
     states: (C, 5), the objects' own, completed where something cuts them.
     """
@@ -75,6 +89,7 @@ def best_match(
     larger = off[:, 3:] > 0
     off[:, 3:] *= np.where(larger & ~walk.known, LARGER, 1.0)
     cost = 0.5 * (off * off).sum(axis=1)
+    cost += np.where(objects.whole.all(axis=1), UNLIKE * signature.distances(objects), 0.0)
     cost[objects.states[:, 3:].prod(axis=1) < ENOUGH * walk.size.prod()] = np.inf
     best = int(np.argmin(cost))
     return best if cost[best] < worst else None

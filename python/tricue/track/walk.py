@@ -36,10 +36,13 @@ class Walk(NamedTuple):
         """At rest."""
         return cls(state, np.zeros(3), state[3:].copy(), known)
 
-    def predict(self, p: DepthParticleParams, seconds: float, missed: int) -> Prediction:
-        """Where particles go next; the noise, K of (39), grows with the time since it was seen."""
+    def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> Prediction:
+        """Where particles go next in so many seconds; missed: seconds before them without the target.
+
+        The noise, K of (39), grows with both.
+        """
         drift = np.concatenate([self.velocity * seconds, RETURN * (self.size - self.state[3:])])
-        time = min(seconds * (1 + missed), max(seconds, LONG))
+        time = min(seconds + missed, max(seconds, LONG))
         noise = STAND + p.agility * time * UPRIGHT
         scale = np.concatenate([noise, p.size_noise * self.size])
         lower = np.array([-np.inf, -np.inf, p.near, SMALLEST, SMALLEST])
