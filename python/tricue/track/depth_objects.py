@@ -74,7 +74,7 @@ def segment(k: Kernels, fg: Foreground, plane: Floats, p: DepthParticleParams) -
     dividers = np.concatenate([[p.near], p.near + (minima[:254] + 0.5) * level, [p.far]])
     labels = k.divide_depth(depth, mask, dividers)
     area = max(8, int(p.least_area * fg.camera[0] * fg.camera[1] / p.far**2))
-    table, _, columns, rows, _ = k.depth_components(labels, depth, p.near, p.far, p.levels, SLICES, area)
+    table, _, columns, rows, _ = k.depth_components(labels, depth, p.near, p.far, 1, SLICES, area)
     cut = _at_border(table, depth.shape) | _behind(k, fg, table, p)
     return _standing(_described(table, cut, columns, rows, fg), plane, fg)
 
