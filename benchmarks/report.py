@@ -7,7 +7,7 @@ import platform
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from time import perf_counter
 from typing import Any
@@ -18,11 +18,13 @@ import tricue
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, peers
-from tricue.evaluation.one_pass import Contender, one_thread, run
-from tricue.scenes import Scene, face_over_clutter
+from tricue.evaluation.compare_depth import pictures
+from tricue.evaluation.one_pass import Contender, Run, one_thread, run
+from tricue.scenes import DepthScene, Scene, face_over_clutter, walker
 
 ROUNDS = 12
 PAIR_ROUNDS = 30
+DEPTH_FRAMES, FEW = 60, 8  # in depth; of what takes over 50 ms a frame
 SLOW = 3  # rounds for what takes over 2 ms a frame
 OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 Make = Callable[[], Contender]
@@ -56,6 +58,15 @@ no overlap.
 | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 |
 | --- | --- | --- | --- | --- | --- |
 """
+DEPTH = """
+## Trackers in depth
+
+A person who walks, crouches and turns, {frames} frames of a time-of-flight camera (176x144) and of an RGB-D camera (640x480); {rounds} rounds
+in turn. cv2's trackers see the depth as an 8-bit picture, made before the clock starts. The reference runs once, on {few} frames.
+
+| frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 |
+| --- | --- | --- | --- | --- | --- | --- |
+"""
 SIZES = """
 ## Frame sizes and particles
 
@@ -83,6 +94,7 @@ def main(path: Path) -> None:
             HEAD.format(machine=machine()),
             KERNELS + "\n".join(kernel_rows(json.loads(path.read_text()))),
             TRACKERS.format(rounds=ROUNDS) + "\n".join(tracker_rows(scene())),
+            DEPTH.format(frames=DEPTH_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(depth_rows()),
             SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())),
             PAIRS.format(rounds=PAIR_ROUNDS) + "\n".join(pair_rows()) + "\n",
         ]
@@ -135,6 +147,40 @@ def tracker_rows(scene: Scene) -> Iterator[str]:
         p50, p99 = np.percentile(times[name], [50, 99]) * 1e3
         ratio = mean / best["color-particle"]
         yield f"| {name} | {1 / mean:,.0f} | {p50:.3f} | {p99:.3f} | {ratio:.2f} | {overlap[name]:.0%} |"
+
+
+def depth_rows() -> Iterator[str]:
+    """A line a size and tracker in depth."""
+    for size, camera in (("176x144", "tof"), ("640x480", "rgbd")):
+        scene = walker(seed=0, frames=DEPTH_FRAMES, camera=camera)
+        runs = depth_runs(scene)
+        best = {name: np.min([each.seconds for each in found], axis=0).mean() for name, found in runs.items()}
+        for name, found in runs.items():
+            p50, p99 = np.percentile([each.seconds for each in found], [50, 99]) * 1e3
+            held = np.mean(metrics.overlaps(found[0].boxes, scene.boxes[: len(found[0].boxes)]) > 0.5)
+            ratio = best[name] / best["depth-particle"]
+            yield f"| {size} | {name} | {1 / best[name]:,.0f} | {p50:.3f} | {p99:.3f} | {ratio:.2f} | {held:.0%} |"
+
+
+def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
+    """The trackers' runs, in turn over the rounds; slow ones sit out the later."""
+    make = partial(tricue.create, "depth-particle", intrinsics=scene.intrinsics)
+    pictured = pictures(scene.frames)
+    entries: dict[str, tuple[Make, Any, int]] = {
+        "depth-particle": (make, scene.frames, ROUNDS),
+        "depth-particle, reference": (partial(make, kernels="reference"), scene.frames[:FEW], 1),
+    }
+    entries |= {
+        name: (partial(peer, 0), pictured, SLOW)
+        for name, peer in peers.available().items()
+        if name in ("KCF", "CSRT")
+    }
+    runs: dict[str, list[Run]] = {name: [] for name in entries}
+    for turn in range(ROUNDS):
+        for name, (make_one, frames, rounds) in entries.items():
+            if turn < rounds:
+                runs[name].append(run(make_one(), frames, scene.boxes[0]))
+    return runs
 
 
 def ours(**parameters: Any) -> Make:

@@ -60,6 +60,15 @@ def test_sequence_without_a_first_box_is_named(text, folder):
         sequences.load(folder / "patrol")
 
 
+def test_unknown_tracker_is_named(folder, capsys):
+    """A name that no tracker has ends with one line that lists the known ones, and exit code 2."""
+    with pytest.raises(SystemExit) as error:
+        compare.main([str(folder), "--trackers", "still-box,magic"])
+    assert error.value.code == 2
+    assert "--trackers: expected some of color-particle, " in (message := capsys.readouterr().err)
+    assert "got 'magic'" in message
+
+
 def test_folder_without_sequences_is_an_error(tmp_path, capsys):
     """An empty folder ends with one line and exit code 2."""
     with pytest.raises(SystemExit) as error:

@@ -20,13 +20,13 @@ class Scripted:
         self.seen.append(frame)
         time.sleep(0.002)
         count = len(self.seen)
-        return Track(
-            Box(float(count), 0.0, 1.0, 1.0), 1 / count, Status.LOST if count == 3 else Status.TRACKED
-        )
+        status = Status.LOST if count == 3 else Status.TRACKED
+        place = None if count == 3 else np.array([0.0, 0.5, count])
+        return Track(Box(float(count), 0.0, 1.0, 1.0), 1 / count, status, place)
 
 
 def test_run_records_every_frame_in_order(patrol):
-    """The tracker gets each frame once in order; boxes, scores, statuses and times are its answers'."""
+    """The tracker gets each frame once in order; boxes, statuses, positions, times are its answers'."""
     frames, boxes = patrol
     tracker = Scripted()
     result = run(tracker, frames[:4], boxes[0])
@@ -35,6 +35,8 @@ def test_run_records_every_frame_in_order(patrol):
     np.testing.assert_array_equal(result.scores, [1, 1 / 2, 1 / 3, 1 / 4])
     assert result.statuses == (Status.TRACKED, Status.TRACKED, Status.LOST, Status.TRACKED)
     assert result.lost == 0.25
+    unknown = [np.nan] * 3
+    np.testing.assert_array_equal(result.positions, [unknown, [0, 0.5, 2], unknown, [0, 0.5, 4]])
     assert result.seconds.shape == (3,)
     assert result.seconds.min() >= 0.002
     assert result.frames_per_second == pytest.approx(3 / result.seconds.sum())

@@ -7,7 +7,7 @@ import pytest
 from tricue import Box, Intrinsics, Status, Track
 
 pytest.importorskip("matplotlib")
-from tricue.evaluation.paths import STATUS_COLORS, check_format, path_from_above, save_path
+from tricue.evaluation.paths import STATUS_COLORS, check_format, draw_path, path_from_above, save_path
 
 CAMERA = Intrinsics.from_fov(640, 480, 60)
 
@@ -52,6 +52,18 @@ def test_truth_is_a_thin_line() -> None:
     (line,) = [a for a in path_from_above(walk(), CAMERA, truth).axes[0].lines if a.get_label() == "truth"]
     np.testing.assert_array_equal(line.get_xydata(), [[0.5, 2.0], [np.nan, np.nan], [0.7, 3.0]])
     assert line.get_linewidth() < 1
+
+
+def test_path_is_drawn_into_given_axes() -> None:
+    """It proves that axes of another figure get the same lines, and axes beside them stay empty."""
+    from matplotlib.figure import Figure
+
+    left, right = Figure().subplots(1, 2)
+    draw_path(left, walk(), CAMERA)
+    expected = path_from_above(walk(), CAMERA).axes[0]
+    for line, other in zip(left.lines, expected.lines, strict=True):
+        np.testing.assert_array_equal(line.get_xydata(), other.get_xydata())
+    assert not right.lines
 
 
 def test_files(tmp_path: Path) -> None:

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo``: scenes with known truth, tracked; an error table, an overlay video and a plot."""
+"""``tricue demo``: scenes with known truth, tracked; an error table, an overlay video and a plot.
+
+Here are those in color, a face over clutter; commands.demo_depth has those in depth.
+"""
 
 from argparse import Namespace
 from collections.abc import Mapping
@@ -14,6 +17,7 @@ from tricue.commands.run import Clock, steps
 from tricue.draw import OverlayWriter, overlay
 from tricue.track.create import create
 
+IN_DEPTH = ("depth-particle",)  # trackers that need depth
 LOST = 25.0  # pixels off the true centre, where a face counts as lost
 FPS = 15.0
 FLOOR = 0.1  # pixels, of the logarithmic plot
@@ -31,6 +35,14 @@ class Result:
 
 def demo(options: Namespace) -> int:
     """Run the verb, print the table and write the files; the exit code."""
+    if options.tracker in IN_DEPTH:
+        from tricue.commands.demo_depth import demo_depth
+
+        return demo_depth(options)
+    return _demo_color(options)
+
+
+def _demo_color(options: Namespace) -> int:
     from tricue.evaluation import figures
     from tricue.scenes import BACKGROUNDS, face_over_clutter
 

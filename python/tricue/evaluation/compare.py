@@ -1,55 +1,50 @@
 # SPDX-License-Identifier: MIT
-"""Trackers beside their peers over recorded sequences: ``python -m tricue.evaluation.compare [FOLDER]``."""
+"""Trackers beside their peers over recorded sequences: ``python -m tricue.evaluation.compare [FOLDER]``.
+
+With ``--depth`` the sequences are those with depth, see tricue.evaluation.compare_depth.
+"""
 
 import argparse
-import csv
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 import tricue
 from tricue.camera.box import Box
-from tricue.evaluation import metrics, peers, sequences
-from tricue.evaluation.one_pass import Contender, Run, run
-
-Maker = Callable[[int], Contender]
+from tricue.evaluation import compare_depth, peers, sequences
+from tricue.evaluation.comparison import Maker, Row, row_of, write_csv
+from tricue.evaluation.one_pass import run
 
 OURS = ("color-particle",)
+RANDOM = (*OURS, *compare_depth.OURS, "script-pf")  # trackers that draw random numbers
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One tracker on one sequence from one seed: metrics.Score's numbers, the share of lost frames, speed."""
+class Kind(NamedTuple):
+    """A comparison: its folder under TRICUE_DATA, who takes part, how each is measured, the table."""
 
-    tracker: str
-    sequence: str
-    seed: int
-    auc: float
-    precision: float
-    success: float
-    mean_error: float
-    lost: float
-    fps: float
-    p50_ms: float
-    p99_ms: float
+    folder: str
+    makers: Callable[[], dict[str, Maker]]
+    measure: Callable[[str, Maker, int, sequences.Sequence], Row]
+    table: Callable[[Sequence[Row]], str]
 
 
 def measure(name: str, make: Maker, seed: int, sequence: sequences.Sequence) -> Row:
-    """Run one tracker over one sequence."""
+    """Run one tracker over the color of one sequence."""
     result = run(make(seed), sequence.frames, Box(*sequence.truth[0].tolist()))
-    score = metrics.score(result.boxes, sequence.truth)
-    return Row(name, sequence.name, seed, **asdict(score), lost=result.lost, **_speed(result))
+    return row_of(name, seed, sequence, result, result.boxes)
 
 
-def compare(makers: dict[str, Maker], seeds: int, found: Iterable[sequences.Sequence]) -> Iterator[Row]:
+def compare(
+    kind: Kind, makers: dict[str, Maker], seeds: int, found: Iterable[sequences.Sequence]
+) -> Iterator[Row]:
     """Every tracker over every sequence; those that draw random numbers once per seed, the others once."""
     for sequence in found:
         for name, make in makers.items():
-            for seed in range(seeds if name in (*OURS, "script-pf") else 1):
-                yield measure(name, make, seed, sequence)
+            for seed in range(seeds if name in RANDOM else 1):
+                yield kind.measure(name, make, seed, sequence)
 
 
 def table(rows: Sequence[Row]) -> str:
@@ -65,21 +60,13 @@ def table(rows: Sequence[Row]) -> str:
     return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
 
 
-def write_csv(path: Path, rows: Iterable[Row]) -> None:
-    """A line per row, the names of Row's fields on top."""
-    with path.open("w", newline="") as file:
-        writer = csv.DictWriter(file, [field.name for field in fields(Row)])
-        writer.writeheader()
-        writer.writerows(asdict(row) for row in rows)
-
-
-def ours() -> dict[str, Maker]:
-    """Tricue's trackers with their default parameters."""
+def makers() -> dict[str, Maker]:
+    """Tricue's trackers with their default parameters, and the peers."""
 
     def maker(name: str) -> Maker:
         return lambda seed: tricue.create(name, seed=seed)
 
-    return {name: maker(name) for name in OURS}
+    return {name: maker(name) for name in OURS} | peers.available()
 
 
 def _mean(rows: Sequence[Row]) -> tuple[float, float, float]:
@@ -87,32 +74,36 @@ def _mean(rows: Sequence[Row]) -> tuple[float, float, float]:
     return float(auc), float(precision), float(fps)
 
 
-def _speed(result: Run) -> dict[str, float]:
-    p50, p99 = np.percentile(result.seconds * 1e3, [50, 99])
-    return {"fps": result.frames_per_second, "p50_ms": float(p50), "p99_ms": float(p99)}
+COLOR = Kind("color", makers, measure, table)
+DEPTH = Kind("rgbd", compare_depth.makers, compare_depth.measure, compare_depth.table)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, tell each run on stderr, print the table; the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tricue.evaluation.compare", description=__doc__)
-    parser.add_argument("folder", type=Path, nargs="?", default=sequences.data_folder() / "color")
+    parser.add_argument("folder", type=Path, nargs="?", help="of sequences; found through TRICUE_DATA")
+    parser.add_argument("--depth", action="store_true", help="trackers in depth, on sequences with depth")
     parser.add_argument("--seeds", type=int, default=5, help="runs of the trackers that draw random numbers")
     parser.add_argument("--trackers", help="names, separated by commas; all when left out")
     parser.add_argument("--csv", type=Path, help="also write every run to this file")
     options = parser.parse_args(arguments)
-    makers = ours() | peers.available()
-    if options.trackers:
-        makers = {name: makers[name] for name in options.trackers.split(",")}
-    folders = sequences.find(options.folder)
+    kind = DEPTH if options.depth else COLOR
+    folder = options.folder or sequences.data_folder() / kind.folder
+    chosen = kind.makers()
+    names = options.trackers.split(",") if options.trackers else list(chosen)
+    if unknown := [name for name in names if name not in chosen]:
+        parser.error(f"--trackers: expected some of {', '.join(chosen)}, got {unknown[0]!r}")
+    folders = sequences.find(folder)
     if not folders:
-        parser.error(f"folder: expected sequences with true boxes under {options.folder}")
+        parser.error(f"folder: expected sequences with true boxes under {folder}")
     rows = []
-    for row in compare(makers, options.seeds, map(sequences.load, folders)):
-        print(f"{row.sequence} {row.tracker} seed {row.seed}: {row.auc:.3f}", file=sys.stderr)
-        rows.append(row)
+    runs = compare(kind, {name: chosen[name] for name in names}, options.seeds, map(sequences.load, folders))
+    for each in runs:
+        print(f"{each.sequence} {each.tracker} seed {each.seed}: {each.auc:.3f}", file=sys.stderr)
+        rows.append(each)
     if options.csv:
         write_csv(options.csv, rows)
-    print(table(rows))
+    print(kind.table(rows))
     return 0
 
 

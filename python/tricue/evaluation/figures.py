@@ -3,16 +3,19 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tricue.evaluation.curves import LOST, Curve
 from tricue.scenes import Scene
 
-Draw = Callable[[Any, Sequence[Curve], Mapping[str, Scene]], None]
-"""Fills an empty matplotlib figure with curves; the scenes, from seed 0, illustrate them."""
+C = TypeVar("C")
+S = TypeVar("S")
+
+Draw = Callable[[Any, Sequence[C], Mapping[str, S]], None]
+"""Fills an empty matplotlib figure with curves C; the scenes S, from seed 0, illustrate them."""
 
 # Okabe and Ito's colors, which color-blind readers can tell apart.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")
@@ -34,7 +37,7 @@ def require() -> None:
         raise ImportError("figure: expected matplotlib to be installed: pip install tricue[demo]") from None
 
 
-def save(draw: Draw, curves: Sequence[Curve], scenes: Mapping[str, Scene], path: Path) -> None:
+def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: Path) -> None:
     """Draw a figure into a file."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -81,7 +84,7 @@ def overlap_curves(figure: Any, curves: Sequence[Curve], scenes: Mapping[str, Sc
     for axes, index in zip(np.ravel(top.subplots(1, len(shown))), shown, strict=True):
         _picture(axes, scene, index, f"frame {index}")
         for color, model in zip(COLORS, models, strict=False):
-            _box(axes, first[model].boxes[index], color)
+            draw_box(axes, first[model].boxes[index], color)
     axes = bottom.subplots()
     for color, model in zip(COLORS, models, strict=False):
         overlaps = _stack(curves, model, "overlaps")
@@ -115,8 +118,9 @@ def _picture(axes: Any, scene: Scene, index: int, title: str) -> None:
     axes.axis("off")
 
 
-def _box(axes: Any, box: NDArray[np.float64], color: str) -> None:
+def draw_box(axes: Any, box: ArrayLike, color: str) -> None:
+    """Outline a box (x, y, width, height) over an image; pixel (i, j) has its centre at (j, i)."""
     from matplotlib.patches import Rectangle
 
-    x, y, width, height = box.tolist()
-    axes.add_patch(Rectangle((x, y), width, height, fill=False, edgecolor=color, linewidth=1.2))
+    x, y, width, height = np.asarray(box, np.float64).tolist()
+    axes.add_patch(Rectangle((x - 0.5, y - 0.5), width, height, fill=False, edgecolor=color, linewidth=1.2))

@@ -15,6 +15,8 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.track.track import Status, Track
 
+_UNKNOWN = np.full(3, np.nan)
+
 
 class Contender(Protocol):
     """What can be evaluated: every tricue tracker, and the peers."""
@@ -33,6 +35,8 @@ class Run:
     scores: NDArray[np.float64]
     """(M,) confidences."""
     statuses: tuple[Status, ...]
+    positions: NDArray[np.float64]
+    """(M, 3) metres in the camera frame; NaN where the tracker gave none."""
     seconds: NDArray[np.float64]
     """(M - 1,) one per update; neither init nor decoding is in it."""
 
@@ -62,6 +66,7 @@ def run(tracker: Contender, frames: Sequence[Frame], box: Box) -> Run:
         boxes=np.array([track.box for track in tracks], dtype=np.float64),
         scores=np.array([track.score for track in tracks], dtype=np.float64),
         statuses=tuple(track.status for track in tracks),
+        positions=np.array([_UNKNOWN if track.position is None else track.position for track in tracks]),
         seconds=np.array(seconds),
     )
 

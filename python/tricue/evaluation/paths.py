@@ -31,22 +31,28 @@ def path_from_above(
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
+    with rc_context(STYLE):
+        figure = Figure(figsize=(6, 6), layout="constrained")
+        draw_path(figure.subplots(), tracks, intrinsics, truth)
+    return figure
+
+
+def draw_path(
+    axes: Any, tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
+) -> None:
+    """The same into the axes of a figure that has others beside."""
     placed = [track for track in tracks if track.position is not None]
     if not placed:
         raise ValueError("tracks: expected one with a position, got none")
-    with rc_context(STYLE):
-        figure = Figure(figsize=(6, 6), layout="constrained")
-        axes = figure.subplots()
-        points = np.array([track.position for track in placed])
-        _draw_camera(axes, intrinsics, _MARGIN * float(np.nanmax(points[:, 2])))
-        if truth is not None:
-            x, _, z = _positions(truth).T
-            axes.plot(x, z, color="black", linewidth=0.8, label="truth")
-        _draw_path(axes, points, [track.status for track in placed])
-        axes.set(xlabel="x, m (right of the camera)", ylabel="z, m (in front of it)")
-        axes.set_aspect("equal", adjustable="datalim")
-        axes.legend(frameon=False, loc="best")
-    return figure
+    points = np.array([track.position for track in placed])
+    _draw_camera(axes, intrinsics, _MARGIN * float(np.nanmax(points[:, 2])))
+    if truth is not None:
+        x, _, z = _positions(truth).T
+        axes.plot(x, z, color="black", linewidth=0.8, label="truth")
+    _draw_path(axes, points, [track.status for track in placed])
+    axes.set(xlabel="x, m (right of the camera)", ylabel="z, m (in front of it)")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.legend(frameon=False, loc="best")
 
 
 def save_path(

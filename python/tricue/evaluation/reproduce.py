@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The papers' experiments, run again: error curves over many seeds, as a figure, a CSV and a table."""
+"""The papers' experiments, run again: curves over many seeds, as a figure, a CSV and a table."""
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
@@ -9,32 +9,16 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+from tricue.evaluation import color_experiments, depth_experiments, figures
+from tricue.evaluation.experiment import C, Case, Experiment, Maker, Models, S
 
-import tricue
-from tricue.evaluation import figures, metrics
-from tricue.evaluation.curves import Curve, summarize, write_csv
-from tricue.evaluation.one_pass import Contender
-from tricue.evaluation.one_pass import run as run_once
-from tricue.scenes import BACKGROUNDS, Scene, face_over_clutter, light_change
-
-Models = Mapping[str, Callable[..., Contender]]
-"""How to make each model's tracker, called with ``seed=``."""
-
-Scenes = Mapping[str, Callable[..., Scene]]
-"""How to make each scene, called with ``seed=``."""
-
-Task = tuple[str, Callable[..., Scene], int]
+Task = tuple[str, Callable[..., S], int]
 """A scene's name, how to make it, and the seed."""
 
-
-@dataclass(frozen=True, slots=True)
-class Experiment:
-    """Which models run on which scenes, and how the figure is drawn."""
-
-    models: Models
-    scenes: Scenes
-    draw: figures.Draw
+EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
+    **color_experiments.EXPERIMENTS,
+    **depth_experiments.EXPERIMENTS,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,45 +28,6 @@ class Report:
     summary: str
     figure: Path
     table: Path
-
-
-def _particles(observation: str, **parameters: Any) -> Callable[..., Contender]:
-    return partial(tricue.create, "color-particle", observation=observation, particles=100, **parameters)
-
-
-def _alone(observation: str, likelihood: str = "exponential") -> Callable[..., Contender]:
-    """An observation model without the color contrast that the tracker adds to each by default."""
-    return _particles(observation, likelihood=likelihood, color_weight=0.0)
-
-
-DEFAULT = {"spatial ranks, color (default)": _particles("rank-spatial")}
-
-EXPERIMENTS = {
-    "sabeti-fig1": Experiment(
-        models={
-            **DEFAULT,
-            "spatial ranks": _alone("rank-spatial"),
-            "rank sections": _alone("rank-sections"),
-            "rank sections, linear (18)": _alone("rank-sections", "linear"),
-            "16-bin histogram": _alone("histogram"),
-            "look-up table": _alone("lookup"),
-            "Gaussian": _alone("gaussian"),
-            "region": _alone("region"),
-        },
-        scenes={name: partial(face_over_clutter, background=name) for name in BACKGROUNDS},
-        draw=figures.error_curves,
-    ),
-    "sabeti-fig2": Experiment(
-        models={
-            **DEFAULT,
-            "spatial ranks": _alone("rank-spatial"),
-            "16-bin histogram": _alone("histogram"),
-            "rank sections, linear (18)": _alone("rank-sections", "linear"),
-        },
-        scenes={"light change": light_change},
-        draw=figures.overlap_curves,
-    ),
-}
 
 
 def run(
@@ -105,30 +50,31 @@ def run(
         raise ValueError(f"seeds, jobs: expected 1 or more, got {seeds}, {jobs}")
     experiment = EXPERIMENTS[name]
     figures.require()
-    curves = list(_all_curves(models or experiment.models, experiment.scenes, seeds, jobs, progress))
+    curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))
     output.mkdir(parents=True, exist_ok=True)
-    report = Report(summarize(curves), output / f"{name}.png", output / f"{name}.csv")
-    write_csv(report.table, curves)
+    report = Report(experiment.summarize(curves), output / f"{name}.png", output / f"{name}.csv")
+    experiment.write_csv(report.table, curves)
     scenes = {scene: make(seed=0) for scene, make in experiment.scenes.items()}
     figures.save(experiment.draw, curves, scenes, report.figure)
     return report
 
 
 def _all_curves(
+    experiment: Experiment[S, C],
     models: Models,
-    scenes: Scenes,
     seeds: int,
     jobs: int,
     progress: Callable[[int, int], None] | None,
-) -> Iterator[Curve]:
-    tasks = [(scene, make, seed) for seed in range(seeds) for scene, make in scenes.items()]
-    for done, curves in enumerate(_mapped(partial(_curves, models), tasks, jobs), start=1):
+) -> Iterator[C]:
+    tasks = [(scene, make, seed) for seed in range(seeds) for scene, make in experiment.scenes.items()]
+    work = partial(_curves, experiment.measure, models)
+    for done, curves in enumerate(_mapped(work, tasks, jobs), start=1):
         if progress:
             progress(done, len(tasks))
         yield from curves
 
 
-def _mapped(work: Callable[[Task], list[Curve]], tasks: list[Task], jobs: int) -> Iterator[list[Curve]]:
+def _mapped(work: Callable[[Task[S]], list[C]], tasks: list[Task[S]], jobs: int) -> Iterator[list[C]]:
     if jobs == 1:
         yield from map(work, tasks)
         return
@@ -136,14 +82,8 @@ def _mapped(work: Callable[[Task], list[Curve]], tasks: list[Task], jobs: int) -
         yield from pool.map(work, tasks)
 
 
-def _curves(models: Models, task: Task) -> list[Curve]:
+def _curves(measure: Callable[[Case, Maker, S], C], models: Mapping[str, Maker], task: Task[S]) -> list[C]:
     """Every model on one scene, which is made once."""
     name, make, seed = task
     scene = make(seed=seed)
-    truth = np.array(scene.boxes)
-    curves = []
-    for model, tracker in models.items():
-        boxes = run_once(tracker(seed=seed), scene.frames, scene.boxes[0]).boxes
-        errors, overlaps = metrics.center_errors(boxes, truth), metrics.overlaps(boxes, truth)
-        curves.append(Curve(model, name, seed, errors, overlaps, boxes))
-    return curves
+    return [measure(Case(model, name, seed), tracker, scene) for model, tracker in models.items()]
