@@ -8,7 +8,6 @@ import pytest
 from tricue import DepthParticleTracker, Frame, Intrinsics, Status, Track
 from tricue.scenes import DepthScene
 
-EPS64 = float(np.finfo(np.float64).eps)
 FORMS = {
     "usual": {},
     "absolute": {"histogram": "absolute"},
@@ -47,14 +46,12 @@ def test_one_step_agrees(form, passing: DepthScene):
     an occlusion.
 
     The kernels count pixels and places exactly, on float32 heights and depths in a fixed order; what they
-    round otherwise is float64: means of up to 6336 depths, the plane by least squares, the distance over 64
-    levels, weights and their cumulative sums. Each is off by a few roundings, a mean by less than its count
-    times EPS64 when it is summed in another order. The object's state goes into the log weights with a slope
-    of at most 2 sqrt(FAR_OFF / 2) / 0.06 = 82 a metre and dimension, so e, the change of a log weight, is
-    below 5 x 82 x 6336 x 8 m x EPS64 = 5e-9 at worst; it changes the weighted mean by 2 e times the extent
-    of the particles, as in test_color_kernels.py, and the particles drawn at the object by the same 1e-11 m.
-    Two sweeps follow each other. In pixels that is times f / z, and the extent is at most 2 m: 1e-7 px and
-    1e-8 m are the bound; what is seen is 1e-11.
+    round otherwise is float64: the mean depth of an object, the plane by least squares, the distance over 64
+    levels, weights and their cumulative sums. A mean over a body's 600 pixels at 4 m, summed in another
+    order, is off by some sqrt(600) EPS64 4 m = 2e-14 m, more than any other. The object's state goes into the
+    log weights with a slope of at most sqrt(2 FAR_OFF) / (TRUST SHARP) = 82 a metre in each of five
+    dimensions, so a log weight changes by e = 8e-12, and the weighted mean by 2 e times the extent of the
+    particles, 0.2 m: 3e-12 m or 1e-10 px, each with an allowance of some ten. The largest seen is 2e-14 px.
     """
     frames, camera = half_size(passing)
     tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=camera, **FORMS[form])
@@ -62,18 +59,18 @@ def test_one_step_agrees(form, passing: DepthScene):
     tracker.init(frames[MIDDLE.start], (box.x / 2, box.y / 2, box.width / 2, box.height / 2))
     for frame in frames[MIDDLE.start + 1 : MIDDLE.stop]:
         twin = on_reference_kernels(tracker)
-        assert_alike(tracker.update(frame), twin.update(frame), 1e-7, 1e-8)
+        assert_alike(tracker.update(frame), twin.update(frame), 1e-9, 1e-10)
 
 
 @pytest.mark.parametrize("form", FORMS)
 def test_whole_tracks_agree(form, passing: DepthScene, follow):
-    """From init on, over an occlusion, the tracks agree within 1e-6 px and 1e-7 m.
+    """From init on, over an occlusion, the tracks agree within 1e-8 px and 1e-9 m.
 
-    One step differs by up to 1e-7 px (see above) at the very worst. Later steps carry a difference on, they
-    don't multiply it: the same noise, drawn round the same object. Only what crosses a border would, a place
-    of the grid that of a pixel, a depth that of a level, a resampled index a tooth, an object the threshold
-    of a match; for 19 frames of 40 particles with 140 places and differences of 1e-11 px that is a chance
-    of about 1e-6.
+    One step differs by up to 1e-9 px (see above). Later steps carry a difference on, they don't multiply it:
+    the same noise, drawn round the same object. Only what crosses a border would: a place of the grid that of
+    a pixel, a depth that of a level, a resampled index a tooth. For 19 frames of two sweeps of 20 particles
+    with 188 places each, and differences of 1e-13 px, that is a chance of about 1e-8. The largest difference
+    seen is 2e-13 px.
     """
     frames, camera = half_size(passing)
     box = passing.boxes[MIDDLE.start]
@@ -87,7 +84,7 @@ def test_whole_tracks_agree(form, passing: DepthScene, follow):
         for kernels in ("native", "reference")
     )
     for one, other in zip(ours, theirs, strict=True):
-        assert_alike(one, other, 1e-6, 1e-7)
+        assert_alike(one, other, 1e-8, 1e-9)
 
 
 def test_those_frames_have_an_occlusion(passing: DepthScene, follow):
@@ -111,16 +108,3 @@ def test_the_start_is_alike(walkers):
     assert_alike(ours.init(scene.frames[0]), theirs.init(scene.frames[0]), 1e-9, 1e-9)
     assert len(ours.objects) == len(theirs.objects) > 1
     assert np.abs(np.subtract(ours.objects, theirs.objects)).max() <= 1e-9
-
-
-def test_rounding_is_small(passing: DepthScene):
-    """One step of a target in sight differs by some roundings only, far under the bounds above."""
-    frames, camera = half_size(passing)
-    ours, theirs = (
-        DepthParticleTracker(seed=1, particles=20, intrinsics=camera, kernels=kernels)
-        for kernels in ("native", "reference")
-    )
-    box = passing.boxes[0]
-    for tracker in (ours, theirs):
-        tracker.init(frames[0], (box.x / 2, box.y / 2, box.width / 2, box.height / 2))
-    assert_alike(ours.update(frames[1]), theirs.update(frames[1]), 1e5 * EPS64, 1e5 * EPS64)

@@ -91,6 +91,23 @@ def test_a_wall_is_no_floor(kernels):
     assert np.isfinite(fg.depth).all()
 
 
+def test_a_floor_that_holds_is_kept(kernels):
+    """While a known floor has its points, noise doesn't move it: it stays bit for bit, whatever the random
+    numbers.
+    """
+    _, plane = found(kernels, hall(0.01))
+    _, again = found(kernels, hall(0.005), plane, seed=5)
+    np.testing.assert_array_equal(again, plane)
+
+
+def test_a_camera_that_moved_finds_its_floor_again(kernels):
+    """A floor 0.4 m higher than the true one has few points, and gives way to the true one."""
+    depth = hall(wall=np.inf, post=np.inf)
+    _, plane = found(kernels, depth)
+    moved = plane - [0, 0, 0, 0.4, 0, 0]
+    np.testing.assert_allclose(found(kernels, depth, moved)[1][:4], FLOOR, atol=1e-5)
+
+
 def test_a_known_floor_outlives_frames_without(kernels):
     """The floor is kept where a frame shows none: nothing measured, or somebody in front of everything."""
     _, plane = found(kernels, hall())
