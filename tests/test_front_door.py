@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import tricue
+from tricue.track import create as registry
 
 ROOT = Path(__file__).parents[1]
 
@@ -15,6 +16,23 @@ def test_everything_promised_is_there() -> None:
     assert set(tricue.__all__) == set(dir(tricue))
     for name in tricue.__all__:
         assert getattr(tricue, name) is not None
+
+
+@pytest.mark.parametrize("name", registry.names())
+def test_every_tracker_is_at_the_front_door(name: str) -> None:
+    """It proves that each tracker that create() makes is a public class with parameters, seed and kernels."""
+    tracker = tricue.create(name, seed=3, kernels="reference")
+    public = type(tracker).__name__
+    assert public in tricue.__all__
+    assert getattr(tricue, public) is type(tracker)
+    assert tracker.params == type(tracker).Params()  # type: ignore[attr-defined]
+    assert (tracker.seed, tracker.kernels) == (3, "reference")  # type: ignore[attr-defined]
+
+
+def test_both_trackers_of_the_paper_are_there() -> None:
+    """It proves that the names of the color and the depth tracker are what users were told."""
+    assert {"color-particle", "depth-particle"} <= set(registry.names())
+    assert {"ColorParticleTracker", "DepthParticleTracker"} <= set(tricue.__all__)
 
 
 def test_the_version_stands_in_one_place() -> None:

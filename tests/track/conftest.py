@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes on which the color particle tracker is proved."""
+"""Scenes on which the color and the depth particle tracker are proved."""
 
 from collections.abc import Callable, Sequence
 from typing import Protocol
@@ -7,10 +7,11 @@ from typing import Protocol
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, ColorParticleTracker, Track
+from tricue import Box, ColorParticleTracker, DepthParticleTracker, Track
 from tricue.camera.frame import FrameLike
-from tricue.scenes import Scene, face_over_clutter, photographs
+from tricue.scenes import DepthScene, Scene, crossing, face_over_clutter, photographs, walker
 from tricue.scenes.paste import ellipse_mask, expose, paste
+from tricue.track.depth_objects import SLICES, Objects
 
 Image = NDArray[np.uint8]
 Place = tuple[float, float] | None
@@ -62,3 +63,50 @@ def scene() -> Scene:
 def run(scene: Scene, follow: Follow) -> Callable[..., list[Track]]:
     """The tracks of the scene, with a fresh tracker of the given parameters."""
     return lambda **parameters: follow(ColorParticleTracker(**parameters), scene.frames, scene.boxes[0])
+
+
+@pytest.fixture(scope="session")
+def walkers() -> list[DepthScene]:
+    """Four people who walk alone for six seconds."""
+    return [walker(seed) for seed in range(4)]
+
+
+@pytest.fixture(scope="session")
+def crossings() -> list[DepthScene]:
+    """Six people whom somebody nearer hides, in six seconds each."""
+    return [crossing(seed) for seed in range(6)]
+
+
+@pytest.fixture(scope="session")
+def passing() -> DepthScene:
+    """36 frames of somebody who is hidden half way."""
+    return crossing(seed=2, frames=36)
+
+
+@pytest.fixture(scope="session")
+def pass_by(passing: DepthScene, follow: Follow) -> Callable[..., list[Track]]:
+    """The tracks of that scene, with a fresh depth tracker of the given parameters."""
+    return lambda **parameters: follow(
+        DepthParticleTracker(intrinsics=passing.intrinsics, **parameters), passing.frames, passing.boxes[0]
+    )
+
+
+@pytest.fixture(scope="session")
+def objects_of() -> Callable[..., Objects]:
+    """Objects of the given states (C, 5), seen at one pixel a centimetre, cut (C, 4) nowhere unless told."""
+
+    def make(states: Sequence[Sequence[float]], cut: Sequence[Sequence[int]] | None = None) -> Objects:
+        five = np.array(states, np.float64).reshape(-1, 5)
+        even = np.full((len(five), SLICES), 1 / SLICES, np.float32)
+        corners = five[:, :2] - five[:, 3:] / 2
+        return Objects(
+            states=five,
+            rectangles=100 * np.concatenate([corners, five[:, 3:]], axis=1),
+            cut=np.zeros((len(five), 4), np.bool_) if cut is None else np.array(cut, np.bool_),
+            shift=np.zeros((len(five), 2)),
+            columns=even,
+            rows=even,
+            area=five[:, 3:].prod(axis=1),
+        )
+
+    return make

@@ -1,0 +1,353 @@
+# SPDX-License-Identifier: MIT
+"""What the depth particle tracker makes of input that isn't what it expects: a named error or a sane
+track.
+"""
+
+import copy
+import warnings
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from tricue import DepthParticleTracker, Frame, Intrinsics, Status, Track
+
+Depth = NDArray[np.float32]
+SIZE = (128, 96)
+BOX = (40, 20, 30, 60)
+CAMERA = Intrinsics.from_fov(*SIZE, 60)
+
+
+def hall(shift: int = 0, z: float = 3.0) -> Depth:
+    """Somebody of 30x60 pixels before a wall, with a few gaps."""
+    depth = np.full((96, 128), 6.0, np.float32)
+    depth[20:80, 40 + shift : 70 + shift] = z
+    depth[np.random.default_rng(0).random(depth.shape) < 0.03] = np.nan
+    return depth
+
+
+DEPTH = hall()
+MILLIMETRES = np.nan_to_num(1000 * DEPTH).astype(np.uint16)
+COLOR = np.zeros((96, 128, 3), np.uint8)
+
+BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
+    "None": (lambda: None, TypeError, r"^frame: expected .*NoneType"),
+    "list": (DEPTH.tolist, TypeError, r"^frame: expected .*got list"),
+    "string": (lambda: "depth.png", TypeError, r"^frame: .*got str"),
+    "bare float image": (lambda: DEPTH, TypeError, r"^frame.color: expected uint8 .*float32"),
+    "bare 16-bit image": (lambda: MILLIMETRES, TypeError, r"^frame.color: expected uint8 .*uint16"),
+    "bare color": (lambda: COLOR, ValueError, r"^frame: expected the channel depth.*got color"),
+    "color alone": (lambda: Frame(color=COLOR), ValueError, r"^frame: expected the channel depth.*got color"),
+    "stereo pair": (
+        lambda: Frame(color=COLOR, right=COLOR),
+        ValueError,
+        r"^frame: expected the channel depth.*got color and right",
+    ),
+    "integers without scale": (lambda: Frame(depth=MILLIMETRES), ValueError, r"^depth: expected depth_scale"),
+    "8 bits": (lambda: Frame(depth=COLOR[..., 0]), TypeError, r"^depth: expected float32 .*uint8"),
+    "colored depth": (lambda: Frame(depth=COLOR), ValueError, r"^depth: expected one value a pixel"),
+    "bool": (lambda: Frame(depth=DEPTH > 3), TypeError, r"^depth: expected float32 .*bool"),
+    "complex": (lambda: Frame(depth=DEPTH.astype(complex)), TypeError, r"^depth: expected .*complex"),
+    "empty": (lambda: Frame(depth=DEPTH[:0]), ValueError, r"^depth: expected one value a pixel"),
+    "batch": (lambda: Frame(depth=DEPTH[None]), ValueError, r"^depth: expected one value a pixel"),
+    "nothing": (Frame, ValueError, r"^frame: expected color or depth, got neither"),
+    "scale 0": (lambda: Frame(depth=MILLIMETRES, depth_scale=0), ValueError, r"^depth_scale: expected"),
+    "NaN seconds": (lambda: Frame(depth=DEPTH, timestamp=np.nan), ValueError, r"^timestamp: expected"),
+}
+
+VIEWS: dict[str, Callable[[Depth], Depth]] = {
+    "crop": lambda depth: np.pad(depth, ((3, 2), (5, 7)))[3:-2, 5:-7],
+    "mirrored": lambda depth: np.ascontiguousarray(depth[:, ::-1])[:, ::-1],
+    "upside down": lambda depth: np.ascontiguousarray(depth[::-1])[::-1],
+    "Fortran": np.asfortranarray,
+    "every other pixel": lambda depth: depth.repeat(2, 0).repeat(2, 1)[::2, ::2],
+    "one of two channels": lambda depth: np.dstack([depth, depth + 1])[..., 0],
+    "other byte order": lambda depth: depth.astype(depth.dtype.newbyteorder()),
+    "read-only": lambda depth: np.frombuffer(depth.tobytes(), np.float32).reshape(depth.shape),
+}
+
+BAD_BOXES: dict[str, tuple[Any, type[Exception], str]] = {
+    "string": ("1,2,3,4", TypeError, "expected four numbers"),
+    "bools": ([True, True, True, True], TypeError, "expected four numbers"),
+    "three numbers": ((1, 2, 3), ValueError, "expected four numbers"),
+    "matrix": (np.ones((1, 4)), TypeError, "expected four numbers"),
+    "number": (7, TypeError, "expected four numbers"),
+    "NaN": ((1, np.nan, 3, 4), ValueError, "expected finite numbers"),
+    "infinite": ((1, 2, np.inf, 4), ValueError, "expected finite numbers"),
+    "zero": ((0, 0, 0, 0), ValueError, "expected width and height above 0"),
+    "negative height": ((50, 50, 9, -9), ValueError, "corners swapped"),
+    "1 px by 300": ((50, -100, 1, 300), ValueError, "at least 2 pixels"),
+    "right of the image": ((128, 10, 20, 20), ValueError, "a part inside the image of 128x96"),
+    "above the image": ((10, -20, 20, 20), ValueError, "a part inside the image of 128x96"),
+    "far away": ((1e300, 0, 10, 10), ValueError, "expected at most a million pixels"),
+    "denormal": ((50, 50, 5e-324, 5e-324), ValueError, "at least 2 pixels"),
+}
+
+GOOD_BOXES: dict[str, Any] = {
+    "list": list(BOX),
+    "array": np.array(BOX, np.float32),
+    "uint8": tuple(np.array(BOX, np.uint8)),
+    "2 px": (50, 40, 2, 2),
+    "2 px by 300": (50, -100, 2, 300),
+    "half outside": (-15, -12, 40, 60),
+    "the wall": (90, 10, 25, 25),
+    "the whole image": (0, 0, *SIZE),
+    "larger than the image": (-500, -500, 2000, 2000),
+    "a million pixels": (-5e5, -5e5, 1e6, 1e6),
+}
+
+FRAMES: dict[str, Depth] = {
+    "nothing measured": np.full_like(DEPTH, np.nan),
+    "all far": np.full_like(DEPTH, 40.0),
+    "all near": np.full_like(DEPTH, 0.1),
+    "a wall at the target's depth": np.full_like(DEPTH, 3.0),
+    "a wall in front": np.full_like(DEPTH, 0.8),
+    "a wall at far": np.full_like(DEPTH, 8.0),
+    "noise": np.random.default_rng(1).uniform(0.3, 8, DEPTH.shape).astype(np.float32),
+    "one pixel": np.where(
+        np.arange(DEPTH.size).reshape(DEPTH.shape) == 6453, np.float32(3), np.float32(np.nan)
+    ),
+    "denormal": np.full_like(DEPTH, 1e-40),
+    "largest": np.where(np.indices(DEPTH.shape)[1] < 32, np.float32(3e38), np.float32(2)),
+    "a ramp": np.linspace(0.3, 7.9, DEPTH.size, dtype=np.float32).reshape(DEPTH.shape),
+}
+
+
+def assert_sane(track: Track) -> None:
+    """A finite box with an area, a score in [0, 1], a status; position and covariance both or neither."""
+    assert np.isfinite(track.box).all()
+    assert min(track.box.width, track.box.height) > 0
+    assert 0 <= track.score <= 1
+    assert isinstance(track.status, Status)
+    assert (track.position is None) == (track.covariance is None)
+    if track.covariance is not None:
+        assert np.isfinite(track.position).all()
+        assert np.linalg.eigvalsh(track.covariance).min() > 0
+
+
+def started(**parameters: Any) -> DepthParticleTracker:
+    """A tracker that follows BOX in DEPTH."""
+    tracker = DepthParticleTracker(**{"intrinsics": CAMERA, "seed": 1, "particles": 30, **parameters})
+    tracker.init(Frame(depth=DEPTH), BOX)
+    tracker.update(Frame(depth=hall(1)))
+    return tracker
+
+
+NEXT = Frame(depth=hall(2))
+EXPECTED = started().update(NEXT)
+
+
+@pytest.mark.parametrize("name", BAD_FRAMES)
+def test_bad_frames_are_named(name):
+    """A frame without metres gets an error that says so, at init and update, and nothing changes by it."""
+    frame, error, message = BAD_FRAMES[name]
+    tracker = started()
+    with pytest.raises(error, match=message):
+        tracker.update(frame())
+    with pytest.raises(error, match=message):
+        tracker.init(frame(), BOX)
+    assert tracker.update(NEXT) == EXPECTED
+
+
+@pytest.mark.parametrize("name", BAD_BOXES)
+def test_bad_boxes_are_named(name):
+    """A box that can't be started on gets an error that names it, and the old target is followed on."""
+    box, error, message = BAD_BOXES[name]
+    tracker = started()
+    with pytest.raises(error, match=f"^box: .*{message}"):
+        tracker.init(Frame(depth=DEPTH), box)
+    assert tracker.update(NEXT) == EXPECTED
+
+
+@pytest.mark.parametrize("box", [None, BOX], ids=["without a box", "with one"])
+@pytest.mark.parametrize("name", ["nothing measured", "all far", "all near", "a wall at far", "denormal"])
+def test_a_start_on_nothing_is_named(name, box):
+    """Nothing in range at init is an error that names the box, given or not, and the old target is followed
+    on.
+    """
+    tracker = started()
+    with pytest.raises(ValueError, match=r"^box: expected"):
+        tracker.init(Frame(depth=FRAMES[name]), box)
+    assert tracker.update(NEXT) == EXPECTED
+
+
+def test_a_box_in_a_gap_is_named():
+    """A box with no measurement inside is an error that shows it, though there are some round it."""
+    depth = DEPTH.copy()
+    depth[10:90, 80:120] = np.nan
+    tracker = started()
+    with pytest.raises(ValueError, match=r"^box: expected .*measured depth.*got none in \(85.*15"):
+        tracker.init(Frame(depth=depth), (85, 15, 30, 70))
+    assert tracker.update(NEXT) == EXPECTED
+
+
+@pytest.mark.parametrize("shape", [(48, 64), (192, 256), (96, 127), (128, 96)], ids=str)
+def test_another_size_is_named(shape):
+    """A frame of another size than the first is an error that says both, and nothing changes by it."""
+    tracker = started()
+    expected = rf"^frame.depth: expected the first frame's shape \(96, 128\), got \({shape[0]}, {shape[1]}\)"
+    with pytest.raises(ValueError, match=expected):
+        tracker.update(Frame(depth=np.full(shape, 3.0)))
+    assert tracker.update(NEXT) == EXPECTED
+
+
+def test_a_camera_of_another_size_is_named():
+    """A first frame of another size than the camera's is an error that says both, and nothing changes."""
+    tracker = started()
+    message = r"^frame.depth: expected the camera's size, 128x96, got 64x48"
+    with pytest.raises(ValueError, match=message):
+        tracker.init(Frame(depth=DEPTH[::2, ::2]), (20, 10, 15, 30))
+    assert tracker.update(NEXT) == EXPECTED
+
+
+@pytest.mark.parametrize("camera", [(100, 100, 64, 48), 60, "camera.yml", CAMERA.__class__, np.eye(3)])
+def test_what_is_no_camera_is_named(camera):
+    """Intrinsics of another type are a TypeError that names them."""
+    with pytest.raises(TypeError, match=r"^intrinsics: expected tricue.Intrinsics, got "):
+        DepthParticleTracker(intrinsics=camera)
+
+
+def test_update_before_init_is_named():
+    """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
+    tracker = DepthParticleTracker()
+    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
+        tracker.update(Frame(depth=DEPTH))
+    with pytest.raises(ValueError, match=r"^box: "):
+        tracker.init(Frame(depth=DEPTH), (0, 0, 0, 0))
+    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
+        tracker.update(Frame(depth=DEPTH))
+
+
+def test_a_frame_of_gaps_is_an_occlusion():
+    """A frame in which nothing is measured is OCCLUDED at score 0, no error; the next is TRACKED again."""
+    tracker = started()
+    hidden = tracker.update(Frame(depth=FRAMES["nothing measured"]))
+    assert hidden.status is Status.OCCLUDED
+    assert hidden.score == 0
+    assert tracker.update(NEXT).status is Status.TRACKED
+
+
+def test_millimetres_as_metres_are_warned_of():
+    """Millimetres passed as metres make the Frame warn; the tracker misses its target, and goes on."""
+    with pytest.warns(UserWarning, match=r"^depth: its median is .*looks like millimetres"):
+        frame = Frame(depth=MILLIMETRES.astype(np.float32))
+    tracker = started()
+    track = tracker.update(frame)
+    assert_sane(track)
+    assert track.status is Status.OCCLUDED
+    with pytest.raises(ValueError, match=r"^box: expected"):
+        tracker.init(frame, BOX)
+    assert tracker.update(NEXT).status is Status.TRACKED
+
+
+@pytest.mark.parametrize("name", VIEWS)
+def test_views_are_read_as_they_look(name):
+    """Crops, mirrored, read-only and byte-swapped arrays give the track of a packed copy, bit for bit."""
+    tracks = []
+    for layout in (VIEWS[name], lambda depth: np.array(VIEWS[name](depth), np.float32, order="C")):
+        tracker = DepthParticleTracker(seed=1, particles=30, intrinsics=CAMERA)
+        first = tracker.init(Frame(depth=layout(DEPTH)), BOX)
+        tracks.append([first, tracker.update(Frame(depth=layout(hall(2))))])
+    assert tracks[0] == tracks[1]
+
+
+@pytest.mark.parametrize("name", GOOD_BOXES)
+def test_odd_boxes_are_followed(name):
+    """Boxes of other number types, very small, reaching over the edge or larger than the image give sane
+    tracks.
+    """
+    tracker = DepthParticleTracker(seed=1, particles=30, intrinsics=CAMERA)
+    first = tracker.init(Frame(depth=DEPTH), GOOD_BOXES[name])
+    assert first.box == pytest.approx(tuple(map(float, GOOD_BOXES[name])))
+    for shift in range(8):
+        assert_sane(tracker.update(Frame(depth=hall(shift))))
+
+
+@pytest.mark.parametrize("name", FRAMES)
+@pytest.mark.parametrize("kernels", ["native", "reference"])
+@pytest.mark.parametrize(
+    "form", [{}, {"histogram": "absolute", "likelihood": "linear"}], ids=["usual", "printed"]
+)
+def test_odd_frames_are_sane(name, form, kernels):
+    """Empty, uniform, noisy and extreme frames give sane tracks until long lost, as the next good one."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "depth: its median", UserWarning)
+        frame = Frame(depth=FRAMES[name])
+    tracker = started(kernels=kernels, particles=20, lost_after=0.2, **form)
+    for _ in range(6):
+        assert_sane(tracker.update(frame))
+    assert_sane(tracker.update(NEXT))
+
+
+@pytest.mark.parametrize("name", FRAMES)
+def test_starts_on_odd_frames_are_sane(name):
+    """A box on an odd frame is refused by name or gives sane tracks, there and on good frames."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "depth: its median", UserWarning)
+        frame = Frame(depth=FRAMES[name])
+    tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=CAMERA)
+    try:
+        tracks = [tracker.init(frame, BOX)]
+    except ValueError as error:
+        assert str(error).startswith("box: expected")  # noqa: PT017
+        return
+    tracks += [tracker.update(each) for each in (frame, NEXT, NEXT, NEXT, frame, NEXT)]
+    for track in tracks:
+        assert_sane(track)
+
+
+@pytest.mark.parametrize(
+    "shape", [(1, 1), (1, 2), (3, 3), (1, 300), (300, 1), (16, 16), (1500, 2000), (4, 5000)], ids=str
+)
+def test_images_of_any_size(shape):
+    """Tiny, thin and huge images give sane tracks from a box over them, or name the box."""
+    height, width = shape
+    depth = np.full(shape, 5.0, np.float32)
+    depth[height // 4 : height // 4 + height // 2 + 1, width // 3 : width // 3 + width // 3 + 1] = 2.5
+    tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=Intrinsics.from_fov(width, height, 60))
+    box = (width / 3 - 1, height / 4 - 1, width / 3 + 2, height / 2 + 2)
+    assert_sane(tracker.init(Frame(depth=depth), box))
+    for _ in range(3):
+        assert_sane(tracker.update(Frame(depth=depth)))
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (3, 3), (1, 300)], ids=str)
+def test_nobody_is_in_a_tiny_image(shape):
+    """Without a box an image of a few pixels has nobody in it, and says so."""
+    with pytest.raises(ValueError, match=r"^box: expected .*nobody was found"):
+        DepthParticleTracker().init(Frame(depth=np.full(shape, 2.5)))
+
+
+def test_an_error_inside_leaves_the_state(monkeypatch: pytest.MonkeyPatch):
+    """An error in the middle of an update, of whatever kind, leaves the tracker as it was, random numbers
+    included.
+    """
+    for kernel in ("depth_components", "propose", "summarize"):
+        tracker = started(kernels="reference")
+        expected = copy.deepcopy(tracker).update(NEXT)
+        with monkeypatch.context() as patch:
+            patch.setattr(tracker._k, kernel, lambda *_: (_ for _ in ()).throw(MemoryError()))
+            with pytest.raises(MemoryError):
+                tracker.update(NEXT)
+        assert tracker.update(NEXT) == expected
+
+
+anything = st.floats() | st.floats(-300, 300) | st.integers(-(10**9), 10**9)
+
+
+@settings(max_examples=200)
+@given(st.tuples(*4 * [anything]))
+def test_any_four_numbers(box):
+    """Whatever four numbers the box is, it is refused by name or gives sane tracks: no crash, no warning."""
+    tracker = DepthParticleTracker(seed=1, particles=10, intrinsics=CAMERA)
+    try:
+        tracks = [tracker.init(Frame(depth=DEPTH), box)]
+    except ValueError as error:
+        assert str(error).startswith("box: expected")  # noqa: PT017
+        return
+    tracks += [tracker.update(Frame(depth=DEPTH)), tracker.update(NEXT)]
+    for track in tracks:
+        assert_sane(track)
