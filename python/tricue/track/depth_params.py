@@ -41,7 +41,15 @@ class DepthParticleParams(Params):
     )
     least_area: float = parameter(0.03, unit="m² at far", source=OURS, above=0, doc="of an object")
     aspect: tuple[float, float] = parameter(
-        (1.0, 5.0), unit="height/width", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
+        (1.0, 6.0), unit="height/width", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
+    )
+    fill: float = parameter(
+        0.62,
+        unit="of its box",
+        source=OURS,
+        above=0,
+        high=1,
+        doc="by a human candidate at most: no furniture",
     )
     human_height: tuple[float, float] = parameter(
         (0.9, 2.2), unit="m", source="section IV.A; " + OURS, above=0, doc="of a human candidate"

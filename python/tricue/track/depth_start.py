@@ -15,15 +15,16 @@ ALIKE = 0.3  # overlap of a box and the object that is meant by it
 
 
 def humans(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
-    """Indices of those that may be people: by aspect ratio and size, largest first.
+    """Indices of those that may be people, by aspect ratio, size, and how much of their box they fill.
 
-    A size that the image's border cuts is a lower bound.
+    The largest come first; last come those that fill their box and may do so because it is cut.
     """
     width, height = objects.states[:, 3], objects.states[:, 4]
-    aspect = height / width
+    aspect, filled = height / width, objects.area / (width * height)
     tall = (height >= p.human_height[0]) & (height <= p.human_height[1])
     upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | ~objects.whole[:, 0])
-    return np.flatnonzero(tall & upright)
+    slender, cut = filled <= p.fill, objects.cut.any(axis=1)
+    return np.concatenate([np.flatnonzero(tall & upright & each) for each in (slender, ~slender & cut)])
 
 
 def somebody(objects: Objects, p: DepthParticleParams) -> Found:
