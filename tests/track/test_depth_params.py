@@ -33,6 +33,7 @@ REFUSED: dict[str, tuple[Any, ...]] = {
     "least_area": (0, -0.1),
     "aspect": ((0, 5), (-1, 5), (5.0, 1.0), (1.0,), (1.0, 2.0, 3.0)),
     "human_height": ((0, 2), (-1, 2), (2.2, 0.9), (1.0,)),
+    "fill": (0, -0.1, 1.1),
     "histogram": ("Relative", "", "both"),
     "likelihood": ("square", ""),
     "sharpness": (0, -1.0),
