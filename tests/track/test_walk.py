@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from tricue import DepthParticleTracker
-from tricue.track.walk import RETURN, SMALLEST, STAND, Walk
+from tricue.track.walk import RETURN, SMALLEST, STAND, UPRIGHT, Walk
 
 P = DepthParticleTracker.Params(agility=0.5, size_noise=0.06, fastest=2.0, velocity_rate=0.5, size_rate=0.15)
 STATE = np.array([0.2, -0.1, 3.0, 0.6, 1.7])
@@ -39,7 +39,7 @@ def test_prediction_is_metres_a_second(seconds):
     prediction = walk(velocity=np.array([1.0, 0.0, -0.5]), size=np.array([0.8, 1.6])).predict(P, seconds, 0)
     expected = [seconds, 0, -0.5 * seconds, RETURN * 0.2, RETURN * -0.1]
     np.testing.assert_allclose(prediction.drift, expected, rtol=1e-12, atol=1e-15)
-    np.testing.assert_allclose(prediction.scale[:3], STAND + 0.5 * seconds, rtol=1e-12)
+    np.testing.assert_allclose(prediction.scale[:3], STAND + 0.5 * seconds * UPRIGHT, rtol=1e-12)
     np.testing.assert_allclose(prediction.scale[3:], 0.06 * np.array([0.8, 1.6]), rtol=1e-12)
 
 
@@ -49,13 +49,13 @@ def test_noise_grows_while_missed_up_to_a_second():
     """
     scales = np.array([walk().predict(P, 0.1, 0.1 * missed).scale for missed in range(40)])
     assert (np.diff(scales[:10, :3], axis=0) > 0).all()
-    np.testing.assert_allclose(scales[9:, :3], STAND + 0.5, rtol=1e-12)
+    np.testing.assert_allclose(scales[9:, :3] - (STAND + 0.5 * UPRIGHT), 0, atol=1e-12)
     assert np.ptp(scales[:, 3:], axis=0).max() == 0
 
 
 def test_noise_of_a_long_frame_is_not_cut():
     """A single frame of two seconds has the noise of two seconds, though hidden targets stop at one."""
-    np.testing.assert_allclose(walk().predict(P, 2.0, 5.0).scale[:3], STAND + 0.5 * 2, rtol=1e-12)
+    np.testing.assert_allclose(walk().predict(P, 2.0, 5.0).scale[:3], STAND + 0.5 * 2 * UPRIGHT, rtol=1e-12)
 
 
 def test_predictions_stay_in_range():

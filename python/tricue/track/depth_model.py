@@ -70,7 +70,9 @@ class DepthModel:
         if self.p.histogram == "absolute":
             rectangle, reach = self._centered(rectangle)
         seen = k.rectangle_histogram(fg.depth, rectangle[0], len(self.histogram), self.grid, reach)
-        self.histogram = self.histogram + rate * (seen - self.histogram)
+        if not seen.any():
+            return
+        self.histogram = self.histogram + rate * (seen - self.histogram) if self.histogram.any() else seen
 
     def _absolute(self, k: Kernels, fg: Foreground, rectangles: Floats) -> Floats:
         centered, reach = self._centered(rectangles)

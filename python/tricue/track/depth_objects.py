@@ -73,7 +73,8 @@ def segment(k: Kernels, fg: Foreground, plane: Floats, p: DepthParticleParams) -
     _, minima = k.density_extrema(density, p.prominence * float(density.max()))
     dividers = np.concatenate([[p.near], p.near + (minima[:254] + 0.5) * level, [p.far]])
     labels = k.divide_depth(depth, mask, dividers)
-    area = max(8, int(p.least_area * fg.camera[0] * fg.camera[1] / p.far**2))
+    least = p.least_area * fg.camera[0] * fg.camera[1] / p.far**2
+    area = int(min(max(8.0, least), depth.size + 1.0))
     table, _, columns, rows, _ = k.depth_components(labels, depth, p.near, p.far, 1, SLICES, area)
     cut = _at_border(table, depth.shape) | _behind(k, fg, table, p)
     return _standing(_described(table, cut, columns, rows, fg), plane, fg)
@@ -105,6 +106,7 @@ def _described(
     states = ((x + w / 2 - 0.5 - cx) * per_x, (y + h / 2 - 0.5 - cy) * per_y, z, w * per_x, h * per_y)
     shift = ((columns @ CENTERS) * w * per_x, (rows @ CENTERS) * h * per_y)
     rectangles = table[:, :4] * fg.step
+    rectangles[:, :2] -= (fg.step - 1) / 2  # a thinned pixel is in the middle of what it stands for
     return Objects(np.stack(states, axis=1), rectangles, cut, np.stack(shift, axis=1), columns, rows, area)
 
 

@@ -107,3 +107,6 @@ class DepthParticleParams(Params):
                 raise ValueError(f"{name}: expected the lower number first, got {(low, high)}")
         if self.near >= self.far:
             raise ValueError(f"near: expected under far, {self.far:g} m, got {self.near:g}")
+        if self.bandwidth > self.far - self.near:
+            reach = self.far - self.near
+            raise ValueError(f"bandwidth: expected at most far - near, {reach:g} m, got {self.bandwidth:g}")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,6 +60,7 @@ class State:
     timestamp: float | None
     missed: float = 0.0  # seconds for which it was not seen
     hidden: bool = False  # by something nearer
+    doubt: Floats | float = 0.0  # metres, (3,) of X, Y, Z: how far a target that isn't seen may have gone
     front: Floats | None = None  # (3,) metres: where that is, while the target is missed
 
 
@@ -153,9 +155,21 @@ class DepthParticleTracker:
         Frames' timestamps tell the time between them, ``rate`` where there are none. RuntimeError before
         ``init``. An error leaves the tracker as it was.
         """
-        state, k, p = lifecycle.started(self._state), self._k, self.params
-        depth, timestamp = lifecycle.depth_image(frame, state.shape)
-        seconds = self._elapsed(state, timestamp)
+        before = lifecycle.started(self._state)
+        depth, timestamp = lifecycle.depth_image(frame, before.shape)
+        random = self._rng.bit_generator.state
+        state = replace(before, model=copy(before.model))
+        try:
+            self._follow(state, depth, self._elapsed(state, timestamp))
+        except BaseException:
+            self._rng.bit_generator.state = random
+            raise
+        self._state = state
+        return self._track(state)
+
+    def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> None:
+        """Predict, segment, measure, weigh, estimate; learn, or coast where the target isn't seen."""
+        k, p = self._k, self.params
         fg, state.plane = foreground(k, depth, state.camera, state.plane, self._rng, p)
         state.objects = segment(k, fg, state.plane, p)
         prediction = state.walk.predict(p, seconds, state.missed)
@@ -166,7 +180,6 @@ class DepthParticleTracker:
             self._accept(state, fg, swarm, seen, found, seconds)
         else:
             self._miss(state, fg, prediction, seconds)
-        return self._track(state)
 
     def _elapsed(self, state: State, timestamp: float | None) -> float:
         before, state.timestamp = state.timestamp, timestamp
@@ -254,6 +267,7 @@ class DepthParticleTracker:
         state.swarm = swarm
         state.walk = state.walk.seen(swarm.state, p, seconds, steady)
         state.score, state.missed, state.hidden, state.front = _score(seen), 0.0, False, None
+        state.doubt = 0.0
         if front >= FREE:
             return
         state.model.learn(self._k, fg, swarm.state, p.learning_rate)
@@ -276,6 +290,7 @@ class DepthParticleTracker:
         state.walk = state.walk.coasted(expected, KEPT if state.hidden else SLOWED)
         state.swarm = self._gathered(expected)
         state.missed += seconds
+        state.doubt = prediction.scale[:3]
         state.score = 0.0
 
     def _gathered(self, state: Floats) -> Swarm:
@@ -296,7 +311,7 @@ class DepthParticleTracker:
         if self.intrinsics is None:
             return Track(box, state.score, status)
         _, covariance, _ = self._k.summarize(state.swarm.particles[:, :3].copy(), state.swarm.weights)
-        covariance += DEPTH_NOISE**2 * np.eye(3)
+        covariance += (DEPTH_NOISE**2 + state.doubt**2) * np.eye(3)
         shift = state.signature.shift
         position = state.walk.state[:3] + np.array([shift[0], shift[1], 0.0])
         return Track(box, state.score, status, position, covariance)

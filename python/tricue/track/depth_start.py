@@ -58,12 +58,18 @@ def _whole(box: Box, fg: Foreground) -> NDArray[np.bool_]:
     )
 
 
+def _middle(start: float, length: float, step: int, size: int) -> slice:
+    """The pixels in the middle half of an interval, at least one, as far as they are in the image."""
+    first = int((start + length / 4) // step)
+    last = max(first, int((start + 3 * length / 4) // step))
+    return slice(min(max(first, 0), size - 1), max(min(last + 1, size), 1))
+
+
 def _middle_depth(fg: Foreground, box: Box) -> float:
     """The median depth in the middle of a box; ValueError where nothing there has one."""
-    left, top, right, bottom = (int(number / fg.step) for number in box.xyxy)
-    across, down = (right - left) // 4, (bottom - top) // 4
-    rows = slice(max(0, top + down), max(1, bottom - down))
-    middle = fg.depth[rows, max(0, left + across) : max(1, right - across)]
+    height, width = fg.depth.shape
+    columns = _middle(box.x, box.width, fg.step, width)
+    middle = fg.depth[_middle(box.y, box.height, fg.step, height), columns]
     middle = middle[np.isfinite(middle)]
     if middle.size == 0:
         raise ValueError(

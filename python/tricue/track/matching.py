@@ -17,7 +17,7 @@ SIZE = 0.2  # of the size, plus
 SIZE_AT_LEAST = 0.05  # metres
 LARGER = 0.3  # of its weight has a size that is more than what was ever seen of it
 UNLIKE = 3.0  # nats of the most different signature
-ENOUGH = 0.25  # of the target's area has to be seen
+ENOUGH, ENOUGH_AGAIN = 0.25, 0.45  # of the target's area has to be seen, and of one that was missed
 WORST, WORST_AGAIN = 8.0, 2.0  # nats up to which an object is the target, and one that was missed
 BODY = 0.5  # metres round the middle of a body
 FLAT = np.array([1.0, 0.3, 1.0])  # heights say less: they change with what is cut
@@ -90,7 +90,8 @@ def best_match(
     off[:, 3:] *= np.where(larger & ~walk.known, LARGER, 1.0)
     cost = 0.5 * (off * off).sum(axis=1)
     cost += np.where(objects.whole.all(axis=1), UNLIKE * signature.distances(objects), 0.0)
-    cost[objects.states[:, 3:].prod(axis=1) < ENOUGH * walk.size.prod()] = np.inf
+    enough = ENOUGH if worst >= WORST else ENOUGH_AGAIN
+    cost[objects.states[:, 3:].prod(axis=1) < enough * walk.size.prod()] = np.inf
     best = int(np.argmin(cost))
     return best if cost[best] < worst else None
 

@@ -11,7 +11,8 @@ from tricue.track.motion import Prediction
 
 Floats = NDArray[np.float64]
 
-STAND = 0.03  # metres of position noise in no time
+STAND = np.array([0.03, 0.02, 0.03])  # metres of position noise in no time
+UPRIGHT = np.array([1.0, 0.3, 1.0])  # people move up and down less than about
 RETURN = 0.3  # per frame, of the size to the remembered one
 LONG = 1.0  # seconds for which a hidden target's place gets less certain
 EARLY = 0.7  # rate at which a size is learnt when it is seen whole for the first time
@@ -42,9 +43,8 @@ class Walk(NamedTuple):
         """
         drift = np.concatenate([self.velocity * seconds, RETURN * (self.size - self.state[3:])])
         time = min(seconds + missed, max(seconds, LONG))
-        # As much up and down as aside: before a camera that looks down, those who come closer move down.
-        noise = STAND + p.agility * time
-        scale = np.concatenate([np.full(3, noise), p.size_noise * self.size])
+        noise = STAND + p.agility * time * UPRIGHT
+        scale = np.concatenate([noise, p.size_noise * self.size])
         lower = np.array([-np.inf, -np.inf, p.near, SMALLEST, SMALLEST])
         return Prediction(drift, scale, lower, np.array([np.inf, np.inf, p.far, np.inf, np.inf]))
 
