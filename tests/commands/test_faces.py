@@ -7,7 +7,9 @@ import pytest
 from tricue.camera.sources import open_source
 from tricue.commands import faces
 
-has_cascade = hasattr(cv2, "CascadeClassifier")
+has_cascade = hasattr(cv2, "CascadeClassifier") and any(
+    Path(cv2.data.haarcascades).glob("*frontalface_default*")
+)
 
 
 @pytest.mark.skipif(not has_cascade, reason="this cv2 has no cascades")
@@ -29,9 +31,13 @@ def test_no_face_is_none() -> None:
     assert faces.find_face(np.full((3, 3), 90, np.uint8)) is None
 
 
-def test_a_cv2_without_cascades_is_explained(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It proves that with cv2 5.x the error says what to do instead."""
-    monkeypatch.delattr(cv2, "CascadeClassifier", raising=False)
+@pytest.mark.parametrize("lacking", ["class", "file"])
+def test_a_cv2_without_cascades_is_explained(lacking: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that with cv2 5.x, which lacks the class or the file, the error says what to do instead."""
+    if lacking == "class":
+        monkeypatch.delattr(cv2, "CascadeClassifier", raising=False)
+    else:
+        monkeypatch.setattr(Path, "is_file", lambda _: False)
     faces._cascade.cache_clear()
     with pytest.raises(
         ImportError, match=r"^--detect face: cv2 \S+ has no face cascade; give --box x,y,width,height"

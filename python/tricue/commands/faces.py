@@ -34,9 +34,10 @@ def _narrowed(square: Box) -> Box:
 def _cascade() -> Any:  # cv2 5's types don't know it
     folder = getattr(getattr(cv2, "data", None), "haarcascades", None)
     classifier = getattr(cv2, "CascadeClassifier", None)
-    if folder is None or classifier is None:
+    file = Path(folder or "", "haarcascade_frontalface_default.xml")
+    if folder is None or classifier is None or not file.is_file():
         raise ImportError(
             f"--detect face: cv2 {cv2.__version__} has no face cascade; "
             "give --box x,y,width,height, or pip install 'opencv-python-headless<5'"
         )
-    return classifier(str(Path(folder) / "haarcascade_frontalface_default.xml"))
+    return classifier(str(file))
