@@ -108,7 +108,9 @@ def test_scenes_are_those_of_the_paper_and_harder_ones():
 
 
 def test_default_follows_and_the_printed_form_does_not(tmp_path, monkeypatch):
-    """Through one occlusion the default keeps the right person within 10 cm; as printed it is lost."""
+    """Through one occlusion the default keeps the right person, within 10 cm; as printed it is on nobody at
+    the end of each run, and several times as far off on the way.
+    """
     short = replace(
         EXPERIMENT,
         scenes={"hidden": partial(crossing, frames=45)},
@@ -119,6 +121,11 @@ def test_default_follows_and_the_printed_form_does_not(tmp_path, monkeypatch):
     with report.table.open() as file:
         rows = [row for row in csv.DictReader(file) if float(row["visible"]) >= 0.5]
     errors = {name: [float(r["error_m"]) for r in rows if r["model"] == name] for name in short.models}
+    ends = {
+        name: [float(r["iou"]) for r in rows if r["model"] == name and r["frame"] == "44"] for name in errors
+    }
     assert np.median(errors["default"]) < 0.1
-    assert np.median(errors["as printed"]) > 0.5
+    assert np.median(errors["as printed"]) > 3 * np.median(errors["default"])
+    assert len(ends["default"]) == len(ends["as printed"]) == 2
+    assert min(ends["default"]) > 0.5 > max(ends["as printed"])
     assert report.summary.count("| hidden |") == 2
