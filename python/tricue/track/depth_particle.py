@@ -2,8 +2,8 @@
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
 from copy import copy
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,14 +14,16 @@ from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track import lifecycle
 from tricue.track.depth_model import SHARP, DepthModel, Seen, object_term, rectangles_of, size_term
-from tricue.track.depth_objects import Objects, completed, joined, segment
+from tricue.track.depth_objects import segment
 from tricue.track.depth_params import DepthParticleParams
+from tricue.track.depth_search import find_target
 from tricue.track.depth_start import in_box, somebody
+from tricue.track.depth_state import State, Swarm
 from tricue.track.foreground import NO_FLOOR, Foreground, foreground, numbers
-from tricue.track.matching import WORST, WORST_AGAIN, Found, Signature, best_match, cover, same, without
+from tricue.track.matching import Found, cover
 from tricue.track.motion import Prediction
 from tricue.track.track import Status, Track
-from tricue.track.walk import LONG, Walk
+from tricue.track.walk import Walk
 
 Floats = NDArray[np.float64]
 
@@ -29,39 +31,8 @@ CLOSE = np.array([0.06, 0.05, 0.05])  # metres, of the second sweep's positions
 CLOSE_SIZE = 0.05  # of its sizes
 KEPT, SLOWED = 0.97, 0.85  # of the velocity, a frame: behind something, and missed for no reason
 USUAL_RATE = 0.1  # per frame, of the log-likelihood's running mean
-ANYWHERE = 10.0  # seconds; a lost target is looked for as far as it can have gone in that time
 FREE = 0.1  # in front of the target at most while it is learnt
 DEPTH_NOISE = 0.01  # metres, the least standard deviation of a position
-
-
-class Swarm(NamedTuple):
-    """Weighted states (N, 5) and their expected value."""
-
-    particles: Floats
-    weights: Floats
-    state: Floats
-
-
-@dataclass(slots=True)
-class State:
-    """All that changes from frame to frame, but for the random numbers."""
-
-    shape: tuple[int, ...]
-    camera: Floats  # (4,) fx, fy, cx, cy
-    plane: Floats
-    model: DepthModel
-    walk: Walk
-    signature: Signature
-    swarm: Swarm
-    objects: Objects
-    score: float
-    usual: float  # the log-likelihood's running mean
-    filled: float  # the same of the share of the rectangle that is at the target's depth
-    timestamp: float | None
-    missed: float = 0.0  # seconds for which it was not seen
-    hidden: bool = False  # by something nearer
-    doubt: Floats | float = 0.0  # metres, (3,) of X, Y, Z: how far a target that isn't seen may have gone
-    front: Floats | None = None  # (3,) metres: where that is, while the target is missed
 
 
 class DepthParticleTracker:
@@ -173,7 +144,7 @@ class DepthParticleTracker:
         fg, state.plane = foreground(k, depth, state.camera, state.plane, self._rng, p)
         state.objects = segment(k, fg, state.plane, p)
         prediction = state.walk.predict(p, seconds, state.missed)
-        found = self._matched(state, prediction, seconds)
+        found = find_target(state, prediction, seconds, p)
         swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found), found)
         seen = state.model.look(k, fg, swarm.state[None])
         if self._recognised(state, seen, found):
@@ -186,30 +157,6 @@ class DepthParticleTracker:
         if before is None or timestamp is None or timestamp <= before:
             return 1 / self.params.rate
         return min(timestamp - before, 1.0)
-
-    def _matched(self, state: State, prediction: Prediction, seconds: float) -> Found | None:
-        """Which object is the target, if any; a size never seen whole grows to what is seen of it."""
-        expected = state.walk.state + prediction.drift
-        time = min(seconds + state.missed, ANYWHERE if self._lost(state) else LONG)
-        objects = self._candidates(state, seconds)
-        states = completed(objects, expected, state.walk.size)
-        worst = WORST if state.missed == 0 else WORST_AGAIN
-        found = best_match(states, objects, expected, state.walk, state.signature, time, worst)
-        if found is None:
-            return None
-        objects = joined(objects, found, expected)
-        state.walk = state.walk.outgrown(objects.states[found, 3:])
-        target = completed(objects, expected, state.walk.size)[found]
-        return Found(target, objects.whole[found], Signature.of(objects, found))
-
-    def _candidates(self, state: State, seconds: float) -> Objects:
-        """All objects but what hides the target, which is followed as long as the target is missed."""
-        if state.front is None:
-            return state.objects
-        index = same(state.objects, state.front, self.params.fastest, seconds)
-        if index is not None:
-            state.front = state.objects.states[index, :3]
-        return without(state.objects, state.front)
 
     def _sweep(self, state: State, fg: Foreground, prediction: Prediction, found: Found | None) -> Swarm:
         """One step of the particle filter: (39) and the object as proposal, (2), (31), the expected value."""
@@ -298,16 +245,13 @@ class DepthParticleTracker:
         n = self.params.particles
         return Swarm(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state)
 
-    def _lost(self, state: State) -> bool:
-        return state.missed >= self.params.lost_after and not state.hidden
-
     def _track(self, state: State) -> Track:
         x, y, w, h, _ = rectangles_of(state.walk.state[None], state.camera)[0].tolist()
         box = Box(x - w / 2, y - h / 2, w, h)
         if state.missed == 0:
             status = Status.TRACKED
         else:
-            status = Status.LOST if self._lost(state) else Status.OCCLUDED
+            status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
         if self.intrinsics is None:
             return Track(box, state.score, status)
         _, covariance, _ = self._k.summarize(state.swarm.particles[:, :3].copy(), state.swarm.weights)

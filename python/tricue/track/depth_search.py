@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""Which of a frame's objects is the target: where it is expected, or, once it is lost, anywhere."""
+
+from tricue.track.depth_objects import Objects, completed, joined
+from tricue.track.depth_params import DepthParticleParams
+from tricue.track.depth_state import State
+from tricue.track.matching import WORST, WORST_AGAIN, Found, Signature, best_match, same, without
+from tricue.track.motion import Prediction
+from tricue.track.walk import LONG
+
+ANYWHERE = 10.0  # seconds; a lost target is looked for as far as it can have gone in that time
+
+
+def find_target(state: State, prediction: Prediction, seconds: float, p: DepthParticleParams) -> Found | None:
+    """The object that is the target, if any; a size never seen whole grows to what is seen of it.
+
+    seconds: since the last frame.
+    """
+    expected = state.walk.state + prediction.drift
+    time = min(seconds + state.missed, ANYWHERE if state.lost(p) else LONG)
+    objects = candidates(state, seconds, p)
+    states = completed(objects, expected, state.walk.size)
+    worst = WORST if state.missed == 0 else WORST_AGAIN
+    found = best_match(states, objects, expected, state.walk, state.signature, time, worst)
+    if found is None:
+        return None
+    objects = joined(objects, found, expected)
+    state.walk = state.walk.outgrown(objects.states[found, 3:])
+    target = completed(objects, expected, state.walk.size)[found]
+    return Found(target, objects.whole[found], Signature.of(objects, found))
+
+
+def candidates(state: State, seconds: float, p: DepthParticleParams) -> Objects:
+    """All objects but what hides the target, which is followed as long as the target is missed."""
+    if state.front is None:
+        return state.objects
+    index = same(state.objects, state.front, p.fastest, seconds)
+    if index is not None:
+        state.front = state.objects.states[index, :3]
+    return without(state.objects, state.front)
