@@ -5,11 +5,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.track.depth_model import states_of
 from tricue.track.depth_objects import EDGE, Objects
 from tricue.track.depth_params import DepthParticleParams
 from tricue.track.foreground import Foreground
-from tricue.track.matching import Found, Signature
+from tricue.track.matching import Found
+from tricue.track.metric import state_of
+from tricue.track.signature import Signature
 
 ALIKE = 0.3  # overlap of a box and the object that is meant by it
 
@@ -38,13 +39,13 @@ def somebody(objects: Objects, p: DepthParticleParams) -> Found:
 
 def in_box(box: Box, objects: Objects, fg: Foreground) -> Found:
     """The box itself, at the depth of the object that fills it best, or else of what is in its middle."""
-    overlaps = [box.iou(each) for each in objects.boxes]
+    camera = fg.camera * fg.step
+    overlaps = [box.iou(each) for each in objects.boxes(camera)]
     best = int(np.argmax(overlaps)) if overlaps else -1
     meant = best >= 0 and overlaps[best] > ALIKE
     z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box)
-    rectangle = np.array([[*box.center, box.width, box.height, z]])
     return Found(
-        states_of(rectangle, fg.camera * fg.step)[0],
+        state_of(box, z, camera),
         _whole(box, fg),
         Signature.of(objects, best) if meant else Signature.unknown(),
     )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tricue.track.depth_model import DepthModel
 from tricue.track.depth_objects import Objects
 from tricue.track.depth_params import DepthParticleParams
-from tricue.track.matching import Signature
+from tricue.track.signature import Signature
 from tricue.track.walk import Walk
 
 Floats = NDArray[np.float64]
