@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "check.hpp"
-#include "depth_levels.hpp"
 #include "depth_pixels.hpp"
+#include "level_counter.hpp"
 
 namespace tricue {
 namespace {
@@ -120,14 +120,14 @@ States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states
                       const Places& places, double nearer) {
     require(camera, states, model, places, nearer);
     Reader reader(depth, places);
-    DepthLevels levels(model.histogram.size(), model.reach, reader.inside());
+    LevelCounter counter(model.histogram.size(), model.reach, reader.inside());
     States measured(states.rows(), 4);
     for (Eigen::Index i = 0; i < states.rows(); ++i) {
         const Rectangle rectangle = seen_by(camera, states.row(i).data());
         const auto& [inside, around] = reader.read(rectangle);
         const auto inner = static_cast<double>(inside.size()), outer = static_cast<double>(around.size());
-        levels.count(inside.data(), rectangle.z);
-        measured.row(i) << levels.distance(model.histogram), levels.counted() / inner,
+        counter.count(inside.data(), rectangle.z);
+        measured.row(i) << counter.distance(model.histogram), counter.counted() / inner,
             count_below(inside.data(), inside.size(), rectangle.z - nearer) / inner,
             count_within(around.data(), around.size(), rectangle.z, model.reach) / outer;
     }

@@ -2,8 +2,8 @@
 #include "cues/depth/depth_distance.hpp"
 
 #include "check.hpp"
-#include "depth_levels.hpp"
 #include "depth_reader.hpp"
+#include "level_counter.hpp"
 
 namespace tricue {
 
@@ -12,7 +12,7 @@ States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthM
     require_shape(rectangles, rectangles.rows(), 5, "rectangles");
     require_finite(rectangles, "rectangles");
     DepthReader reader(depth, pattern);
-    DepthLevels levels(model.histogram.size(), model.reach, reader.places());
+    LevelCounter counter(model.histogram.size(), model.reach, reader.places());
     require_model(model.histogram);
     require_nearer(nearer);
 
@@ -20,9 +20,9 @@ States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthM
     for (Eigen::Index i = 0; i < rectangles.rows(); ++i) {
         const float* seen = reader.read(rectangles.row(i).data());
         const double z = rectangles(i, 4);
-        levels.count(seen, z);
-        measured.row(i) << levels.distance(model.histogram), levels.counted() / levels.places(),
-            count_below(seen, reader.places(), z - nearer) / levels.places();
+        counter.count(seen, z);
+        measured.row(i) << counter.distance(model.histogram), counter.counted() / counter.places(),
+            count_below(seen, reader.places(), z - nearer) / counter.places();
     }
     return measured;
 }

@@ -2,8 +2,8 @@
 #include "cues/depth/rectangle_histogram.hpp"
 
 #include "check.hpp"
-#include "depth_levels.hpp"
 #include "depth_reader.hpp"
+#include "level_counter.hpp"
 
 namespace tricue {
 
@@ -13,7 +13,7 @@ Vector rectangle_histogram(const DepthView& depth, VectorRef rectangle, int leve
     require_finite(rectangle, "rectangle");
     if (levels < 1 || levels > 65536) refuse("levels", "1 to 65536", levels);
     DepthReader reader(depth, pattern);
-    DepthLevels counter(levels, reach, reader.places());
+    LevelCounter counter(levels, reach, reader.places());
 
     counter.count(reader.read(rectangle.data()), rectangle[4]);
     if (counter.counted() == 0.0) return Vector::Zero(levels);

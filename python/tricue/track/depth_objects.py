@@ -61,7 +61,7 @@ def segment(k: Kernels, fg: Foreground, plane: Floats, p: DepthParticleParams) -
     level = (p.far - p.near) / p.levels
     density = k.depth_density(counts, p.bandwidth / level)
     _, minima = k.density_extrema(density, p.prominence * float(density.max()))
-    dividers = np.concatenate([[p.near], p.near + (minima[:254] + 0.5) * level, [p.far]])
+    dividers = np.array([p.near, *(p.near + (m + 0.5) * level for m in minima[:254].tolist()), p.far])
     labels = k.divide_depth(depth, mask, dividers)
     least = p.least_area * fg.camera[0] * fg.camera[1] / p.far**2
     area = int(min(max(8.0, least), depth.size + 1.0))

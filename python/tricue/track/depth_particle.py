@@ -32,6 +32,7 @@ CLOSE_SIZE = 0.05  # of its sizes
 KEPT, SLOWED = 0.97, 0.85  # of the velocity, a frame: behind something, and missed for no reason
 USUAL_RATE = 0.1  # per frame, of the log-likelihood's running mean
 FREE = 0.1  # in front of the target at most while it is learnt
+UNIT = np.eye(3)
 STILL = np.zeros(5)  # no drift
 ROOT = np.diag(SHARP)
 NOTHING: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # detected
@@ -113,7 +114,7 @@ class DepthParticleTracker:
             model=model,
             walk=Walk.start(target.state, target.whole),
             signature=target.signature,
-            swarm=self._gathered(target.state),
+            swarm=Swarm.gathered(target.state, self.params.particles),
             objects=objects,
             score=_score(seen),
             usual=float(seen.log_likelihood[0]),
@@ -147,7 +148,8 @@ class DepthParticleTracker:
         state.objects = segment(k, fg, state.plane, p)
         prediction = state.walk.predict(p, seconds, state.missed)
         found = find_target(state, prediction, seconds, p)
-        swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found), found)
+        measured = NOT_MEASURED if found is None else Measured.of(found.state, p.measurement)
+        swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found, measured), measured)
         seen = state.model.look(k, fg, swarm.state[None])
         if self._recognised(state, seen, found):
             self._accept(state, fg, swarm, seen, found, seconds)
@@ -160,32 +162,35 @@ class DepthParticleTracker:
             return 1 / self.params.rate
         return min(timestamp - before, 1.0)
 
-    def _sweep(self, state: State, fg: Foreground, prediction: Prediction, found: Found | None) -> Swarm:
+    def _sweep(
+        self, state: State, fg: Foreground, prediction: Prediction, found: Found | None, measured: Measured
+    ) -> Swarm:
         """One step of the particle filter: (39) and the object as proposal, (2), (31), the expected value."""
         k, p, swarm = self._k, self.params, state.swarm
         drift, scale, lower, upper = prediction
         noise = self._rng.standard_normal(swarm.particles.shape)
-        detection = (found.state, ROOT, p.object_share) if found is not None else NOTHING
-        chosen = swarm.particles[k.resample(swarm.weights, self._rng.random())]
+        detection = NOTHING
+        if found is not None:
+            detection = (found.state, ROOT, p.object_share)
+        chosen = swarm.particles.take(k.resample(swarm.weights, self._rng.random()), axis=0)
         moved = k.propose(chosen, drift, scale, noise, *detection, lower, upper)
-        likelihood = self._log_likelihood(state, fg, moved, found)
+        likelihood = self._log_likelihood(state, fg, moved, measured)
         weights, _ = k.reweight(likelihood, moved, chosen, drift, scale, *detection)
-        return Swarm(moved, weights, k.summarize(moved, weights)[0])
+        return Swarm.of(k, moved, weights)
 
-    def _sweep_close(self, state: State, fg: Foreground, wide: Swarm, found: Found | None) -> Swarm:
+    def _sweep_close(self, state: State, fg: Foreground, wide: Swarm, measured: Measured) -> Swarm:
         """Once more, close to the first sweep's result: 100 particles are few in five dimensions."""
         k = self._k
         middle = wide.state
         scale = np.concatenate([CLOSE, CLOSE_SIZE * state.walk.size])
         near = middle + scale * self._rng.standard_normal(wide.particles.shape)
         np.maximum(near[:, 2:], 0.1, out=near[:, 2:])
-        likelihood = self._log_likelihood(state, fg, near, found)
+        likelihood = self._log_likelihood(state, fg, near, measured)
         weights, _ = k.reweight(likelihood, near, near, STILL, scale, *NOTHING)
-        return Swarm(near, weights, k.summarize(near, weights)[0])
+        return Swarm.of(k, near, weights)
 
-    def _log_likelihood(self, state: State, fg: Foreground, particles: Floats, found: Found | None) -> Floats:
+    def _log_likelihood(self, state: State, fg: Foreground, particles: Floats, measured: Measured) -> Floats:
         """(N,) of the depth in and round the rectangle, of the usual size, and of the segmented object."""
-        measured = NOT_MEASURED if found is None else Measured.of(found.state, self.params.measurement)
         prior = self._k.rectangle_prior(particles, state.walk.size, SIZE_TRUST, *measured)
         return state.model.look(self._k, fg, particles).log_likelihood + prior
 
@@ -229,15 +234,10 @@ class DepthParticleTracker:
             covering = cover(state.objects, expected, p.nearer)
             state.front = None if covering is None else state.objects.states[covering, :3]
         state.walk = state.walk.coasted(expected, KEPT if state.hidden else SLOWED)
-        state.swarm = self._gathered(expected)
+        state.swarm = Swarm.gathered(expected, p.particles)
         state.missed += seconds
         state.doubt = prediction.scale[:3]
         state.score = 0.0
-
-    def _gathered(self, state: Floats) -> Swarm:
-        """All particles at one place."""
-        n = self.params.particles
-        return Swarm(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state)
 
     def _track(self, state: State) -> Track:
         box = box_of(state.walk.state, state.camera)
@@ -247,10 +247,9 @@ class DepthParticleTracker:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
         if self.intrinsics is None:
             return Track(box, state.score, status)
-        _, covariance, _ = self._k.summarize(state.swarm.particles[:, :3].copy(), state.swarm.weights)
-        covariance += (DEPTH_NOISE**2 + state.doubt**2) * np.eye(3)
-        shift = state.signature.shift
-        position = state.walk.state[:3] + np.array([shift[0], shift[1], 0.0])
+        covariance = state.swarm.covariance[:3, :3] + (DEPTH_NOISE**2 + state.doubt**2) * UNIT
+        position = state.walk.state[:3].copy()
+        position[:2] += state.signature.shift
         return Track(box, state.score, status, position, covariance)
 
     def __getstate__(self) -> dict[str, Any]:

@@ -14,8 +14,8 @@ RATE = 0.1  # per frame, of learning
 
 
 class Signature(NamedTuple):
-    """How a target is spread over its box: (2 SLICES,) its columns' shares and its rows', and (2,) metres from
-    the box's centre to the centroid.
+    """How a target is spread over its box: (2 SLICES,) shares of its columns and of its rows, and (2,) metres
+    from the box's centre to the centroid.
     """
 
     spread: Floats

@@ -2,6 +2,7 @@
 """How a person moves in front of a depth camera: (39) in metres, at the speed of a walk, of one size."""
 
 import math
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -46,8 +47,7 @@ class Walk(NamedTuple):
         time = min(seconds + missed, max(seconds, LONG))
         noise = STAND + p.agility * time * UPRIGHT
         scale = np.concatenate([noise, p.size_noise * self.size])
-        lower = np.array([-np.inf, -np.inf, p.near, SMALLEST, SMALLEST])
-        return Prediction(drift, scale, lower, np.array([np.inf, np.inf, p.far, np.inf, np.inf]))
+        return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def seen(self, state: Floats, p: DepthParticleParams, seconds: float, steady: bool) -> "Walk":
         """At a new place; the velocity is learnt where both this place and the last were ``steady``."""
@@ -73,3 +73,10 @@ class Walk(NamedTuple):
         seen = size if whole.all() else np.where(whole, size, np.maximum(size, self.size))
         rate = p.size_rate if self.known.all() else np.where(whole & ~self.known, EARLY, p.size_rate)
         return self._replace(size=self.size + rate * (seen - self.size), known=self.known | whole)
+
+
+@cache
+def _bounds(near: float, far: float) -> tuple[Floats, Floats]:
+    """The least and the greatest state."""
+    lower = np.array([-np.inf, -np.inf, near, SMALLEST, SMALLEST])
+    return lower, np.array([np.inf, np.inf, far, np.inf, np.inf])

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "depth_levels.hpp"
+#include "level_counter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,7 @@ double squared_distance(const std::int32_t* __restrict counts, double total, con
 
 }  // namespace
 
-DepthLevels::DepthLevels(Eigen::Index levels, double reach, std::size_t places)
+LevelCounter::LevelCounter(Eigen::Index levels, double reach, std::size_t places)
     : reach_(reach),
       levels_(static_cast<int>(levels)),
       level_(places),
@@ -62,7 +62,7 @@ DepthLevels::DepthLevels(Eigen::Index levels, double reach, std::size_t places)
     if (!(reach > 0.0 && std::isfinite(reach))) refuse("reach", "a finite number above 0", reach);
 }
 
-void DepthLevels::count(const float* seen, double z) {
+void LevelCounter::count(const float* seen, double z) {
     find_levels(seen, level_.size(), z, reach_, levels_, level_.data());
     std::fill(counts_.begin(), counts_.end(), 0);
     std::int32_t* counts = counts_.data();
@@ -70,7 +70,7 @@ void DepthLevels::count(const float* seen, double z) {
     add_tables(counts, static_cast<std::size_t>(levels_) + 1);
 }
 
-double DepthLevels::distance(VectorRef model) const {
+double LevelCounter::distance(VectorRef model) const {
     const double total = counted();
     if (total == 0.0) return 1.0;
     const double square =

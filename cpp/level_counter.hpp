@@ -12,10 +12,10 @@ namespace tricue {
 /// rectangle_histogram have in common.
 ///
 /// What was measured counts where its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L).
-class DepthLevels {
+class LevelCounter {
 public:
     /// Of `places` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
-    DepthLevels(Eigen::Index levels, double reach, std::size_t places);
+    LevelCounter(Eigen::Index levels, double reach, std::size_t places);
 
     /// @param seen `places` depths, metres; nothing was measured where one isn't above 0 and finite
     void count(const float* seen, double z);
