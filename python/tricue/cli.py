@@ -29,6 +29,7 @@ examples:
 _DEMO_EXAMPLES = """\
 examples:
   tricue demo
+  tricue demo depth-particle                                  people before a depth camera, in metres
   tricue demo color-particle --kernels reference --output here
 """
 _REPRODUCE_EXAMPLES = """\
