@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "check.hpp"
+#include "depth_pixels.hpp"
 #include "simd.hpp"
 
 namespace tricue {
@@ -32,7 +32,7 @@ int find_levels(const float* __restrict depth, std::ptrdiff_t n, double z, doubl
     const double scale = levels / (2.0 * reach);
     int nearer = 0;
     for (std::ptrdiff_t k = 0; k < n; ++k) {
-        const bool measured = (depth[k] > 0.0f) & (depth[k] <= std::numeric_limits<float>::max());
+        const bool measured = has_depth(depth[k]);
         const double metres = static_cast<double>(depth[k]);
         const double at = ((metres - z) + reach) * scale;
         const bool counts = measured & (at >= 0.0) & (at < levels);

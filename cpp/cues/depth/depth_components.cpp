@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "check.hpp"
+#include "depth_pixels.hpp"
 #include "runs.hpp"
 #include "simd.hpp"
 
@@ -27,7 +27,7 @@ void find_levels(const float* __restrict depth, int n, double near, double scale
                  std::int32_t* __restrict level, double* __restrict metres) {
     const double last = levels - 1;
     for (int x = 0; x < n; ++x) {
-        const bool measured = (depth[x] > 0.0f) & (depth[x] <= std::numeric_limits<float>::max());
+        const bool measured = has_depth(depth[x]);
         const double z = measured ? static_cast<double>(depth[x]) : 0.0;
         const auto clamped = static_cast<std::int32_t>(std::min(std::max((z - near) * scale, 0.0), last));
         level[x] = measured ? clamped : levels;
