@@ -53,16 +53,20 @@ def foreground(
     thinned = camera / step
     inside = (thin >= p.near) & (thin < p.far)
     if p.floor:
-        plane = floor(k, thin, thinned, plane, rng)
+        plane = floor(k, thin, thinned, plane, rng, p.near)
         if plane.any():
             inside &= k.height_above(thin, thinned, plane[:4].copy()) > p.floor_clear
     return Foreground(np.where(inside, thin, np.float32(np.nan)), thinned, step), plane
 
 
-def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator) -> Floats:
+def floor(
+    k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator, near: float
+) -> Floats:
     """The plane with many points on it and hardly any below; the known one where this frame has none."""
     step = max(1, round(depth.shape[1] / COARSE))
-    coarse, seen_by = np.ascontiguousarray(depth[::step, ::step]), camera / step
+    coarse, seen_by = depth[::step, ::step], camera / step
+    # Points within the tolerance of the camera would be on any plane through it.
+    coarse = np.where(coarse >= near, coarse, np.float32(np.nan))
     support = 0.0
     if known.any():
         heights = k.height_above(coarse, seen_by, known[:4].copy())
