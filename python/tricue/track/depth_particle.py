@@ -88,8 +88,8 @@ class DepthParticleTracker:
         """Start, or start again, on the target in ``box``, (x, y, width, height) in pixels of the depth
         image, or, without one, on the most prominent person.
 
-        ValueError where no part of the box is inside or nothing in it has a depth, and, without a box, where
-        nobody is found.
+        ValueError where no part of the box is inside or nothing in it has a depth in range, and, without a
+        box, where nobody is found.
         """
         depth, timestamp = lifecycle.depth_image(frame)
         camera = numbers(lifecycle.camera_for(self.intrinsics, depth.shape))
@@ -99,7 +99,7 @@ class DepthParticleTracker:
         if box is None:
             target = somebody(objects, self.params)
         else:
-            target = in_box(lifecycle.box_in(as_box(box), depth), objects, fg)
+            target = in_box(lifecycle.box_in(as_box(box), depth), objects, fg, self.params)
         model = DepthModel(self.params)
         model.learn(self._k, fg, target.state, 1.0)
         seen = model.look(self._k, fg, target.state[None])
