@@ -143,7 +143,11 @@ def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
                 f"depth: expected depth_scale with integers, got {_described(value)} alone; {hint}"
             )
     elif value.dtype.kind != "f" or value.dtype.itemsize not in (4, 8):
-        eight = "; 8 bits are a picture of the depth, not metres" if value.dtype.itemsize == 1 else ""
+        eight = (
+            "; 8 bits are a picture of the depth, not metres"
+            if value.dtype.itemsize == 1 and value.dtype.kind != "b"
+            else ""
+        )
         expected = "float32 or float64 metres, or integers with depth_scale"
         raise TypeError(f"depth: expected {expected}, got {_described(value)}{eight}")
     return value
