@@ -37,13 +37,16 @@ def somebody(objects: Objects, p: DepthParticleParams) -> Found:
     return Found(objects.states[chosen], objects.whole[chosen], Signature.of(objects, chosen))
 
 
-def in_box(box: Box, objects: Objects, fg: Foreground) -> Found:
-    """The box itself, at the depth of the object that fills it best, or else of what is in its middle."""
+def in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> Found:
+    """The box itself, at the depth of the object that fills it best, or else of what is in its middle.
+
+    ValueError where nothing is in its middle that can be followed.
+    """
     camera = fg.camera * fg.step
     overlaps = [box.iou(each) for each in objects.boxes(camera)]
     best = int(np.argmax(overlaps)) if overlaps else -1
     meant = best >= 0 and overlaps[best] > ALIKE
-    z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box)
+    z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box, p)
     return Found(
         state_of(box, z, camera),
         _whole(box, fg),
@@ -66,7 +69,11 @@ def _middle(start: float, length: float, step: int, size: int) -> slice:
     return slice(min(max(first, 0), size - 1), max(min(last + 1, size), 1))
 
 
-def _middle_depth(fg: Foreground, box: Box) -> float:
+def _in_range(p: DepthParticleParams) -> str:
+    return f"above the floor and between near and far, {p.near:g} and {p.far:g} m"
+
+
+def _middle_depth(fg: Foreground, box: Box, p: DepthParticleParams) -> float:
     """The median depth in the middle of a box; ValueError where nothing there has one."""
     height, width = fg.depth.shape
     columns = _middle(box.x, box.width, fg.step, width)
@@ -74,6 +81,7 @@ def _middle_depth(fg: Foreground, box: Box) -> float:
     middle = middle[np.isfinite(middle)]
     if middle.size == 0:
         raise ValueError(
-            f"box: expected a target with measured depth in its middle, got none in {tuple(box)}"
+            f"box: expected a target with measured depth in its middle, {_in_range(p)}, "
+            f"got none in {tuple(box)}"
         )
     return float(np.median(middle))

@@ -52,12 +52,14 @@ def foreground(
     thin = np.ascontiguousarray(depth[::step, ::step])
     thinned = camera / step
     if p.floor:
-        plane = floor(k, thin, thinned, plane, rng)
+        plane = floor(k, thin, thinned, plane, rng, p.near)
     kept = k.above_floor(thin, thinned, plane[:4], p.near, p.far, p.floor_clear)
     return Foreground(kept, thinned, step), plane
 
 
-def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator) -> Floats:
+def floor(
+    k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator, near: float
+) -> Floats:
     """The plane with many points on it and hardly any below; the known one where this frame has none."""
     step = max(1, round(depth.shape[1] / COARSE))
     support = 0.0
@@ -65,7 +67,9 @@ def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.rando
         support = float(k.plane_support(depth, camera, known[:4], TOLERANCE, step)[0])
         if support >= STEADY * known[4]:
             return known
-    coarse = np.ascontiguousarray(depth[::step, ::step])
+    coarse = depth[::step, ::step]
+    # Points within the tolerance of the camera would be on any plane through it.
+    coarse = np.where(coarse >= near, coarse, np.float32(np.nan))
     # Below the middle of the image: there it is seen best.
     triples = rng.integers(coarse.size // 2, coarse.size, (TRIALS, 3))
     plane = k.floor_plane(coarse, camera / step, triples, TOLERANCE, UP, LEAST_COSINE)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.checks import refuse
+from tricue.reference.depth_pixels import has_depth
 
 Labels = NDArray[np.uint8]
 Depth = NDArray[np.float32]
@@ -45,8 +46,8 @@ def depth_components(
     components = np.zeros(labels.shape, np.int32)
     for i, pixels in enumerate(found):
         y, x = pixels.T
-        z = depth[y, x].astype(np.float64)
-        z = z[(z > 0) & (z < np.inf)]
+        z = depth[y, x]
+        z = z[has_depth(z)].astype(np.float64)
         size = np.ptp(x) + 1, np.ptp(y) + 1
         mean = z.mean() if z.size else np.nan
         table[i] = x.min(), y.min(), *size, len(x), mean, labels[y[0], x[0]]
