@@ -32,7 +32,8 @@ def somebody(objects: Objects, p: DepthParticleParams) -> Found:
     """The largest of the human candidates; ValueError where there is none."""
     people = humans(objects, p)
     if len(people) == 0:
-        raise ValueError("box: expected (x, y, width, height), as nobody was found in this frame")
+        empty = "" if len(objects.states) else f", nor anything else {_in_range(p)}"
+        raise ValueError(f"box: expected (x, y, width, height), as nobody was found in this frame{empty}")
     chosen = int(people[0])
     return Found(objects.states[chosen], objects.whole[chosen], Signature.of(objects, chosen))
 
