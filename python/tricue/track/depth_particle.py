@@ -92,8 +92,8 @@ class DepthParticleTracker:
         """Start, or start again, on the target in ``box``, (x, y, width, height) in pixels of the depth
         image, or, without one, on the most prominent person.
 
-        ValueError where no part of the box is inside or nothing in it has a depth, and, without a box, where
-        nobody is found.
+        ValueError where no part of the box is inside or nothing in it has a depth in range, and, without a
+        box, where nobody is found.
         """
         depth, timestamp = lifecycle.depth_image(frame)
         camera = numbers(lifecycle.camera_for(self.intrinsics, depth.shape))
