@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.camera.rig import Intrinsics
+from tricue.camera.rig import Intrinsics, StereoRig
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,3 +54,31 @@ class DepthScene:
     intrinsics: Intrinsics
     others: tuple[tuple[Bystander, ...], ...]
     """The other people in each frame, always in the same order; they may be outside the image."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StereoScene:
+    """A head before a rectified stereo pair, made by this package; the same arguments give the same bits.
+
+    The truth is that of the geometry, before noise. Head means the ellipsoid that holds skull and hair,
+    without neck and ears.
+    """
+
+    name: str
+    frames: tuple[Frame, ...]
+    """Each with ``color``, the left image, ``right``, and ``timestamp``, seconds from 0."""
+    boxes: tuple[Box, ...]
+    """Round the whole head's outline in the left image, which is an ellipse; pixels, whatever hides it."""
+    positions: NDArray[np.float64]
+    """(M, 3) metres in the left camera's frame: the mean of the surface points that the head's pixels in the
+    left image see, as if nothing hid it. That is what stereo can measure: a point some 7 cm before the
+    head's centre, on nearly the same line of sight."""
+    visible: NDArray[np.float64]
+    """(M,) share of the head's pixels in the left image that nothing but the own neck hides."""
+    facing: NDArray[np.float64]
+    """(M,) angle between where the face looks and the camera, radians: 0 full face, pi only hair."""
+    light: NDArray[np.float64]
+    """(M,) the light's gain; 1 is the light in which the textures have their levels."""
+    changes: tuple[int, ...]
+    """The frames in which the light changes abruptly."""
+    rig: StereoRig
