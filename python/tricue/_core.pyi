@@ -13,6 +13,17 @@ def bhattacharyya(
     (N,) sqrt(1 - mean over the groups of sum sqrt(p q)), in [0, 1].
     """
 
+def color_bins(
+    image: numpy.typing.NDArray[numpy.uint8],
+    region: tuple[int, int, int, int],
+    bins: tuple[int, int, int],
+    chroma: int,
+    step: int,
+) -> numpy.typing.NDArray[numpy.uint16]:
+    """
+    The bin of every step-th pixel of region (x0, y0, x1, y1) in the space (B - G, G - R, B + G + R), (H, W) uint16; 65535 outside the image.
+    """
+
 def color_histogram(
     samples: numpy.typing.NDArray[numpy.uint8], bins: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -300,6 +311,14 @@ class Kernels(Protocol):
         model: numpy.typing.NDArray[numpy.float32],
         groups: int,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def color_bins(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        region: tuple[int, int, int, int],
+        bins: tuple[int, int, int],
+        chroma: int,
+        step: int,
+    ) -> numpy.typing.NDArray[numpy.uint16]: ...
     def color_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...

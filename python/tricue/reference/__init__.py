@@ -4,6 +4,7 @@ compute.
 """
 
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
+from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_ranks import color_ranks
@@ -37,6 +38,7 @@ from tricue.reference.fuse.summarize import summarize
 
 __all__ = [
     "bhattacharyya",
+    "color_bins",
     "color_histogram",
     "color_lookup",
     "color_ranks",
