@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "cues/color/color_bins.hpp"
+#include "cues/color/ellipse_histogram.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -21,6 +22,21 @@ Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const C
                          [&] { return color_bins(view, corners, space, step); }));
 }
 
+BinsView bins_image(const Array<std::uint16_t>& bins) {
+    const auto array = require<std::uint16_t>(bins, "bins", 2, "uint16 bins (H, W)");
+    return {contiguous<std::uint16_t>(array, "bins"), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1))};
+}
+
+std::tuple<Array<std::int32_t>, Array<std::int32_t>> ellipse_histogram_arrays(
+    const Array<std::uint16_t>& bins, const Array<double>& ellipses, int size, double margin) {
+    const auto view = bins_image(bins);
+    const auto each = states(ellipses, "ellipses");
+    auto counts = unlocked(std::ptrdiff_t{view.rows} * view.cols * each.rows(),
+                           [&] { return ellipse_histogram(view, each, size, margin); });
+    return {give(std::move(counts.inside)), give(std::move(counts.around))};
+}
+
 }  // namespace
 
 void define_color_search(py::module_& m) {
@@ -28,6 +44,10 @@ void define_color_search(py::module_& m) {
           py::arg("chroma"), py::arg("step"),
           "The bin of every step-th pixel of region (x0, y0, x1, y1) in the space (B - G, G - R, B + G + R), "
           "(H, W) uint16; 65535 outside the image.");
+    m.def("ellipse_histogram", ellipse_histogram_arrays, py::arg("bins"), py::arg("ellipses"),
+          py::arg("size"), py::arg("margin"),
+          "(N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) "
+          "of those in the ring between it and one margin times as large.");
 }
 
 }  // namespace tricue::bindings

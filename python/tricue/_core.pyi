@@ -115,6 +115,16 @@ def divide_depth(
     The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
     """
 
+def ellipse_histogram(
+    bins: numpy.typing.NDArray[numpy.uint16],
+    ellipses: numpy.typing.NDArray[numpy.float64],
+    size: int,
+    margin: float,
+) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """
+    (N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) of those in the ring between it and one margin times as large.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -376,6 +386,13 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def ellipse_histogram(
+        self,
+        bins: numpy.typing.NDArray[numpy.uint16],
+        ellipses: numpy.typing.NDArray[numpy.float64],
+        size: int,
+        margin: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "bins_view.hpp"
 #include "camera/image_view.hpp"
 #include "camera/region.hpp"
 #include "color_space.hpp"
@@ -11,9 +12,6 @@ namespace tricue {
 
 /// A bin for every pixel of a region, (H, W).
 using Bins = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// No bin: a pixel outside the image.
-constexpr std::uint16_t kNoBin = 65535;
 
 /// The bin of every pixel of a region in the space (B - G, G - R, B + G + R).
 ///

@@ -8,6 +8,7 @@ from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_ranks import color_ranks
+from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.rank_contrast import rank_contrast
@@ -49,6 +50,7 @@ __all__ = [
     "depth_edges",
     "depth_histogram",
     "divide_depth",
+    "ellipse_histogram",
     "floor_plane",
     "height_above",
     "joint_histogram",
