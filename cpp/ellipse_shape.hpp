@@ -24,9 +24,9 @@ struct EllipseShape {
         int begin, end;
     };
 
-    int top = 0;              ///< of the first run
-    std::vector<Run> runs;    ///< none is empty; one lies within the other towards the ends
-    std::ptrdiff_t area = 0;  ///< how many pixels
+    int top = 0;            ///< of the first run
+    std::vector<Run> runs;  ///< none is empty; one lies within the other towards the ends
+    int area = 0;           ///< how many pixels
 
     /// @param ellipse x, y, minor, major that require_ellipses has seen
     /// @param scale   of both semi-axes; a larger one gives a shape that contains a smaller one's

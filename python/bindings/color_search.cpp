@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_histogram.hpp"
+#include "cues/color/ellipse_search.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -37,6 +38,20 @@ std::tuple<Array<std::int32_t>, Array<std::int32_t>> ellipse_histogram_arrays(
     return {give(std::move(counts.inside)), give(std::move(counts.around))};
 }
 
+Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Array<double>& ellipse,
+                                    const std::tuple<int, int, int>& grid, const Array<double>& model,
+                                    double margin, const std::optional<Array<std::uint8_t>>& mask) {
+    const auto view = bins_image(bins);
+    const auto numbers = vector(ellipse, "ellipse");
+    const auto [rows, cols, step] = grid;
+    const SearchGrid places{rows, cols, step};
+    const SearchModel target{vector(model, "model"), margin};
+    const auto marks = mask ? mask_image(*mask, "mask") : ImageView{nullptr, view.rows, view.cols, 1, 0};
+    auto found = unlocked(std::ptrdiff_t{view.rows} * view.cols,
+                          [&] { return ellipse_search(view, numbers, places, target, marks); });
+    return give(std::move(found), {rows, cols, 4});
+}
+
 }  // namespace
 
 void define_color_search(py::module_& m) {
@@ -48,6 +63,12 @@ void define_color_search(py::module_& m) {
           py::arg("size"), py::arg("margin"),
           "(N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) "
           "of those in the ring between it and one margin times as large.");
+    m.def(
+        "ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
+        py::arg("model"), py::arg("margin"), py::arg("mask"),
+        "(rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
+        "the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up "
+        "to margin times as large, and the shares of the mask's pixels (H, W) in both.");
 }
 
 }  // namespace tricue::bindings

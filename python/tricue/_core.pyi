@@ -125,6 +125,18 @@ def ellipse_histogram(
     (N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) of those in the ring between it and one margin times as large.
     """
 
+def ellipse_search(
+    bins: numpy.typing.NDArray[numpy.uint16],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    grid: tuple[int, int, int],
+    model: numpy.typing.NDArray[numpy.float64],
+    margin: float,
+    mask: numpy.typing.NDArray[numpy.uint8] | None,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up to margin times as large, and the shares of the mask's pixels (H, W) in both.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -393,6 +405,15 @@ class Kernels(Protocol):
         size: int,
         margin: float,
     ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
+    def ellipse_search(
+        self,
+        bins: numpy.typing.NDArray[numpy.uint16],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        grid: tuple[int, int, int],
+        model: numpy.typing.NDArray[numpy.float64],
+        margin: float,
+        mask: numpy.typing.NDArray[numpy.uint8] | None,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

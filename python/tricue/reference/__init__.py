@@ -9,6 +9,7 @@ from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
+from tricue.reference.cues.color.ellipse_search import ellipse_search
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.rank_contrast import rank_contrast
@@ -51,6 +52,7 @@ __all__ = [
     "depth_histogram",
     "divide_depth",
     "ellipse_histogram",
+    "ellipse_search",
     "floor_plane",
     "height_above",
     "joint_histogram",
