@@ -5,19 +5,26 @@
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
+#include "cues/color/histogram_mean.hpp"
+#include "cues/color/shift_histogram.hpp"
 
 namespace tricue::bindings {
 namespace {
 
 using Corners = std::tuple<int, int, int, int>;
+using Triple = std::tuple<int, int, int>;
+
+ColorSpace color_space(const Triple& bins, int chroma) {
+    const auto [first, second, third] = bins;
+    return {{first, second, third}, chroma};
+}
 
 Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const Corners& region,
-                                       const std::tuple<int, int, int>& bins, int chroma, int step) {
+                                       const Triple& bins, int chroma, int step) {
     const auto view = color_image(image, "image");
     const auto [x0, y0, x1, y1] = region;
     const Region corners{x0, y0, x1, y1};
-    const auto [first, second, third] = bins;
-    const ColorSpace space{{first, second, third}, chroma};
+    const ColorSpace space = color_space(bins, chroma);
     const Region seen = corners.clipped(view);
     return give(unlocked(std::ptrdiff_t{seen.x1 - seen.x0} * (seen.y1 - seen.y0),
                          [&] { return color_bins(view, corners, space, step); }));
@@ -39,8 +46,8 @@ std::tuple<Array<std::int32_t>, Array<std::int32_t>> ellipse_histogram_arrays(
 }
 
 Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Array<double>& ellipse,
-                                    const std::tuple<int, int, int>& grid, const Array<double>& model,
-                                    double margin, const std::optional<Array<std::uint8_t>>& mask) {
+                                    const Triple& grid, const Array<double>& model, double margin,
+                                    const std::optional<Array<std::uint8_t>>& mask) {
     const auto view = bins_image(bins);
     const auto numbers = vector(ellipse, "ellipse");
     const auto [rows, cols, step] = grid;
@@ -50,6 +57,20 @@ Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Arra
     auto found = unlocked(std::ptrdiff_t{view.rows} * view.cols,
                           [&] { return ellipse_search(view, numbers, places, target, marks); });
     return give(std::move(found), {rows, cols, 4});
+}
+
+Array<double> histogram_mean_arrays(const Array<double>& histogram, const Triple& bins, int chroma) {
+    const auto masses = vector(histogram, "histogram");
+    const ColorSpace space = color_space(bins, chroma);
+    return give(unlocked(masses.size(), [&] { return histogram_mean(masses, space); }));
+}
+
+Array<double> shift_histogram_arrays(const Array<double>& histogram, const Triple& bins, int chroma,
+                                     const Array<double>& mean) {
+    const auto masses = vector(histogram, "histogram");
+    const ColorSpace space = color_space(bins, chroma);
+    const auto target = vector(mean, "mean");
+    return give(unlocked(masses.size(), [&] { return shift_histogram(masses, space, target); }));
 }
 
 }  // namespace
@@ -69,6 +90,12 @@ void define_color_search(py::module_& m) {
         "(rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
         "the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up "
         "to margin times as large, and the shares of the mask's pixels (H, W) in both.");
+    m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
+          "(3,) the mean B - G, G - R and B + G + R of a histogram (L,) over the space.");
+    m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
+          py::arg("mean"),
+          "(L,) of the same sum: a histogram moved to a mean (3,), each bin's mass split between the eight "
+          "that it comes to lie between, clamped to the axes.");
 }
 
 }  // namespace tricue::bindings

@@ -158,6 +158,13 @@ def height_above(
     Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where nothing was measured. camera (4,): fx, fy, cx, cy.
     """
 
+def histogram_mean(
+    histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (3,) the mean B - G, G - R and B + G + R of a histogram (L,) over the space.
+    """
+
 def joint_histogram(
     samples: numpy.typing.NDArray[numpy.uint8], bins: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -268,6 +275,16 @@ def section_distance(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     (N,) equation (29) divided by 3 sqrt 2, in [0, 1].
+    """
+
+def shift_histogram(
+    histogram: numpy.typing.NDArray[numpy.float64],
+    bins: tuple[int, int, int],
+    chroma: int,
+    mean: numpy.typing.NDArray[numpy.float64],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (L,) of the same sum: a histogram moved to a mean (3,), each bin's mass split between the eight that it comes to lie between, clamped to the axes.
     """
 
 def skin_blobs(
@@ -429,6 +446,9 @@ class Kernels(Protocol):
         camera: numpy.typing.NDArray[numpy.float64],
         plane: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def histogram_mean(
+        self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -502,6 +522,13 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def section_distance(
         self, sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def shift_histogram(
+        self,
+        histogram: numpy.typing.NDArray[numpy.float64],
+        bins: tuple[int, int, int],
+        chroma: int,
+        mean: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def skin_blobs(
         self,

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""An ellipse of 30x36 pixels at 16x4 places over 4096 bins: native, reference, and a script on OpenCV; and what
-the same takes natively without a walk, with every place counted from scratch.
+"""An ellipse of 30x36 pixels at 16x4 places over 4096 bins: native, reference, and a script on OpenCV; and
+what it takes natively without a walk, every place counted from scratch.
 """
 
 from collections.abc import Callable
@@ -63,7 +63,7 @@ def bench_ellipse_search(
 
 @pytest.mark.benchmark(group="ellipse_search")
 def bench_full_histograms(benchmark: Any, region_bins: Bins, ellipse: Floats) -> None:
-    """The counting alone of all places, in one call, before anything is compared: its counts give the same."""
+    """The counting alone of all places, in one call, before anything is compared: the counts agree."""
     model = _core.ellipse_histogram(region_bins, ellipse[None], 4096, 1.0)[0][0].astype(np.float64)
     places = every_place(ellipse, (4, 16, 1))
     counts = benchmark(_core.ellipse_histogram, region_bins, places, 4096, 1.4)
