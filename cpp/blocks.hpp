@@ -6,13 +6,12 @@
 
 namespace tricue {
 
-/// Calls body(i) for every i in [0, n), in blocks of 64; the last ends at n and may overlap the one before.
+/// Calls body(i) for every i in [0, n), in blocks of 64 or so; the last ends at n and may overlap the one before.
 ///
 /// The compiler vectorises loops over bytes 64 at a time and does what is left over one by one: in a row of
 /// 251 samples that took as long as all the rest. `body` has to bear being called twice: out[i] = f(in[i]).
-template <typename Body>
+template <std::ptrdiff_t kBlock = 64, typename Body>
 [[gnu::always_inline]] inline void in_blocks(std::ptrdiff_t n, Body body) {
-    constexpr std::ptrdiff_t kBlock = 64;
     if (n < kBlock) {
         for (std::ptrdiff_t i = 0; i < n; ++i) body(i);
         return;

@@ -3,6 +3,7 @@
 
 namespace tricue::bindings {
 void define_color(pybind11::module_& m);
+void define_color_search(pybind11::module_& m);
 void define_depth(pybind11::module_& m);
 void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
@@ -14,6 +15,7 @@ PYBIND11_MODULE(_core, m) {
         "tricue's native kernels: arrays in, arrays out, no state. Their NumPy twins are in "
         "tricue.reference.";
     tricue::bindings::define_color(m);
+    tricue::bindings::define_color_search(m);
     tricue::bindings::define_skin(m);
     tricue::bindings::define_depth(m);
     tricue::bindings::define_depth_objects(m);

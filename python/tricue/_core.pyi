@@ -25,6 +25,17 @@ def bhattacharyya(
     (N,) sqrt(1 - mean over the groups of sum sqrt(p q)), in [0, 1].
     """
 
+def color_bins(
+    image: numpy.typing.NDArray[numpy.uint8],
+    region: tuple[int, int, int, int],
+    bins: tuple[int, int, int],
+    chroma: int,
+    step: int,
+) -> numpy.typing.NDArray[numpy.uint16]:
+    """
+    The bin of every step-th pixel of region (x0, y0, x1, y1) in the space (B - G, G - R, B + G + R), (H, W) uint16; 65535 outside the image.
+    """
+
 def color_histogram(
     samples: numpy.typing.NDArray[numpy.uint8], bins: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -144,6 +155,28 @@ def divide_depth(
     The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
     """
 
+def ellipse_histogram(
+    bins: numpy.typing.NDArray[numpy.uint16],
+    ellipses: numpy.typing.NDArray[numpy.float64],
+    size: int,
+    margin: float,
+) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """
+    (N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) of those in the ring between it and one margin times as large.
+    """
+
+def ellipse_search(
+    bins: numpy.typing.NDArray[numpy.uint16],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    grid: tuple[int, int, int],
+    model: numpy.typing.NDArray[numpy.float64],
+    margin: float,
+    mask: numpy.typing.NDArray[numpy.uint8] | None,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up to margin times as large, and the shares of the mask's pixels (H, W) in both.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -163,6 +196,13 @@ def height_above(
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where nothing was measured. camera (4,): fx, fy, cx, cy.
+    """
+
+def histogram_mean(
+    histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (3,) the mean B - G, G - R and B + G + R of a histogram (L,) over the space.
     """
 
 def joint_histogram(
@@ -314,6 +354,16 @@ def section_distance(
     (N,) equation (29) divided by 3 sqrt 2, in [0, 1].
     """
 
+def shift_histogram(
+    histogram: numpy.typing.NDArray[numpy.float64],
+    bins: tuple[int, int, int],
+    chroma: int,
+    mean: numpy.typing.NDArray[numpy.float64],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (L,) of the same sum: a histogram moved to a mean (3,), each bin's mass split between the eight that it comes to lie between, clamped to the axes.
+    """
+
 def skin_blobs(
     image: numpy.typing.NDArray[numpy.uint8],
     reference: numpy.typing.NDArray[numpy.uint8],
@@ -386,6 +436,14 @@ class Kernels(Protocol):
         model: numpy.typing.NDArray[numpy.float32],
         groups: int,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def color_bins(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        region: tuple[int, int, int, int],
+        bins: tuple[int, int, int],
+        chroma: int,
+        step: int,
+    ) -> numpy.typing.NDArray[numpy.uint16]: ...
     def color_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -465,6 +523,22 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def ellipse_histogram(
+        self,
+        bins: numpy.typing.NDArray[numpy.uint16],
+        ellipses: numpy.typing.NDArray[numpy.float64],
+        size: int,
+        margin: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
+    def ellipse_search(
+        self,
+        bins: numpy.typing.NDArray[numpy.uint16],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        grid: tuple[int, int, int],
+        model: numpy.typing.NDArray[numpy.float64],
+        margin: float,
+        mask: numpy.typing.NDArray[numpy.uint8] | None,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -480,6 +554,9 @@ class Kernels(Protocol):
         camera: numpy.typing.NDArray[numpy.float64],
         plane: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def histogram_mean(
+        self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -581,6 +658,13 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def section_distance(
         self, sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def shift_histogram(
+        self,
+        histogram: numpy.typing.NDArray[numpy.float64],
+        bins: tuple[int, int, int],
+        chroma: int,
+        mean: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def skin_blobs(
         self,

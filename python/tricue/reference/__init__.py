@@ -4,9 +4,13 @@ compute.
 """
 
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
+from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_ranks import color_ranks
+from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
+from tricue.reference.cues.color.ellipse_search import ellipse_search
+from tricue.reference.cues.color.histogram_mean import histogram_mean
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.rank_contrast import rank_contrast
@@ -14,6 +18,7 @@ from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 from tricue.reference.cues.color.section_distance import section_distance
+from tricue.reference.cues.color.shift_histogram import shift_histogram
 from tricue.reference.cues.color.skin_blobs import skin_blobs
 from tricue.reference.cues.color.skin_boundary import skin_boundary
 from tricue.reference.cues.color.skin_gaussian import skin_gaussian
@@ -44,6 +49,7 @@ from tricue.reference.fuse.summarize import summarize
 __all__ = [
     "above_floor",
     "bhattacharyya",
+    "color_bins",
     "color_histogram",
     "color_lookup",
     "color_ranks",
@@ -56,8 +62,11 @@ __all__ = [
     "depth_edges",
     "depth_histogram",
     "divide_depth",
+    "ellipse_histogram",
+    "ellipse_search",
     "floor_plane",
     "height_above",
+    "histogram_mean",
     "joint_histogram",
     "learn_contrast",
     "measure_objects",
@@ -72,6 +81,7 @@ __all__ = [
     "reweight",
     "sample_ellipses",
     "section_distance",
+    "shift_histogram",
     "skin_blobs",
     "skin_boundary",
     "skin_gaussian",

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""What a head is searched in: bins of a region, and the ellipse in their middle."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import _core
+
+
+@pytest.fixture(scope="session")
+def region_bins(frame: NDArray[np.uint8]) -> NDArray[np.uint16]:
+    """60x56 pixels over 32 x 32 x 4 bins: room for an ellipse of 30x36, its ring, and 16x4 places of it."""
+    return _core.color_bins(frame, (100, 80, 160, 136), (32, 32, 4), 64, 1)
+
+
+@pytest.fixture(scope="session")
+def ellipse() -> NDArray[np.float64]:
+    """30 pixels wide, 36 high."""
+    return np.array([30.3, 27.8, 15.0, 18.0])

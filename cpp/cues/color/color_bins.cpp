@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/color_bins.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "blocks.hpp"
+#include "check.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr std::int64_t kLongest = 32768;
+
+/// An axis as factors: floor(v bins / levels) is the whole part of (v bins + 1/2) (1 / levels), which is 1 / (2 levels) or more
+/// from a whole number: a hundred times what rounding to float32 moves it.
+struct Axis {
+    float bins, inverse;
+
+    Axis(const ColorSpace& space, std::size_t axis)
+        : bins(static_cast<float>(space.bins[axis])),
+          inverse(1.0F / static_cast<float>(space.levels(axis))) {}
+};
+
+[[gnu::always_inline]] inline int index(int level, const Axis& axis) {
+    return static_cast<int>((static_cast<float>(level) * axis.bins + 0.5F) * axis.inverse);
+}
+
+TRICUE_MULTIVERSION
+void bin_row(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, const ColorSpace& space,
+             std::uint16_t* __restrict bins) {
+    const Axis first(space, 0), second(space, 1), third(space, 2);
+    const int chroma = space.chroma, last = 2 * space.chroma - 1;
+    const int stride0 = space.bins[1] * space.bins[2], stride1 = space.bins[2];
+    in_blocks<32>(n, [=](std::ptrdiff_t x) {
+        const int b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
+        const int i = index(std::min(std::max(b - g + chroma, 0), last), first);
+        const int j = index(std::min(std::max(g - r + chroma, 0), last), second);
+        bins[x] = static_cast<std::uint16_t>(i * stride0 + j * stride1 + index(b + g + r, third));
+    });
+}
+
+/// The pixels that are read, as a range of rows or columns of the bins: those of [begin, begin + step count) inside [0, size).
+struct Span {
+    Eigen::Index begin, end;
+
+    Span(std::int64_t start, Eigen::Index count, int step, int size) {
+        const auto before = [&](std::int64_t limit) {
+            return std::clamp<std::int64_t>((limit - start - step / 2 + step - 1) / step, 0, count);
+        };
+        begin = start + step / 2 < 0 ? before(0) : 0;
+        end = std::max(start + step / 2 < size ? before(size) : 0, begin);
+    }
+};
+
+/// Every step-th pixel, side by side.
+void thin_out(const std::uint8_t* pixels, Eigen::Index n, int step, std::uint8_t* packed) {
+    for (Eigen::Index k = 0; k < n; ++k, pixels += 3 * step, packed += 3) std::copy_n(pixels, 3, packed);
+}
+
+std::int64_t require_side(std::int64_t begin, std::int64_t end) {
+    if (end - begin > kLongest)
+        refuse("region", "sides of at most 32768 pixels", std::to_string(end - begin));
+    return std::max<std::int64_t>(end - begin, 0);
+}
+
+}  // namespace
+
+Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& space, int step) {
+    require_space(space);
+    if (step < 1 || step > 1024) refuse("step", "1 to 1024", step);
+    const auto width = require_side(region.x0, region.x1), height = require_side(region.y0, region.y1);
+
+    Bins bins((height + step - 1) / step, (width + step - 1) / step);
+    const Span rows(region.y0, bins.rows(), step, image.rows), cols(region.x0, bins.cols(), step, image.cols);
+    const auto inside = cols.end - cols.begin;
+    std::vector<std::uint8_t> packed(step > 1 ? static_cast<std::size_t>(3 * inside) : 0);
+    for (Eigen::Index i = 0; i < bins.rows(); ++i) {
+        std::uint16_t* out = bins.data() + i * bins.cols();
+        if (i < rows.begin || i >= rows.end || inside == 0) {
+            std::fill_n(out, bins.cols(), kNoBin);
+            continue;
+        }
+        const auto y = region.y0 + step * i + step / 2, x = region.x0 + step * cols.begin + step / 2;
+        const std::uint8_t* pixels = image.row(static_cast<int>(y)) + 3 * x;
+        if (step > 1) thin_out(pixels, inside, step, packed.data());
+        std::fill_n(out, cols.begin, kNoBin);
+        bin_row(step > 1 ? packed.data() : pixels, inside, space, out + cols.begin);
+        std::fill(out + cols.end, out + bins.cols(), kNoBin);
+    }
+    return bins;
+}
+
+}  // namespace tricue

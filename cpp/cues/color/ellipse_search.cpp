@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/ellipse_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "ellipse_walker.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+using Counts = std::vector<std::int32_t>;
+
+/// Rounds n M_i to whole units.
+TRICUE_MULTIVERSION
+void set_targets(const double* __restrict shares, std::size_t n, double units,
+                 std::int32_t* __restrict targets) {
+    for (std::size_t i = 0; i < n; ++i) targets[i] = static_cast<std::int32_t>(shares[i] * units + 0.5);
+}
+
+struct Sums {
+    std::int32_t inside, around;
+};
+
+/// Σ min(C_i, n M_i) of ellipse and ring; the larger ellipse less the ellipse is the ring.
+TRICUE_MULTIVERSION
+Sums intersect(const std::int32_t* __restrict inner, const std::int32_t* __restrict outer, std::size_t n,
+               const std::int32_t* __restrict inside, const std::int32_t* __restrict around) {
+    std::int32_t first = 0, second = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        first += std::min(inner[i], inside[i]);
+        second += std::min(outer[i] - inner[i], around[i]);
+    }
+    return {first, second};
+}
+
+/// (1) and the share of marks, of the ellipse and of the ring.
+class Scorer {
+public:
+    Scorer(const SlotImage& image, std::int32_t unit)
+        : shares_(image.shares), unit_(unit), inside_(shares_.size()), around_(shares_.size()) {}
+
+    void score(const EllipseWalker& inner, const EllipseWalker& outer, double* out) {
+        retarget(inner.seen(), pixels_inside_, inside_);
+        retarget(outer.seen() - inner.seen(), pixels_around_, around_);
+        const Sums sums =
+            intersect(inner.counts(), outer.counts(), inside_.size(), inside_.data(), around_.data());
+        const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+        out[0] = share(sums.inside, static_cast<double>(pixels_inside_) * unit_);
+        out[1] = share(sums.around, static_cast<double>(pixels_around_) * unit_);
+        out[2] = share(inner.marked(), pixels_inside_);
+        out[3] = share(outer.marked() - inner.marked(), pixels_around_);
+    }
+
+private:
+    /// Only at the edge of the image the number of pixels changes from place to place.
+    void retarget(std::int32_t seen, std::int32_t& pixels, Counts& targets) {
+        if (seen == pixels) return;
+        pixels = seen;
+        set_targets(shares_.data(), targets.size(), static_cast<double>(seen) * unit_, targets.data());
+    }
+
+    const std::vector<double>& shares_;
+    std::int32_t unit_, pixels_inside_ = 0, pixels_around_ = 0;
+    Counts inside_, around_;
+};
+
+void require_grid(const SearchGrid& grid) {
+    const auto [least, most] = std::minmax({grid.rows, grid.cols, grid.step});
+    if (least < 1 || most > 1024 || std::max(grid.rows, grid.cols) * grid.step > 16384)
+        refuse("grid", "rows, cols and a step of 1 to 1024, over at most 16384 pixels",
+               "(" + std::to_string(grid.rows) + ", " + std::to_string(grid.cols) + ", " +
+                   std::to_string(grid.step) + ")");
+}
+
+struct Total {
+    double sum;
+    bool valid;
+};
+
+/// In eight sums, as the order of one can't be changed.
+TRICUE_MULTIVERSION
+Total sum_up(const double* model, Eigen::Index n) {
+    constexpr Eigen::Index kLanes = 8;
+    double sums[kLanes] = {};
+    int strange = 0;
+    for (Eigen::Index i = 0; i + kLanes <= n; i += kLanes)
+        for (Eigen::Index k = 0; k < kLanes; ++k) {
+            sums[k] += model[i + k];
+            strange += !(model[i + k] >= 0.0);
+        }
+    for (Eigen::Index i = n / kLanes * kLanes; i < n; ++i) {
+        sums[0] += model[i];
+        strange += !(model[i] >= 0.0);
+    }
+    double sum = 0.0;
+    for (const double part : sums) sum += part;
+    return {sum, strange == 0};
+}
+
+double require_model(VectorRef model) {
+    if (model.size() == 0) refuse("model", "at least one bin", "none");
+    const Total total = sum_up(model.data(), model.size());
+    if (total.valid && total.sum > 0.0 && std::isfinite(total.sum)) return total.sum;
+    require_finite(model, "model");
+    if (!total.valid) refuse("model", "no negative number", model.minCoeff());
+    refuse("model", "a finite sum above 0", total.sum);
+}
+
+/// All pixels that a shape covers on its way, relative to the image.
+Region area_of(const EllipseShape& shape, const Place& place, const SearchGrid& grid) {
+    const auto [begin, end] = shape.widest();
+    const int x = place.x - grid.cols / 2 * grid.step, y = place.y - grid.rows / 2 * grid.step;
+    return {x + begin, y + shape.top, x + end + (grid.cols - 1) * grid.step,
+            y + shape.bottom() + (grid.rows - 1) * grid.step};
+}
+
+void require_mask(const ImageView& mask, const BinsView& bins) {
+    const auto shape = [](int rows, int cols) {
+        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+    };
+    if (mask.data != nullptr && (mask.rows != bins.rows || mask.cols != bins.cols))
+        refuse("mask", "shape " + shape(bins.rows, bins.cols), shape(mask.rows, mask.cols));
+}
+
+/// The power of two of which 31 bits hold as many as a shape has pixels.
+std::int32_t unit_for(const EllipseShape& shape) {
+    std::int32_t unit = 1;
+    while (unit <= std::numeric_limits<std::int32_t>::max() / 2 / std::max(shape.area, 1)) unit *= 2;
+    return unit;
+}
+
+/// Visits every place, to the right in even rows and to the left in odd ones, and moves a pixel at a time in between.
+template <typename Visit, typename Move>
+void walk(const SearchGrid& grid, Visit visit, Move move) {
+    const auto times = [&](auto direction) {
+        for (int pixel = 0; pixel < grid.step; ++pixel) move(direction);
+    };
+    for (int row = 0; row < grid.rows; ++row) {
+        if (row > 0) times(&EllipseWalker::down);
+        const bool rightward = row % 2 == 0;
+        for (int k = 0; k < grid.cols; ++k) {
+            if (k > 0) times(rightward ? &EllipseWalker::right : &EllipseWalker::left);
+            visit(row, rightward ? k : grid.cols - 1 - k);
+        }
+    }
+}
+
+}  // namespace
+
+States ellipse_search(const BinsView& bins, VectorRef ellipse, const SearchGrid& grid,
+                      const SearchModel& model, const ImageView& mask) {
+    require_size(ellipse, 4, "ellipse");
+    require_ellipses(Eigen::Map<const States>(ellipse.data(), 1, 4), model.margin, "ellipse");
+    require_grid(grid);
+    const double total = require_model(model.histogram);
+    require_bins(bins, model.histogram.size());
+
+    require_mask(mask, bins);
+
+    States found = States::Zero(Eigen::Index{grid.rows} * grid.cols, 4);
+    const EllipseShape shape(ellipse.data(), 1.0), larger(ellipse.data(), model.margin);
+    const Region area = area_of(larger, Place(ellipse.data()), grid);
+    const Region seen = area.clipped({nullptr, bins.rows, bins.cols, 1, 0});
+    if (seen.x0 >= seen.x1 || seen.y0 >= seen.y1) return found;
+
+    const SlotImage image(bins, model.histogram, total, mask, area);
+    const std::ptrdiff_t corner = -larger.top * std::ptrdiff_t{image.cols} - larger.widest().begin;
+    const std::int32_t unit = unit_for(larger);
+    EllipseWalker inner(shape, image, corner, unit), outer(larger, image, corner, unit);
+    Scorer scorer(image, unit);
+    walk(
+        grid, [&](int row, int col) { scorer.score(inner, outer, found.row(row * grid.cols + col).data()); },
+        [&](void (EllipseWalker::*move)()) {
+            (inner.*move)();
+            (outer.*move)();
+        });
+    return found;
+}
+
+}  // namespace tricue

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "cues/color/color_bins.hpp"
+#include "cues/color/ellipse_histogram.hpp"
+#include "cues/color/ellipse_search.hpp"
+#include "cues/color/histogram_mean.hpp"
+#include "cues/color/shift_histogram.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+using Corners = std::tuple<int, int, int, int>;
+using Triple = std::tuple<int, int, int>;
+
+ColorSpace color_space(const Triple& bins, int chroma) {
+    const auto [first, second, third] = bins;
+    return {{first, second, third}, chroma};
+}
+
+Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const Corners& region,
+                                       const Triple& bins, int chroma, int step) {
+    const auto view = color_image(image, "image");
+    const auto [x0, y0, x1, y1] = region;
+    const Region corners{x0, y0, x1, y1};
+    const ColorSpace space = color_space(bins, chroma);
+    const Region seen = corners.clipped(view);
+    return give(unlocked(std::ptrdiff_t{seen.x1 - seen.x0} * (seen.y1 - seen.y0),
+                         [&] { return color_bins(view, corners, space, step); }));
+}
+
+BinsView bins_image(const Array<std::uint16_t>& bins) {
+    const auto array = require<std::uint16_t>(bins, "bins", 2, "uint16 bins (H, W)");
+    return {contiguous<std::uint16_t>(array, "bins"), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1))};
+}
+
+std::tuple<Array<std::int32_t>, Array<std::int32_t>> ellipse_histogram_arrays(
+    const Array<std::uint16_t>& bins, const Array<double>& ellipses, int size, double margin) {
+    const auto view = bins_image(bins);
+    const auto each = states(ellipses, "ellipses");
+    auto counts = unlocked(std::ptrdiff_t{view.rows} * view.cols * each.rows(),
+                           [&] { return ellipse_histogram(view, each, size, margin); });
+    return {give(std::move(counts.inside)), give(std::move(counts.around))};
+}
+
+Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Array<double>& ellipse,
+                                    const Triple& grid, const Array<double>& model, double margin,
+                                    const std::optional<Array<std::uint8_t>>& mask) {
+    const auto view = bins_image(bins);
+    const auto numbers = vector(ellipse, "ellipse");
+    const auto [rows, cols, step] = grid;
+    const SearchGrid places{rows, cols, step};
+    const SearchModel target{vector(model, "model"), margin};
+    const auto marks = mask ? mask_image(*mask, "mask") : ImageView{nullptr, view.rows, view.cols, 1, 0};
+    auto found = unlocked(std::ptrdiff_t{view.rows} * view.cols,
+                          [&] { return ellipse_search(view, numbers, places, target, marks); });
+    return give(std::move(found), {rows, cols, 4});
+}
+
+Array<double> histogram_mean_arrays(const Array<double>& histogram, const Triple& bins, int chroma) {
+    const auto masses = vector(histogram, "histogram");
+    const ColorSpace space = color_space(bins, chroma);
+    return give(unlocked(masses.size(), [&] { return histogram_mean(masses, space); }));
+}
+
+Array<double> shift_histogram_arrays(const Array<double>& histogram, const Triple& bins, int chroma,
+                                     const Array<double>& mean) {
+    const auto masses = vector(histogram, "histogram");
+    const ColorSpace space = color_space(bins, chroma);
+    const auto target = vector(mean, "mean");
+    return give(unlocked(masses.size(), [&] { return shift_histogram(masses, space, target); }));
+}
+
+}  // namespace
+
+void define_color_search(py::module_& m) {
+    m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("bins"),
+          py::arg("chroma"), py::arg("step"),
+          "The bin of every step-th pixel of region (x0, y0, x1, y1) in the space (B - G, G - R, B + G + R), "
+          "(H, W) uint16; 65535 outside the image.");
+    m.def("ellipse_histogram", ellipse_histogram_arrays, py::arg("bins"), py::arg("ellipses"),
+          py::arg("size"), py::arg("margin"),
+          "(N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) "
+          "of those in the ring between it and one margin times as large.");
+    m.def(
+        "ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
+        py::arg("model"), py::arg("margin"), py::arg("mask"),
+        "(rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
+        "the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up "
+        "to margin times as large, and the shares of the mask's pixels (H, W) in both.");
+    m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
+          "(3,) the mean B - G, G - R and B + G + R of a histogram (L,) over the space.");
+    m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
+          py::arg("mean"),
+          "(L,) of the same sum: a histogram moved to a mean (3,), each bin's mass split between the eight "
+          "that it comes to lie between, clamped to the axes.");
+}
+
+}  // namespace tricue::bindings

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+"""The bin of every pixel in the color space of Moreno et al. 2002, section 3.1."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+from tricue.reference.color_space import indices, require_space
+
+NO_BIN = 65535
+
+
+def color_bins(
+    image: NDArray[np.uint8],
+    region: tuple[int, int, int, int],
+    bins: tuple[int, int, int],
+    chroma: int,
+    step: int,
+) -> NDArray[np.uint16]:
+    """(H, W): the bin of every step-th pixel of the region (x0, y0, x1, y1), NO_BIN outside the image."""
+    require_space(bins, chroma)
+    if not 1 <= step <= 1024:
+        refuse("step", "1 to 1024", step)
+    x0, y0, x1, y1 = region
+    for side in (x1 - x0, y1 - y0):
+        if side > 32768:
+            refuse("region", "sides of at most 32768 pixels", side)
+    y, x = np.meshgrid(
+        np.arange(y0, y1, step) + step // 2, np.arange(x0, x1, step) + step // 2, indexing="ij"
+    )
+    inside = (x >= 0) & (x < image.shape[1]) & (y >= 0) & (y < image.shape[0])
+    found = np.full(x.shape, NO_BIN, np.uint16)
+    found[inside] = indices(image[y[inside], x[inside]], bins, chroma)
+    return found

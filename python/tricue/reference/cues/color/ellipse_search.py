@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""The search of a head by the intersection of histograms (Moreno et al. 2002, equation (1))."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import Floats, refuse, require_finite, require_shape
+from tricue.reference.ellipse_shape import NO_BIN, count, masks_of, require_bins, require_ellipses
+
+Bins = NDArray[np.uint16]
+
+
+def require_grid(grid: tuple[int, int, int]) -> None:
+    """Refuse a grid that isn't 1 to 1024 rows, cols and pixels from one to the next, or reaches too far."""
+    if min(grid) < 1 or max(grid) > 1024 or max(grid[:2]) * grid[2] > 16384:
+        refuse("grid", "rows, cols and a step of 1 to 1024, over at most 16384 pixels", grid)
+
+
+def places(ellipse: Floats, grid: tuple[int, int, int]) -> Floats:
+    """(rows, cols, 4): the ellipse at every place of the grid."""
+    rows, cols, step = grid
+    moved = np.tile(ellipse, (rows, cols, 1))
+    moved[..., 0] += (np.arange(cols) - cols // 2) * step
+    moved[..., 1] += (np.arange(rows)[:, None] - rows // 2) * step
+    return moved
+
+
+def ellipse_search(
+    bins: Bins,
+    ellipse: Floats,
+    grid: tuple[int, int, int],
+    model: Floats,
+    margin: float,
+    mask: NDArray[np.uint8] | None,
+) -> Floats:
+    """(rows, cols, 4): (1) of the ellipse and of its ring, and the shares of both that the mask marks.
+
+    Every place is counted from scratch. Pixels outside the image are left out, and nothing is 0.
+    """
+    require_shape("ellipse", ellipse, (4,))
+    require_ellipses("ellipse", ellipse[None], margin)
+    require_grid(grid)
+    _require_model(model)
+    require_bins(bins, model.size)
+    if mask is not None and mask.shape != bins.shape:
+        refuse("mask", f"shape {bins.shape}", mask.shape)
+    marks = np.zeros(bins.shape, np.bool_) if mask is None else mask != 0
+
+    found = np.zeros((*grid[:2], 4))
+    for i, row in enumerate(places(ellipse, grid)):
+        for j, place in enumerate(row):
+            for k, pixels in enumerate(masks_of(place, margin, bins.shape)):
+                counts = count(bins, pixels, model.size)
+                n = counts.sum()
+                if n > 0:
+                    found[i, j, k] = np.minimum(counts, n * model / model.sum()).sum() / n
+                    found[i, j, 2 + k] = np.count_nonzero(marks & pixels & (bins != NO_BIN)) / n
+    return found
+
+
+def _require_model(model: Floats) -> None:
+    if model.size == 0:
+        refuse("model", "at least one bin", "none")
+    require_finite("model", model)
+    if model.min() < 0:
+        refuse("model", "no negative number", float(model.min()))
+    with np.errstate(over="ignore"):
+        total = float(model.sum())
+    if not 0 < total < np.inf:
+        refuse("model", "a finite sum above 0", total)

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+"""The mean color of a histogram (Moreno et al. 2002, equation (7))."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.color_space import mean_color, require_histogram
+
+
+def histogram_mean(
+    histogram: NDArray[np.float64], bins: tuple[int, int, int], chroma: int
+) -> NDArray[np.float64]:
+    """(3,) B - G, G - R, B + G + R: every bin counted at the mean of the levels in it."""
+    require_histogram(histogram, bins, chroma)
+    return mean_color(histogram, bins, chroma)

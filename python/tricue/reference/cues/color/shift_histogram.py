@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+"""A histogram moved to a given mean (Moreno et al. 2002, section 4)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import require_finite, require_shape
+from tricue.reference.color_space import axes, mean_color, require_histogram
+
+Floats = NDArray[np.float64]
+
+
+def shift_histogram(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:
+    """(L,): each bin's mass split between the eight that it comes to lie between, clamped to the axes."""
+    require_histogram(histogram, bins, chroma)
+    require_shape("mean", mean, (3,))
+    require_finite("mean", mean)
+
+    widths = np.array([levels / n for n, _, levels in axes(bins, chroma)])
+    last = np.array(bins) - 1
+    offset = (mean - mean_color(histogram, bins, chroma)) / widths
+    whole = np.floor(np.clip(offset, -2 * last - 2, 2 * last + 2))
+    rest = np.clip(offset, -2 * last - 2, 2 * last + 2) - whole
+    shifted = np.zeros(bins)
+    for place in np.argwhere(histogram.reshape(bins)):
+        for corner in np.ndindex(2, 2, 2):
+            share = np.prod(np.where(corner, rest, 1 - rest))
+            target = np.clip(place + whole + corner, 0, last).astype(int)
+            shifted[tuple(target)] += share * histogram.reshape(bins)[tuple(place)]
+    return shifted.ravel()
