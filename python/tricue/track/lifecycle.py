@@ -9,12 +9,14 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import FrameLike, as_frame
-from tricue.camera.rig import Intrinsics
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.params import Params
 
 State = TypeVar("State")
 P = TypeVar("P", bound=Params)
 
+USUAL_BASELINE = 0.12  # metres, of a rig that nobody described
+LONGEST = 1.0  # s between two frames, as far as a tracker cares
 USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
 
 
@@ -77,6 +79,44 @@ def depth_image(
         hint = "init starts again on another size"
         raise ValueError(f"frame.depth: expected the first frame's shape {shape}, got {depth.shape}; {hint}")
     return depth, channels.timestamp
+
+
+def stereo_pair(
+    frame: FrameLike, shape: tuple[int, ...] | None = None
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float | None]:
+    """The frame's left image, BGR (H, W, 3), its right one, BGR or grey, and its timestamp. ValueError as
+    :func:`color_image`, and without a right image.
+    """
+    channels = as_frame(frame)
+    channels.require("color", "right")
+    right: Any = channels.right
+    return color_image(channels, shape), right, channels.timestamp
+
+
+def elapsed(before: float | None, now: float | None, rate: float) -> float:
+    """Seconds between two timestamps; of a frame at a rate, frames/s, where they tell nothing."""
+    if before is None or now is None or now <= before:
+        return 1 / rate
+    return min(now - before, LONGEST)
+
+
+def rig(value: StereoRig | None) -> StereoRig | None:
+    """The rig itself; TypeError for anything else."""
+    if value is not None and not isinstance(value, StereoRig):
+        raise TypeError(f"rig: expected tricue.StereoRig, got {type(value).__name__}")
+    return value
+
+
+def rig_for(value: StereoRig | None, shape: tuple[int, ...]) -> StereoRig:
+    """The rig, or a usual one where none is given. ValueError where it has another size than the image."""
+    height, width = shape[:2]
+    if value is None:
+        return StereoRig(Intrinsics.from_fov(width, height, USUAL_VIEW), USUAL_BASELINE)
+    camera = value.intrinsics
+    if (camera.width, camera.height) != (width, height):
+        expected = f"the rig's size, {camera.width}x{camera.height}"
+        raise ValueError(f"frame.color: expected {expected}, got {width}x{height}")
+    return value
 
 
 def intrinsics(value: Intrinsics | None) -> Intrinsics | None:

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""The disparity of a head, Moreno et al. 2002, section 3.2: of the pixels in an ellipse, in a range."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.kernels import Kernels
+from tricue.track.eyes import Eyes
+from tricue.track.head_view import NO_CHECK, Ellipse, Pair
+from tricue.track.stereo_params import StereoHeadParams
+
+WIDEST = 31  # window
+LEAST = 8  # pixels with a disparity
+
+
+class Depth(NamedTuple):
+    """The disparity (5), pixels, and the share of the ellipse's pixels that are about there."""
+
+    disparity: float
+    share: float
+
+
+def depth_of(
+    k: Kernels, pair: Pair, ellipse: Ellipse, span: tuple[int, int], p: StereoHeadParams
+) -> Depth | None:
+    """The disparity in an ellipse, pixels, within a span, both ends included; None where nothing is matched."""
+    x, y, minor, major = ellipse
+    left, top = math.floor(x - minor), math.floor(y - major)
+    region = (left, top, math.ceil(x + minor) - left, math.ceil(y + major) - top)
+    window = min(p.window + 2 * (pair.step - 1), WIDEST)
+    found = k.sad_disparity(*pair.grey, region, True, *span, window, p.uniqueness, p.prefilter, NO_CHECK)
+    seen = found[np.isfinite(found)]
+    if seen.size < LEAST:
+        return None
+    disparity = float(np.median(seen) if p.center == "median" else seen.mean())
+    near = np.count_nonzero(np.abs(seen - np.float32(disparity)) <= p.coherent * pair.step)
+    return Depth(disparity, near / (math.pi * minor * major))
+
+
+def span_round(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, int]:
+    """(4): the disparities looked for round an expected one, pixels."""
+    below, above = p.disparities
+    return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
+
+
+def span_everywhere(eyes: Eyes, p: StereoHeadParams) -> tuple[int, int]:
+    """The disparities between far and near, pixels."""
+    return math.floor(eyes.disparity(p.far)), math.ceil(eyes.disparity(p.near))

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""The Kalman filter of Moreno et al. 2002, section 4: position, the model's mean color, the intersection."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.stereo_params import StereoHeadParams
+
+Floats = NDArray[np.float64]
+
+MEASURED = 7  # numbers of (7): X, Y, Z, three colors, the intersection; velocity, where it is there, comes after
+COLOR_DRIFT = 2.0  # levels a frame, standard deviation of the model's mean
+INTERSECTION_DRIFT, INTERSECTION_NOISE = 1.0, 0.1  # section 4.1: unity; ours
+SLOWED = 0.9  # of the velocity, a frame without a measurement
+
+
+class HeadFilter(NamedTuple):
+    """mean (7,) or (10,): X, Y, Z metres, mean color in levels, intersection (1), velocity m/s; covariance."""
+
+    mean: Floats
+    covariance: Floats
+
+    @property
+    def position(self) -> Floats:
+        """(3,) metres."""
+        return self.mean[:3]
+
+    @property
+    def color(self) -> Floats:
+        """(3,) mean of the model's colors."""
+        return self.mean[3:6]
+
+    @property
+    def uncertainty(self) -> Floats:
+        """(3, 3) of the position."""
+        return self.covariance[:3, :3]
+
+
+def start(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilter:
+    """At rest at a measurement (7,), whose covariance (7, 7) is that of the noise."""
+    if p.motion == "constant":
+        return HeadFilter(measured, noise)
+    covariance = np.zeros((10, 10))
+    covariance[:MEASURED, :MEASURED] = noise
+    covariance[MEASURED:, MEASURED:] = p.fastest**2 / 3 * np.eye(3)
+    return HeadFilter(np.concatenate([measured, np.zeros(3)]), covariance)
+
+
+def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
+    """(6), or with the velocity that the head has."""
+    return HeadFilter(*k.kalman_predict(state.mean, state.covariance, *_dynamics(len(state.mean), seconds, p)))
+
+
+def deviations(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
+    """How far a measurement (7,) is from the expected position: its Mahalanobis distance."""
+    off = measured[:3] - predicted.position
+    spread = predicted.uncertainty + noise[:3, :3]
+    return float(np.sqrt(off @ np.linalg.solve(spread, off)))
+
+
+def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
+    """(8): with a measurement (7,) and its covariance (7, 7)."""
+    chosen = np.eye(MEASURED, len(predicted.mean))
+    mean, covariance, *_ = k.kalman_update(predicted.mean, predicted.covariance, measured, chosen, noise)
+    return HeadFilter(mean, covariance)
+
+
+def coasted(predicted: HeadFilter) -> HeadFilter:
+    """Without a measurement: it slows down."""
+    mean = predicted.mean.copy()
+    mean[MEASURED:] *= SLOWED
+    return HeadFilter(mean, predicted.covariance)
+
+
+def _dynamics(size: int, seconds: float, p: StereoHeadParams) -> tuple[Floats, Floats]:
+    """F and Q of a state of 7 or 10 numbers."""
+    transition, noise = np.eye(size), np.zeros((size, size))
+    places, velocities = np.arange(3), np.arange(MEASURED, size)
+    noise[range(3, MEASURED), range(3, MEASURED)] = [COLOR_DRIFT**2] * 3 + [INTERSECTION_DRIFT**2]
+    if p.motion == "constant":
+        noise[places, places] = (p.fastest * seconds) ** 2
+        return transition, noise
+    transition[places, velocities] = seconds
+    power = p.agility**2
+    noise[places, places] = power * seconds**4 / 4
+    noise[places, velocities] = noise[velocities, places] = power * seconds**3 / 2
+    noise[velocities, velocities] = power * seconds**2
+    return transition, noise

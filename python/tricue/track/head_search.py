@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Where the head is in a view: the ellipse with the greatest intersection, Moreno et al. 2002, section 3.1."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.head_view import Ellipse, View
+from tricue.track.stereo_params import StereoHeadParams
+
+Floats = NDArray[np.float64]
+NO_BIN = np.uint16(65535)
+
+
+class Place(NamedTuple):
+    """An ellipse, its score, its intersection (1) with the model, and the share of it at the head's depth."""
+
+    ellipse: Ellipse
+    score: float
+    intersection: float
+    coherence: float
+
+
+def best_place(
+    k: Kernels,
+    view: View,
+    ellipse: Ellipse,
+    histogram: Floats,
+    step: int,
+    search: tuple[int, int],
+    p: StereoHeadParams,
+) -> Place:
+    """The best of the places round an ellipse, at most ``search`` away to each side, and up and down."""
+    across, down = search
+    grid = (2 * down + 1, 2 * across + 1, 1)
+    measured = k.ellipse_search(
+        view.bins, in_places(ellipse, view, step), grid, histogram, p.ring, view.coherent
+    )
+    scores = score(measured, p)
+    row, column = divmod(int(np.argmax(scores)), grid[1])
+    x, y, minor, major = ellipse
+    there = (x + step * (column - across), y + step * (row - down), minor, major)
+    intersection, _, coherence, _ = measured[row, column].tolist()
+    return Place(there, float(scores[row, column]), intersection, coherence)
+
+
+def score(measured: Floats, p: StereoHeadParams) -> Floats:
+    """(...,) of intersections and coherent shares (..., 4), each of an ellipse and of the ring round it."""
+    color, around, coherent, behind = np.moveaxis(measured, -1, 0)
+    return np.asarray(color - p.ring_weight * around + p.depth_weight * (coherent - 0.5 * behind))
+
+
+def in_places(ellipse: Ellipse, view: View, step: int) -> Floats:
+    """(4,) in places of the view."""
+    x, y, minor, major = ellipse
+    return np.array([x / step - view.left, y / step - view.top, minor / step, major / step])
+
+
+def histogram_of(k: Kernels, view: View, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:
+    """(L,) of sum 1, or of 0, C of (2): of the pixels in an ellipse, or of those at the head's depth alone."""
+    bins = view.bins
+    if p.learn == "coherent":
+        bins = np.where(view.coherent, bins, NO_BIN)
+    size = p.bins[0] * p.bins[1] * p.bins[2]
+    inside, _ = k.ellipse_histogram(bins, in_places(ellipse, view, step)[None], size, 1.0)
+    counts: Floats = inside[0].astype(np.float64)
+    return counts / max(counts.sum(), 1.0)
