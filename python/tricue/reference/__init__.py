@@ -30,6 +30,7 @@ from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
@@ -58,6 +59,7 @@ __all__ = [
     "rectangle_histogram",
     "resample",
     "reweight",
+    "sad_disparity",
     "sample_ellipses",
     "section_distance",
     "skin_blobs",
