@@ -21,3 +21,14 @@
 #else
 #define TRICUE_MULTIVERSION
 #endif
+
+/// Put before one of several definitions of the same function, one for each of "default", "arch=x86-64-v3" (AVX2) and
+/// "arch=x86-64-v4" (AVX-512), where each has to be written for the width of its registers (lanes.hpp); the loader picks one, and
+/// what is said above holds. Where TRICUE_VERSIONS isn't defined only "default" may be there.
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && \
+    defined(__linux__) && defined(__GLIBC__) && !defined(TRICUE_SANITIZE)
+#define TRICUE_VERSIONS
+#define TRICUE_VERSION(target_) __attribute__((target(target_)))
+#else
+#define TRICUE_VERSION(target_)
+#endif

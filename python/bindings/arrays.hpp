@@ -69,6 +69,17 @@ inline ImageView color_image(const py::object& object, const char* name) {
             static_cast<int>(array.shape(1)), 3, array.strides(0)};
 }
 
+inline ImageView gray_image(const py::object& object, const char* name) {
+    const auto array = require<std::uint8_t>(object, name, 2, "a uint8 gray image (H, W)");
+    const bool packed = array.shape(1) == 1 || array.strides(1) == 1;
+    const bool downward = array.shape(0) == 1 || array.strides(0) >= 0;
+    if (array.size() > 0 && !(packed && downward))
+        throw py::value_error(std::string(name) +
+                              ": expected packed pixels; numpy.ascontiguousarray makes them");
+    return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), 1, array.strides(0)};
+}
+
 inline DepthView depth_image(const py::object& object, const char* name) {
     const auto array = require<float>(object, name, 2, "a float32 depth image (H, W)");
     constexpr py::ssize_t kSize = sizeof(float);

@@ -8,6 +8,7 @@ void define_depth(pybind11::module_& m);
 void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
 void define_skin(pybind11::module_& m);
+void define_stereo(pybind11::module_& m);
 }  // namespace tricue::bindings
 
 PYBIND11_MODULE(_core, m) {
@@ -19,5 +20,6 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_skin(m);
     tricue::bindings::define_depth(m);
     tricue::bindings::define_depth_objects(m);
+    tricue::bindings::define_stereo(m);
     tricue::bindings::define_fuse(m);
 }

@@ -338,6 +338,22 @@ def reweight(
     Weights (N,) of proposed particles, equation (2), with sum 1, and the log of their mean before normalising.
     """
 
+def sad_disparity(
+    left: numpy.typing.NDArray[numpy.uint8],
+    right: numpy.typing.NDArray[numpy.uint8],
+    region: tuple[int, int, int, int],
+    ellipse: bool,
+    first: int,
+    last: int,
+    window: int = 5,
+    uniqueness: int = 15,
+    prefilter: bool = True,
+    tolerance: int = -1,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Disparities (h, w), pixels, of the region (left, top, width, height) of the left of two rectified gray images (H, W), or of the ellipse in it, x_right = x_left - d, d in [first, last]: equations (3), (4); NaN where rejected or not seen. uniqueness in percent, 0 rejects nothing; tolerance of the left-right check in pixels, negative for none.
+    """
+
 def sample_ellipses(
     image: numpy.typing.NDArray[numpy.uint8],
     ellipses: numpy.typing.NDArray[numpy.float64],
@@ -650,6 +666,19 @@ class Kernels(Protocol):
         root: numpy.typing.NDArray[numpy.float64],
         share: float,
     ) -> tuple[numpy.typing.NDArray[numpy.float64], float]: ...
+    def sad_disparity(
+        self,
+        left: numpy.typing.NDArray[numpy.uint8],
+        right: numpy.typing.NDArray[numpy.uint8],
+        region: tuple[int, int, int, int],
+        ellipse: bool,
+        first: int,
+        last: int,
+        window: int = 5,
+        uniqueness: int = 15,
+        prefilter: bool = True,
+        tolerance: int = -1,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def sample_ellipses(
         self,
         image: numpy.typing.NDArray[numpy.uint8],

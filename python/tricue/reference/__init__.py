@@ -40,6 +40,7 @@ from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
@@ -79,6 +80,7 @@ __all__ = [
     "rectangle_prior",
     "resample",
     "reweight",
+    "sad_disparity",
     "sample_ellipses",
     "section_distance",
     "shift_histogram",

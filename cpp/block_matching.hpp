@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tricue {
+
+/// Rows that block matching reads or writes must go on for this many numbers after their end: it works on whole registers.
+constexpr int kMatchPadding = 32;
+
+/// One row of the left image and the same of the right, which begins where the first candidate matches the left;
+/// candidate k is k pixels further left.
+struct RowPair {
+    const std::uint8_t* left;
+    const std::uint8_t* right;
+};
+
+/// Sums of |left - right|, clipped, over as many rows as the window has, one row of sums for each candidate.
+struct ColumnSums {
+    std::uint16_t* data;
+    std::ptrdiff_t stride;  ///< from one candidate to the next
+    int candidates;
+};
+
+/// What the search finds for each pixel of a row; kNoCost stands for a candidate that isn't there.
+struct Matches {
+    std::uint16_t* best;    ///< the least cost
+    std::uint16_t* at;      ///< the first candidate that has it
+    std::uint16_t* below;   ///< the cost one candidate below
+    std::uint16_t* above;   ///< one above; not defined where `at` is the last
+    std::uint16_t* second;  ///< the least cost of all but `at` and those next to it
+};
+constexpr std::uint16_t kNoCost = 65535;
+
+/// What is looked for in the sums.
+struct Search {
+    int window;       ///< that of pixel x is columns [x, x + window) of the sums
+    bool second;      ///< whether the second best is needed; else it isn't defined
+    bool all_inside;  ///< whether all candidates lie in the right image; else
+    const std::uint16_t*
+        outside;  ///< outside[x - k] is 0 where candidate k of pixel x does, kNoCost elsewhere
+};
+
+/// Moves the window down by a row: what comes in is added to `n` columns of the sums, what goes out subtracted; of each pair
+/// of pixels the difference, at most `limit`.
+void move_down(const RowPair& in, const RowPair& out, int n, std::uint8_t limit, const ColumnSums& sums);
+
+/// Finds the best candidate of `n` pixels.
+void find_matches(const ColumnSums& sums, const Search& search, int n, const Matches& matches);
+
+}  // namespace tricue

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""Disparity by sums of absolute differences (Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+
+Image = NDArray[np.uint8]
+Ints = NDArray[np.int64]
+Disparity = NDArray[np.float32]
+Rectangle = tuple[int, int, int, int]
+
+NONE = 65535  # the cost of a candidate that isn't there
+CLIP = 31
+
+
+def sad_disparity(
+    left: Image,
+    right: Image,
+    region: Rectangle,
+    ellipse: bool,
+    first: int,
+    last: int,
+    window: int = 5,
+    uniqueness: int = 15,
+    prefilter: bool = True,
+    tolerance: int = -1,
+) -> Disparity:
+    """(h, w) of the region (left, top, width, height): the best d of each pixel, equations (3), (4)."""
+    _require(left, right, region, first, last, window, uniqueness, prefilter)
+    if prefilter:
+        left_gray, right_gray = x_sobel(left), x_sobel(right)
+    else:
+        left_gray, right_gray = left.astype(np.int64), right.astype(np.int64)
+    x, y, width, height = region
+    disparity = np.full((height, width), np.nan, np.float32)
+    rows = np.flatnonzero((y + np.arange(height) >= 0) & (y + np.arange(height) < left.shape[0]))
+    columns = np.flatnonzero((x + np.arange(width) >= 0) & (x + np.arange(width) < left.shape[1]))
+    if rows.size == 0 or columns.size == 0:
+        return disparity
+    u, v = np.meshgrid(x + columns, y + rows)
+    candidates = np.arange(max(first, u[0, 0] - left.shape[1] + 1), min(last, u[0, -1]) + 1)
+    if candidates.size == 0:
+        return disparity
+    most = CLIP if prefilter else 255
+    costs = np.stack([window_cost(left_gray, right_gray, u, v, d, window, most) for d in candidates])
+
+    found = costs.argmin(axis=0)  # the first of equal ones
+    best = costs.min(axis=0)
+    fine = (candidates[found] + fraction(costs, found)).astype(np.float32)
+    rejected = (best == NONE) | ambiguous(costs, found, best, uniqueness)
+    if ellipse:
+        rejected |= ~inscribed(width, height)[np.ix_(rows, columns)]
+    if tolerance >= 0:
+        rejected |= ~consistent(u, candidates[found], np.where(rejected, NONE, best), tolerance)
+    disparity[np.ix_(rows, columns)] = np.where(rejected, np.float32(np.nan), fine)
+    return disparity
+
+
+def x_sobel(image: Image) -> Ints:
+    """The slope along x, smoothed along y by 1, 2, 1 and clipped at 31; beyond the edge its pixels go on."""
+    padded = np.pad(image.astype(np.int64), 1, mode="edge")
+    smooth = padded[:-2] + 2 * padded[1:-1] + padded[2:]
+    return np.clip(smooth[:, 2:] - smooth[:, :-2], -CLIP, CLIP) + CLIP
+
+
+def window_cost(left: Ints, right: Ints, u: Ints, v: Ints, d: int, window: int, most: int) -> Ints:
+    """The sum in equation (3) for each pixel (u, v), each difference counted up to `most`; NONE where u - d
+    is outside the right image.
+    """
+    rows, columns = left.shape
+    cost = np.zeros(u.shape, np.int64)
+    radius = window // 2
+    for j in range(-radius, radius + 1):
+        for i in range(-radius, radius + 1):
+            row = np.clip(v + j, 0, rows - 1)
+            ours, theirs = np.clip(u + i, 0, columns - 1), np.clip(u + i - d, 0, columns - 1)
+            cost += np.minimum(abs(left[row, ours] - right[row, theirs]), most)
+    return np.where((u - d >= 0) & (u - d < columns), cost, NONE)
+
+
+def fraction(costs: Ints, found: Ints) -> Disparity:
+    """Where two lines of opposite slope through three costs meet, -0.5 to 0.5; 0 at the end of the range."""
+    padded = np.pad(costs, ((1, 1), (0, 0), (0, 0)), constant_values=NONE)
+    below, best, above = (np.take_along_axis(padded, found[None] + k, 0)[0] for k in (0, 1, 2))
+    rise = np.maximum(2 * (np.maximum(below, above) - best), 1)
+    inside = (below != NONE) & (above != NONE)
+    lean = (below - above).astype(np.float32) / rise.astype(np.float32)
+    return np.asarray(np.where(inside, lean, np.float32(0)))
+
+
+def ambiguous(costs: Ints, found: Ints, best: Ints, uniqueness: int) -> NDArray[np.bool_]:
+    """Whether a candidate that isn't next to the best costs at most so many percent more."""
+    if uniqueness == 0:
+        return np.zeros(best.shape, np.bool_)
+    apart = abs(np.arange(len(costs))[:, None, None] - found) > 1
+    rivals = apart & (costs != NONE) & (100 * costs <= (100 + uniqueness) * best)
+    return np.asarray(rivals.any(axis=0))
+
+
+def inscribed(width: int, height: int) -> NDArray[np.bool_]:
+    """(height, width): the pixels whose centres lie in the ellipse."""
+    across, down = 2 * np.arange(width) + 1 - width, 2 * np.arange(height)[:, None] + 1 - height
+    inside: NDArray[np.bool_] = (across * height) ** 2 + (down * width) ** 2 <= (width * height) ** 2
+    return inside
+
+
+def consistent(u: Ints, disparity: Ints, cost: Ints, tolerance: int) -> NDArray[np.bool_]:
+    """Whether the pixel that claims the same column of the right image at the least cost agrees."""
+    agrees = np.ones(u.shape, np.bool_)
+    for row in range(len(u)):
+        claimed = u[row] - disparity[row]
+        for column in np.unique(claimed):
+            same = np.flatnonzero(claimed == column)
+            winner = same[cost[row, same].argmin()]  # the leftmost of equal ones
+            agrees[row, same] = abs(disparity[row, same] - disparity[row, winner]) <= tolerance
+    return agrees
+
+
+def _require(
+    left: Image,
+    right: Image,
+    region: Rectangle,
+    first: int,
+    last: int,
+    window: int,
+    uniqueness: int,
+    prefilter: bool,
+) -> None:
+    if left.size == 0:
+        refuse("left", "at least one pixel", "none")
+    if left.shape != right.shape:
+        refuse("right", f"the left image's shape {left.shape}", right.shape)
+    if not 1 <= min(region[2:]) <= max(region[2:]) <= 16384:
+        refuse("region", "a width and height of 1 to 16384", f"{region[2]} x {region[3]}")
+    if first > last:
+        refuse("last", f"at least first, {first}", last)
+    if last - first >= 4096:
+        refuse("last", f"at most 4095 above first, {first}", last)
+    widest = 31 if prefilter else 15
+    if not (1 <= window <= widest and window % 2 == 1):
+        refuse("window", f"an odd number, 1 to {widest}", window)
+    if not 0 <= uniqueness <= 100:
+        refuse("uniqueness", "0 to 100", uniqueness)
