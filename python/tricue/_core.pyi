@@ -6,6 +6,16 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+def back_project(
+    measurements: numpy.typing.NDArray[numpy.float64],
+    variances: numpy.typing.NDArray[numpy.float64],
+    camera: numpy.typing.NDArray[numpy.float64],
+    baseline: float,
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Points (N, 3), metres, and covariances (N, 3, 3) = J S J^T of u, v, d (N, 3), pixels, for the rectified rig camera (4,): fx, fy, cx, cy, and baseline in metres; variances (3,) of u, v, d, or S (N, 3, 3). NaN where u, v, d aren't finite or d isn't above 0.
+    """
+
 def bhattacharyya(
     histograms: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32], groups: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -310,6 +320,13 @@ def summarize(
 class Kernels(Protocol):
     """What native and reference kernels have in common; modules follow it."""
 
+    def back_project(
+        self,
+        measurements: numpy.typing.NDArray[numpy.float64],
+        variances: numpy.typing.NDArray[numpy.float64],
+        camera: numpy.typing.NDArray[numpy.float64],
+        baseline: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
     def bhattacharyya(
         self,
         histograms: numpy.typing.NDArray[numpy.float32],

@@ -3,6 +3,7 @@
 compute.
 """
 
+from tricue.reference.camera.back_project import back_project
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -37,6 +38,7 @@ from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
 
 __all__ = [
+    "back_project",
     "bhattacharyya",
     "color_histogram",
     "color_lookup",
