@@ -142,6 +142,32 @@ def joint_histogram(
     Joint color histograms (N, bins^3) of sum 1; cell (b bins + g) bins + r.
     """
 
+def kalman_predict(
+    mean: numpy.typing.NDArray[numpy.float64],
+    covariance: numpy.typing.NDArray[numpy.float64],
+    transition: numpy.typing.NDArray[numpy.float64],
+    noise: numpy.typing.NDArray[numpy.float64],
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Mean (D,) and covariance (D, D) one step on: F x, F P F^T + Q, with F the transition and Q the noise.
+    """
+
+def kalman_update(
+    mean: numpy.typing.NDArray[numpy.float64],
+    covariance: numpy.typing.NDArray[numpy.float64],
+    measurement: numpy.typing.NDArray[numpy.float64],
+    observation: numpy.typing.NDArray[numpy.float64],
+    noise: numpy.typing.NDArray[numpy.float64],
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    Mean (D,), covariance (D, D), innovation (M,) and its covariance (M, M) after a measurement (M,) = H x + noise (M, M), H the observation (M, D).
+    """
+
 def learn_contrast(
     inside: numpy.typing.NDArray[numpy.uint8],
     around: numpy.typing.NDArray[numpy.uint8],
@@ -408,6 +434,26 @@ class Kernels(Protocol):
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def kalman_predict(
+        self,
+        mean: numpy.typing.NDArray[numpy.float64],
+        covariance: numpy.typing.NDArray[numpy.float64],
+        transition: numpy.typing.NDArray[numpy.float64],
+        noise: numpy.typing.NDArray[numpy.float64],
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
+    def kalman_update(
+        self,
+        mean: numpy.typing.NDArray[numpy.float64],
+        covariance: numpy.typing.NDArray[numpy.float64],
+        measurement: numpy.typing.NDArray[numpy.float64],
+        observation: numpy.typing.NDArray[numpy.float64],
+        noise: numpy.typing.NDArray[numpy.float64],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+    ]: ...
     def learn_contrast(
         self,
         inside: numpy.typing.NDArray[numpy.uint8],

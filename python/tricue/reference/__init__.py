@@ -32,6 +32,8 @@ from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
+from tricue.reference.fuse.kalman_predict import kalman_predict
+from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
@@ -53,6 +55,8 @@ __all__ = [
     "floor_plane",
     "height_above",
     "joint_histogram",
+    "kalman_predict",
+    "kalman_update",
     "learn_contrast",
     "propose",
     "rank_contrast",
