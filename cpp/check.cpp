@@ -62,6 +62,17 @@ void require_finite(StatesRef values, const char* name) {
     require_finite(values.data(), values.size(), name);
 }
 
+void require_covariance(StatesRef values, Eigen::Index size, const char* name) {
+    require_shape(values, size, size, name);
+    require_finite(values, name);
+    if (size == 0) return;
+    const auto variances = values.matrix().diagonal().array();
+    if (variances.minCoeff() < 0.0) refuse(name, "no negative variance", variances.minCoeff());
+    const double skew = (values - values.transpose()).abs().maxCoeff();
+    if (skew > 1e-9 * variances.maxCoeff())
+        refuse(name, "a symmetric matrix", "entries that differ by " + std::to_string(skew));
+}
+
 double require_weights(VectorRef weights) {
     double total = 0.0;
     for (const double weight : weights) {

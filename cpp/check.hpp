@@ -14,6 +14,9 @@ void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const
 void require_finite(VectorRef values, const char* name);
 void require_finite(StatesRef values, const char* name);
 
+/// Square, finite, without a negative variance, and symmetric but for rounding: to 1e-9 of its greatest variance.
+void require_covariance(StatesRef values, Eigen::Index size, const char* name);
+
 /// Weights are finite, not negative, and have a finite sum above 0, which is returned.
 double require_weights(VectorRef weights);
 

@@ -9,7 +9,7 @@ from tricue import _core, reference
 
 ROOT = Path(__file__).parents[1]
 TWINS = ROOT / "python" / "tricue" / "reference"
-AREAS = ("cues", "fuse")
+AREAS = ("camera", "cues", "fuse")
 
 
 def names_under(folder: Path, suffix: str, prefix: str = "") -> list[Path]:
@@ -23,7 +23,9 @@ def functions(file: Path) -> set[str]:
     return {node.name for node in ast.parse(file.read_text()).body if isinstance(node, ast.FunctionDef)}
 
 
-KERNELS = names_under(ROOT / "cpp", ".hpp")
+SOURCES = set(names_under(ROOT / "cpp", ".cpp"))
+# Under camera lie also the types that kernels share, headers without a source.
+KERNELS = [path for path in names_under(ROOT / "cpp", ".hpp") if path.parts[0] != "camera" or path in SOURCES]
 STUB = functions(ROOT / "python" / "tricue" / "_core.pyi")
 
 

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "camera/back_project.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 
 namespace tricue::bindings {
@@ -21,6 +22,28 @@ Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const R
     return give(unlocked(work, [&] { return sad_disparity(view, other, part, {first, last}, matching); }));
 }
 
+/// Variances (3,) as one row of 3, covariances (N, 3, 3) as rows of 9.
+Eigen::Map<const States> variance_rows(const Array<double>& object) {
+    const char* expected = "float64 variances (3,) or covariances (N, 3, 3)";
+    const bool single = py::isinstance<py::array>(object) && py::cast<py::array>(object).ndim() == 1;
+    const auto array = require<double>(object, "variances", single ? 1 : 3, expected);
+    const auto size = array.shape(array.ndim() - 1);
+    if (size != 3 || array.shape(array.ndim() - (single ? 1 : 2)) != 3)
+        throw py::value_error(std::string("variances: expected ") + expected + ", got " + describe(array));
+    return {contiguous<double>(array, "variances"), single ? 1 : array.shape(0), single ? 3 : 9};
+}
+
+std::tuple<Array<double>, Array<double>> back_project_arrays(const Array<double>& measurements,
+                                                             const Array<double>& variances,
+                                                             const Array<double>& camera, double baseline) {
+    const auto pixels = states(measurements, "measurements");
+    const auto noises = variance_rows(variances);
+    const auto lens = vector(camera, "camera");
+    auto result = unlocked(9 * pixels.size(), [&] { return back_project(pixels, noises, lens, baseline); });
+    const auto count = static_cast<py::ssize_t>(pixels.rows());
+    return {give(std::move(result.points)), give(std::move(result.covariances), {count, 3, 3})};
+}
+
 }  // namespace
 
 void define_stereo(py::module_& m) {
@@ -32,6 +55,13 @@ void define_stereo(py::module_& m) {
           "(3), (4); NaN where rejected or not seen. uniqueness in percent, 0 rejects nothing; tolerance of "
           "the "
           "left-right check in pixels, negative for none.");
+    m.def(
+        "back_project", back_project_arrays, py::arg("measurements"), py::arg("variances"), py::arg("camera"),
+        py::arg("baseline"),
+        "Points (N, 3), metres, and covariances (N, 3, 3) = J S J^T of u, v, d (N, 3), pixels, for the "
+        "rectified "
+        "rig camera (4,): fx, fy, cx, cy, and baseline in metres; variances (3,) of u, v, d, or S (N, 3, 3). "
+        "NaN where u, v, d aren't finite or d isn't above 0.");
 }
 
 }  // namespace tricue::bindings

@@ -18,6 +18,16 @@ def above_floor(
     Depth (H, W) where it is in [near, far) and more than clear above the floor, NaN elsewhere, metres. plane (4,): nx, ny, nz, d, zeros for none; camera (4,): fx, fy, cx, cy.
     """
 
+def back_project(
+    measurements: numpy.typing.NDArray[numpy.float64],
+    variances: numpy.typing.NDArray[numpy.float64],
+    camera: numpy.typing.NDArray[numpy.float64],
+    baseline: float,
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Points (N, 3), metres, and covariances (N, 3, 3) = J S J^T of u, v, d (N, 3), pixels, for the rectified rig camera (4,): fx, fy, cx, cy, and baseline in metres; variances (3,) of u, v, d, or S (N, 3, 3). NaN where u, v, d aren't finite or d isn't above 0.
+    """
+
 def bhattacharyya(
     histograms: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32], groups: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -210,6 +220,32 @@ def joint_histogram(
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
     Joint color histograms (N, bins^3) of sum 1; cell (b bins + g) bins + r.
+    """
+
+def kalman_predict(
+    mean: numpy.typing.NDArray[numpy.float64],
+    covariance: numpy.typing.NDArray[numpy.float64],
+    transition: numpy.typing.NDArray[numpy.float64],
+    noise: numpy.typing.NDArray[numpy.float64],
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Mean (D,) and covariance (D, D) one step on: F x, F P F^T + Q, with F the transition and Q the noise.
+    """
+
+def kalman_update(
+    mean: numpy.typing.NDArray[numpy.float64],
+    covariance: numpy.typing.NDArray[numpy.float64],
+    measurement: numpy.typing.NDArray[numpy.float64],
+    observation: numpy.typing.NDArray[numpy.float64],
+    noise: numpy.typing.NDArray[numpy.float64],
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    Mean (D,), covariance (D, D), innovation (M,) and its covariance (M, M) after a measurement (M,) = H x + noise (M, M), H the observation (M, D).
     """
 
 def learn_contrast(
@@ -446,6 +482,13 @@ class Kernels(Protocol):
         far: float,
         clear: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def back_project(
+        self,
+        measurements: numpy.typing.NDArray[numpy.float64],
+        variances: numpy.typing.NDArray[numpy.float64],
+        camera: numpy.typing.NDArray[numpy.float64],
+        baseline: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
     def bhattacharyya(
         self,
         histograms: numpy.typing.NDArray[numpy.float32],
@@ -576,6 +619,26 @@ class Kernels(Protocol):
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def kalman_predict(
+        self,
+        mean: numpy.typing.NDArray[numpy.float64],
+        covariance: numpy.typing.NDArray[numpy.float64],
+        transition: numpy.typing.NDArray[numpy.float64],
+        noise: numpy.typing.NDArray[numpy.float64],
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
+    def kalman_update(
+        self,
+        mean: numpy.typing.NDArray[numpy.float64],
+        covariance: numpy.typing.NDArray[numpy.float64],
+        measurement: numpy.typing.NDArray[numpy.float64],
+        observation: numpy.typing.NDArray[numpy.float64],
+        noise: numpy.typing.NDArray[numpy.float64],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+    ]: ...
     def learn_contrast(
         self,
         inside: numpy.typing.NDArray[numpy.uint8],

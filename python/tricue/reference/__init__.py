@@ -3,6 +3,7 @@
 compute.
 """
 
+from tricue.reference.camera.back_project import back_project
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
@@ -41,6 +42,8 @@ from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
+from tricue.reference.fuse.kalman_predict import kalman_predict
+from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
@@ -49,6 +52,7 @@ from tricue.reference.fuse.summarize import summarize
 
 __all__ = [
     "above_floor",
+    "back_project",
     "bhattacharyya",
     "color_bins",
     "color_histogram",
@@ -69,6 +73,8 @@ __all__ = [
     "height_above",
     "histogram_mean",
     "joint_histogram",
+    "kalman_predict",
+    "kalman_update",
     "learn_contrast",
     "measure_objects",
     "plane_support",

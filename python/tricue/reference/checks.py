@@ -28,6 +28,18 @@ def require_finite(name: str, values: Floats) -> None:
         refuse(name, "finite numbers", float(strange[0]))
 
 
+def require_covariance(name: str, values: Floats, size: int) -> None:
+    """Refuse what isn't square, finite and symmetric, and negative variances."""
+    require_shape(name, values, (size, size))
+    require_finite(name, values)
+    variances = values.diagonal()
+    if variances.min(initial=0) < 0:
+        refuse(name, "no negative variance", float(variances.min()))
+    skew = float(abs(values - values.T).max(initial=0))
+    if skew > 1e-9 * variances.max(initial=0):
+        refuse(name, "a symmetric matrix", f"entries that differ by {skew:f}")
+
+
 def require_weights(weights: Floats) -> None:
     """Refuse weights that are negative, not finite, or without a finite sum above 0."""
     strange = weights[~(np.isfinite(weights) & (weights >= 0))]

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+"""One step of the head tracker's seven numbers: native, reference, and OpenCV's filter."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Floats = NDArray[np.float64]
+random = np.random.default_rng(0)
+ROOT = random.normal(size=(7, 7))
+ARGUMENTS = random.normal(size=7), ROOT @ ROOT.T, np.eye(7) + np.eye(7, k=3) / 30, 0.01 * np.eye(7)
+PEER = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
+
+
+def peer(mean: Floats, covariance: Floats, transition: Floats, noise: Floats) -> tuple[Floats, Floats]:
+    """OpenCV's, which has a state of its own that must be set, and writes into what it was set to."""
+    PEER.statePost, PEER.errorCovPost = mean.copy(), covariance.copy()
+    PEER.transitionMatrix, PEER.processNoiseCov = transition, noise
+    return PEER.predict()[:, 0], PEER.errorCovPre
+
+
+CONTENDERS = {"native": _core.kalman_predict, "reference": reference.kalman_predict, "peer": peer}
+
+
+@pytest.mark.benchmark(group="kalman_predict")
+@pytest.mark.parametrize("predict", CONTENDERS.values(), ids=CONTENDERS)
+def bench_kalman_predict(benchmark: Any, predict: Callable[..., tuple[Floats, Floats]]) -> None:
+    """All predict the same."""
+    for ours, theirs in zip(
+        benchmark(predict, *ARGUMENTS), reference.kalman_predict(*ARGUMENTS), strict=True
+    ):
+        assert_allclose(ours, theirs, rtol=1e-11, atol=1e-11)

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+"""One measurement of the head tracker's seven numbers: native, reference, and OpenCV's filter."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Floats = NDArray[np.float64]
+random = np.random.default_rng(0)
+ROOT = random.normal(size=(7, 7))
+ARGUMENTS = random.normal(size=7), ROOT @ ROOT.T, random.normal(size=7), np.eye(7), 0.1 * np.eye(7)
+PEER = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
+
+
+def peer(
+    mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
+) -> tuple[Floats, ...]:
+    """OpenCV's, which has a state of its own that must be set, and tells no innovation covariance."""
+    PEER.statePre, PEER.errorCovPre = mean.copy(), covariance.copy()
+    PEER.measurementMatrix, PEER.measurementNoiseCov = observation, noise
+    return PEER.correct(measurement)[:, 0], PEER.errorCovPost
+
+
+CONTENDERS = {"native": _core.kalman_update, "reference": reference.kalman_update, "peer": peer}
+
+
+@pytest.mark.benchmark(group="kalman_update")
+@pytest.mark.parametrize("update", CONTENDERS.values(), ids=CONTENDERS)
+def bench_kalman_update(benchmark: Any, update: Callable[..., tuple[Floats, ...]]) -> None:
+    """All correct the same."""
+    expected = reference.kalman_update(*ARGUMENTS)[:2]
+    for ours, theirs in zip(benchmark(update, *ARGUMENTS)[:2], expected, strict=True):
+        assert_allclose(ours, theirs, rtol=1e-9, atol=1e-9)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/kalman_update.hpp"
+
+#include <Eigen/Cholesky>
+#include <limits>
+
+#include "belief.hpp"
+#include "check.hpp"
+
+namespace tricue {
+namespace {
+
+/// A pivot that is no more than rounding, measured by its own variance whatever the unit, is 0.
+Eigen::LLT<Matrix> positive_root(const States& s) {
+    Eigen::LLT<Matrix> root(s.matrix());
+    const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(s.rows());
+    const Vector pivots = root.matrixLLT().diagonal().array().square();
+    const Vector variances = s.matrix().diagonal().array();
+    if (root.info() != Eigen::Success || !(pivots > rounding * variances).all() || !s.isFinite().all())
+        refuse("noise", "with the state's a positive definite innovation covariance", "one that isn't");
+    return root;
+}
+
+}  // namespace
+
+Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
+                         StatesRef noise) {
+    const Eigen::Index size = mean.size(), measured = measurement.size();
+    require_belief(mean, covariance);
+    if (measured < 1) refuse("measurement", "at least one number", "none");
+    require_finite(measurement, "measurement");
+    require_shape(observation, measured, size, "observation");
+    require_finite(observation, "observation");
+    require_covariance(noise, measured, "noise");
+
+    const Matrix p = covariance.matrix(), h = observation.matrix(), r = noise.matrix();
+    const Matrix hp = h * p;
+    States s = symmetric(hp * h.transpose() + r);
+    const Matrix gain = positive_root(s).solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
+    const Matrix rest = Matrix::Identity(size, size) - gain * h;
+    Vector innovation = (measurement.matrix() - h * mean.matrix()).array();
+    return {mean + (gain * innovation.matrix()).array(),
+            symmetric(rest * p * rest.transpose() + gain * r * gain.transpose()), std::move(innovation),
+            std::move(s)};
+}
+
+}  // namespace tricue

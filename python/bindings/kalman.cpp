@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.hpp"
+#include "fuse/kalman_predict.hpp"
+#include "fuse/kalman_update.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+using Numbers = Array<double>;
+
+std::tuple<Numbers, Numbers> kalman_predict_arrays(const Numbers& mean, const Numbers& covariance,
+                                                   const Numbers& transition, const Numbers& noise) {
+    const auto x = vector(mean, "mean");
+    const auto p = states(covariance, "covariance"), f = states(transition, "transition");
+    const auto q = states(noise, "noise");
+    auto next = unlocked(f.size(), [&] { return kalman_predict(x, p, f, q); });
+    return {give(std::move(next.mean)), give(std::move(next.covariance))};
+}
+
+std::tuple<Numbers, Numbers, Numbers, Numbers> kalman_update_arrays(const Numbers& mean,
+                                                                    const Numbers& covariance,
+                                                                    const Numbers& measurement,
+                                                                    const Numbers& observation,
+                                                                    const Numbers& noise) {
+    const auto x = vector(mean, "mean"), z = vector(measurement, "measurement");
+    const auto p = states(covariance, "covariance"), h = states(observation, "observation");
+    const auto r = states(noise, "noise");
+    auto result = unlocked(p.size(), [&] { return kalman_update(x, p, z, h, r); });
+    return {give(std::move(result.mean)), give(std::move(result.covariance)),
+            give(std::move(result.innovation)), give(std::move(result.innovation_covariance))};
+}
+
+}  // namespace
+
+void define_kalman(py::module_& m) {
+    m.def("kalman_predict", kalman_predict_arrays, py::arg("mean"), py::arg("covariance"),
+          py::arg("transition"), py::arg("noise"),
+          "Mean (D,) and covariance (D, D) one step on: F x, F P F^T + Q, with F the transition and Q the "
+          "noise.");
+    m.def("kalman_update", kalman_update_arrays, py::arg("mean"), py::arg("covariance"),
+          py::arg("measurement"), py::arg("observation"), py::arg("noise"),
+          "Mean (D,), covariance (D, D), innovation (M,) and its covariance (M, M) after a measurement (M,) "
+          "= H x "
+          "+ noise (M, M), H the observation (M, D).");
+}
+
+}  // namespace tricue::bindings

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""Points from a stereo pair's measurements (Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_covariance, require_finite, require_shape
+
+Floats = NDArray[np.float64]
+
+
+def back_project(
+    measurements: Floats, variances: Floats, camera: Floats, baseline: float
+) -> tuple[Floats, Floats]:
+    """Points (N, 3), metres, and covariances (N, 3, 3) = J S J^T from u, v, d (N, 3), pixels.
+
+    variances (3,): those of u, v, d, or S (N, 3, 3). NaN where u, v, d aren't finite or d isn't above 0.
+    """
+    count = len(measurements)
+    require_shape("measurements", measurements, (count, 3))
+    if variances.ndim == 1:
+        require_shape("variances", variances, (3,))
+        noises = np.tile(np.diag(variances), (count, 1, 1))
+        require_covariance("variances", np.diag(variances), 3)
+    else:
+        require_shape("variances", variances, (len(variances), 3, 3))
+        if len(variances) != count:
+            refuse("variances", f"one covariance for each of {count} measurements", len(variances))
+        noises = variances
+    for noise in noises:
+        require_covariance("variances", noise, 3)
+    require_shape("camera", camera, (4,))
+    require_finite("camera", camera)
+    fx, fy, cx, cy = camera
+    for name, value in (("fx", fx), ("fy", fy), ("baseline", baseline)):
+        if not 0 < value < np.inf:
+            refuse(name, "a finite number above 0", float(value))
+
+    points, covariances = np.full((count, 3), np.nan), np.full((count, 3, 3), np.nan)
+    for i, (u, v, d) in enumerate(measurements):
+        if not (d > 0 and np.isfinite([u, v, d]).all()):
+            continue
+        z = fx * baseline / d
+        x, y = (u - cx) * z / fx, (v - cy) * z / fy
+        points[i] = x, y, z
+        jacobian = np.array([[z / fx, 0, -x / d], [0, z / fy, -y / d], [0, 0, -z / d]])
+        covariance = jacobian @ noises[i] @ jacobian.T
+        covariances[i] = (covariance + covariance.T) / 2
+    return points, covariances

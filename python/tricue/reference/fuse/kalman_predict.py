@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: MIT
+"""Kalman prediction (Kalman 1960; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (6))."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.belief import require_belief, symmetric
+from tricue.reference.checks import require_covariance, require_finite, require_shape
+
+Floats = NDArray[np.float64]
+
+
+def kalman_predict(
+    mean: Floats, covariance: Floats, transition: Floats, noise: Floats
+) -> tuple[Floats, Floats]:
+    """Mean (D,) and covariance (D, D) one step on: F x, F P F^T + Q."""
+    require_belief(mean, covariance)
+    require_shape("transition", transition, (mean.size, mean.size))
+    require_finite("transition", transition)
+    require_covariance("noise", noise, mean.size)
+    return transition @ mean, symmetric(transition @ covariance @ transition.T + noise)

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: MIT
+"""Kalman update in Joseph's form (Kalman 1960; Bucy, Joseph 1968)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.belief import require_belief, symmetric
+from tricue.reference.checks import refuse, require_covariance, require_finite, require_shape
+
+Floats = NDArray[np.float64]
+
+
+def kalman_update(
+    mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
+) -> tuple[Floats, Floats, Floats, Floats]:
+    """Mean (D,), covariance (D, D), innovation y (M,) and its covariance S (M, M) after a measurement."""
+    require_belief(mean, covariance)
+    if measurement.size < 1:
+        refuse("measurement", "at least one number", "none")
+    require_finite("measurement", measurement)
+    require_shape("observation", observation, (measurement.size, mean.size))
+    require_finite("observation", observation)
+    require_covariance("noise", noise, measurement.size)
+
+    y = measurement - observation @ mean
+    s = symmetric(observation @ covariance @ observation.T + noise)
+    if not positive_definite(s):
+        refuse("noise", "with the state's a positive definite innovation covariance", "one that isn't")
+    gain = covariance @ observation.T @ np.linalg.inv(s)
+    rest = np.eye(mean.size) - gain @ observation
+    return mean + gain @ y, symmetric(rest @ covariance @ rest.T + gain @ noise @ gain.T), y, s
+
+
+def positive_definite(s: Floats) -> bool:
+    """Whether Cholesky's pivots are more than rounding, measured by the variances."""
+    if not np.isfinite(s).all():
+        return False
+    try:
+        pivots = np.linalg.cholesky(s).diagonal() ** 2
+    except np.linalg.LinAlgError:
+        return False
+    return bool(np.all(pivots > np.finfo(float).eps * len(s) * s.diagonal()))
