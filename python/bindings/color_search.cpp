@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "cues/color/color_bins.hpp"
+#include "cues/color/ellipse_gradient.hpp"
 #include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
 #include "cues/color/histogram_mean.hpp"
@@ -59,6 +60,19 @@ Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Arra
     return give(std::move(found), {rows, cols, 4});
 }
 
+Array<double> ellipse_gradient_arrays(const Array<std::uint8_t>& grey, const Array<double>& ellipse,
+                                      const Triple& grid, const Array<double>& pattern) {
+    const auto array = require<std::uint8_t>(grey, "grey", 2, "a uint8 grey image (H, W)");
+    const ImageView view{contiguous<std::uint8_t>(array, "grey"), static_cast<int>(array.shape(0)),
+                         static_cast<int>(array.shape(1)), 1, array.shape(1)};
+    const auto numbers = vector(ellipse, "ellipse");
+    const auto [rows, cols, step] = grid;
+    const SearchGrid places{rows, cols, step};
+    const auto points = states(pattern, "pattern");
+    return give(unlocked(points.rows() * rows * cols,
+                         [&] { return ellipse_gradient(view, numbers, places, points); }));
+}
+
 Array<double> histogram_mean_arrays(const Array<double>& histogram, const Triple& bins, int chroma) {
     const auto masses = vector(histogram, "histogram");
     const ColorSpace space = color_space(bins, chroma);
@@ -90,6 +104,10 @@ void define_color_search(py::module_& m) {
         "(rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
         "the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up "
         "to margin times as large, and the shares of the mask's pixels (H, W) in both.");
+    m.def("ellipse_gradient", ellipse_gradient_arrays, py::arg("grey"), py::arg("ellipse"), py::arg("grid"),
+          py::arg("pattern"),
+          "(rows, cols) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
+          "the mean |n . grad I| at the points (u, v) (n, 2) of its outline.");
     m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
           "(3,) the mean B - G, G - R and B + G + R of a histogram (L,) over the space.");
     m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),

@@ -165,6 +165,16 @@ def divide_depth(
     The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
     """
 
+def ellipse_gradient(
+    grey: numpy.typing.NDArray[numpy.uint8],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    grid: tuple[int, int, int],
+    pattern: numpy.typing.NDArray[numpy.float64],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (rows, cols) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: the mean |n . grad I| at the points (u, v) (n, 2) of its outline.
+    """
+
 def ellipse_histogram(
     bins: numpy.typing.NDArray[numpy.uint16],
     ellipses: numpy.typing.NDArray[numpy.float64],
@@ -582,6 +592,13 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def ellipse_gradient(
+        self,
+        grey: numpy.typing.NDArray[numpy.uint8],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        grid: tuple[int, int, int],
+        pattern: numpy.typing.NDArray[numpy.float64],
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def ellipse_histogram(
         self,
         bins: numpy.typing.NDArray[numpy.uint16],

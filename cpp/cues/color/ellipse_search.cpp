@@ -70,14 +70,6 @@ private:
     Counts inside_, around_;
 };
 
-void require_grid(const SearchGrid& grid) {
-    const auto [least, most] = std::minmax({grid.rows, grid.cols, grid.step});
-    if (least < 1 || most > 1024 || std::max(grid.rows, grid.cols) * grid.step > 16384)
-        refuse("grid", "rows, cols and a step of 1 to 1024, over at most 16384 pixels",
-               "(" + std::to_string(grid.rows) + ", " + std::to_string(grid.cols) + ", " +
-                   std::to_string(grid.step) + ")");
-}
-
 struct Total {
     double sum;
     bool valid;
@@ -115,9 +107,7 @@ double require_model(VectorRef model) {
 /// All pixels that a shape covers on its way, relative to the image.
 Region area_of(const EllipseShape& shape, const Place& place, const SearchGrid& grid) {
     const auto [begin, end] = shape.widest();
-    const int x = place.x - grid.cols / 2 * grid.step, y = place.y - grid.rows / 2 * grid.step;
-    return {x + begin, y + shape.top, x + end + (grid.cols - 1) * grid.step,
-            y + shape.bottom() + (grid.rows - 1) * grid.step};
+    return swept({place.x + begin, place.y + shape.top, place.x + end, place.y + shape.bottom()}, grid);
 }
 
 void require_mask(const ImageView& mask, const BinsView& bins) {

@@ -4,14 +4,9 @@
 #include "bins_view.hpp"
 #include "camera/arrays.hpp"
 #include "camera/image_view.hpp"
+#include "search_grid.hpp"
 
 namespace tricue {
-
-/// Places to try: rows x cols of them, `step` pixels apart. Place (i, j) is (j - cols / 2) step to the right and (i - rows / 2)
-/// step below the ellipse's own, halves rounded down: 4 x 16 are ±2 x ±8 without the last row and column.
-struct SearchGrid {
-    int rows, cols, step;
-};
 
 /// How an ellipse is searched: the model histogram (L,), and how much larger than the ellipse the ring's outline is.
 struct SearchModel {
@@ -29,7 +24,7 @@ struct SearchModel {
 ///
 /// @param bins    (H, W), below L or 65535 for none; may be empty
 /// @param ellipse (4,): centre x, y, semi-axes along x (minor) and along y (major), pixels of the bins, finite, above 0
-/// @param grid    rows, cols and step are 1 to 1024, and the grid reaches over at most 16384 pixels
+/// @param grid    of places round the ellipse's own
 /// @param model   finite, none negative, a sum above 0; margin 1 (no ring) to 16, times the semi-axes at most 4096 pixels
 /// @param mask    (H, W) like bins, not 0 where a pixel is coherent in depth; data nullptr for none
 /// @returns       (rows cols, 4), place by place, row by row: (1) of the ellipse, of the ring, the shares of the pixels of the

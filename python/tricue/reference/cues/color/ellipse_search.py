@@ -6,29 +6,15 @@ from numpy.typing import NDArray
 
 from tricue.reference.checks import Floats, refuse, require_finite, require_shape
 from tricue.reference.ellipse_shape import NO_BIN, count, masks_of, require_bins, require_ellipses
+from tricue.reference.search_grid import Grid, places, require_grid
 
 Bins = NDArray[np.uint16]
-
-
-def require_grid(grid: tuple[int, int, int]) -> None:
-    """Refuse a grid that isn't 1 to 1024 rows, cols and pixels from one to the next, or reaches too far."""
-    if min(grid) < 1 or max(grid) > 1024 or max(grid[:2]) * grid[2] > 16384:
-        refuse("grid", "rows, cols and a step of 1 to 1024, over at most 16384 pixels", grid)
-
-
-def places(ellipse: Floats, grid: tuple[int, int, int]) -> Floats:
-    """(rows, cols, 4): the ellipse at every place of the grid."""
-    rows, cols, step = grid
-    moved = np.tile(ellipse, (rows, cols, 1))
-    moved[..., 0] += (np.arange(cols) - cols // 2) * step
-    moved[..., 1] += (np.arange(rows)[:, None] - rows // 2) * step
-    return moved
 
 
 def ellipse_search(
     bins: Bins,
     ellipse: Floats,
-    grid: tuple[int, int, int],
+    grid: Grid,
     model: Floats,
     margin: float,
     mask: NDArray[np.uint8] | None,
