@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large."""
+"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large.
+
+An image that is riddled with gaps is mended first: bodies would fall apart in it.
+"""
 
 from typing import NamedTuple
 
@@ -50,6 +53,7 @@ def foreground(
     """The foreground, and the floor's plane (6,), what floor_plane gives: zeros while none is known."""
     step = max(1, round(depth.shape[1] / p.resolution))
     thin = np.ascontiguousarray(depth[::step, ::step])
+    thin = k.fill_gaps(thin, p.edge_gap, p.edge_slope, p.ragged, p.gap_passes)
     thinned = camera / step
     inside = (thin >= p.near) & (thin < p.far)
     if p.floor:
