@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/fill_gaps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,59 +19,56 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
+TRICUE_MULTIVERSION
+void copy_row(const float* __restrict depth, int n, float missing, float* __restrict copy) {
+    in_blocks(n, [=](std::ptrdiff_t x) { copy[x] = has_depth(depth[x]) ? depth[x] : missing; });
+}
+
 /// A depth image with a rim of one pixel, infinite there and where nothing was measured: so that is never the nearest.
 struct Padded {
     int rows, cols;
     std::vector<float> pixels;
 
-    Padded(int height, int width)
-        : rows(height),
-          cols(width),
-          pixels((static_cast<std::size_t>(height) + 2) * (static_cast<std::size_t>(width) + 2), kFar) {}
+    explicit Padded(const DepthView& depth)
+        : rows(depth.rows),
+          cols(depth.cols),
+          pixels((static_cast<std::size_t>(rows) + 2) * (static_cast<std::size_t>(cols) + 2), kFar) {
+        for (int y = 0; y < rows; ++y) copy_row(depth.row(y), cols, kFar, row(y));
+    }
 
     /// From the first pixel of row y on, which is between -1 and `rows`; the rim's pixels are beside it.
     float* row(int y) { return pixels.data() + (std::ptrdiff_t{y} + 1) * (std::ptrdiff_t{cols} + 2) + 1; }
+    DepthView view() { return {row(0), rows, cols, std::ptrdiff_t{cols} + 2}; }
 };
-
-struct Count {
-    std::int64_t measured = 0, ends = 0;
-
-    bool exceeds(double ragged) const {
-        return static_cast<double>(ends) > ragged * static_cast<double>(measured);
-    }
-};
-
-TRICUE_MULTIVERSION
-void load_row(const float* __restrict depth, int n, float* __restrict padded) {
-    in_blocks(n, [=](std::ptrdiff_t x) { padded[x] = has_depth(depth[x]) ? depth[x] : kFar; });
-}
-
-TRICUE_MULTIVERSION
-void store_row(const float* __restrict padded, int n, float* __restrict depth) {
-    in_blocks(n, [=](std::ptrdiff_t x) {
-        depth[x] = padded[x] <= kLargest ? padded[x] : std::numeric_limits<float>::quiet_NaN();
-    });
-}
 
 /// The last pixel of a row ends nothing: what is beyond isn't known.
 TRICUE_MULTIVERSION
-void count_row(const float* padded, int n, std::int32_t* measured, std::int32_t* ends) {
+void count_row(const float* depth, int n, std::int32_t* measured, std::int32_t* ends) {
     std::int32_t all = 0, last = 0;
-    for (int x = 0; x < n; ++x) all += padded[x] <= kLargest;
-    for (int x = 0; x + 1 < n; ++x) last += (padded[x] <= kLargest) & !(padded[x + 1] <= kLargest);
+    for (int x = 0; x < n; ++x) all += has_depth(depth[x]);
+    for (int x = 0; x + 1 < n; ++x) last += has_depth(depth[x]) & !has_depth(depth[x + 1]);
     *measured = all;
     *ends = last;
 }
 
-Count count(Padded& image) {
-    Count sum;
-    for (int y = 0; y < image.rows; ++y) {
-        std::int32_t measured = 0, ends = 0;
-        count_row(image.row(y), image.cols, &measured, &ends);
-        sum.measured += measured;
-        sum.ends += ends;
+bool is_ragged(const DepthView& depth, double share) {
+    std::int64_t measured = 0, ends = 0;
+    for (int y = 0; y < depth.rows; ++y) {
+        std::int32_t measured_here = 0, ends_here = 0;
+        count_row(depth.row(y), depth.cols, &measured_here, &ends_here);
+        measured += measured_here;
+        ends += ends_here;
     }
-    return sum;
+    return static_cast<double>(ends) > share * static_cast<double>(measured);
+}
+
+/// A copy, NaN where nothing was measured.
+Floats cleaned(const DepthView& depth) {
+    Floats copy(depth.rows, depth.cols);
+    for (int y = 0; y < depth.rows; ++y)
+        copy_row(depth.row(y), depth.cols, std::numeric_limits<float>::quiet_NaN(),
+                 copy.data() + std::ptrdiff_t{y} * depth.cols);
+    return copy;
 }
 
 inline float least(float a, float b) {
@@ -97,6 +95,18 @@ void fill_row(const float* __restrict above, const float* __restrict here, const
     });
 }
 
+/// One pass, in place: the rows that it still reads are kept as they were.
+void fill_once(Padded& image, float gap, float slope) {
+    const auto width = static_cast<std::size_t>(image.cols) + 2;
+    std::vector<float> above(width, kFar), here(width);
+    for (int y = 0; y < image.rows; ++y) {
+        float* row = image.row(y);
+        std::copy_n(row - 1, width, here.begin());
+        fill_row(above.data() + 1, here.data() + 1, image.row(y + 1), image.cols, gap, slope, row);
+        std::swap(above, here);
+    }
+}
+
 void require_step(double value, const char* name) {
     if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
 }
@@ -108,19 +118,11 @@ Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged
     require_step(slope, "slope");
     if (!(ragged >= 0.0 && ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", ragged);
     if (passes < 0) refuse("passes", "at least 0", passes);
-    Padded image(depth.rows, depth.cols);
-    for (int y = 0; y < depth.rows; ++y) load_row(depth.row(y), depth.cols, image.row(y));
-    for (int pass = 0; pass < passes && count(image).exceeds(ragged); ++pass) {
-        Padded filled(depth.rows, depth.cols);
-        for (int y = 0; y < depth.rows; ++y)
-            fill_row(image.row(y - 1), image.row(y), image.row(y + 1), depth.cols, static_cast<float>(gap),
-                     static_cast<float>(slope), filled.row(y));
-        std::swap(image, filled);
-    }
-    Floats result(depth.rows, depth.cols);
-    for (int y = 0; y < depth.rows; ++y)
-        store_row(image.row(y), depth.cols, result.data() + std::ptrdiff_t{y} * depth.cols);
-    return result;
+    if (passes == 0 || !is_ragged(depth, ragged)) return cleaned(depth);
+    Padded image(depth);
+    for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged)); ++pass)
+        fill_once(image, static_cast<float>(gap), static_cast<float>(slope));
+    return cleaned(image.view());
 }
 
 }  // namespace tricue

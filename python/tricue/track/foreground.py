@@ -53,7 +53,8 @@ def foreground(
     """The foreground, and the floor's plane (6,), what floor_plane gives: zeros while none is known."""
     step = max(1, round(depth.shape[1] / p.resolution))
     thin = np.ascontiguousarray(depth[::step, ::step])
-    thin = k.fill_gaps(thin, p.edge_gap, p.edge_slope, p.ragged, p.gap_passes)
+    if p.gap_passes:
+        thin = k.fill_gaps(thin, p.edge_gap, p.edge_slope, p.ragged, p.gap_passes)
     thinned = camera / step
     inside = (thin >= p.near) & (thin < p.far)
     if p.floor:
