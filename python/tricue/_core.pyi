@@ -144,6 +144,13 @@ def divide_depth(
     The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
     """
 
+def fill_gaps(
+    depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those up to gap + slope z^2 behind the nearest; where more than the share ragged of the measured pixels end at a gap, else as it is. NaN where nothing was measured nor filled.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -465,6 +472,9 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def fill_gaps(
+        self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

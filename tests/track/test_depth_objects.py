@@ -26,7 +26,9 @@ def drawn(*boxes: tuple[Box, float], wall: float = WALL, shape: tuple[int, int] 
     for box, z in boxes:
         left, top, right, bottom = map(int, box.xyxy)
         depth[max(0, top) : max(0, bottom), max(0, left) : max(0, right)] = z
-    return foreground(None, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False))[0]
+    return foreground(
+        None, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
+    )[0]
 
 
 def metric(box: Box, z: float) -> NDArray[np.float64]:
