@@ -19,11 +19,22 @@ std::string shape(int rows, int cols) {
 
 }  // namespace
 
-Rays rays(VectorRef camera, const DepthView& depth) {
+void require_camera(VectorRef camera) {
     require_size(camera, 4, "camera");
     require_finite(camera, "camera");
     for (Eigen::Index i = 0; i < 2; ++i)
         if (!(camera[i] > 0.0)) refuse("camera", "focal lengths above 0", camera[i]);
+}
+
+void require_table(StatesRef table) {
+    require_shape(table, table.rows(), 7, "table");
+    require_finite(table, "table");
+    for (Eigen::Index i = 0; i < table.rows(); ++i)
+        if (!(table(i, 5) > 0.0)) refuse("table", "depths above 0", table(i, 5));
+}
+
+Rays rays(VectorRef camera, const DepthView& depth) {
+    require_camera(camera);
     return {slopes(depth.cols, camera[0], camera[2]), slopes(depth.rows, camera[1], camera[3])};
 }
 

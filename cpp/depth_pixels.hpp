@@ -30,6 +30,13 @@ struct Rays {
 /// @throws std::invalid_argument unless that is what it is
 Rays rays(VectorRef camera, const DepthView& depth);
 
+/// @throws std::invalid_argument unless it is (4,): fx, fy above 0, cx, cy, finite
+void require_camera(VectorRef camera);
+
+/// @throws std::invalid_argument unless it is what depth_components gives of objects that were measured: (C, 7), finite, their
+/// depths above 0
+void require_table(StatesRef table);
+
 /// @throws std::invalid_argument unless the mask has the depth image's shape
 void require_mask(const ImageView& mask, const DepthView& depth);
 

@@ -9,6 +9,7 @@
 namespace tricue {
 namespace {
 
+constexpr std::size_t kUsual = 2048;  // runs, room for which is made at once
 constexpr std::size_t kWord = sizeof(std::uint64_t);
 
 std::size_t whole_words(int bytes) {
@@ -22,7 +23,9 @@ void mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __
 
 }  // namespace
 
-Runs::Runs(int cols) : cols_(cols), changes_(whole_words(cols)), edges_(changes_.size() + 1) {}
+Runs::Runs(int cols) : cols_(cols), changes_(whole_words(cols)), edges_(changes_.size() + 1) {
+    runs_.reserve(kUsual);
+}
 
 /// Where one run ends and the next begins. Eight pixels without a change are passed at once; of others each is written down and
 /// those without a change overwritten, as the processor can't foresee them.

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "arrays.hpp"
+#include "cues/depth/above_floor.hpp"
 #include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
 #include "cues/depth/divide_depth.hpp"
+#include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
 #include "cues/depth/height_above.hpp"
+#include "cues/depth/plane_support.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -35,6 +40,12 @@ Bytes divide_depth_arrays(const Array<float>& depth, const Bytes& mask, const Ar
     return give(unlocked(pixels(view), [&] { return divide_depth(view, under, limits); }));
 }
 
+Array<float> fill_gaps_arrays(const Array<float>& depth, double gap, double slope, double ragged,
+                              int passes) {
+    const auto view = depth_image(depth, "depth");
+    return give(unlocked(pixels(view), [&] { return fill_gaps(view, gap, slope, ragged, passes); }));
+}
+
 Eigen::Map<const Triples> index_triples(const Array<std::int64_t>& triples) {
     const char* expected = "int64 triples (K, 3)";
     const auto array = require<std::int64_t>(triples, "triples", 2, expected);
@@ -62,9 +73,31 @@ Array<float> height_above_arrays(const Array<float>& depth, const Array<double>&
     return give(unlocked(pixels(view), [&] { return height_above(view, lens, floor); }));
 }
 
+Array<float> above_floor_arrays(const Array<float>& depth, const Array<double>& camera,
+                                const Array<double>& plane, double near, double far, double clear) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto floor = vector(plane, "plane");
+    return give(unlocked(pixels(view), [&] { return above_floor(view, lens, floor, {near, far, clear}); }));
+}
+
+Array<double> plane_support_arrays(const Array<float>& depth, const Array<double>& camera,
+                                   const Array<double>& plane, double tolerance, int step) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto floor = vector(plane, "plane");
+    return give(unlocked(pixels(view) / std::max(1, step) / std::max(1, step),
+                         [&] { return plane_support(view, lens, floor, tolerance, step); }));
+}
+
 }  // namespace
 
 void define_depth(py::module_& m) {
+    m.def(
+        "above_floor", above_floor_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
+        py::arg("near"), py::arg("far"), py::arg("clear"),
+        "Depth (H, W) where it is in [near, far) and more than clear above the floor, NaN elsewhere, metres. "
+        "plane (4,): nx, ny, nz, d, zeros for none; camera (4,): fx, fy, cx, cy.");
     m.def("depth_edges", depth_edges_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
           "1 at the farther of each two neighbours whose depths differ by more than gap + slope z^2, z the "
           "nearer: (H, W).");
@@ -76,6 +109,12 @@ void define_depth(py::module_& m) {
           "The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), "
           "equations (35), (36).");
     m.def(
+        "fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"), py::arg("ragged"),
+        py::arg("passes"),
+        "Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those "
+        "up to gap + slope z^2 behind the nearest; where more than the share ragged of the measured pixels "
+        "end at a gap, else as it is. NaN where nothing was measured nor filled.");
+    m.def(
         "floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
         py::arg("tolerance"), py::arg("up"), py::arg("least_cosine"),
         "(6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of "
@@ -85,6 +124,10 @@ void define_depth(py::module_& m) {
     m.def("height_above", height_above_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           "Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where "
           "nothing was measured. camera (4,): fx, fy, cx, cy.");
+    m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
+          py::arg("tolerance"), py::arg("step"),
+          "(2,) shares of the measured pixels, every step-th, that are within tolerance of a plane (4,): nx, "
+          "ny, nz, d, and that are below it.");
 }
 
 }  // namespace tricue::bindings

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
+#include "cues/depth/cut_sides.hpp"
 #include "cues/depth/density_extrema.hpp"
 #include "cues/depth/depth_components.hpp"
+#include "cues/depth/depth_contrast.hpp"
 #include "cues/depth/depth_density.hpp"
 #include "cues/depth/depth_distance.hpp"
+#include "cues/depth/measure_objects.hpp"
 #include "cues/depth/rectangle_histogram.hpp"
 
 namespace tricue::bindings {
@@ -29,14 +32,14 @@ ImageView label_image(const Array<std::uint8_t>& labels) {
 
 std::tuple<Array<double>, Array<float>, Array<float>, Array<float>, Array<std::int32_t>>
 depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& depth, double near, double far,
-                        int levels, int bins, int min_area) {
+                        int levels, int bins, int min_area, bool image) {
     const auto regions = label_image(labels);
     const auto metres = depth_image(depth, "depth");
     const Signature signature{near, far, levels, bins};
     auto found = unlocked(std::ptrdiff_t{metres.rows} * metres.cols,
-                          [&] { return depth_components(regions, metres, signature, min_area); });
+                          [&] { return depth_components(regions, metres, signature, min_area, image); });
     return {give(std::move(found.table)), give(std::move(found.histograms)), give(std::move(found.columns)),
-            give(std::move(found.rows)), give(std::move(found.components))};
+            give(std::move(found.rows)), give(std::move(found.image))};
 }
 
 Array<double> depth_distance_arrays(const Array<float>& depth, const Array<double>& rectangles,
@@ -59,9 +62,64 @@ Array<double> rectangle_histogram_arrays(const Array<float>& depth, const Array<
         unlocked(places.rows(), [&] { return rectangle_histogram(metres, numbers, levels, places, reach); }));
 }
 
+Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<double>& camera,
+                                    const Array<double>& states_, const Array<double>& model,
+                                    std::pair<int, int> grid, std::pair<double, int> ring, double reach,
+                                    double nearer) {
+    const auto metres = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto each = states(states_, "states");
+    const DepthModel target{vector(model, "model"), reach};
+    const Places places{grid.first, grid.second, ring.first, ring.second};
+    const auto work = std::ptrdiff_t{grid.first} * grid.second * each.rows();
+    return give(unlocked(work, [&] { return depth_contrast(metres, lens, each, target, places, nearer); }));
+}
+
+Array<bool> cut_sides_arrays(const Array<float>& depth, const Array<double>& table,
+                             const Array<double>& camera, int border, double beside, double nearer,
+                             double share) {
+    const auto metres = depth_image(depth, "depth");
+    const auto boxes = states(table, "table");
+    const auto lens = vector(camera, "camera");
+    return give(cut_sides(metres, boxes, lens, {border, beside, nearer, share}));
+}
+
+Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int columns) {
+    const std::string expected = "bool (C, " + std::to_string(columns) + ")";
+    const auto array = require<bool>(object, name, 2, expected.c_str());
+    if (array.shape(1) != columns)
+        throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
+    return {contiguous<bool>(array, name), array.shape(0), array.shape(1)};
+}
+
+Array<double> measure_objects_arrays(const Array<double>& table, const Array<float>& columns,
+                                     const Array<float>& rows, const Array<bool>& cut,
+                                     const Array<double>& camera, const Array<double>& plane, double feet,
+                                     double legs) {
+    const auto boxes = states(table, "table");
+    const auto across = floats(columns, "columns", {-1, -1}, "float32 (C, bins)");
+    const auto down = floats(rows, "rows", {-1, -1}, "float32 (C, bins)");
+    const auto sides = flags(cut, "cut", 4);
+    const auto lens = vector(camera, "camera");
+    const auto floor = vector(plane, "plane");
+    return give(measure_objects({boxes, across, down, sides}, lens, {floor, feet, legs}));
+}
+
 }  // namespace
 
 void define_depth_objects(py::module_& m) {
+    m.def(
+        "cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
+        py::arg("border"), py::arg("beside"), py::arg("nearer"), py::arg("share"),
+        "(C, 4) whether the objects of a table (C, 7), depth_components', may go on at the left, right, top, "
+        "bottom: at the image's border, or behind something nearer right beside.");
+    m.def(
+        "depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),
+        py::arg("model"), py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("nearer"),
+        "(N, 4) of each state (N, 5) X, Y, Z, width, height, metres: equation (38) over sqrt 2 between its "
+        "depths relative to Z and the model (L,); the shares of the places inside that are within reach of "
+        "Z, and nearer than Z - nearer; the share round it within reach. grid: rows, columns; ring: margin, "
+        "places a side.");
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
           "p(z) of equation (32), (L,) of sum 1: a histogram (L,) of depth levels, smoothed by a Gaussian.");
     m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
@@ -69,16 +127,21 @@ void define_depth_objects(py::module_& m) {
           "them, equations (32)-(34).");
     m.def(
         "depth_components", depth_components_arrays, py::arg("labels"), py::arg("depth"), py::arg("near"),
-        py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"),
+        py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"), py::arg("image"),
         "The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, "
         "label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which "
-        "region has a pixel, from 1.");
+        "region has a pixel, from 1, or (0, 0) without an image.");
     m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
           py::arg("pattern"), py::arg("reach"), py::arg("nearer"),
           "(N, 3) of each rectangle (N, 5) x, y, width, height, z: equation (38) over sqrt 2 between its "
           "depths "
           "relative to z and the model (L,); the share of the places (n, 2) within reach of z; the share "
           "nearer than z - nearer.");
+    m.def(
+        "measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
+        py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), py::arg("legs"),
+        "(C, 8) of depth_components' objects: X, Y, Z, width, height of the box, metres; from its centre to "
+        "the centroid, x, y; area, m^2. Those that end less than feet above the plane (4,) stand on it.");
     m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),
           py::arg("levels"), py::arg("pattern"), py::arg("reach"),
           "(levels,) of sum 1: the depths in a rectangle (5,) x, y, width, height, z, relative to z, in "

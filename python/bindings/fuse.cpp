@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 #include "fuse/propose.hpp"
+#include "fuse/rectangle_prior.hpp"
 #include "fuse/resample.hpp"
 #include "fuse/reweight.hpp"
 #include "fuse/summarize.hpp"
@@ -47,6 +48,15 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
     return {give(std::move(result.mean)), give(std::move(result.covariance)), result.effective};
 }
 
+Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array<double>& size,
+                                     const Array<double>& spread, const Array<double>& state,
+                                     const Array<double>& deviation, double most) {
+    const auto each = states(particles, "states");
+    const UsualSize usual{vector(size, "size"), vector(spread, "spread")};
+    const MeasuredState measured{vector(state, "state"), vector(deviation, "deviation"), most};
+    return give(unlocked(each.size(), [&] { return rectangle_prior(each, usual, measured); }));
+}
+
 }  // namespace
 
 void define_fuse(py::module_& m) {
@@ -57,6 +67,10 @@ void define_fuse(py::module_& m) {
         py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"), py::arg("upper"),
         "Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); floor(share N) of "
         "them have their first K numbers from N(mean, root root^T) instead; all clamped to [lower, upper].");
+    m.def("rectangle_prior", rectangle_prior_arrays, py::arg("states"), py::arg("size"), py::arg("spread"),
+          py::arg("state"), py::arg("deviation"), py::arg("most"),
+          "(N,) log-likelihood of rectangles (N, D), width and height last, by their usual size (2,), spread "
+          "being the deviation of its logarithm, and by a measured state (D,), which costs at most most.");
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),
           py::arg("drift"), py::arg("scale"), py::arg("mean"), py::arg("root"), py::arg("share"),
           "Weights (N,) of proposed particles, equation (2), with sum 1, and the log of their mean before "

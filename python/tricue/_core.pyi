@@ -6,6 +6,18 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+def above_floor(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    plane: numpy.typing.NDArray[numpy.float64],
+    near: float,
+    far: float,
+    clear: float,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Depth (H, W) where it is in [near, far) and more than clear above the floor, NaN elsewhere, metres. plane (4,): nx, ny, nz, d, zeros for none; camera (4,): fx, fy, cx, cy.
+    """
+
 def bhattacharyya(
     histograms: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32], groups: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -32,6 +44,19 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def cut_sides(
+    depth: numpy.typing.NDArray[numpy.float32],
+    table: numpy.typing.NDArray[numpy.float64],
+    camera: numpy.typing.NDArray[numpy.float64],
+    border: int,
+    beside: float,
+    nearer: float,
+    share: float,
+) -> numpy.typing.NDArray[numpy.bool]:
+    """
+    (C, 4) whether the objects of a table (C, 7), depth_components', may go on at the left, right, top, bottom: at the image's border, or behind something nearer right beside.
+    """
+
 def density_extrema(
     density: numpy.typing.NDArray[numpy.float64], prominence: float
 ) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int64]]:
@@ -47,6 +72,7 @@ def depth_components(
     levels: int,
     bins: int,
     min_area: int,
+    image: bool,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.float32],
@@ -55,7 +81,21 @@ def depth_components(
     numpy.typing.NDArray[numpy.int32],
 ]:
     """
-    The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which region has a pixel, from 1.
+    The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which region has a pixel, from 1, or (0, 0) without an image.
+    """
+
+def depth_contrast(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    states: numpy.typing.NDArray[numpy.float64],
+    model: numpy.typing.NDArray[numpy.float64],
+    grid: tuple[int, int],
+    ring: tuple[float, int],
+    reach: float,
+    nearer: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (N, 4) of each state (N, 5) X, Y, Z, width, height, metres: equation (38) over sqrt 2 between its depths relative to Z and the model (L,); the shares of the places inside that are within reach of Z, and nearer than Z - nearer; the share round it within reach. grid: rows, columns; ring: margin, places a side.
     """
 
 def depth_density(
@@ -104,6 +144,13 @@ def divide_depth(
     The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), equations (35), (36).
     """
 
+def fill_gaps(
+    depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those up to gap + slope z^2 behind the nearest; where more than the share ragged of the measured pixels end at a gap, else as it is. NaN where nothing was measured nor filled.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -146,6 +193,31 @@ def learn_contrast(
 ]:
     """
     The joint histograms (B, B, B) of target and surround with the colors of samples inside and around blended in, and the table target / (target + surround + rare).
+    """
+
+def measure_objects(
+    table: numpy.typing.NDArray[numpy.float64],
+    columns: numpy.typing.NDArray[numpy.float32],
+    rows: numpy.typing.NDArray[numpy.float32],
+    cut: numpy.typing.NDArray[numpy.bool],
+    camera: numpy.typing.NDArray[numpy.float64],
+    plane: numpy.typing.NDArray[numpy.float64],
+    feet: float,
+    legs: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (C, 8) of depth_components' objects: X, Y, Z, width, height of the box, metres; from its centre to the centroid, x, y; area, m^2. Those that end less than feet above the plane (4,) stand on it.
+    """
+
+def plane_support(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    plane: numpy.typing.NDArray[numpy.float64],
+    tolerance: float,
+    step: int,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (2,) shares of the measured pixels, every step-th, that are within tolerance of a plane (4,): nx, ny, nz, d, and that are below it.
     """
 
 def propose(
@@ -198,6 +270,18 @@ def rectangle_histogram(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     (levels,) of sum 1: the depths in a rectangle (5,) x, y, width, height, z, relative to z, in [-reach, reach).
+    """
+
+def rectangle_prior(
+    states: numpy.typing.NDArray[numpy.float64],
+    size: numpy.typing.NDArray[numpy.float64],
+    spread: numpy.typing.NDArray[numpy.float64],
+    state: numpy.typing.NDArray[numpy.float64],
+    deviation: numpy.typing.NDArray[numpy.float64],
+    most: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (N,) log-likelihood of rectangles (N, D), width and height last, by their usual size (2,), spread being the deviation of its logarithm, and by a measured state (D,), which costs at most most.
     """
 
 def resample(
@@ -294,6 +378,15 @@ def summarize(
 class Kernels(Protocol):
     """What native and reference kernels have in common; modules follow it."""
 
+    def above_floor(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        plane: numpy.typing.NDArray[numpy.float64],
+        near: float,
+        far: float,
+        clear: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def bhattacharyya(
         self,
         histograms: numpy.typing.NDArray[numpy.float32],
@@ -309,6 +402,16 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def cut_sides(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        table: numpy.typing.NDArray[numpy.float64],
+        camera: numpy.typing.NDArray[numpy.float64],
+        border: int,
+        beside: float,
+        nearer: float,
+        share: float,
+    ) -> numpy.typing.NDArray[numpy.bool]: ...
     def density_extrema(
         self, density: numpy.typing.NDArray[numpy.float64], prominence: float
     ) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int64]]: ...
@@ -321,6 +424,7 @@ class Kernels(Protocol):
         levels: int,
         bins: int,
         min_area: int,
+        image: bool,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float32],
@@ -328,6 +432,17 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.int32],
     ]: ...
+    def depth_contrast(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        states: numpy.typing.NDArray[numpy.float64],
+        model: numpy.typing.NDArray[numpy.float64],
+        grid: tuple[int, int],
+        ring: tuple[float, int],
+        reach: float,
+        nearer: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def depth_density(
         self, histogram: numpy.typing.NDArray[numpy.float64], bandwidth: float
     ) -> numpy.typing.NDArray[numpy.float64]: ...
@@ -357,6 +472,9 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def fill_gaps(
+        self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -388,6 +506,25 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
+    def measure_objects(
+        self,
+        table: numpy.typing.NDArray[numpy.float64],
+        columns: numpy.typing.NDArray[numpy.float32],
+        rows: numpy.typing.NDArray[numpy.float32],
+        cut: numpy.typing.NDArray[numpy.bool],
+        camera: numpy.typing.NDArray[numpy.float64],
+        plane: numpy.typing.NDArray[numpy.float64],
+        feet: float,
+        legs: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def plane_support(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        plane: numpy.typing.NDArray[numpy.float64],
+        tolerance: float,
+        step: int,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def propose(
         self,
         particles: numpy.typing.NDArray[numpy.float64],
@@ -422,6 +559,15 @@ class Kernels(Protocol):
         levels: int,
         pattern: numpy.typing.NDArray[numpy.float64],
         reach: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def rectangle_prior(
+        self,
+        states: numpy.typing.NDArray[numpy.float64],
+        size: numpy.typing.NDArray[numpy.float64],
+        spread: numpy.typing.NDArray[numpy.float64],
+        state: numpy.typing.NDArray[numpy.float64],
+        deviation: numpy.typing.NDArray[numpy.float64],
+        most: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def resample(
         self, weights: numpy.typing.NDArray[numpy.float64], offset: float

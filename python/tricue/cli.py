@@ -23,12 +23,13 @@ examples:
   tricue track sequences/David --json track.json              starts on the sequence's first true box
   tricue track images/ --box 10,20,30,40 --set particles=300 --seed 7
   tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
-  tricue track depth/ --depth-scale 0.001 --tracker depth-particle --fov 57,43 --plot path.png
+  tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
 """
 _DEMO_EXAMPLES = """\
 examples:
   tricue demo
+  tricue demo depth-particle                                  people before a depth camera, in metres
   tricue demo color-particle --kernels reference --output here
 """
 _REPRODUCE_EXAMPLES = """\
@@ -100,6 +101,13 @@ def _add_track(verb: argparse.ArgumentParser) -> None:
         choices=("face", "person"),
         help="start on the largest face, or on whom a depth tracker finds, as soon as there is one",
     )
+    verb.add_argument(
+        "--fps",
+        type=float,
+        metavar="N",
+        help="frames a second of images that tell no times (default 30); videos, cameras, VOT, TUM and "
+        "Princeton have their own",
+    )
     _add_depth(verb)
     verb.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
     verb.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
@@ -123,7 +131,10 @@ def _add_depth(verb: argparse.ArgumentParser) -> None:
     )
     camera = verb.add_mutually_exclusive_group()
     camera.add_argument(
-        "--calibration", type=Path, metavar="FILE", help="the camera's, by OpenCV, KITTI or in TOML"
+        "--calibration",
+        type=Path,
+        metavar="FILE",
+        help="the camera's, by OpenCV, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=_angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"

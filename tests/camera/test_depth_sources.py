@@ -6,7 +6,8 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box
+from tricue import Box, Intrinsics
+from tricue.camera.intrinsics_files import read_intrinsics
 from tricue.camera.sources import Source, open_source
 
 
@@ -156,6 +157,40 @@ def test_vot_depth_alone(tmp_path: Path) -> None:
     assert metres(source) == pytest.approx([1.234, 2.345])
 
 
+def vot_rgbd(folder: Path) -> Path:
+    """A VOT folder without its sequence file, as DepthTrack's come."""
+    for index in (1, 2):
+        write_color(folder / "color" / f"{index:08}.png", 10 * index)
+        write_depth(folder / "depth" / f"{index:08}.png", 1000 * index)
+    (folder / "groundtruth.txt").write_text("1,2,3,4\nnan,nan,nan,nan\n")
+    return folder
+
+
+def test_vot_rgbd_is_known_without_its_sequence_file(tmp_path: Path) -> None:
+    """It proves that color/ and depth/ of eight-digit names beside VOT's true boxes are in millimetres, that
+    their frame rate can be given, and that folders of other names still ask for the unit.
+    """
+    source = open_source(vot_rgbd(tmp_path), fps=20)
+    assert (levels(source), metres(source)) == ([10, 20], pytest.approx([1.0, 2.0]))
+    assert [frame.timestamp for frame in source] == [0.0, 0.05]
+    assert source.first_box == Box(1, 2, 3, 4)
+    assert source.truth is not None
+    assert np.isnan(source.truth[1]).all()
+    assert metres(open_source(tmp_path, depth_scale=0.0001)) == pytest.approx([0.1, 0.2])
+    for index in (1, 2):
+        (tmp_path / "depth" / f"{index:08}.png").rename(tmp_path / "depth" / f"frame{index}.png")
+    (note,) = open_source(tmp_path).notes
+    assert "--depth-scale" in note
+
+
+def test_vot_masks_and_polygons_have_boxes(tmp_path: Path) -> None:
+    """It proves that VOT's polygons and masks, which CDTB has, come as the boxes round them."""
+    (vot_rgbd(tmp_path) / "groundtruth.txt").write_text("10,20,30,20,30,60,10,60\nm5,6,7,8,0,3,4\n")
+    truth = open_source(tmp_path).truth
+    assert truth is not None
+    assert truth.tolist() == [[10, 20, 20, 40], [5, 6, 7, 8]]
+
+
 def tum(folder: Path, color: Iterable[float], depth: Iterable[float]) -> Path:
     """A TUM folder: depth of 5000, 5001, ... units in the order given, and the path of the camera."""
     lists: dict[str, list[str]] = {"rgb": [], "depth": []}
@@ -206,6 +241,30 @@ def test_tum_channels_alone(tmp_path: Path) -> None:
     assert (list(color.channels), levels(color)) == (["color"], [10, 20])
 
 
+@pytest.mark.parametrize("apart", [" ", "\t", ",", ", "])
+def test_tum_lists_may_be_parted_by_commas(tmp_path: Path, apart: str) -> None:
+    """It proves that blanks, tabs and commas part a list's columns, and that file names may hold blanks."""
+    write_depth(tmp_path / "depth" / "a b.png", 5000)
+    (tmp_path / "depth.txt").write_text(f"# depth maps\n\n1305031102.160407{apart}depth/a b.png\r\n")
+    source = open_source(tmp_path)
+    assert [frame.timestamp for frame in source] == [1305031102.160407]
+    assert metres(source) == pytest.approx([1.0])
+
+
+def test_times_of_their_own_go_before_those_of_other_channels(tmp_path: Path) -> None:
+    """It proves that color images without times take those of the depth beside them, so that --fps is
+    refused there; where neither has times it counts.
+    """
+    color, depth = color_folder(tmp_path / "c", 2), tum(tmp_path / "d", [], [7.0, 7.25])
+    source = open_source(color, depth=depth)
+    assert ([frame.timestamp for frame in source], source.fps) == ([7.0, 7.25], 4.0)
+    with pytest.raises(ValueError, match=r"^--fps 15: .* but c has its own, 4 frames a second; leave it out"):
+        open_source(color, depth=depth, fps=15)
+    plain = depth_folder(tmp_path / "e", [1000, 2000])
+    source = open_source(color, depth=plain, depth_scale=0.001, fps=8)
+    assert ([frame.timestamp for frame in source], source.fps) == ([0.0, 0.125], 8.0)
+
+
 def rotated(units: int) -> int:
     """The Princeton benchmark's bits: turned three places to the left."""
     return ((units << 3) | (units >> 13)) & 0xFFFF
@@ -220,6 +279,13 @@ def ptb(folder: Path) -> Path:
     return folder
 
 
+@pytest.mark.parametrize("make", [lambda f: tum(f, [1.0], [1.0]), lambda f: tum(f, [], [1.0]), ptb])
+def test_fps_beside_recorded_times_is_refused(tmp_path: Path, make: Callable[[Path], Path]) -> None:
+    """It proves that TUM's and Princeton's images keep their own times, also a single one."""
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times"):
+        open_source(make(tmp_path), fps=15)
+
+
 def test_princeton_depth_is_turned_back(tmp_path: Path) -> None:
     """It proves that Princeton's frames come in the order of their numbers with the depth nearest in time,
     its bits turned back.
@@ -228,6 +294,47 @@ def test_princeton_depth_is_turned_back(tmp_path: Path) -> None:
     assert levels(source) == [10, 20, 30]
     assert metres(source) == pytest.approx([9.0, 1.5, 1.5])
     assert [frame.timestamp for frame in source] == pytest.approx([0.0, 0.033, 0.066])
+
+
+@pytest.mark.parametrize("units", [1001, 1007, 1008, 8191, 8192, 10_000, 40_001])
+def test_princeton_bits(tmp_path: Path, units: int) -> None:
+    """It proves that a value comes back as it was, whichever of its bits are set."""
+    folder = ptb(tmp_path)
+    for path in (folder / "depth").iterdir():
+        write_depth(path, rotated(units))
+    assert metres(open_source(folder)) == pytest.approx(3 * [units / 1000])
+
+
+def test_princeton_folders_alone(tmp_path: Path) -> None:
+    """It proves that Princeton's rgb/ or depth/ alone is known by its names: order, times, bits and unit."""
+    folder = ptb(tmp_path)
+    depth = open_source(folder / "depth")
+    assert (list(depth.channels), metres(depth)) == (["depth"], pytest.approx([9.0, 1.5]))
+    assert [frame.timestamp for frame in depth] == pytest.approx([0.001, 0.06])
+    color = open_source(folder / "rgb")
+    assert levels(color) == [10, 20, 30]
+    assert [frame.timestamp for frame in color] == pytest.approx([0.0, 0.033, 0.066])
+    beside = open_source(color_folder(tmp_path / "c", 2), depth=folder / "depth")
+    assert metres(beside) == pytest.approx([9.0, 1.5])
+
+
+def frames_mat(folder: Path) -> None:
+    """Princeton's frames.mat, with the camera matrix that counts from 1."""
+    matrix = [[575.0, 0, 321], [0, 576.0, 241], [0, 0, 1]]
+    io = pytest.importorskip("scipy.io")
+    io.savemat(folder / "frames.mat", {"frames": {"length": 3.0, "K": matrix, "imageTimestamp": [0, 33_000]}})
+
+
+def test_princeton_camera(tmp_path: Path) -> None:
+    """It proves that the camera matrix of frames.mat is found, and counts from 0 then, as all of ours do."""
+    folder = ptb(tmp_path)
+    frames_mat(folder)
+    source = open_source(folder)
+    assert source.calibration == folder / "frames.mat"
+    camera = read_intrinsics(source.calibration, source.size, "depth")
+    assert camera == Intrinsics(575.0, 576.0, 320.0, 240.0, 40, 30)
+    (folder / "intrinsics.toml").touch()
+    assert open_source(folder).calibration == folder / "intrinsics.toml"
 
 
 def test_princeton_truth(tmp_path: Path) -> None:

@@ -113,6 +113,50 @@ def test_millimetres_as_metres_warn() -> None:
     assert caught[0].filename == __file__
 
 
+@pytest.mark.parametrize(
+    ("metres", "scale", "message"),
+    [
+        (1500.0, None, "1500 m, which looks like millimetres; pass depth_scale=0.001"),
+        (50.1, None, "50.1 m, which looks like millimetres"),
+        (12_500.0, 0.1, "1250 m, which looks like a wrong depth_scale, 0.1 metres per unit"),
+        (2.5, 0.001, "0.0025 m, which looks like a wrong depth_scale, 0.001 metres per unit"),
+        (0.0025, None, "0.0025 m, which looks like another unit than metres; pass depth_scale"),
+    ],
+)
+def test_a_wrong_unit_warns(metres: float, scale: float | None, message: str) -> None:
+    """It proves that a median depth that no camera measures is warned of, with what is likely wrong."""
+    depth = np.full((24, 32), metres)
+    depth[::2] = 0
+    with pytest.warns(UserWarning, match=f"^depth: its median is {message}") as caught:
+        Frame(depth=depth, depth_scale=scale)
+    assert caught[0].filename == __file__
+
+
+@pytest.mark.parametrize("metres", [0.05, 0.4, 8.0, 49.9])
+def test_usual_depths_do_not_warn(metres: float) -> None:
+    """It proves that no warning comes from a hand before the camera to a street's end, a few odd pixels, or
+    where nothing is measured.
+    """
+    depth = np.full((24, 32), metres, np.float32)
+    depth[:4], depth[4:8] = 65.535, 0.001
+    Frame(depth=depth)
+    Frame(depth=np.zeros((24, 32)))
+
+
+def test_masked_pixels_are_not_measured() -> None:
+    """It proves that a masked array's masked pixels become NaN, of floats as of integers."""
+    far = METRES.copy()
+    far[2:5] = 7
+    for masked, scale in (
+        (np.ma.masked_greater(far, 5), None),
+        (np.ma.masked_greater((1000 * far).astype(np.uint16), 5000), 0.001),
+    ):
+        depth = Frame(depth=masked, depth_scale=scale).depth
+        assert depth is not None
+        assert type(depth) is np.ndarray
+        np.testing.assert_allclose(depth, np.where(far > 5, np.nan, far), rtol=1e-6)
+
+
 def test_a_frame_can_be_pickled_and_replaced() -> None:
     """It proves that frames go through pickle and dataclasses.replace unchanged."""
     frame = dataclasses.replace(Frame(PICTURE, METRES * 1000, depth_scale=0.001), timestamp=1.5)
@@ -203,6 +247,12 @@ def test_bad_channels_are_refused(channels: dict[str, Any], error: type[Exceptio
         ([1, 2], TypeError, "image: expected a BGR image or a tricue.Frame, got list"),
         (FLOATS, TypeError, "image.color: expected uint8"),
         (PICTURE[:0], ValueError, "image.color: expected an image with pixels"),
+        (METRES, TypeError, r"image.color: .* got float32 .*; depth comes as tricue.Frame\(depth=image\)$"),
+        (
+            (1000 * METRES).astype(np.uint16),
+            TypeError,
+            "image.color: .* got uint16 .*; depth comes as tricue.Frame",
+        ),
     ],
 )
 def test_what_is_no_frame_is_refused(value: Any, error: type[Exception], message: str) -> None:

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import sys
 from pathlib import Path
 
 import cv2
@@ -93,3 +94,29 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
     for name in ("no.toml", "no.yml", "no.txt"):
         with pytest.raises(FileNotFoundError, match=name):
             read_intrinsics(tmp_path / name, SIZE, "depth")
+
+
+def test_a_princeton_file_without_its_matrix_is_named(tmp_path: Path) -> None:
+    """It proves that a frames.mat that is none, is cut off or lacks K is an error that names it."""
+    io = pytest.importorskip("scipy.io")
+    whole, other, text, wide = (tmp_path / name for name in ("w.mat", "o.mat", "t.mat", "v.mat"))
+    io.savemat(whole, {"frames": {"K": CAMERA.matrix}}, do_compression=True)
+    io.savemat(other, {"frames": {"length": 3.0}})
+    io.savemat(wide, {"frames": {"K": np.ones((2, 2))}})
+    text.write_text("K = eye(3)")
+    assert read_intrinsics(whole, SIZE, "depth").fx == CAMERA.fx
+    whole.write_bytes(whole.read_bytes()[:-20])
+    for path in (whole, other, text):
+        with pytest.raises(ValueError, match=f"{path}: expected MATLAB's file of a struct frames"):
+            read_intrinsics(path, SIZE, "depth")
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.mat"):
+        read_intrinsics(tmp_path / "nowhere.mat", SIZE, "depth")
+    with pytest.raises(ValueError, match=r"v.mat: expected a camera matrix \(3, 3\)"):
+        read_intrinsics(wide, SIZE, "depth")
+
+
+def test_a_princeton_file_needs_scipy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that without SciPy the error says what to install."""
+    monkeypatch.setitem(sys.modules, "scipy.io", None)
+    with pytest.raises(ValueError, match=r"frames\.mat: it takes SciPy to read it, pip install scipy"):
+        read_intrinsics(tmp_path / "frames.mat", SIZE, "depth")

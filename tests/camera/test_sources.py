@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -100,6 +101,65 @@ def test_vot_sequences(tmp_path: Path) -> None:
     source = open_source(tmp_path)
     assert (source.fps, source.length, source.first_box) == (4.0, 2, Box(10, 20, 5, 6))
     assert levels(source) == [10, 20]
+
+
+def test_vot_reads_what_its_pattern_names(tmp_path: Path) -> None:
+    """It proves that of a channel's folder only the images of its pattern come, in the order of their
+    numbers.
+    """
+    folder = images(tmp_path / "c", ["x_00000002.png", "x_00000010.png"])
+    images(folder, ["thumbnail.png", "00000001.png", "x_00000001.jpg"])
+    (tmp_path / "sequence").write_text("channels.color=c/x_%08d.png\n")
+    assert levels(open_source(tmp_path)) == [10, 20]
+
+
+def test_fps_times_images_that_have_no_times(tmp_path: Path) -> None:
+    """It proves that the frame rate is 30 or the one that is given, for images alone, OTB's, and VOT's that
+    don't tell it, and that the timestamps follow from it.
+    """
+    alone = images(tmp_path / "alone", ["1.png", "2.png", "3.png"])
+    otb = images(tmp_path / "otb" / "img", ["1.png", "2.png", "3.png"]).parent
+    vot = images(tmp_path / "vot" / "color", ["1.png", "2.png", "3.png"]).parent
+    (vot / "sequence").write_text("fps=0\nchannels.color=color/%08d.png\n")
+    for folder in (alone, otb, vot):
+        for given, fps in ((None, 30.0), (4.0, 4.0), (0.5, 0.5), (1000, 1000.0)):
+            source = open_source(folder, fps=given)
+            assert source.fps == fps
+            expected = pytest.approx([0, 1 / fps, 2 / fps])
+            assert [frame.timestamp for frame in source] == expected
+            assert [frame.timestamp for frame in source] == expected  # once more from the start
+
+
+def test_fps_beside_times_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a frame rate for what has its own is an error that says which: a video, VOT's, a
+    camera.
+    """
+    folder = images(tmp_path / "vot" / "color", ["1.png"]).parent
+    (folder / "sequence").write_text("fps=25\nchannels.color=color/%08d.png\n")
+    monkeypatch.setattr(cv2, "VideoCapture", UnpluggedCamera)
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times, but camera 3"):
+        open_source("3", fps=15)
+    monkeypatch.undo()
+    for place, own in ((video(tmp_path / "v.avi", fps=12.5), "v has its own, 12.5"), (folder, "vot .* 25")):
+        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames a second; leave it out$"):
+            open_source(place, fps=15)
+
+
+@pytest.mark.parametrize(
+    ("fps", "error", "message"),
+    [
+        (0, ValueError, "expected frames a second above 0, got 0"),
+        (-5.0, ValueError, "expected frames a second above 0, got -5.0"),
+        (float("nan"), ValueError, "expected a finite number"),
+        (float("inf"), ValueError, "expected a finite number"),
+        (1001, ValueError, "expected at most 1000 frames a second, got 1001"),
+        ("30", TypeError, "expected a number, frames a second, got '30'"),
+    ],
+)
+def test_bad_fps_is_named(tmp_path: Path, fps: Any, error: type[Exception], message: str) -> None:
+    """It proves that what can't be a frame rate is an error that names it."""
+    with pytest.raises(error, match=f"^--fps: {message}"):
+        open_source(images(tmp_path, ["1.png"]), fps=fps)
 
 
 def test_real_sequences(data: Path) -> None:

@@ -167,6 +167,17 @@ def test_a_wrong_unit_warns_once(
     assert error.startswith("tricue track: warning: depth: its median is 4000 m")
 
 
+def test_the_frame_rate_of_images_can_be_given(recording: Path, nearest_tracker: str, tmp_path: Path) -> None:
+    """It proves that --fps sets the seconds in table and JSON, and the frame rate of the video."""
+    out = {name: tmp_path / f"o.{name}" for name in ("csv", "json", "avi")}
+    files = ["--csv", out["csv"], "--json", out["json"], "--output", out["avi"]]
+    command = ["track", str(recording), "--tracker", nearest_tracker, *MM, "--box", "1,2,8,9", "--fps", "8"]
+    assert main([*command, *map(str, files)]) == 0
+    assert [float(row["time_s"]) for row in read_csv(out["csv"])] == [index / 8 for index in range(6)]
+    assert json.loads(out["json"].read_text())["fps"] == 8.0
+    assert cv2.VideoCapture(str(out["avi"])).get(cv2.CAP_PROP_FPS) == pytest.approx(8.0)
+
+
 BAD = [
     (["{depth}"], "{depth}: expected --depth-scale, the metres per unit of these 16-bit images"),
     (
@@ -186,6 +197,8 @@ BAD = [
     (["{depth}", *MM, "--fov", "190"], "--fov: horizontal_deg: expected"),
     (["{depth}", *MM, "--fov", "60,45,30"], "argument --fov: expected one angle or two, .* got '60,45,30'"),
     (["{depth}", *MM, *FOV, "--calibration", "{toml}"], "argument --calibration: not allowed with"),
+    (["{depth}", *MM, "--fps", "0"], "--fps: expected frames a second above 0, got 0.0"),
+    (["{depth}", *MM, "--fps", "fast"], "argument --fps: invalid float value: 'fast'"),
     (["{depth}", "--depth-scale", "mm"], "argument --depth-scale: invalid float value: 'mm'"),
     (["{depth}", "--depth-scale", "-1"], "depth_scale: expected metres per unit above 0, got -1.0"),
     (["{depth}", *MM, "--plot", "o.txt"], "o.txt: expected a picture's name that ends in .png"),

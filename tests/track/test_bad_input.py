@@ -34,6 +34,8 @@ BAD_FRAMES: dict[str, tuple[Any, type[Exception], str]] = {
     "scalar": (np.array(7, np.uint8), ValueError, r"^frame.color: expected BGR .*uint8 \(\)"),
     "empty": (IMAGE[:0], ValueError, r"^frame.color: expected an image with pixels"),
     "no columns": (IMAGE[:, :0], ValueError, r"^frame.color: expected an image with pixels"),
+    "float depth": (np.ones((96, 128), np.float32), TypeError, r"^frame.color: .*float32.*; depth comes as "),
+    "16-bit depth": (np.ones((96, 128), np.uint16), TypeError, r"^frame.color: .*uint16.*; depth comes as "),
     "depth alone": (Frame(depth=np.ones((96, 128), np.float32)), ValueError, r"^frame: .*color.*got depth"),
 }
 

@@ -37,8 +37,17 @@ BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
     "None": (lambda: None, TypeError, r"^frame: expected .*NoneType"),
     "list": (DEPTH.tolist, TypeError, r"^frame: expected .*got list"),
     "string": (lambda: "depth.png", TypeError, r"^frame: .*got str"),
-    "bare float image": (lambda: DEPTH, TypeError, r"^frame.color: expected uint8 .*float32"),
-    "bare 16-bit image": (lambda: MILLIMETRES, TypeError, r"^frame.color: expected uint8 .*uint16"),
+    "bare float image": (
+        lambda: DEPTH,
+        TypeError,
+        r"^frame.color: .*float32.*; depth comes as .*\(depth=image",
+    ),
+    "bare 16-bit image": (
+        lambda: MILLIMETRES,
+        TypeError,
+        r"^frame.color: .*uint16.*; depth comes as .*\(depth=",
+    ),
+    "bare grey image": (lambda: COLOR[..., 0], ValueError, r"^frame: expected the channel depth.*got color"),
     "bare color": (lambda: COLOR, ValueError, r"^frame: expected the channel depth.*got color"),
     "color alone": (lambda: Frame(color=COLOR), ValueError, r"^frame: expected the channel depth.*got color"),
     "stereo pair": (
@@ -51,6 +60,22 @@ BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
     "colored depth": (lambda: Frame(depth=COLOR), ValueError, r"^depth: expected one value a pixel"),
     "bool": (lambda: Frame(depth=DEPTH > 3), TypeError, r"^depth: expected float32 .*bool"),
     "complex": (lambda: Frame(depth=DEPTH.astype(complex)), TypeError, r"^depth: expected .*complex"),
+    "half floats": (lambda: Frame(depth=DEPTH.astype(np.float16)), TypeError, r"^depth: expected .*float16"),
+    "objects": (lambda: Frame(depth=DEPTH.astype(object)), TypeError, r"^depth: expected .*object"),
+    "lists": (lambda: Frame(depth=DEPTH.tolist()), TypeError, r"^depth: expected a NumPy array, got list"),
+    "no columns": (lambda: Frame(depth=DEPTH[:, :0]), ValueError, r"^depth: expected one value a pixel"),
+    "scale -1": (lambda: Frame(depth=MILLIMETRES, depth_scale=-1), ValueError, r"^depth_scale: expected"),
+    "scale NaN": (
+        lambda: Frame(depth=MILLIMETRES, depth_scale=np.nan),
+        ValueError,
+        r"^depth_scale: expected",
+    ),
+    "scale in words": (
+        lambda: Frame(depth=MILLIMETRES, depth_scale="mm"),
+        TypeError,
+        r"^depth_scale: expected",
+    ),
+    "seconds in words": (lambda: Frame(depth=DEPTH, timestamp="now"), TypeError, r"^timestamp: expected"),
     "empty": (lambda: Frame(depth=DEPTH[:0]), ValueError, r"^depth: expected one value a pixel"),
     "batch": (lambda: Frame(depth=DEPTH[None]), ValueError, r"^depth: expected one value a pixel"),
     "nothing": (Frame, ValueError, r"^frame: expected color or depth, got neither"),
@@ -116,6 +141,13 @@ FRAMES: dict[str, Depth] = {
 }
 
 
+def odd(name: str) -> Frame:
+    """The frame of that name; that some look like another unit is no matter here."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "depth: its median", UserWarning)
+        return Frame(depth=FRAMES[name])
+
+
 def assert_sane(track: Track) -> None:
     """A finite box with an area, a score in [0, 1], a status; position and covariance both or neither."""
     assert np.isfinite(track.box).all()
@@ -170,7 +202,7 @@ def test_a_start_on_nothing_is_named(name, box):
     """
     tracker = started()
     with pytest.raises(ValueError, match=r"^box: expected"):
-        tracker.init(Frame(depth=FRAMES[name]), box)
+        tracker.init(odd(name), box)
     assert tracker.update(NEXT) == EXPECTED
 
 
@@ -221,12 +253,110 @@ def test_update_before_init_is_named():
         tracker.update(Frame(depth=DEPTH))
 
 
-def test_a_frame_of_gaps_is_an_occlusion():
+GAPS = {"NaN": np.nan, "0": 0, "negative": -2.5, "infinite": np.inf, "minus infinite": -np.inf}
+
+
+@pytest.mark.parametrize("value", GAPS.values(), ids=GAPS)
+def test_a_frame_of_gaps_is_an_occlusion(value):
     """A frame in which nothing is measured is OCCLUDED at score 0, no error; the next is TRACKED again."""
     tracker = started()
-    hidden = tracker.update(Frame(depth=FRAMES["nothing measured"]))
+    hidden = tracker.update(Frame(depth=np.full_like(DEPTH, value)))
     assert hidden.status is Status.OCCLUDED
     assert hidden.score == 0
+    assert tracker.update(NEXT).status is Status.TRACKED
+
+
+@pytest.mark.parametrize("value", GAPS.values(), ids=GAPS)
+def test_nothing_is_no_target(value):
+    """Init on a frame in which nothing is measured names the box, with one and without, says what it
+    expected, and leaves the state.
+    """
+    tracker, frame = started(), Frame(depth=np.full_like(DEPTH, value))
+    with pytest.raises(ValueError, match=r"^box: expected a target with measured depth .* got none in \(40"):
+        tracker.init(frame, BOX)
+    with pytest.raises(
+        ValueError, match=r"^box: expected .* nobody was found .*, nor anything else above the"
+    ):
+        tracker.init(frame)
+    assert tracker.update(NEXT) == EXPECTED
+
+
+@pytest.mark.parametrize("metres", [0.2, 9.0])
+def test_a_box_on_what_is_out_of_range_is_named(metres):
+    """A box on what is nearer or farther than a target can be is an error that says the range."""
+    depth = DEPTH.copy()
+    depth[20:80, 80:110] = metres
+    with pytest.raises(ValueError, match=r"^box: expected .* between near and far, 0.3 and 8 m, got none"):
+        started().init(Frame(depth=depth), (80, 20, 30, 60))
+
+
+@pytest.mark.parametrize("value", GAPS.values(), ids=GAPS)
+def test_gaps_of_all_kinds_are_the_same(value):
+    """NaN, 0, negative and infinite pixels among measured ones give the same track, bit for bit."""
+    frames = [np.nan_to_num(hall(shift), nan=value) for shift in (0, 1, 2)]
+    tracker = DepthParticleTracker(intrinsics=CAMERA, seed=1, particles=30)
+    tracker.init(Frame(depth=frames[0]), BOX)
+    tracker.update(Frame(depth=frames[1]))
+    assert tracker.update(Frame(depth=frames[2])) == EXPECTED
+
+
+@pytest.mark.parametrize("kind", [np.uint16, np.int16, np.int32, np.int64, ">u2", np.float32, np.float64])
+def test_any_type_of_number_is_followed(kind):
+    """Millimetres of every type with their scale are followed as metres are, within what their rounding
+    costs.
+    """
+    tracker = DepthParticleTracker(intrinsics=CAMERA, seed=1, particles=30)
+    for shift in (0, 1, 2):
+        units = np.nan_to_num(1000 * hall(shift)).astype(kind)
+        frame = Frame(depth=units, depth_scale=0.001)
+        track = tracker.update(frame) if shift else tracker.init(frame, BOX)
+    assert track.status is Status.TRACKED
+    assert track.position == pytest.approx(EXPECTED.position, abs=1e-4)
+
+
+def test_color_of_another_size_does_not_matter():
+    """Color images beside the depth, of any size, also of another in the next frame, change nothing: boxes
+    and intrinsics are the depth's.
+    """
+    tracker = DepthParticleTracker(intrinsics=CAMERA, seed=1, particles=30)
+    tracker.init(Frame(np.zeros((480, 640, 3), np.uint8), DEPTH), BOX)
+    tracker.update(Frame(np.zeros((10, 20), np.uint8), hall(1)))
+    assert tracker.update(Frame(np.zeros((720, 1280, 3), np.uint8), hall(2))) == EXPECTED
+
+
+def test_the_color_cameras_intrinsics_are_named():
+    """Intrinsics of the color image, of another size than the depth's, are an error that says whose they
+    should be.
+    """
+    tracker = DepthParticleTracker(intrinsics=Intrinsics.from_fov(640, 480, 60))
+    message = (
+        r"^frame.depth: expected the camera's size, 640x480, got 128x96; the intrinsics are those of the d"
+    )
+    with pytest.raises(ValueError, match=message):
+        tracker.init(Frame(np.zeros((480, 640, 3), np.uint8), DEPTH), BOX)
+
+
+@pytest.mark.parametrize(
+    "seconds", [(0.0, 0.0), (5.0, 4.0), (0.0, 1e12), (-1e300, 1e300), (None, 1.0), (1.0, None)], ids=str
+)
+def test_odd_times_are_sane(seconds):
+    """Times that stand still, go back, leap or are missing give sane tracks."""
+    tracker = DepthParticleTracker(intrinsics=CAMERA, seed=1, particles=30)
+    tracker.init(Frame(depth=DEPTH, timestamp=seconds[0]), BOX)
+    for shift in (1, 2):
+        assert_sane(tracker.update(Frame(depth=hall(shift), timestamp=seconds[1])))
+
+
+def test_metres_as_millimetres_are_warned_of():
+    """Metres with the scale of millimetres make the Frame warn; the tracker misses its target, and goes
+    on.
+    """
+    with pytest.warns(UserWarning, match=r"^depth: its median is 0.006 m, .* a wrong depth_scale, 0.001"):
+        frame = Frame(depth=DEPTH, depth_scale=0.001)
+    tracker = started()
+    assert tracker.update(frame).status is Status.OCCLUDED
+    with pytest.raises(ValueError, match=r"^box: expected .* between near and far, 0.3 and 8 m, got none"):
+        tracker.init(frame, BOX)
     assert tracker.update(NEXT).status is Status.TRACKED
 
 
@@ -273,9 +403,7 @@ def test_odd_boxes_are_followed(name):
 )
 def test_odd_frames_are_sane(name, form, kernels):
     """Empty, uniform, noisy and extreme frames give sane tracks until long lost, as the next good one."""
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "depth: its median", UserWarning)
-        frame = Frame(depth=FRAMES[name])
+    frame = odd(name)
     tracker = started(kernels=kernels, particles=20, lost_after=0.2, **form)
     for _ in range(6):
         assert_sane(tracker.update(frame))
@@ -285,9 +413,7 @@ def test_odd_frames_are_sane(name, form, kernels):
 @pytest.mark.parametrize("name", FRAMES)
 def test_starts_on_odd_frames_are_sane(name):
     """A box on an odd frame is refused by name or gives sane tracks, there and on good frames."""
-    with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "depth: its median", UserWarning)
-        frame = Frame(depth=FRAMES[name])
+    frame = odd(name)
     tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=CAMERA)
     try:
         tracks = [tracker.init(frame, BOX)]

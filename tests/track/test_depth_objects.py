@@ -26,7 +26,9 @@ def drawn(*boxes: tuple[Box, float], wall: float = WALL, shape: tuple[int, int] 
     for box, z in boxes:
         left, top, right, bottom = map(int, box.xyxy)
         depth[max(0, top) : max(0, bottom), max(0, left) : max(0, right)] = z
-    return foreground(None, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False))[0]
+    return foreground(
+        None, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
+    )[0]
 
 
 def metric(box: Box, z: float) -> NDArray[np.float64]:
@@ -234,7 +236,7 @@ def test_a_box_starts_at_the_depth_of_its_object(kernels):
     fg = drawn(*TWO)
     objects = segment(kernels, fg, NO_FLOOR, P)
     loose = Box(LEFT_BOX.x - 4, LEFT_BOX.y - 6, LEFT_BOX.width + 9, LEFT_BOX.height + 8)
-    found = in_box(loose, objects, fg)
+    found = in_box(loose, objects, fg, P)
     np.testing.assert_allclose(found.state, metric(loose, NEARER), rtol=1e-6)
     assert found.whole.all()
 
@@ -244,7 +246,7 @@ def test_a_box_on_no_object_has_the_depth_of_its_middle(kernels):
     fg = drawn((LEFT_BOX, NEARER))
     objects = segment(kernels, fg, NO_FLOOR, P)
     part = Box(LEFT_BOX.x + 10, LEFT_BOX.y + 10, 12, 12)
-    np.testing.assert_allclose(in_box(part, objects, fg).state, metric(part, NEARER), rtol=1e-6)
+    np.testing.assert_allclose(in_box(part, objects, fg, P).state, metric(part, NEARER), rtol=1e-6)
 
 
 @pytest.mark.parametrize("size", [2, 3, 5])
@@ -255,14 +257,14 @@ def test_a_small_box_in_a_thinned_image_has_a_depth(size, corner, kernels):
     fg, plane = foreground(
         kernels, np.full((144, 176), 3.0, np.float32), NUMBERS, NO_FLOOR, np.random.default_rng(0), p
     )
-    found = in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg)
+    found = in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg, p)
     assert found.state[2] == pytest.approx(3.0)
 
 
 def test_a_box_on_nothing_is_named(kernels):
     """A box without a measurement in its middle is an error that names it."""
     with pytest.raises(ValueError, match=r"^box: expected a target with measured depth"):
-        in_box(Box(10, 10, 20, 20), segment(kernels, drawn(wall=np.nan), NO_FLOOR, P), drawn(wall=np.nan))
+        in_box(Box(10, 10, 20, 20), segment(kernels, drawn(wall=np.nan), NO_FLOOR, P), drawn(wall=np.nan), P)
 
 
 EXPECTED = np.array(person(width=0.6, height=1.8))

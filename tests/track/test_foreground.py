@@ -91,6 +91,17 @@ def test_a_wall_is_no_floor(kernels):
     assert np.isfinite(fg.depth).all()
 
 
+@pytest.mark.parametrize("scale", [0.001, 0.005, 0.02])
+def test_what_is_too_near_is_no_floor(scale, kernels):
+    """A frame of depths that are nearer than any target, such as one in another unit, leaves no floor, and
+    the known one stays.
+    """
+    near = hall(0.01) * np.float32(scale)
+    assert not found(kernels, near)[1].any()
+    _, plane = found(kernels, hall(0.01))
+    np.testing.assert_array_equal(found(kernels, near, plane)[1], plane)
+
+
 def test_a_floor_that_holds_is_kept(kernels):
     """While a known floor has its points, noise doesn't move it: it stays bit for bit, whatever the random
     numbers.

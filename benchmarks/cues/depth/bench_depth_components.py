@@ -27,7 +27,7 @@ def scene() -> tuple[Labels, Depth]:
 
 
 def script(
-    labels: Labels, depth: Depth, near: float, far: float, levels: int, bins: int, min_area: int
+    labels: Labels, depth: Depth, near: float, far: float, levels: int, bins: int, min_area: int, image: bool
 ) -> tuple[Any, ...]:
     """The peer: connectedComponentsWithStats for every label, then masks, calcHist and bincount."""
     found = []
@@ -64,7 +64,7 @@ def bench_depth_components(
     """All find the same regions. OpenCV's calcHist rounds otherwise, so a pixel at the edge of a level may be
     in the next.
     """
-    arguments = (*scene, NEAR, FAR, LEVELS, BINS, MIN_AREA)
+    arguments = (*scene, NEAR, FAR, LEVELS, BINS, MIN_AREA, True)
     found = benchmark(depth_components, *arguments)
     expected = reference.depth_components(*arguments)
     assert len(found[0]) > 5

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "check.hpp"
+#include "depth_pixels.hpp"
 #include "runs.hpp"
 #include "simd.hpp"
 
@@ -27,7 +27,7 @@ void find_levels(const float* __restrict depth, int n, double near, double scale
                  std::int32_t* __restrict level, double* __restrict metres) {
     const double last = levels - 1;
     for (int x = 0; x < n; ++x) {
-        const bool measured = (depth[x] > 0.0f) & (depth[x] <= std::numeric_limits<float>::max());
+        const bool measured = has_depth(depth[x]);
         const double z = measured ? static_cast<double>(depth[x]) : 0.0;
         const auto clamped = static_cast<std::int32_t>(std::min(std::max((z - near) * scale, 0.0), last));
         level[x] = measured ? clamped : levels;
@@ -100,6 +100,7 @@ struct Tally {
     Component box;
     Counts levels, columns, rows;
     std::array<double, kLanes> metres{};
+    std::int64_t measured = 0;  ///< of what isn't counted by level
 
     Tally(const Component& component, int level_count)
         : box(component),
@@ -129,11 +130,19 @@ struct Tally {
         metres = sums;
     }
 
+    /// Without levels.
+    void add_depth(const float* depth, std::size_t n) {
+        for (std::size_t x = 0; x < n; ++x) {
+            const bool counts = has_depth(depth[x]);
+            metres[x % kLanes] += counts ? static_cast<double>(depth[x]) : 0.0;
+            measured += counts;
+        }
+    }
+
     /// Afterwards columns and levels are what their names say. Returns how many pixels were measured.
     std::int64_t finish() {
         std::partial_sum(columns.begin(), columns.end(), columns.begin());
         columns.pop_back();
-        std::int64_t measured = 0;
         for (std::size_t level = 0; level + 1 < levels.size() / kLanes; ++level) {
             const auto first = levels.begin() + static_cast<std::ptrdiff_t>(kLanes * level);
             measured += levels[level] = std::accumulate(first, first + kLanes, 0);
@@ -157,9 +166,17 @@ Counts spread(const Counts& counts, int bins) {
     return parts;
 }
 
-/// Goes through the runs once more, in reading order: counts, and paints the image of components.
+/// The image of components.
+LabelImage paint(const Runs& runs, const Grouping& groups, const DepthView& depth) {
+    LabelImage image = LabelImage::Zero(depth.rows, depth.cols);
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        std::fill_n(image.row(runs[i].row).data() + runs[i].begin, runs[i].length(), groups.place[i] + 1);
+    return image;
+}
+
+/// Goes through the runs once more, in reading order.
 std::vector<Tally> count(const Runs& runs, const Grouping& groups, const DepthView& depth,
-                         const Signature& signature, LabelImage& components) {
+                         const Signature& signature) {
     const double scale = signature.levels / (signature.far - signature.near);
     std::vector<std::int32_t> level(static_cast<std::size_t>(depth.cols));
     std::vector<double> metres(level.size());
@@ -170,16 +187,19 @@ std::vector<Tally> count(const Runs& runs, const Grouping& groups, const DepthVi
         const std::int32_t place = groups.place[i];
         if (place < 0) continue;
         const Run& run = runs[i];
+        const auto length = static_cast<std::size_t>(run.length());
+        Tally& tally = tallies[static_cast<std::size_t>(place)];
+        tally.add_box(run);
+        if (signature.levels == 0) {
+            tally.add_depth(depth.row(run.row) + run.begin, length);
+            continue;
+        }
         if (run.row != row) {
             row = run.row;
             find_levels(depth.row(row), depth.cols, signature.near, scale, signature.levels, level.data(),
                         metres.data());
         }
-        Tally& tally = tallies[static_cast<std::size_t>(place)];
-        tally.add_box(run);
-        tally.add_depth(level.data() + run.begin, metres.data() + run.begin,
-                        static_cast<std::size_t>(run.length()));
-        std::fill_n(components.row(row).data() + run.begin, run.length(), place + 1);
+        tally.add_depth(level.data() + run.begin, metres.data() + run.begin, length);
     }
     return tallies;
 }
@@ -195,7 +215,7 @@ void require(const ImageView& labels, const DepthView& depth, const Signature& s
         refuse("near", "a finite number, not negative", signature.near);
     if (!(signature.far > signature.near && std::isfinite(signature.far)))
         refuse("far", "a finite number above near", signature.far);
-    if (signature.levels < 1) refuse("levels", "at least 1", signature.levels);
+    if (signature.levels < 0) refuse("levels", "at least 0", signature.levels);
     if (signature.bins < 1) refuse("bins", "at least 1", signature.bins);
     if (min_area < 1) refuse("min_area", "at least 1", min_area);
 }
@@ -203,14 +223,15 @@ void require(const ImageView& labels, const DepthView& depth, const Signature& s
 }  // namespace
 
 DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
-                                 int min_area) {
+                                 int min_area, bool image) {
     require(labels, depth, signature, min_area);
     Runs runs = label_runs(labels);
     const Grouping groups = group(runs, min_area);
     const auto C = static_cast<Eigen::Index>(groups.components.size());
     DepthComponents result{States(C, 7), Floats::Zero(C, signature.levels), Floats::Zero(C, signature.bins),
-                           Floats::Zero(C, signature.bins), LabelImage::Zero(depth.rows, depth.cols)};
-    auto tallies = count(runs, groups, depth, signature, result.components);
+                           Floats::Zero(C, signature.bins),
+                           image ? paint(runs, groups, depth) : LabelImage()};
+    auto tallies = count(runs, groups, depth, signature);
     for (Eigen::Index i = 0; i < C; ++i) {
         Tally& tally = tallies[static_cast<std::size_t>(i)];
         const Component& box = tally.box;

@@ -24,8 +24,7 @@ struct DepthComponents {
     Floats histograms;  ///< C x levels: shares of the measured pixels
     Floats columns;     ///< C x bins: shares of the area, left to right
     Floats rows;        ///< C x bins: shares of the area, top to bottom
-    Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
-        components;  ///< H x W, from 1
+    LabelImage image;   ///< H x W, from 1; empty where it isn't wanted
 };
 
 /// The objects of a divided depth image: connected regions (8 neighbours) of one label other than 0, with their signatures.
@@ -37,11 +36,12 @@ struct DepthComponents {
 ///
 /// @param labels    (H, W) uint8, 0 where there is no object
 /// @param depth     (H, W) metres
-/// @param signature 0 <= near < far, finite; levels and bins at least 1
+/// @param signature 0 <= near < far, finite; levels at least 0, which is no histogram, bins at least 1
 /// @param min_area  smallest area, pixels, at least 1; smaller components are 0 in the image of components
+/// @param image     whether that image is made: it takes a fifth of the time
 /// @throws std::invalid_argument on labels of another shape, or parameters out of these ranges
 /// Source: Sabeti, Parvizi, Wu 2008, section IV.A; labelling after Rosenfeld, Pfaltz 1966.
 DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
-                                 int min_area);
+                                 int min_area, bool image);
 
 }  // namespace tricue

@@ -3,6 +3,7 @@
 
 #include "check.hpp"
 #include "depth_reader.hpp"
+#include "level_counter.hpp"
 
 namespace tricue {
 
@@ -11,13 +12,14 @@ Vector rectangle_histogram(const DepthView& depth, VectorRef rectangle, int leve
     require_size(rectangle, 5, "rectangle");
     require_finite(rectangle, "rectangle");
     if (levels < 1 || levels > 65536) refuse("levels", "1 to 65536", levels);
-    DepthReader reader(depth, pattern, levels, reach, 0.0);
+    DepthReader reader(depth, pattern);
+    LevelCounter counter(levels, reach, reader.places());
 
-    reader.read(rectangle.data());
-    if (reader.counted() == 0.0) return Vector::Zero(levels);
-    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(reader.counts(), levels)
+    counter.count(reader.read(rectangle.data()), rectangle[4]);
+    if (counter.counted() == 0.0) return Vector::Zero(levels);
+    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(counter.counts(), levels)
                .cast<double>() /
-           reader.counted();
+           counter.counted();
 }
 
 }  // namespace tricue

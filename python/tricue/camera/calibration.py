@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Calibration files: OpenCV's, KITTI's, TOML.
+"""Calibration files: OpenCV's, KITTI's, the Princeton Tracking Benchmark's, TOML.
 
 Many of them don't hold the image's size; then ``size=(width, height)`` gives it. The readers' errors name
 the file and the key: ValueError, or OSError for a file that isn't there.
@@ -64,6 +64,25 @@ def kitti_rig(path: Path, *, cameras: tuple[int, int] = (2, 3), size: Size | Non
     values = _kitti(path)
     left, right = (_kitti_projection(values, camera, path) for camera in cameras)
     return _rig(left, right, 1.0, size or _kitti_size(values, cameras[0]), path)
+
+
+def princeton_intrinsics(path: Path, *, size: Size | None = None) -> Intrinsics:
+    """The camera matrix K in a frames.mat, which counts pixels from 1, as MATLAB does.
+
+    ValueError also where SciPy, which reads it, isn't installed.
+    """
+    try:
+        from scipy.io import loadmat
+    except ImportError:
+        raise ValueError(f"{path}: it takes SciPy to read it, pip install scipy") from None
+    with pathlib.Path(path).open("rb") as file:
+        try:
+            matrix = np.array(loadmat(file, simplify_cells=True)["frames"]["K"], np.float64)
+        except Exception:  # loadmat has no error of its own: zlib's, its stream's and others come through
+            raise ValueError(f"{path}: expected MATLAB's file of a struct frames with the matrix K") from None
+    if matrix.shape == (3, 3):
+        matrix[:2, 2] -= 1
+    return _intrinsics(matrix, size, path)
 
 
 def toml_intrinsics(path: Path, *, table: str | None = None, size: Size | None = None) -> Intrinsics:

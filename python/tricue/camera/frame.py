@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.numbers import finite, positive
 
-FAR = 50.0  # metres; a median depth above this is most likely in millimetres
+NEAR, FAR = 0.05, 50.0  # metres; a median depth outside of these is most likely in another unit
 _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
 
@@ -21,15 +21,16 @@ class Frame:
 
     color: uint8, (H, W, 3) in BGR order or grey (H, W). Of a stereo pair it is the left image.
     depth: (H, W), metres along the optical axis, kept as float32 with NaN where nothing was measured (what
-        comes as 0, negative, NaN or infinite). float32 or float64 are metres; integers need ``depth_scale``.
-        Its size may differ from the color image's.
+        comes as 0, negative, NaN, infinite or masked). float32 or float64 are metres; integers need
+        ``depth_scale``. Its size may differ from the color image's.
     right: the right image of a rectified pair, of the same shape as ``color``.
     timestamp: seconds.
     depth_scale: metres per unit of ``depth``, 0.001 for millimetres.
 
     Images are kept, not copied, where their pixels are packed (whole arrays and crops of them); any other
     layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError names the
-    channel. Warns (UserWarning) where the median depth is above 50 m: that looks like millimetres.
+    channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimetres, or below
+    5 cm.
     """
 
     color: NDArray[np.uint8] | None
@@ -83,7 +84,9 @@ def as_frame(value: FrameLike, name: str = "frame") -> Frame:
     try:
         return Frame(value)
     except (TypeError, ValueError) as error:
-        raise type(error)(f"{name}.{error}") from None
+        depth = value.ndim == 2 and value.dtype.kind in "iuf" and value.dtype.itemsize > 1
+        hint = "; depth comes as tricue.Frame(depth=image)" if depth else ""
+        raise type(error)(f"{name}.{error}{hint}") from None
 
 
 def _image(value: Any, name: str) -> NDArray[np.uint8]:
@@ -121,11 +124,13 @@ def _depth(value: Any, scale: float | None) -> NDArray[np.float32]:
     if scale is not None:
         metres *= np.float32(positive(scale, "depth_scale", "metres per unit"))
     metres[~((metres > 0) & (metres < np.inf))] = np.nan
-    _warn_if_far(metres)
+    _warn_of_unit(metres, scale)
     return metres
 
 
 def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
+    if isinstance(value, np.ma.MaskedArray):
+        value = value.filled(0)
     if not isinstance(value, np.ndarray):
         raise TypeError(f"depth: expected a NumPy array, got {type(value).__name__}")
     if value.ndim != 2 or value.size == 0:
@@ -138,19 +143,31 @@ def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
                 f"depth: expected depth_scale with integers, got {_described(value)} alone; {hint}"
             )
     elif value.dtype.kind != "f" or value.dtype.itemsize not in (4, 8):
-        eight = "; 8 bits are a picture of the depth, not metres" if value.dtype.itemsize == 1 else ""
+        eight = (
+            "; 8 bits are a picture of the depth, not metres"
+            if value.dtype.itemsize == 1 and value.dtype.kind != "b"
+            else ""
+        )
         expected = "float32 or float64 metres, or integers with depth_scale"
         raise TypeError(f"depth: expected {expected}, got {_described(value)}{eight}")
     return value
 
 
-def _warn_if_far(metres: NDArray[np.float32]) -> None:
+def _warn_of_unit(metres: NDArray[np.float32], scale: float | None) -> None:
     rows, columns = (max(1, n // 32) for n in metres.shape)
     sample = metres[::rows, ::columns]
-    median = float(np.median(sample[np.isfinite(sample)])) if np.isfinite(sample).any() else 0.0
-    if median > FAR:
-        message = f"depth: its median is {median:.0f} m, which looks like millimetres; pass depth_scale=0.001"
-        warnings.warn(message, UserWarning, stacklevel=4)  # points at the line that made the frame
+    measured = sample[np.isfinite(sample)]
+    median = float(np.median(measured)) if measured.size else FAR
+    if NEAR <= median <= FAR:
+        return
+    if scale is not None:
+        why = f"a wrong depth_scale, {scale:g} metres per unit"
+    elif median > FAR:
+        why = "millimetres; pass depth_scale=0.001"
+    else:
+        why = "another unit than metres; pass depth_scale, the metres per unit"
+    message = f"depth: its median is {median:.{4 if median > FAR else 2}g} m, which looks like {why}"
+    warnings.warn(message, UserWarning, stacklevel=4)  # points at the line that made the frame
 
 
 def _described(array: NDArray[Any]) -> str:

@@ -9,17 +9,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera import princeton
 from tricue.camera.depth_images import MILLIMETRES, DepthReader, is_depth, known_scale
-from tricue.camera.streams import DEFAULT_FPS, Images, Read, Stream, Video, image_paths, read_color
-from tricue.camera.truth import find_ptb_truth, find_truth
+from tricue.camera.streams import Images, Stream, Timed, Video, image_paths, sane_rate, timed_images
+from tricue.camera.truth import VOT, find_ptb_truth, find_truth
 
 TUM_SCALE = 1 / 5000  # metres per unit; the format's definition, as the next
 TUM_APART = 0.02  # seconds, within which a color and a depth image belong together
-PTB_TICK = 1e-6  # seconds per unit of the times in the names of the Princeton benchmark's files
 _COLOR_FOLDERS = ("img", "color", "left", "rgb")  # OTB, VOT, stereo pairs, RGB-D recordings
 _VIDEOS = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
-
-Timed = list[tuple[float, Path]]
 
 
 class Layout(NamedTuple):
@@ -40,10 +38,21 @@ def read_layout(folder: Path, scale: float | None) -> Layout:
         return _vot(folder, scale)
     if (folder / "depth.txt").is_file() or (folder / "rgb.txt").is_file():
         return _tum(folder, scale)
-    color, depth = (_ptb_images(folder / channel) for channel in ("rgb", "depth"))
+    color, depth = (princeton.images_in(folder / channel) for channel in ("rgb", "depth"))
     if color and depth:
-        return _ptb(folder, color, depth, scale)
+        return Layout(princeton.pair(color, depth, scale), find_ptb_truth(folder))
+    if (folder / VOT).is_file() and all(_counted(folder / channel) for channel in ("color", "depth")):
+        return _vot_rgbd(folder, scale)
     return _plain(folder, scale)
+
+
+def depth_images(paths: Sequence[Path], scale: float | None) -> Images:
+    """Images of depth; ValueError where their unit is needed and unknown. Princeton's are known by their
+    names.
+    """
+    if len(images := princeton.named_images(paths)) == len(paths):
+        return princeton.depth_images(images, scale)
+    return Images(paths, read=DepthReader(known_scale(paths[0].parent, scale)))
 
 
 def _vot(folder: Path, scale: float | None) -> Layout:
@@ -62,12 +71,11 @@ def _vot(folder: Path, scale: float | None) -> Layout:
     return Layout(channels, find_truth(folder))
 
 
-def _vot_fps(values: Mapping[str, str]) -> float:
+def _vot_fps(values: Mapping[str, str]) -> float | None:
     try:
-        fps = float(values.get("fps", ""))
+        return sane_rate(float(values.get("fps", "")))
     except ValueError:
-        return DEFAULT_FPS
-    return fps if 0 < fps <= 1000 else DEFAULT_FPS
+        return None
 
 
 def _vot_color(values: Mapping[str, str]) -> str:
@@ -79,16 +87,35 @@ def _vot_color(values: Mapping[str, str]) -> str:
 
 
 def _vot_images(folder: Path, channel: str, pattern: str) -> list[Path]:
+    """The images that the pattern names, in the order of their numbers."""
     place = (folder / pattern).parent
-    if "%" not in pattern or not place.is_dir():
+    around = re.split(r"%\d*d", Path(pattern).name)
+    if len(around) != 2 or not place.is_dir():
         suffix = {"color": "jpg", "depth": "png"}[channel]
         raise ValueError(
             f"{folder / 'sequence'}: expected channels.{channel}={channel}/%08d.{suffix}, got {pattern!r}"
         )
-    paths = image_paths(place)
+    name = re.compile(r"\d+".join(map(re.escape, around)))
+    paths = [path for path in image_paths(place) if name.fullmatch(path.name)]
     if not paths:
         raise ValueError(f"{place}: expected the images of the {channel} channel, found none")
     return paths
+
+
+def _counted(folder: Path) -> bool:
+    """Whether the images are called 00000001.jpg and so on, as all of VOT's are."""
+    paths = image_paths(folder) if folder.is_dir() else []
+    return bool(paths) and all(re.fullmatch(r"\d{8}", path.stem) for path in paths)
+
+
+def _vot_rgbd(folder: Path, scale: float | None) -> Layout:
+    """The same without a sequence file, as CDTB's and DepthTrack's come: color/, depth/, true boxes."""
+    reader = DepthReader(MILLIMETRES if scale is None else scale)
+    channels: dict[str, Stream] = {
+        "color": Images(image_paths(folder / "color")),
+        "depth": Images(image_paths(folder / "depth"), read=reader),
+    }
+    return Layout(channels, find_truth(folder))
 
 
 def _tum(folder: Path, scale: float | None) -> Layout:
@@ -98,15 +125,15 @@ def _tum(folder: Path, scale: float | None) -> Layout:
     reader = DepthReader(TUM_SCALE if scale is None else scale)
     if not (color and depth):
         name, images = ("color", color) if color else ("depth", depth)
-        return Layout({name: _timed(images, reader) if depth else _timed(images)})
+        return Layout({name: timed_images(images, reader) if depth else timed_images(images)})
     pairs = _closest_pairs([time for time, _ in color], [time for time, _ in depth], TUM_APART)
     if not pairs:
         raise ValueError(
             f"{folder}: expected color and depth images within {TUM_APART} s of each other, found none"
         )
     channels: dict[str, Stream] = {
-        "color": _timed([color[i] for i, _ in pairs]),
-        "depth": _timed([depth[j] for _, j in pairs], reader),
+        "color": timed_images([color[i] for i, _ in pairs]),
+        "depth": timed_images([depth[j] for _, j in pairs], reader),
     }
     alone = len(color) - len(pairs)
     note = f"left out {alone} of {len(color)} color images, with no depth image within {TUM_APART} s"
@@ -129,14 +156,14 @@ def _tum_list(path: Path) -> Timed:
 
 
 def _tum_line(line: str, path: Path, number: int) -> tuple[float, Path]:
-    time, *name = line.split(maxsplit=1)
+    time, *name = re.split(r"[\s,]+", line.strip(), maxsplit=1)  # as the benchmark's own reader does
     try:
         seconds = float(time)
     except ValueError:
         seconds = np.nan
     if not (name and np.isfinite(seconds)):
         raise ValueError(f"{path}, line {number}: expected a timestamp and a file name, got {line!r:.60}")
-    return seconds, path.parent / name[0].strip()
+    return seconds, path.parent / name[0]
 
 
 def _closest_pairs(first: Sequence[float], second: Sequence[float], apart: float) -> list[tuple[int, int]]:
@@ -156,53 +183,29 @@ def _closest_pairs(first: Sequence[float], second: Sequence[float], apart: float
     return sorted(pairs.items())
 
 
-def _ptb_images(folder: Path) -> Timed:
-    """Princeton's files r-<time>-<frame>.png or d-<time>-<frame>.png, in the order of the frames."""
-    if not folder.is_dir():
-        return []
-    names = ((re.fullmatch(r"[rd]-(\d+)-(\d+)\.png", path.name), path) for path in folder.iterdir())
-    found = sorted((int(name[2]), int(name[1]) * PTB_TICK, path) for name, path in names if name)
-    return [(time, path) for _, time, path in found]
-
-
-def _ptb(folder: Path, color: Timed, depth: Timed, scale: float | None) -> Layout:
-    """Each color image, for which a true box stands, with the depth image that is nearest in time."""
-    times = np.array([time for time, _ in depth])
-    nearest = [depth[int(np.argmin(np.abs(times - time)))] for time, _ in color]
-    reader = DepthReader(MILLIMETRES if scale is None else scale, rotated=True)
-    channels: dict[str, Stream] = {"color": _timed(color), "depth": _timed(nearest, reader)}
-    return Layout(channels, find_ptb_truth(folder))
-
-
-def _timed(images: Timed, read: Read = read_color) -> Images:
-    times = [time for time, _ in images]
-    step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-    fps = 1 / step if step > 0.001 else DEFAULT_FPS
-    return Images([path for _, path in images], fps, read, times)
-
-
 def _plain(folder: Path, scale: float | None) -> Layout:
     """Images in a folder of a usual name or in the folder itself, or one video; depth in depth/."""
     places = [folder / sub for sub in _COLOR_FOLDERS if (folder / sub).is_dir()]
     images = next((paths for place in (*places, folder) if (paths := image_paths(place))), [])
     if images and is_depth(images[0]):
-        return Layout({"depth": _depth_images(images, scale)}, find_truth(folder))
+        return Layout({"depth": depth_images(images, scale)}, find_truth(folder))
     depth = image_paths(folder / "depth") if (folder / "depth").is_dir() else []
     channels: dict[str, Stream] = {}
     if images:
-        channels["color"] = Images(images)
+        channels["color"] = _color_images(images)
     elif video := _video(folder, optional=bool(depth)):
         channels["color"] = video
     if depth and channels and scale is None:
         note = f"left out {folder / 'depth'}: --depth-scale gives its metres per unit, 0.001 for millimetres"
         return Layout(channels, find_truth(folder), (note,))
     if depth:
-        channels["depth"] = _depth_images(depth, scale)
+        channels["depth"] = depth_images(depth, scale)
     return Layout(channels, find_truth(folder))
 
 
-def _depth_images(paths: Sequence[Path], scale: float | None) -> Images:
-    return Images(paths, read=DepthReader(known_scale(paths[0].parent, scale)))
+def _color_images(paths: Sequence[Path]) -> Images:
+    images = princeton.named_images(paths)
+    return timed_images(images) if len(images) == len(paths) else Images(paths)
 
 
 def _video(folder: Path, optional: bool) -> Video | None:

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.camera.depth_images import DepthReader, known_scale
 from tricue.camera.frame import Frame
-from tricue.camera.layouts import read_layout
-from tricue.camera.streams import Camera, Images, Stream, Video, image_paths, is_image
+from tricue.camera.layouts import depth_images, read_layout
+from tricue.camera.numbers import positive
+from tricue.camera.streams import FASTEST, Camera, Stream, Video, image_paths, is_image
 
 CALIBRATION = "intrinsics.toml"  # looked for in a sequence's folder, and in the folder of all sequences
+PRINCETON = "frames.mat"  # the same of the Princeton benchmark, in the sequence's folder
 
 
 @dataclass(frozen=True)
@@ -22,13 +23,15 @@ class Source:
     """Frames in order, made of one stream a channel, with what is known about them.
 
     channels: "color", "depth" or both; images that belong together are at the same place of each. Times and
-        frame rate are the first channel's.
+        frame rate are those of the first channel that has its own.
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where unknown; M may differ from the
         number of frames.
     calibration: a file with the cameras' intrinsics that lies beside the images.
     notes: what was left out of a folder and why, a sentence each.
+    rate: frames a second of images of which nothing tells the times.
 
-    ValueError where the channels are known to differ in length, also while iterating.
+    ValueError where the channels are known to differ in length, also while iterating, and for a ``rate``
+    beside times of their own.
     """
 
     name: str
@@ -36,8 +39,11 @@ class Source:
     truth: NDArray[np.float64] | None = None
     calibration: Path | None = None
     notes: tuple[str, ...] = ()
+    rate: float | None = None
 
     def __post_init__(self) -> None:
+        if self.rate is not None:
+            self._check_rate(self.rate)
         known = {name: stream.length for name, stream in self.channels.items() if stream.length is not None}
         if len(set(known.values())) > 1:
             got = " and ".join(f"{length} {name}" for name, length in known.items())
@@ -45,7 +51,8 @@ class Source:
 
     @property
     def fps(self) -> float:
-        return self._first.fps
+        """Frames a second, by which a video is written."""
+        return self.channels[self._clock].fps if self.rate is None else self.rate
 
     @property
     def length(self) -> int | None:
@@ -78,7 +85,7 @@ class Source:
                     f"got {count} {ended} and more {next(iter(moment))}"
                 )
             images = {name: image for name, (_, image) in moment.items()}
-            seconds, _ = next(iter(moment.values()))
+            seconds = moment[self._clock][0] if self.rate is None else count / self.rate
             yield Frame(images.get("color"), images.get("depth"), timestamp=seconds)
             count += 1
 
@@ -86,9 +93,30 @@ class Source:
     def _first(self) -> Stream:
         return next(iter(self.channels.values()))
 
+    @property
+    def _clock(self) -> str:
+        """The channel whose times count."""
+        return next(
+            (name for name, stream in self.channels.items() if stream.timed), next(iter(self.channels))
+        )
+
+    def _check_rate(self, rate: float) -> None:
+        if not positive(rate, "--fps", "frames a second") <= FASTEST:
+            raise ValueError(f"--fps: expected at most {FASTEST:.0f} frames a second, got {rate}")
+        clock = self.channels[self._clock]
+        if clock.timed:
+            raise ValueError(
+                f"--fps {rate:g}: expected with images that tell no times, but {self.name} has its own, "
+                f"{clock.fps:.4g} frames a second; leave it out"
+            )
+
 
 def open_source(
-    place: str | Path, *, depth: str | Path | None = None, depth_scale: float | None = None
+    place: str | Path,
+    *,
+    depth: str | Path | None = None,
+    depth_scale: float | None = None,
+    fps: float | None = None,
 ) -> Source:
     """Open a video file, a folder of images, a sequence folder, or a camera by its number.
 
@@ -98,6 +126,7 @@ def open_source(
     depth: a folder of 16-bit images, or a sequence folder with depth, beside the color of ``place``; they are
         paired by order.
     depth_scale: metres per unit of depth; needed but for VOT's, TUM's and Princeton's, whose format says it.
+    fps: frames a second of images of which nothing tells the times, 30 without it; ValueError beside times.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
     source = _opened(place, depth_scale)
@@ -105,7 +134,7 @@ def open_source(
         source = _with_depth(source, place, Path(depth), depth_scale)
     if depth_scale is not None and "depth" not in source.channels:
         raise ValueError(f"{place}: expected depth images where --depth-scale is given, found only color")
-    return source
+    return source if fps is None else replace(source, rate=fps)
 
 
 def _opened(place: str | Path, scale: float | None) -> Source:
@@ -135,7 +164,7 @@ def _depth_stream(place: Path, scale: float | None) -> Stream:
     if not place.is_dir():
         raise ValueError(f"{place}: expected a folder of 16-bit images of depth, got a file")
     if paths := image_paths(place):
-        return Images(paths, read=DepthReader(known_scale(place, scale)))
+        return depth_images(paths, scale)
     stream = read_layout(place, scale).channels.get("depth")
     if stream is None:
         raise ValueError(f"{place}: expected a folder of 16-bit images of depth, found only color")
@@ -143,7 +172,7 @@ def _depth_stream(place: Path, scale: float | None) -> Stream:
 
 
 def _calibration(folder: Path) -> Path | None:
-    places = (folder / CALIBRATION, folder.resolve().parent / CALIBRATION)
+    places = (folder / CALIBRATION, folder.resolve().parent / CALIBRATION, folder / PRINCETON)
     return next((path for path in places if path.is_file()), None)
 
 

@@ -10,13 +10,16 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import cv2
+import numpy as np
 from numpy.typing import NDArray
 
 DEFAULT_FPS = 30.0
+FASTEST = 1000.0  # frames a second
 _IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
 
 Image = NDArray[Any]
 Read = Callable[[Path], Image]
+Timed = list[tuple[float, Path]]  # seconds, and the image of that time
 
 
 def read_color(path: Path) -> Image:
@@ -28,7 +31,12 @@ class Stream(Protocol):
     """Images with their times in seconds; each iteration starts again (a camera goes on)."""
 
     @property
-    def fps(self) -> float: ...
+    def fps(self) -> float:
+        """Frames a second; :data:`DEFAULT_FPS` where nothing tells them."""
+
+    @property
+    def timed(self) -> bool:
+        """Whether the input tells when its images were taken, or how many there are in a second."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -45,13 +53,22 @@ class Stream(Protocol):
 class Images:
     """Image files, in the given order; the error of ``read`` names the first that can't be read.
 
-    times: seconds, one an image; without them they follow from ``fps``.
+    rate: frames a second, None where nothing tells them. times: seconds, one an image; without them they
+        follow from ``fps``.
     """
 
     paths: Sequence[Path]
-    fps: float = DEFAULT_FPS
+    rate: float | None = None
     read: Read = read_color
     times: Sequence[float] | None = None
+
+    @property
+    def fps(self) -> float:
+        return DEFAULT_FPS if self.rate is None else self.rate
+
+    @property
+    def timed(self) -> bool:
+        return self.rate is not None or self.times is not None
 
     @property
     def length(self) -> int:
@@ -66,6 +83,14 @@ class Images:
             yield index / self.fps if self.times is None else self.times[index], self.read(path)
 
 
+def timed_images(images: Timed, read: Read = read_color) -> Images:
+    """Images with times of their own, and the frame rate that follows from them."""
+    times = [time for time, _ in images]
+    step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+    rate = 1 / step if step > 1 / FASTEST else None
+    return Images([path for _, path in images], rate, read, times)
+
+
 class Video:
     """A video file. Its frame count is not used: containers state it wrongly, or not at all."""
 
@@ -74,8 +99,8 @@ class Video:
     def __init__(self, path: Path) -> None:
         self.path = path
         capture = self._open()
-        rate = capture.get(cv2.CAP_PROP_FPS)
-        self.fps = rate if 0 < rate <= 1000 else DEFAULT_FPS
+        rate = sane_rate(capture.get(cv2.CAP_PROP_FPS))
+        self.fps, self.timed = rate or DEFAULT_FPS, rate is not None
         capture.release()
 
     @property
@@ -104,14 +129,14 @@ class Camera:
     """A live camera by its number; OSError when it can't be opened or stops."""
 
     length = None
+    timed = True  # by the clock
 
     def __init__(self, number: int) -> None:
         self.number = number
         self.capture = cv2.VideoCapture(number)
         if not self.capture.isOpened():
             raise OSError(f"camera {number}: can't be opened; is it plugged in and not in use elsewhere?")
-        rate = self.capture.get(cv2.CAP_PROP_FPS)
-        self.fps = rate if 0 < rate <= 1000 else DEFAULT_FPS
+        self.fps = sane_rate(self.capture.get(cv2.CAP_PROP_FPS)) or DEFAULT_FPS
 
     @property
     def size(self) -> tuple[int, int]:
@@ -159,6 +184,11 @@ def _cut_off(path: Path) -> bool:
     with path.open("rb") as file:
         file.seek(max(0, file.seek(0, os.SEEK_END) - 4096))  # some tools write more behind the end
         return b"IEND" not in file.read()
+
+
+def sane_rate(fps: float) -> float | None:
+    """Frames a second that a file states; None for what can't be meant: 0, NaN, thousands."""
+    return fps if 0 < fps <= FASTEST else None
 
 
 def _natural(name: str) -> list[tuple[int, str]]:

@@ -100,7 +100,7 @@ def _prepare(options: Namespace) -> tuple[Run, list[str]]:
         from tricue.evaluation.paths import check_format
 
         check_format(options.plot)
-    source = open_source(options.input, depth=options.depth, depth_scale=options.depth_scale)
+    source = open_source(options.input, depth=options.depth, depth_scale=options.depth_scale, fps=options.fps)
     for place in (Path(options.input), options.calibration, options.params):
         _spare_the_input(place, (options.output, options.csv, options.json, options.plot))
     intrinsics, note = find_calibration(options, source)

@@ -20,42 +20,56 @@ from tricue.reference.cues.color.skin_gaussian import skin_gaussian
 from tricue.reference.cues.color.skin_moments import skin_moments
 from tricue.reference.cues.color.skin_reference import skin_reference
 from tricue.reference.cues.color.skin_rule import skin_rule
+from tricue.reference.cues.depth.above_floor import above_floor
+from tricue.reference.cues.depth.cut_sides import cut_sides
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
+from tricue.reference.cues.depth.depth_contrast import depth_contrast
 from tricue.reference.cues.depth.depth_density import depth_density
 from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
+from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.height_above import height_above
+from tricue.reference.cues.depth.measure_objects import measure_objects
+from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.fuse.propose import propose
+from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
 
 __all__ = [
+    "above_floor",
     "bhattacharyya",
     "color_histogram",
     "color_lookup",
     "color_ranks",
+    "cut_sides",
     "density_extrema",
     "depth_components",
+    "depth_contrast",
     "depth_density",
     "depth_distance",
     "depth_edges",
     "depth_histogram",
     "divide_depth",
+    "fill_gaps",
     "floor_plane",
     "height_above",
     "joint_histogram",
     "learn_contrast",
+    "measure_objects",
+    "plane_support",
     "propose",
     "rank_contrast",
     "rank_distance",
     "rank_sections",
     "rectangle_histogram",
+    "rectangle_prior",
     "resample",
     "reweight",
     "sample_ellipses",

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.checks import refuse, require_finite, require_shape
+from tricue.reference.depth_pixels import has_depth
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
@@ -17,8 +18,8 @@ def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
     x, y, width, height, _ = rectangle
     columns, rows = np.floor(x + width / 2 * pattern[:, 0]), np.floor(y + height / 2 * pattern[:, 1])
     inside = (rows >= 0) & (rows < depth.shape[0]) & (columns >= 0) & (columns < depth.shape[1])
-    seen = depth[rows[inside].astype(np.intp), columns[inside].astype(np.intp)].astype(np.float64)
-    measured: Floats = seen[(seen > 0) & (seen < np.inf)]
+    seen = depth[rows[inside].astype(np.intp), columns[inside].astype(np.intp)]
+    measured: Floats = seen[has_depth(seen)].astype(np.float64)
     return measured
 
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
-from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -13,7 +12,7 @@ from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track import lifecycle
-from tricue.track.depth_model import SHARP, DepthModel, Seen, object_term, rectangles_of, size_term
+from tricue.track.depth_model import NOT_MEASURED, SHARP, SIZE_TRUST, DepthModel, Measured, Seen
 from tricue.track.depth_objects import segment
 from tricue.track.depth_params import DepthParticleParams
 from tricue.track.depth_search import find_target
@@ -21,6 +20,7 @@ from tricue.track.depth_start import in_box, somebody
 from tricue.track.depth_state import State, Swarm
 from tricue.track.foreground import NO_FLOOR, Foreground, foreground, numbers
 from tricue.track.matching import Found, cover
+from tricue.track.metric import box_of, rectangle_of
 from tricue.track.motion import Prediction
 from tricue.track.track import Status, Track
 from tricue.track.walk import Walk
@@ -32,6 +32,10 @@ CLOSE_SIZE = 0.05  # of its sizes
 KEPT, SLOWED = 0.97, 0.85  # of the velocity, a frame: behind something, and missed for no reason
 USUAL_RATE = 0.1  # per frame, of the log-likelihood's running mean
 FREE = 0.1  # in front of the target at most while it is learnt
+UNIT = np.eye(3)
+STILL = np.zeros(5)  # no drift
+ROOT = np.diag(SHARP)
+NOTHING: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # detected
 DEPTH_NOISE = 0.01  # metres, the least standard deviation of a position
 
 
@@ -77,19 +81,19 @@ class DepthParticleTracker:
         """
         if self._state is None:
             return np.empty((0, 5))
-        return rectangles_of(self._state.swarm.particles, self._state.camera)
+        return np.array([rectangle_of(each, self._state.camera) for each in self._state.swarm.particles])
 
     @property
     def objects(self) -> list[Box]:
         """The boxes of the objects that the last frame was divided into, pixels."""
-        return [] if self._state is None else self._state.objects.boxes
+        return [] if self._state is None else self._state.objects.boxes(self._state.camera)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on the target in ``box``, (x, y, width, height) in pixels of the depth
         image, or, without one, on the most prominent person.
 
-        ValueError where no part of the box is inside or nothing in it has a depth, and, without a box, where
-        nobody is found.
+        ValueError where no part of the box is inside or nothing in it has a depth in range, and, without a
+        box, where nobody is found.
         """
         depth, timestamp = lifecycle.depth_image(frame)
         camera = numbers(lifecycle.camera_for(self.intrinsics, depth.shape))
@@ -99,9 +103,8 @@ class DepthParticleTracker:
         if box is None:
             target = somebody(objects, self.params)
         else:
-            target = in_box(lifecycle.box_in(as_box(box), depth), objects, fg)
-        model = DepthModel(self.params)
-        model.learn(self._k, fg, target.state, 1.0)
+            target = in_box(lifecycle.box_in(as_box(box), depth), objects, fg, self.params)
+        model = DepthModel.empty(self.params).learnt(self._k, fg, target.state, 1.0)
         seen = model.look(self._k, fg, target.state[None])
         self._rng = rng
         self._state = State(
@@ -111,10 +114,10 @@ class DepthParticleTracker:
             model=model,
             walk=Walk.start(target.state, target.whole),
             signature=target.signature,
-            swarm=self._gathered(target.state),
+            swarm=Swarm.gathered(target.state, self.params.particles),
             objects=objects,
             score=_score(seen),
-            usual=float(model.log_likelihood(seen)[0]),
+            usual=float(seen.log_likelihood[0]),
             filled=float(seen.inside[0]),
             timestamp=timestamp,
         )
@@ -129,7 +132,7 @@ class DepthParticleTracker:
         before = lifecycle.started(self._state)
         depth, timestamp = lifecycle.depth_image(frame, before.shape)
         random = self._rng.bit_generator.state
-        state = replace(before, model=copy(before.model))
+        state = replace(before)
         try:
             self._follow(state, depth, self._elapsed(state, timestamp))
         except BaseException:
@@ -145,7 +148,8 @@ class DepthParticleTracker:
         state.objects = segment(k, fg, state.plane, p)
         prediction = state.walk.predict(p, seconds, state.missed)
         found = find_target(state, prediction, seconds, p)
-        swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found), found)
+        measured = NOT_MEASURED if found is None else Measured.of(found.state, p.measurement)
+        swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found, measured), measured)
         seen = state.model.look(k, fg, swarm.state[None])
         if self._recognised(state, seen, found):
             self._accept(state, fg, swarm, seen, found, seconds)
@@ -158,50 +162,45 @@ class DepthParticleTracker:
             return 1 / self.params.rate
         return min(timestamp - before, 1.0)
 
-    def _sweep(self, state: State, fg: Foreground, prediction: Prediction, found: Found | None) -> Swarm:
+    def _sweep(
+        self, state: State, fg: Foreground, prediction: Prediction, found: Found | None, measured: Measured
+    ) -> Swarm:
         """One step of the particle filter: (39) and the object as proposal, (2), (31), the expected value."""
         k, p, swarm = self._k, self.params, state.swarm
         drift, scale, lower, upper = prediction
         noise = self._rng.standard_normal(swarm.particles.shape)
-        if found is None:
-            detection = (np.zeros(5), np.eye(5), 0.0)
-        else:
-            detection = (found.state, np.diag(SHARP), p.object_share)
-        chosen = swarm.particles[k.resample(swarm.weights, self._rng.random())]
+        detection = NOTHING
+        if found is not None:
+            detection = (found.state, ROOT, p.object_share)
+        chosen = swarm.particles.take(k.resample(swarm.weights, self._rng.random()), axis=0)
         moved = k.propose(chosen, drift, scale, noise, *detection, lower, upper)
-        likelihood = self._log_likelihood(state, fg, moved, found)
+        likelihood = self._log_likelihood(state, fg, moved, measured)
         weights, _ = k.reweight(likelihood, moved, chosen, drift, scale, *detection)
-        return Swarm(moved, weights, k.summarize(moved, weights)[0])
+        return Swarm.of(k, moved, weights)
 
-    def _sweep_close(self, state: State, fg: Foreground, wide: Swarm, found: Found | None) -> Swarm:
+    def _sweep_close(self, state: State, fg: Foreground, wide: Swarm, measured: Measured) -> Swarm:
         """Once more, close to the first sweep's result: 100 particles are few in five dimensions."""
         k = self._k
         middle = wide.state
         scale = np.concatenate([CLOSE, CLOSE_SIZE * state.walk.size])
         near = middle + scale * self._rng.standard_normal(wide.particles.shape)
         np.maximum(near[:, 2:], 0.1, out=near[:, 2:])
-        likelihood = self._log_likelihood(state, fg, near, found)
-        nothing = (np.zeros(1), np.eye(1), 0.0)
-        weights, _ = k.reweight(likelihood, near, near, np.zeros(5), scale, *nothing)
-        return Swarm(near, weights, k.summarize(near, weights)[0])
+        likelihood = self._log_likelihood(state, fg, near, measured)
+        weights, _ = k.reweight(likelihood, near, near, STILL, scale, *NOTHING)
+        return Swarm.of(k, near, weights)
 
-    def _log_likelihood(self, state: State, fg: Foreground, particles: Floats, found: Found | None) -> Floats:
+    def _log_likelihood(self, state: State, fg: Foreground, particles: Floats, measured: Measured) -> Floats:
         """(N,) of the depth in and round the rectangle, of the usual size, and of the segmented object."""
-        model = state.model
-        log_likelihood = model.log_likelihood(model.look(self._k, fg, particles))
-        log_likelihood += size_term(particles, state.walk.size)
-        if found is not None and self.params.measurement > 0:
-            log_likelihood += self.params.measurement * object_term(particles, found.state)
-        return log_likelihood
+        prior = self._k.rectangle_prior(particles, state.walk.size, SIZE_TRUST, *measured)
+        return state.model.look(self._k, fg, particles).log_likelihood + prior
 
     def _recognised(self, state: State, seen: Seen, found: Found | None) -> bool:
         """Whether the target is seen there; one that was missed comes back as an object only."""
         if state.missed > 0 and found is None:
             return False
-        log_likelihood = float(state.model.log_likelihood(seen)[0])
         return bool(
             seen.inside[0] >= self.params.seen_above * state.filled
-            and log_likelihood >= state.usual - self.params.surprise
+            and seen.log_likelihood[0] >= state.usual - self.params.surprise
         )
 
     def _accept(
@@ -217,8 +216,8 @@ class DepthParticleTracker:
         state.doubt = 0.0
         if front >= FREE:
             return
-        state.model.learn(self._k, fg, swarm.state, p.learning_rate)
-        state.usual += USUAL_RATE * (float(state.model.log_likelihood(seen)[0]) - state.usual)
+        state.model = state.model.learnt(self._k, fg, swarm.state, p.learning_rate)
+        state.usual += USUAL_RATE * (float(seen.log_likelihood[0]) - state.usual)
         state.filled += USUAL_RATE * (float(seen.inside[0]) - state.filled)
         if found is not None:
             state.walk = state.walk.measured(found.state[3:], found.whole, p)
@@ -235,29 +234,22 @@ class DepthParticleTracker:
             covering = cover(state.objects, expected, p.nearer)
             state.front = None if covering is None else state.objects.states[covering, :3]
         state.walk = state.walk.coasted(expected, KEPT if state.hidden else SLOWED)
-        state.swarm = self._gathered(expected)
+        state.swarm = Swarm.gathered(expected, p.particles)
         state.missed += seconds
         state.doubt = prediction.scale[:3]
         state.score = 0.0
 
-    def _gathered(self, state: Floats) -> Swarm:
-        """All particles at one place."""
-        n = self.params.particles
-        return Swarm(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state)
-
     def _track(self, state: State) -> Track:
-        x, y, w, h, _ = rectangles_of(state.walk.state[None], state.camera)[0].tolist()
-        box = Box(x - w / 2, y - h / 2, w, h)
+        box = box_of(state.walk.state, state.camera)
         if state.missed == 0:
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
         if self.intrinsics is None:
             return Track(box, state.score, status)
-        _, covariance, _ = self._k.summarize(state.swarm.particles[:, :3].copy(), state.swarm.weights)
-        covariance += (DEPTH_NOISE**2 + state.doubt**2) * np.eye(3)
-        shift = state.signature.shift
-        position = state.walk.state[:3] + np.array([shift[0], shift[1], 0.0])
+        covariance = state.swarm.covariance[:3, :3] + (DEPTH_NOISE**2 + state.doubt**2) * UNIT
+        position = state.walk.state[:3].copy()
+        position[:2] += state.signature.shift
         return Track(box, state.score, status, position, covariance)
 
     def __getstate__(self) -> dict[str, Any]:
@@ -269,4 +261,4 @@ class DepthParticleTracker:
 
 
 def _score(seen: Seen) -> float:
-    return float(np.clip(seen.contrast[0], 0, 1))
+    return min(max(float(seen.contrast[0]), 0.0), 1.0)

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Which of a frame's objects is the target: where it is expected, or, once it is lost, anywhere."""
 
-from tricue.track.depth_objects import Objects, completed, joined
+from tricue.track.body import joined
+from tricue.track.depth_objects import Objects
 from tricue.track.depth_params import DepthParticleParams
 from tricue.track.depth_state import State
-from tricue.track.matching import WORST, WORST_AGAIN, Found, Signature, best_match, same, without
+from tricue.track.matching import WORST, WORST_AGAIN, Found, best_match, same, without
 from tricue.track.motion import Prediction
 from tricue.track.walk import LONG
 
@@ -19,15 +20,13 @@ def find_target(state: State, prediction: Prediction, seconds: float, p: DepthPa
     expected = state.walk.state + prediction.drift
     time = min(seconds + state.missed, ANYWHERE if state.lost(p) else LONG)
     objects = candidates(state, seconds, p)
-    states = completed(objects, expected, state.walk.size)
     worst = WORST if state.missed == 0 else WORST_AGAIN
-    found = best_match(states, objects, expected, state.walk, state.signature, time, worst)
+    found = best_match(objects, expected, state.walk, state.signature, time, worst)
     if found is None:
         return None
-    objects = joined(objects, found, expected)
-    state.walk = state.walk.outgrown(objects.states[found, 3:])
-    target = completed(objects, expected, state.walk.size)[found]
-    return Found(target, objects.whole[found], Signature.of(objects, found))
+    target = joined(objects, found, expected)
+    state.walk = state.walk.outgrown(target.state[3:])
+    return Found(target.completed(expected, state.walk.size), target.whole, target.signature)
 
 
 def candidates(state: State, seconds: float, p: DepthParticleParams) -> Objects:

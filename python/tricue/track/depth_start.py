@@ -5,11 +5,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.track.depth_model import states_of
 from tricue.track.depth_objects import EDGE, Objects
 from tricue.track.depth_params import DepthParticleParams
 from tricue.track.foreground import Foreground
-from tricue.track.matching import Found, Signature
+from tricue.track.matching import Found
+from tricue.track.metric import state_of
+from tricue.track.signature import Signature
 
 ALIKE = 0.3  # overlap of a box and the object that is meant by it
 
@@ -31,20 +32,24 @@ def somebody(objects: Objects, p: DepthParticleParams) -> Found:
     """The largest of the human candidates; ValueError where there is none."""
     people = humans(objects, p)
     if len(people) == 0:
-        raise ValueError("box: expected (x, y, width, height), as nobody was found in this frame")
+        empty = "" if len(objects.states) else f", nor anything else {_in_range(p)}"
+        raise ValueError(f"box: expected (x, y, width, height), as nobody was found in this frame{empty}")
     chosen = int(people[0])
     return Found(objects.states[chosen], objects.whole[chosen], Signature.of(objects, chosen))
 
 
-def in_box(box: Box, objects: Objects, fg: Foreground) -> Found:
-    """The box itself, at the depth of the object that fills it best, or else of what is in its middle."""
-    overlaps = [box.iou(each) for each in objects.boxes]
+def in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> Found:
+    """The box itself, at the depth of the object that fills it best, or else of what is in its middle.
+
+    ValueError where nothing is in its middle that can be followed.
+    """
+    camera = fg.camera * fg.step
+    overlaps = [box.iou(each) for each in objects.boxes(camera)]
     best = int(np.argmax(overlaps)) if overlaps else -1
     meant = best >= 0 and overlaps[best] > ALIKE
-    z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box)
-    rectangle = np.array([[*box.center, box.width, box.height, z]])
+    z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box, p)
     return Found(
-        states_of(rectangle, fg.camera * fg.step)[0],
+        state_of(box, z, camera),
         _whole(box, fg),
         Signature.of(objects, best) if meant else Signature.unknown(),
     )
@@ -65,7 +70,11 @@ def _middle(start: float, length: float, step: int, size: int) -> slice:
     return slice(min(max(first, 0), size - 1), max(min(last + 1, size), 1))
 
 
-def _middle_depth(fg: Foreground, box: Box) -> float:
+def _in_range(p: DepthParticleParams) -> str:
+    return f"above the floor and between near and far, {p.near:g} and {p.far:g} m"
+
+
+def _middle_depth(fg: Foreground, box: Box, p: DepthParticleParams) -> float:
     """The median depth in the middle of a box; ValueError where nothing there has one."""
     height, width = fg.depth.shape
     columns = _middle(box.x, box.width, fg.step, width)
@@ -73,6 +82,7 @@ def _middle_depth(fg: Foreground, box: Box) -> float:
     middle = middle[np.isfinite(middle)]
     if middle.size == 0:
         raise ValueError(
-            f"box: expected a target with measured depth in its middle, got none in {tuple(box)}"
+            f"box: expected a target with measured depth in its middle, {_in_range(p)}, "
+            f"got none in {tuple(box)}"
         )
     return float(np.median(middle))

@@ -7,21 +7,34 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.kernels import Kernels
 from tricue.track.depth_model import DepthModel
 from tricue.track.depth_objects import Objects
 from tricue.track.depth_params import DepthParticleParams
-from tricue.track.matching import Signature
+from tricue.track.signature import Signature
 from tricue.track.walk import Walk
 
 Floats = NDArray[np.float64]
 
 
 class Swarm(NamedTuple):
-    """Weighted states (N, 5) and their expected value."""
+    """Weighted states (N, 5), their expected value and its covariance."""
 
     particles: Floats
     weights: Floats
     state: Floats
+    covariance: Floats
+
+    @classmethod
+    def of(cls, k: Kernels, particles: Floats, weights: Floats) -> "Swarm":
+        """With its expected value."""
+        state, covariance, _ = k.summarize(particles, weights)
+        return cls(particles, weights, state, covariance)
+
+    @classmethod
+    def gathered(cls, state: Floats, n: int) -> "Swarm":
+        """n particles at one place."""
+        return cls(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state, np.zeros((5, 5)))
 
 
 @dataclass(slots=True)

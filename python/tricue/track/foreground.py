@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large."""
+"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large.
+
+An image that is riddled with gaps is mended first: bodies would fall apart in it.
+"""
 
 from typing import NamedTuple
 
@@ -50,28 +53,30 @@ def foreground(
     """The foreground, and the floor's plane (6,), what floor_plane gives: zeros while none is known."""
     step = max(1, round(depth.shape[1] / p.resolution))
     thin = np.ascontiguousarray(depth[::step, ::step])
+    if p.gap_passes:
+        thin = k.fill_gaps(thin, p.edge_gap, p.edge_slope, p.ragged, p.gap_passes)
     thinned = camera / step
-    inside = (thin >= p.near) & (thin < p.far)
     if p.floor:
-        plane = floor(k, thin, thinned, plane, rng)
-        if plane.any():
-            inside &= k.height_above(thin, thinned, plane[:4].copy()) > p.floor_clear
-    return Foreground(np.where(inside, thin, np.float32(np.nan)), thinned, step), plane
+        plane = floor(k, thin, thinned, plane, rng, p.near)
+    kept = k.above_floor(thin, thinned, plane[:4], p.near, p.far, p.floor_clear)
+    return Foreground(kept, thinned, step), plane
 
 
-def floor(k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator) -> Floats:
+def floor(
+    k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator, near: float
+) -> Floats:
     """The plane with many points on it and hardly any below; the known one where this frame has none."""
     step = max(1, round(depth.shape[1] / COARSE))
-    coarse, seen_by = np.ascontiguousarray(depth[::step, ::step]), camera / step
     support = 0.0
     if known.any():
-        heights = k.height_above(coarse, seen_by, known[:4].copy())
-        on_it, valid = (int(np.count_nonzero(each)) for each in (np.abs(heights) <= TOLERANCE, coarse > 0))
-        support = on_it / max(valid, 1)
+        support = float(k.plane_support(depth, camera, known[:4], TOLERANCE, step)[0])
         if support >= STEADY * known[4]:
             return known
+    coarse = depth[::step, ::step]
+    # Points within the tolerance of the camera would be on any plane through it.
+    coarse = np.where(coarse >= near, coarse, np.float32(np.nan))
     # Below the middle of the image: there it is seen best.
     triples = rng.integers(coarse.size // 2, coarse.size, (TRIALS, 3))
-    plane = k.floor_plane(coarse, seen_by, triples, TOLERANCE, UP, LEAST_COSINE)
+    plane = k.floor_plane(coarse, camera / step, triples, TOLERANCE, UP, LEAST_COSINE)
     found = plane[4] > max(FLOOR_SHARE, support) and plane[5] < BELOW_SHARE
     return plane if found else known

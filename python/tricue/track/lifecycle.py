@@ -93,7 +93,8 @@ def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
         return Intrinsics.from_fov(width, height, USUAL_VIEW)
     if (camera.width, camera.height) != (width, height):
         expected = f"the camera's size, {camera.width}x{camera.height}"
-        raise ValueError(f"frame.depth: expected {expected}, got {width}x{height}")
+        hint = "the intrinsics are those of the depth image"
+        raise ValueError(f"frame.depth: expected {expected}, got {width}x{height}; {hint}")
     return camera
 
 

@@ -6,7 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.depth_objects import SLICES, Objects
+from tricue.track.body import completed
+from tricue.track.depth_objects import Objects
+from tricue.track.signature import Signature
 from tricue.track.walk import Walk
 
 Floats = NDArray[np.float64]
@@ -22,39 +24,6 @@ WORST, WORST_AGAIN = 8.0, 2.0  # nats up to which an object is the target, and o
 BODY = 0.5  # metres round the middle of a body
 FLAT = np.array([1.0, 0.3, 1.0])  # heights say less: they change with what is cut
 REACHED = 0.3  # metres
-RATE = 0.1  # per frame, of the signature
-
-
-class Signature(NamedTuple):
-    """How a target is spread over its box: (SLICES,) each of columns and rows, and (2,) metres from the box's
-    centre to the centroid.
-    """
-
-    columns: Floats
-    rows: Floats
-    shift: Floats
-
-    @classmethod
-    def unknown(cls) -> "Signature":
-        """Even."""
-        return cls(np.full(SLICES, 1 / SLICES), np.full(SLICES, 1 / SLICES), np.zeros(2))
-
-    @classmethod
-    def of(cls, objects: Objects, index: int) -> "Signature":
-        """An object's."""
-        columns, rows = (each[index].astype(np.float64) for each in (objects.columns, objects.rows))
-        return cls(columns, rows, objects.shift[index])
-
-    def distances(self, objects: Objects) -> Floats:
-        """(C,) in [0, 1]: how differently objects are spread over their boxes."""
-        columns = np.abs(objects.columns - self.columns).sum(axis=1)
-        rows = np.abs(objects.rows - self.rows).sum(axis=1)
-        distances: Floats = (columns + rows) / 4
-        return distances
-
-    def learnt(self, new: "Signature") -> "Signature":
-        """With another one blended in."""
-        return Signature(*(old + RATE * (each - old) for old, each in zip(self, new, strict=True)))
 
 
 class Found(NamedTuple):
@@ -68,32 +37,39 @@ class Found(NamedTuple):
 
 
 def best_match(
-    states: Floats,
-    objects: Objects,
-    expected: Floats,
-    walk: Walk,
-    signature: Signature,
-    seconds: float,
-    worst: float,
+    objects: Objects, expected: Floats, walk: Walk, signature: Signature, seconds: float, worst: float
 ) -> int | None:
     """The index of the object nearest to the expected state (5,) in position, size and signature, if any.
 
-    states: (C, 5), the objects' own, completed where something cuts them.
+    The objects count as completed where something cuts them. Of the few that are near enough only one is
+    mostly left: so they are looked at one by one.
     """
-    if len(states) == 0:
-        return None
-    deviation = np.concatenate([NEAR + PER_SECOND * seconds, SIZE * walk.size + SIZE_AT_LEAST])
-    off = (states - expected) / deviation
-    # A size that was never seen whole is a lower bound, and its middle not known.
-    off[:, :2][:, ~walk.known] *= 0.5
-    larger = off[:, 3:] > 0
-    off[:, 3:] *= np.where(larger & ~walk.known, LARGER, 1.0)
-    cost = 0.5 * (off * off).sum(axis=1)
-    cost += np.where(objects.whole.all(axis=1), UNLIKE * signature.distances(objects), 0.0)
-    enough = ENOUGH if worst >= WORST else ENOUGH_AGAIN
-    cost[objects.states[:, 3:].prod(axis=1) < enough * walk.size.prod()] = np.inf
-    best = int(np.argmin(cost))
-    return best if cost[best] < worst else None
+    deviation = (NEAR + PER_SECOND * seconds).tolist() + (SIZE * walk.size + SIZE_AT_LEAST).tolist()
+    known, size, place = walk.known.tolist(), walk.size.tolist(), expected.tolist()
+    enough = (ENOUGH if worst >= WORST else ENOUGH_AGAIN) * size[0] * size[1]
+    best, least = None, worst
+    for i, (state, cut) in enumerate(zip(objects.states.tolist(), objects.cut.tolist(), strict=True)):
+        far = abs(state[2] - place[2]) / deviation[2]
+        if far * far / 2 >= least or state[3] * state[4] < enough:
+            continue
+        cost = _cost(completed(state, cut, place, size), place, deviation, known)
+        if not any(cut):
+            cost += UNLIKE * signature.distance(objects, i)
+        if cost < least:
+            best, least = i, cost
+    return best
+
+
+def _cost(state: list[float], expected: list[float], deviation: list[float], known: list[bool]) -> float:
+    """Half the squared distance, in nats. A size that was never seen whole is a lower bound, and its middle
+    not known.
+    """
+    off = [(s - e) / d for s, e, d in zip(state, expected, deviation, strict=True)]
+    for axis in range(2):
+        if not known[axis]:
+            off[axis] *= 0.5
+            off[3 + axis] *= LARGER if off[3 + axis] > 0 else 1.0
+    return sum(each * each for each in off) / 2
 
 
 def without(objects: Objects, place: Floats) -> Objects:

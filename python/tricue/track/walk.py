@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """How a person moves in front of a depth camera: (39) in metres, at the speed of a walk, of one size."""
 
+import math
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -45,15 +47,14 @@ class Walk(NamedTuple):
         time = min(seconds + missed, max(seconds, LONG))
         noise = STAND + p.agility * time * UPRIGHT
         scale = np.concatenate([noise, p.size_noise * self.size])
-        lower = np.array([-np.inf, -np.inf, p.near, SMALLEST, SMALLEST])
-        return Prediction(drift, scale, lower, np.array([np.inf, np.inf, p.far, np.inf, np.inf]))
+        return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def seen(self, state: Floats, p: DepthParticleParams, seconds: float, steady: bool) -> "Walk":
         """At a new place; the velocity is learnt where both this place and the last were ``steady``."""
         velocity = self.velocity
         if steady:
             step = (state[:3] - self.state[:3]) / seconds
-            step *= min(1.0, p.fastest / max(float(np.linalg.norm(step)), 1e-9))
+            step *= min(1.0, p.fastest / max(math.hypot(*step.tolist()), 1e-9))
             velocity = velocity + p.velocity_rate * (step - velocity)
         return self._replace(state=state, velocity=velocity)
 
@@ -63,10 +64,19 @@ class Walk(NamedTuple):
 
     def outgrown(self, size: Floats) -> "Walk":
         """A size never seen whole is at least what is seen of it."""
+        if self.known.all():
+            return self
         return self._replace(size=np.where(self.known, self.size, np.maximum(self.size, size)))
 
     def measured(self, size: Floats, whole: NDArray[np.bool_], p: DepthParticleParams) -> "Walk":
         """The usual size, learnt from what is seen; where that is cut, it is at least so much."""
-        seen = np.where(whole, size, np.maximum(size, self.size))
-        rate = np.where(whole & ~self.known, EARLY, p.size_rate)
+        seen = size if whole.all() else np.where(whole, size, np.maximum(size, self.size))
+        rate = p.size_rate if self.known.all() else np.where(whole & ~self.known, EARLY, p.size_rate)
         return self._replace(size=self.size + rate * (seen - self.size), known=self.known | whole)
+
+
+@cache
+def _bounds(near: float, far: float) -> tuple[Floats, Floats]:
+    """The least and the greatest state."""
+    lower = np.array([-np.inf, -np.inf, near, SMALLEST, SMALLEST])
+    return lower, np.array([np.inf, np.inf, far, np.inf, np.inf])

@@ -40,7 +40,7 @@ def draw(*rows: str) -> Labels:
 
 def describe(kernels: Kernels, labels: Labels, depth: Depth, min_area: int = 1) -> Any:
     """All that is said of the regions, with the parameters that most tests have in common."""
-    return kernels.depth_components(labels, depth, NEAR, FAR, LEVELS, BINS, min_area)
+    return kernels.depth_components(labels, depth, NEAR, FAR, LEVELS, BINS, min_area, True)
 
 
 def assert_same(native: Any, twin: Any) -> None:
@@ -65,12 +65,12 @@ def test_twin_finds_the_same(labels: Labels, seed: int, min_area: int) -> None:
     assert_same(*(describe(k, labels, depth, min_area) for k in (_core, reference)))
 
 
-@given(st.integers(0, 2**32), st.integers(1, 300), st.integers(1, 40), st.floats(0, 5), st.floats(0.01, 9))
+@given(st.integers(0, 2**32), st.integers(0, 300), st.integers(1, 40), st.floats(0, 5), st.floats(0.01, 9))
 def test_twin_counts_the_same(seed: int, levels: int, bins: int, near: float, length: float) -> None:
     """They agree for any range, number of levels and of bins, more bins than pixels included."""
     rng = np.random.default_rng(seed)
     labels = rng.integers(0, 3, (9, 11)).astype(np.uint8).repeat(3, axis=0).repeat(4, axis=1)
-    parameters = (near, near + length, levels, bins, 3)
+    parameters = (near, near + length, levels, bins, 3, True)
     depth = depths(labels.shape, seed)
     assert_same(*(k.depth_components(labels, depth, *parameters) for k in (_core, reference)))
 
@@ -108,7 +108,7 @@ def test_agrees_with_numpy(kernels: Kernels, levels: int) -> None:
     rng = np.random.default_rng(3)
     labels = rng.integers(0, 2, (6, 8)).astype(np.uint8).repeat(5, axis=0).repeat(5, axis=1)
     depth = rng.uniform(0, 9, labels.shape).astype(np.float32)
-    found = kernels.depth_components(labels, depth, NEAR, FAR, levels, BINS, 1)
+    found = kernels.depth_components(labels, depth, NEAR, FAR, levels, BINS, 1, True)
     for i, (row, histogram) in enumerate(zip(found[0], found[1], strict=True)):
         z = depth[found[4] == i + 1].astype(float)
         counts, _ = np.histogram(z.clip(NEAR, FAR), levels, (NEAR, FAR))
@@ -128,7 +128,9 @@ def test_example_by_hand(kernels: Kernels) -> None:
     depth[0, 0] = np.nan
     depth[2, 1] = 3.0
     depth[3, 4] = -np.inf
-    table, histograms, columns, rows, components = kernels.depth_components(labels, depth, 1, 5, 4, 3, 1)
+    table, histograms, columns, rows, components = kernels.depth_components(
+        labels, depth, 1, 5, 4, 3, 1, True
+    )
     assert_array_equal(table, [[0, 0, 3, 3, 5, 2.25, 1], [3, 0, 2, 2, 4, 2, 2], [4, 3, 1, 1, 1, np.nan, 3]])
     assert_array_equal(histograms, [[0, 0.75, 0.25, 0], [0, 1, 0, 0], [0, 0, 0, 0]])
     fifths = np.array([2, 1, 2], np.float32) / np.float32(5)
@@ -200,6 +202,18 @@ def test_mirror(labels: Labels) -> None:
         assert_array_equal(rows, mirrored[3][same])
 
 
+def test_image_is_optional(kernels: Kernels) -> None:
+    """Without an image of components all the rest is the same, and the image is empty."""
+    labels = draw("1.122", "1.122", ".1...", "....3")
+    depth = depths(labels.shape, 4)
+    found = describe(kernels, labels, depth)
+    *others, image = kernels.depth_components(labels, depth, NEAR, FAR, LEVELS, BINS, 1, False)
+    for one, other in zip(others, found[:4], strict=True):
+        assert_array_equal(one, other)
+    assert image.shape == (0, 0)
+    assert image.dtype == np.int32
+
+
 @pytest.mark.parametrize("shape", [(0, 5), (5, 0), (0, 0), (4, 5)])
 def test_nothing_there(kernels: Kernels, shape: tuple[int, int]) -> None:
     """Without labels, or without pixels, there are no regions, and the images keep their shape."""
@@ -219,7 +233,7 @@ BAD_VALUES: list[tuple[str, Any, str]] = [
     ("near", np.nan, "near: expected a finite number, not negative, got nan"),
     ("far", 0.5, "far: expected a finite number above near, got 0.5"),
     ("far", np.inf, "far: expected a finite number above near, got inf"),
-    ("levels", 0, "levels: expected at least 1, got 0"),
+    ("levels", -1, "levels: expected at least 0, got -1"),
     ("bins", -2, "bins: expected at least 1, got -2"),
     ("min_area", 0, "min_area: expected at least 1, got 0"),
 ]
@@ -229,7 +243,7 @@ BAD_VALUES: list[tuple[str, Any, str]] = [
 def test_refuses(kernels: Kernels, name: str, value: Any, message: str) -> None:
     """Labels of another shape than the depth's, and parameters out of their range, are named."""
     arguments: dict[str, Any] = {"labels": ONE, "depth": ONE.astype(np.float32), "near": 0.5, "far": 2.0}
-    arguments |= {"levels": 3, "bins": 3, "min_area": 1, name: value}
+    arguments |= {"levels": 3, "bins": 3, "min_area": 1, "image": False, name: value}
     with pytest.raises(ValueError, match=message):
         kernels.depth_components(**arguments)
 

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.checks import refuse
+from tricue.reference.depth_pixels import has_depth
 
 Labels = NDArray[np.uint8]
 Depth = NDArray[np.float32]
@@ -15,19 +16,27 @@ Shares = NDArray[np.float32]
 
 
 def depth_components(
-    labels: Labels, depth: Depth, near: float, far: float, levels: int, bins: int, min_area: int
+    labels: Labels,
+    depth: Depth,
+    near: float,
+    far: float,
+    levels: int,
+    bins: int,
+    min_area: int,
+    image: bool,
 ) -> tuple[NDArray[np.float64], Shares, Shares, Shares, NDArray[np.int32]]:
     """Of every 8-connected region of one label with at least ``min_area`` pixels: (C, 7) x, y, width, height,
     area, mean depth, label; (C, levels) its depth histogram; (C, bins) and (C, bins) how its pixels are
-    spread over its columns and its rows; and (H, W) which region has a pixel, from 1.
+    spread over its columns and its rows; and (H, W) which region has a pixel, from 1, or (0, 0) if no
+    ``image`` is wanted.
 
     Largest area first, then by the first pixel in reading order. Pixels without a measurement don't count
     for mean and histogram.
     """
     _require(labels, depth, near, far)
-    for name, least in (("levels", levels), ("bins", bins), ("min_area", min_area)):
-        if least < 1:
-            refuse(name, "at least 1", least)
+    for name, value, least in (("levels", levels, 0), ("bins", bins, 1), ("min_area", min_area, 1)):
+        if value < least:
+            refuse(name, f"at least {least}", value)
     found = [pixels for pixels in _regions(labels) if len(pixels) >= min_area]
     found.sort(key=len, reverse=True)  # stable
 
@@ -37,17 +46,18 @@ def depth_components(
     components = np.zeros(labels.shape, np.int32)
     for i, pixels in enumerate(found):
         y, x = pixels.T
-        z = depth[y, x].astype(np.float64)
-        z = z[(z > 0) & (z < np.inf)]
+        z = depth[y, x]
+        z = z[has_depth(z)].astype(np.float64)
         size = np.ptp(x) + 1, np.ptp(y) + 1
         mean = z.mean() if z.size else np.nan
         table[i] = x.min(), y.min(), *size, len(x), mean, labels[y[0], x[0]]
-        level = np.clip((z - near) * (levels / (far - near)), 0, levels - 1).astype(np.intp)
-        histograms[i] = _shares(level, levels)
+        if levels > 0:
+            level = np.clip((z - near) * (levels / (far - near)), 0, levels - 1).astype(np.intp)
+            histograms[i] = _shares(level, levels)
         columns[i] = _shares((2 * (x - x.min()) + 1) * bins // (2 * size[0]), bins)
         rows[i] = _shares((2 * (y - y.min()) + 1) * bins // (2 * size[1]), bins)
         components[y, x] = i + 1
-    return table, histograms, columns, rows, components
+    return table, histograms, columns, rows, components if image else np.zeros((0, 0), np.int32)
 
 
 def _require(labels: Labels, depth: Depth, near: float, far: float) -> None:

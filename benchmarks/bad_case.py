@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: MIT
+"""What a case of bad input is; run by bad_input.py."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import cv2
+
+cv2.setNumThreads(0)  # before any work: a process forked from one with a thread pool waits for it for ever
+
+
+class Case(NamedTuple):
+    """Init on ``first`` and ``box``, then update on ``second``, whatever they are."""
+
+    name: str
+    first: Any
+    box: Any
+    second: Any
+    starts: bool = True
+    camera: Any = None
+
+
+class Made(NamedTuple):
+    """Something of ours that may fail while it is made; cv2's trackers have no use for it."""
+
+    make: Callable[[], Any]
+
+
+def made(value: Any) -> Any:
+    """What it is, or makes."""
+    return value.make() if isinstance(value, Made) else value

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""Bad input of depth, and our depth tracker on it; run by bad_input.py."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import tricue
+from bad_case import Case, Made, made
+from tricue import Frame
+from tricue.scenes import walker
+
+SCENE = walker(0, frames=2)
+DEPTH, NEXT = (frame.depth for frame in SCENE.frames)
+BOX = tuple(round(number) for number in SCENE.boxes[0])
+CAMERA = SCENE.intrinsics
+HEIGHT, WIDTH = DEPTH.shape
+MM, NEXT_MM = (np.nan_to_num(1000 * metres).astype(np.uint16) for metres in (DEPTH, NEXT))
+COLOR = np.zeros((480, 640, 3), np.uint8)
+NOTHING, WALL = np.full_like(DEPTH, np.nan), np.full_like(DEPTH, 3.0)
+TINY, HUGE = DEPTH[60:61, 80:81].copy(), np.tile(DEPTH, (21, 23))[:3000, :4000].copy()
+
+
+def case(name: str, first: Any = DEPTH, box: Any = BOX, second: Any = NEXT, **others: Any) -> Case:
+    """A case in which all else is as it should be."""
+    return Case(name, first, box, second, **{"camera": CAMERA, **others})
+
+
+def alone(name: str, image: Any) -> Case:
+    """An update with what isn't put into a Frame."""
+    return case(name, second=Made(lambda: image))
+
+
+def both(name: str, change: Callable[[Any], Any], **others: Any) -> Case:
+    """Both frames changed."""
+    return case(name, change(DEPTH), second=change(NEXT), **others)
+
+
+def scaled(name: str, image: Any, scale: Any) -> Case:
+    """An update with a scale."""
+    return case(name, second=Made(lambda: Frame(depth=image, depth_scale=scale)))
+
+
+def timed(name: str, first: Any, second: Any) -> Case:
+    """Timestamps."""
+    return case(
+        name,
+        Made(lambda: Frame(depth=DEPTH, timestamp=first)),
+        second=Made(lambda: Frame(depth=NEXT, timestamp=second)),
+    )
+
+
+CASES = (
+    case("all is well"),
+    case("no box", box=None),
+    case("update before init", starts=False),
+    alone("frame None", None),
+    alone("frame a list", NEXT.tolist()),
+    alone("bare depth, float32 metres", NEXT),
+    alone("bare depth, uint16 millimetres", NEXT_MM),
+    alone("bare color image", COLOR),
+    case("tricue.Frame of color alone", second=Made(lambda: Frame(COLOR))),
+    case("depth of 0 rows", second=NEXT[:0]),
+    case("depth a list", second=NEXT.tolist()),
+    case("uint16 without a scale", second=NEXT_MM),
+    scaled("uint16 with its scale", NEXT_MM, 0.001),
+    scaled("int32 with its scale", NEXT_MM.astype(np.int32), 0.001),
+    scaled("scale 0", NEXT_MM, 0),
+    scaled("scale NaN", NEXT_MM, np.nan),
+    scaled("scale 'mm'", NEXT_MM, "mm"),
+    case("uint8 picture", second=(NEXT_MM // 32).astype(np.uint8)),
+    case("colored picture", second=np.dstack(3 * [(NEXT_MM // 32).astype(np.uint8)])),
+    case("bool", second=NEXT > 3),
+    case("float16", second=NEXT.astype(np.float16)),
+    case("float64", second=NEXT.astype(np.float64)),
+    case("objects", second=NEXT.astype(object)),
+    case("millimetres as metres at update", second=1000 * NEXT),
+    both("millimetres as metres", lambda metres: 1000 * metres),
+    both("millimetres as metres, no box", lambda metres: 1000 * metres, box=None),
+    both("metres as millimetres", lambda metres: Made(lambda: Frame(depth=metres, depth_scale=0.001))),
+    case("all NaN at update", second=NOTHING),
+    case("all 0 at update", second=np.zeros_like(DEPTH)),
+    case("all negative at update", second=-NEXT),
+    case("all infinite at update", second=np.full_like(DEPTH, np.inf)),
+    case("all NaN at init", NOTHING),
+    case("all NaN at init, no box", NOTHING, None),
+    case("a wall alone, no box", WALL, None),
+    both("gaps as 0", np.nan_to_num),
+    both("gaps as -1", lambda metres: np.nan_to_num(metres, nan=-1.0)),
+    both("masked gaps", np.ma.masked_invalid),
+    both("color of 640x480 beside it", lambda metres: Made(lambda: Frame(COLOR, metres))),
+    case(
+        "color of another size than before",
+        Made(lambda: Frame(COLOR, DEPTH)),
+        second=Made(lambda: Frame(COLOR[:9], NEXT)),
+    ),
+    both("read-only", lambda metres: np.frombuffer(metres.tobytes(), np.float32).reshape(metres.shape)),
+    both("crop of a larger array", lambda metres: np.pad(metres, 4)[4:-4, 4:-4]),
+    both("every other pixel of a larger array", lambda metres: metres.repeat(2, 0).repeat(2, 1)[::2, ::2]),
+    both("Fortran order", np.asfortranarray),
+    both("other byte order", lambda metres: metres.astype(">f4")),
+    case("mirrored view", second=NEXT[:, ::-1]),
+    case("smaller frame", second=NEXT[::2, ::2]),
+    case("larger frame", second=NEXT.repeat(2, 0).repeat(2, 1)),
+    case(f"4000x3000 after {WIDTH}x{HEIGHT}", second=HUGE),
+    case("1x1 image", TINY, (0, 0, 1, 1), TINY, camera=None),
+    case("1x1 image, no box", TINY, None, TINY, camera=None),
+    case("4000x3000 images", HUGE, BOX, HUGE, camera=None),
+    case("camera of another size", camera=tricue.Intrinsics.from_fov(640, 480, 57)),
+    case("camera a matrix", camera=CAMERA.matrix),
+    case("no camera", camera=None),
+    timed("timestamp NaN", 0.0, np.nan),
+    timed("timestamp a text", 0.0, "now"),
+    timed("timestamps go back", 5.0, 4.0),
+    timed("timestamps a day apart", 0.0, 86_400.0),
+    case("box of NaN", box=(np.nan, 40, 20, 60)),
+    case("infinite box", box=(80, 40, np.inf, 60)),
+    case("box of strings", box=("80", "40", "20", "60")),
+    case("box of three numbers", box=(80, 40, 20)),
+    case("box of zeros", box=(0, 0, 0, 0)),
+    case("negative size", box=(100, 100, -20, -60)),
+    case("box of 1x1", box=(80, 60, 1, 1)),
+    case("box half outside", box=(-10, 40, 20, 60)),
+    case("box outside", box=(400, 40, 20, 60)),
+    case("box far outside", box=(10**9, 40, 20, 60)),
+    case("box larger than the image", box=(-100, -100, 600, 600)),
+    case(
+        "nothing measured in the box",
+        np.where(np.indices(DEPTH.shape)[1] < WIDTH // 2, np.nan, DEPTH),
+        (10, 40, 30, 60),
+    ),
+    case("a wall in front at update", second=np.minimum(NEXT, 1.0)),
+    case("noise at update", second=np.random.default_rng(0).uniform(0.3, 8, DEPTH.shape)),
+)
+
+
+def follow(each: Case) -> tricue.Track:
+    """Our tracker's answer to a case; bare images of depth are put into frames."""
+    tracker = tricue.create("depth-particle", seed=0, intrinsics=each.camera)
+    if each.starts:
+        tracker.init(framed(each.first), each.box)
+    return tracker.update(framed(each.second))
+
+
+def framed(value: Any) -> Any:
+    """A frame of depth, or what a case makes instead."""
+    return made(value) if isinstance(value, Made) else Frame(depth=value)
+
+
+HEAD = f"""
+## Depth
+
+Around the case all is as it should be: `walker(0)`, somebody before a time-of-flight camera of {WIDTH}x{HEIGHT} whose intrinsics are
+known, a fifteenth of a second later, float32 metres, and the box {BOX}. cv2's trackers, which know no depth, get the same array
+where it is one.
+
+"""

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/above_floor.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "blocks.hpp"
+#include "check.hpp"
+#include "depth_pixels.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+struct Limits {
+    float near, far, clear;
+};
+
+TRICUE_MULTIVERSION
+void keep_row(const float* __restrict depth, const float* __restrict across, int n, float down, float offset,
+              const Limits& limits, float* __restrict kept) {
+    const auto [near, far, clear] = limits;
+    in_blocks(n, [=](std::ptrdiff_t u) {
+        const float z = depth[u], h = z * (across[u] + down) + offset;
+        const bool inside = has_depth(z) & (z >= near) & (z < far) & (h > clear);
+        kept[u] = inside ? z : std::numeric_limits<float>::quiet_NaN();
+    });
+}
+
+void require_space(const Space& space) {
+    if (!(space.near >= 0.0 && std::isfinite(space.near)))
+        refuse("near", "a finite number, not negative", space.near);
+    if (!(space.far > space.near && std::isfinite(space.far)))
+        refuse("far", "a finite number above near", space.far);
+    if (!std::isfinite(space.clear)) refuse("clear", "a finite number", space.clear);
+}
+
+}  // namespace
+
+Floats above_floor(const DepthView& depth, VectorRef camera, VectorRef plane, const Space& space) {
+    auto [across, down] = rays(camera, depth);
+    require_size(plane, 4, "plane");
+    require_finite(plane, "plane");
+    require_space(space);
+    const Eigen::Array4f p = plane.cast<float>();
+    for (float& x : across) x = p[0] * x;
+    const float offset = (plane == 0.0).all() ? std::numeric_limits<float>::infinity() : p[3];
+    const Limits limits{static_cast<float>(space.near), static_cast<float>(space.far),
+                        static_cast<float>(space.clear)};
+    Floats kept(depth.rows, depth.cols);
+    for (int v = 0; v < depth.rows; ++v)
+        keep_row(depth.row(v), across.data(), depth.cols, p[1] * down[static_cast<std::size_t>(v)] + p[2],
+                 offset, limits, kept.data() + std::ptrdiff_t{v} * depth.cols);
+    return kept;
+}
+
+}  // namespace tricue

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/measure_objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "check.hpp"
+#include "depth_pixels.hpp"
+
+namespace tricue {
+namespace {
+
+using Index = Eigen::Index;
+
+struct Object {
+    double x, y, z, width, height, shift_x, shift_y, area;
+};
+
+/// The mean of shares over the middles of equal parts of [-1/2, 1/2].
+double mean_place(FloatsRef shares, Index row) {
+    const auto bins = static_cast<double>(shares.cols());
+    double mean = 0.0;
+    for (Index b = 0; b < shares.cols(); ++b)
+        mean += static_cast<double>(shares(row, b)) * ((static_cast<double>(b) + 0.5) / bins - 0.5);
+    return mean;
+}
+
+Object in_metres(const ObjectTable& objects, Index i, VectorRef camera) {
+    const auto box = objects.table.row(i);
+    const double z = box[5], per_x = z / camera[0], per_y = z / camera[1];
+    const double width = box[2] * per_x, height = box[3] * per_y;
+    return {(box[0] + box[2] / 2 - 0.5 - camera[2]) * per_x,
+            (box[1] + box[3] / 2 - 0.5 - camera[3]) * per_y,
+            z,
+            width,
+            height,
+            mean_place(objects.columns, i) * width,
+            mean_place(objects.rows, i) * height,
+            box[4] * per_x * per_y};
+}
+
+/// How far the lower edge is above the floor.
+double height_of_feet(const Object& object, VectorRef plane) {
+    const double y = object.y + object.height / 2;
+    const double above = plane[0] * object.x + plane[1] * y + plane[2] * object.z + plane[3];
+    return above / std::max(-plane[1], 0.1);
+}
+
+void stand(Object& object, double strip, double legs) {
+    object.y += strip / 2;
+    object.height += strip;
+    object.shift_y -= strip / 2;
+    const double share = legs * strip / object.height, middle = (object.height - strip) / 2;
+    object.shift_y += share * (middle - object.shift_y);
+}
+
+void require_finite_shares(FloatsRef shares, const char* name) {
+    for (Index i = 0; i < shares.size(); ++i)
+        if (!std::isfinite(shares.data()[i])) refuse(name, "finite numbers", double{shares.data()[i]});
+}
+
+void require_rows(Index rows, Index count, const char* name) {
+    if (rows != count) refuse(name, std::to_string(count) + " rows", std::to_string(rows));
+}
+
+void require(const ObjectTable& objects, const Ground& ground) {
+    const Index count = objects.table.rows();
+    require_table(objects.table);
+    require_rows(objects.columns.rows(), count, "columns");
+    require_rows(objects.rows.rows(), count, "rows");
+    require_rows(objects.cut.rows(), count, "cut");
+    require_finite_shares(objects.columns, "columns");
+    require_finite_shares(objects.rows, "rows");
+    require_size(ground.plane, 4, "plane");
+    require_finite(ground.plane, "plane");
+    for (const auto& [value, name] : {std::pair{ground.feet, "feet"}, std::pair{ground.legs, "legs"}})
+        if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
+}
+
+}  // namespace
+
+States measure_objects(const ObjectTable& objects, VectorRef camera, const Ground& ground) {
+    require_camera(camera);
+    require(objects, ground);
+    const bool floor = (ground.plane != 0.0).any();
+    States measured(objects.table.rows(), 8);
+    for (Index i = 0; i < measured.rows(); ++i) {
+        Object object = in_metres(objects, i, camera);
+        const double above = floor && !objects.cut(i, 3) ? height_of_feet(object, ground.plane) : 0.0;
+        if (above > 0.0 && above < ground.feet) stand(object, above, ground.legs);
+        measured.row(i) << object.x, object.y, object.z, object.width, object.height, object.shift_x,
+            object.shift_y, object.area;
+    }
+    return measured;
+}
+
+}  // namespace tricue

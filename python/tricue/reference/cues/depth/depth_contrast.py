@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""The depths in and round rectangles in metres (Sabeti, Parvizi, Wu 2008, equation (38))."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_finite, require_shape
+from tricue.reference.cues.depth.depth_distance import depth_distance
+from tricue.reference.depth_pixels import require_camera
+
+Floats = NDArray[np.float64]
+
+MOST = 64
+
+
+def depth_contrast(
+    depth: NDArray[np.float32],
+    camera: Floats,
+    states: Floats,
+    model: Floats,
+    grid: tuple[int, int],
+    ring: tuple[float, int],
+    reach: float,
+    nearer: float,
+) -> Floats:
+    """(N, 4): what depth_distance measures of the rectangles of states (N, 5) X, Y, Z, width, height, metres,
+    read in the middles of ``grid`` rows x columns equal parts; and the share at their depth round them:
+    ``ring`` is a margin, in half sizes, and how many places a side has there.
+    """
+    _require(camera, states, grid, ring)
+    fx, fy, cx, cy = camera
+    x, y, z, width, height = states.T
+    rectangles = np.column_stack(
+        [x * fx / z + (cx + 0.5), y * fy / z + (cy + 0.5), width * fx / z, height * fy / z, z]
+    )
+    inside = depth_distance(depth, rectangles, model, _grid(*grid), reach, nearer)
+    around = depth_distance(depth, rectangles, np.zeros(1), _ring(*ring), reach, nearer)
+    return np.column_stack([inside, around[:, 1]])
+
+
+def _middles(n: int) -> Floats:
+    """Of n equal parts of [-1, 1]."""
+    return (2 * np.arange(n) + 1) / n - 1
+
+
+def _grid(rows: int, columns: int) -> Floats:
+    v, u = np.meshgrid(_middles(rows), _middles(columns), indexing="ij")
+    return np.column_stack([u.ravel(), v.ravel()])
+
+
+def _ring(margin: float, along: int) -> Floats:
+    middles, off = _middles(along), np.full(along, margin)
+    sides = (-off, middles), (off, middles), (middles, -off), (middles, off)
+    return np.concatenate([np.column_stack(side) for side in sides])
+
+
+def _require(camera: Floats, states: Floats, grid: tuple[int, int], ring: tuple[float, int]) -> None:
+    require_camera(camera)
+    require_shape("states", states, (len(states), 5))
+    require_finite("states", states)
+    if (states[:, 2] <= 0).any():
+        refuse("states", "Z above 0", float(states[states[:, 2] <= 0, 2][0]))
+    for name, number in (("rows", grid[0]), ("columns", grid[1]), ("along", ring[1])):
+        if not 1 <= number <= MOST:
+            refuse(name, f"1 to {MOST}", number)
+    if not 1 <= ring[0] < np.inf:
+        refuse("margin", "a finite number of at least 1", float(ring[0]))

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Segmented objects in metres, standing on the floor."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_finite, require_shape
+from tricue.reference.depth_pixels import require_camera, require_table
+
+Floats = NDArray[np.float64]
+Shares = NDArray[np.float32]
+
+
+def measure_objects(
+    table: Floats,
+    columns: Shares,
+    rows: Shares,
+    cut: NDArray[np.bool_],
+    camera: Floats,
+    plane: Floats,
+    feet: float,
+    legs: float,
+) -> Floats:
+    """(C, 8) X, Y, Z of the boxes' centres, width, height, centroid less centre (x, y): metres; area, m².
+
+    What ends uncut, and less than ``feet`` metres above the plane (4,), stands on it: its box goes down to
+    it, and its centroid by the share of the strip that is added, of which ``legs`` is filled.
+    """
+    _require(table, columns, rows, cut, camera, plane, feet, legs)
+    fx, fy, cx, cy = camera
+    x, y, w, h, pixels, z, _ = table.T
+    width, height = w * z / fx, h * z / fy
+    center_x, center_y = (x + w / 2 - 0.5 - cx) * z / fx, (y + h / 2 - 0.5 - cy) * z / fy
+    shift_x, shift_y = (_mean_place(shares) * size for shares, size in ((columns, width), (rows, height)))
+
+    above = np.column_stack([center_x, center_y + height / 2, z]) @ plane[:3] + plane[3]
+    above /= max(-plane[1], 0.1)
+    strip = np.where((above > 0) & (above < feet) & ~cut[:, 3] & plane.any(), above, 0.0)
+    share = legs * strip / (height + strip)
+    down = shift_y - strip / 2  # from the new centre
+    shift_y = down + share * (height / 2 - down)
+    return np.column_stack(
+        [center_x, center_y + strip / 2, z, width, height + strip, shift_x, shift_y, pixels * z * z / fx / fy]
+    )
+
+
+def _mean_place(shares: Shares) -> Floats:
+    """Means over the middles of equal parts of [-1/2, 1/2]."""
+    bins = shares.shape[1]
+    mean: Floats = shares.astype(np.float64) @ ((np.arange(bins) + 0.5) / bins - 0.5)
+    return mean
+
+
+def _require(
+    table: Floats,
+    columns: Shares,
+    rows: Shares,
+    cut: NDArray[np.bool_],
+    camera: Floats,
+    plane: Floats,
+    feet: float,
+    legs: float,
+) -> None:
+    require_camera(camera)
+    require_table(table)
+    for name, each in (("columns", columns), ("rows", rows), ("cut", cut)):
+        if len(each) != len(table):
+            refuse(name, f"{len(table)} rows", len(each))
+    for name, shares in (("columns", columns), ("rows", rows)):
+        require_finite(name, shares.astype(np.float64))
+    require_shape("plane", plane, (4,))
+    require_finite("plane", plane)
+    for name, value in (("feet", feet), ("legs", legs)):
+        if not 0 <= value < np.inf:
+            refuse(name, "a finite number, not negative", float(value))

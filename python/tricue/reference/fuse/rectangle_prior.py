@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""What is known of rectangles before they are looked at: their usual size, and a measured state."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_finite, require_shape
+
+Floats = NDArray[np.float64]
+
+
+def rectangle_prior(
+    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
+) -> Floats:
+    """(N,) log-likelihood of states (N, D), whose last two numbers are a width and a height.
+
+    log(width / size) has the standard deviation ``spread``, (2,) each; a measured ``state`` (D,) has
+    ``deviation`` (D,), infinite for what wasn't measured, and costs ``most`` at most.
+    """
+    _require(states, size, spread, state, deviation, most)
+    off = np.log(states[:, -2:] / size) / spread
+    away = (states - state) / deviation
+    prior: Floats = -(off**2).sum(axis=1) / 2 - np.minimum((away**2).sum(axis=1) / 2, most)
+    return prior
+
+
+def _require(
+    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
+) -> None:
+    dimensions = states.shape[1]
+    if dimensions < 2:
+        refuse("states", "2 columns or more", dimensions)
+    require_finite("states", states)
+    _require_positive("states", "sizes above 0", states[:, -2:])
+    for name, values in (("size", size), ("spread", spread)):
+        require_shape(name, values, (2,))
+        require_finite(name, values)
+        _require_positive(name, "numbers above 0", values)
+    require_shape("state", state, (dimensions,))
+    require_finite("state", state)
+    require_shape("deviation", deviation, (dimensions,))
+    _require_positive("deviation", "numbers above 0", deviation)
+    if not most >= 0:
+        refuse("most", "a number of at least 0", float(most))
+
+
+def _require_positive(name: str, expected: str, values: Floats) -> None:
+    strange = values[~(values > 0)]
+    if strange.size:
+        refuse(name, expected, float(strange.flat[0]))
