@@ -54,7 +54,7 @@ def sub_pixel_shift(left, right, rough, rows, columns):
 @pytest.mark.parametrize("rays", [2, 3])
 @pytest.mark.parametrize("z", [0.83, 1.37, 2.9])
 def test_a_boards_disparity_is_exact(rays, z):
-    """Cast as the scenes are, a board parallel to the images is shifted by f b / z between them, to 0.02 px."""
+    """A board parallel to the images is shifted by f b / z between them, to 0.02 px."""
     board = Board(np.array([-2.0, -2, z]), np.array([4.0, 0, 0]), np.array([0, 4.0, 0]), paper(4.0))
     left, right = (
         eye.develop(canvas)
