@@ -69,7 +69,13 @@ def test_points_come_where_the_rig_projects_them() -> None:
     )
     left, right = made(dots(raw_left), dots(raw_right))
     turn = cv2.stereoRectify(
-        RAW.cameras[0], RAW.distortions[0], RAW.cameras[1], RAW.distortions[1], SIZE, *RAW[2:]
+        RAW.cameras[0],
+        RAW.distortions[0],
+        RAW.cameras[1],
+        RAW.distortions[1],
+        SIZE,
+        RAW.rotation,
+        RAW.translation[:, None],
     )[0]
     turned = points @ turn.T
     expected = made.rig.intrinsics.project(turned)
@@ -118,7 +124,7 @@ def test_other_names_and_rodrigues_vectors_are_read(tmp_path: Path) -> None:
 def test_two_files_hold_it_together(tmp_path: Path) -> None:
     """It proves that OpenCV's sample's intrinsics.yml and extrinsics.yml are read, and R1 to P2 are kept."""
     (m1, m2), (d1, d2), rotation, translation = RAW
-    r1, r2, p1, p2, *_ = cv2.stereoRectify(m1, d1, m2, d2, SIZE, rotation, translation, alpha=1)
+    r1, r2, p1, p2, *_ = cv2.stereoRectify(m1, d1, m2, d2, SIZE, rotation, translation[:, None], alpha=1)
     inner = opencv_file(tmp_path / "intrinsics.yml", M1=m1, D1=d1, M2=m2, D2=d2)
     outer = opencv_file(tmp_path / "extrinsics.yml", R=rotation, T=translation, R1=r1, R2=r2, P1=p1, P2=p2)
     made = Rectification.from_opencv(inner, outer, size=SIZE)

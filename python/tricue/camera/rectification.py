@@ -118,7 +118,14 @@ def _rectify(raw: RawPair, size: Size) -> Rectified:
     """
     (left, right), (bent_left, bent_right) = raw.cameras, raw.distortions
     rotations = cv2.stereoRectify(
-        left, bent_left, right, bent_right, size, raw.rotation, raw.translation, flags=_ZERO_DISPARITY
+        left,
+        bent_left,
+        right,
+        bent_right,
+        size,
+        raw.rotation,
+        raw.translation[:, None],
+        flags=_ZERO_DISPARITY,
     )
     first, second = (np.asarray(turn, np.float64) for turn in rotations[:2])
     focal = float(np.mean([camera[[0, 1], [0, 1]] for camera in raw.cameras]))
