@@ -112,8 +112,8 @@ void define_depth(py::module_& m) {
         "fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"), py::arg("ragged"),
         py::arg("passes"),
         "Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those "
-        "up to gap + slope z^2 behind the nearest; where more than the share ragged of the measured pixels "
-        "end at a gap, else as it is. NaN where nothing was measured nor filled.");
+        "up to gap + slope z^2 behind the nearest; where there are more small gaps than the share ragged of "
+        "the measured pixels, else as it is. NaN where nothing was measured nor filled.");
     m.def(
         "floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
         py::arg("tolerance"), py::arg("up"), py::arg("least_cosine"),

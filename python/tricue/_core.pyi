@@ -148,7 +148,7 @@ def fill_gaps(
     depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those up to gap + slope z^2 behind the nearest; where more than the share ragged of the measured pixels end at a gap, else as it is. NaN where nothing was measured nor filled.
+    Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those up to gap + slope z^2 behind the nearest; where there are more small gaps than the share ragged of the measured pixels, else as it is. NaN where nothing was measured nor filled.
     """
 
 def floor_plane(

@@ -41,25 +41,29 @@ struct Padded {
     DepthView view() { return {row(0), rows, cols, std::ptrdiff_t{cols} + 2}; }
 };
 
-/// The last pixel of a row ends nothing: what is beyond isn't known.
+/// `known` has four more bytes, all 0: what is beyond the row's end isn't known to be measured.
 TRICUE_MULTIVERSION
-void count_row(const float* depth, int n, std::int32_t* measured, std::int32_t* ends) {
-    std::int32_t all = 0, last = 0;
-    for (int x = 0; x < n; ++x) all += has_depth(depth[x]);
-    for (int x = 0; x + 1 < n; ++x) last += has_depth(depth[x]) & !has_depth(depth[x + 1]);
+void count_row(const float* __restrict depth, int n, std::uint8_t* __restrict known, std::int32_t* measured,
+               std::int32_t* gaps) {
+    in_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
+    std::int32_t all = 0, small = 0;
+    for (int x = 0; x < n; ++x) all += known[x];
+    for (int x = 0; x < n; ++x)
+        small += known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
     *measured = all;
-    *ends = last;
+    *gaps = small;
 }
 
 bool is_ragged(const DepthView& depth, double share) {
-    std::int64_t measured = 0, ends = 0;
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(depth.cols) + 4);
+    std::int64_t measured = 0, gaps = 0;
     for (int y = 0; y < depth.rows; ++y) {
-        std::int32_t measured_here = 0, ends_here = 0;
-        count_row(depth.row(y), depth.cols, &measured_here, &ends_here);
+        std::int32_t measured_here = 0, gaps_here = 0;
+        count_row(depth.row(y), depth.cols, known.data(), &measured_here, &gaps_here);
         measured += measured_here;
-        ends += ends_here;
+        gaps += gaps_here;
     }
-    return static_cast<double>(ends) > share * static_cast<double>(measured);
+    return static_cast<double>(gaps) > share * static_cast<double>(measured);
 }
 
 /// A copy, NaN where nothing was measured.
@@ -120,7 +124,7 @@ Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged
     if (passes < 0) refuse("passes", "at least 0", passes);
     if (passes == 0 || !is_ragged(depth, ragged)) return cleaned(depth);
     Padded image(depth);
-    for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged)); ++pass)
+    for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged / 2)); ++pass)
         fill_once(image, static_cast<float>(gap), static_cast<float>(slope));
     return cleaned(image.view());
 }

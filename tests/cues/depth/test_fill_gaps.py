@@ -15,7 +15,7 @@ from tricue import _core, reference
 from tricue.kernels import Kernels
 
 Depth = NDArray[np.float32]
-GAP, SLOPE, RAGGED = 0.1, 0.02, 0.04
+GAP, SLOPE, RAGGED = 0.1, 0.02, 0.035
 HOLES = [np.nan, 0, -0.0, -1, np.inf, -np.inf]
 
 shapes = st.tuples(st.integers(0, 5), st.integers(0, 70))
@@ -107,15 +107,32 @@ def test_few_gaps_and_large_ones_stay(kernels: Kernels, room: Depth) -> None:
     for depth in (few, shadow):
         assert np.isnan(depth).any()
         assert_array_equal(kernels.fill_gaps(depth, GAP, SLOPE, RAGGED, 3), depth)
-        forced = kernels.fill_gaps(depth, GAP, SLOPE, 0.0, 3)
-        assert np.isnan(forced).sum() < np.isnan(depth).sum()
 
 
 def test_ragged_is_a_share_of_the_measured(kernels: Kernels) -> None:
-    """Two of eight measured pixels have a gap to their right: more than 0.24, not more than 0.25."""
+    """Two small gaps on eight measured pixels are more than 0.24, not more than 0.25."""
     depth = np.float32([[1, 1, 0, 1, 1], [1, 0, 1, 1, 1]])
     assert np.isnan(kernels.fill_gaps(depth, GAP, SLOPE, 0.25, 1)).sum() == 2
     assert_array_equal(kernels.fill_gaps(depth, GAP, SLOPE, 0.24, 1), np.ones((2, 5), np.float32))
+
+
+@pytest.mark.parametrize(("length", "small"), [(1, True), (3, True), (4, False), (0, False)])
+def test_small_gaps_are_up_to_three_pixels_between_others(kernels: Kernels, length: int, small: bool) -> None:
+    """Only gaps of one to three pixels make an image ragged: not four, nor what a row begins or ends with."""
+    depth = np.full((2, 12), np.nan, np.float32)
+    depth[:, 2:4] = depth[:, 4 + length : 6 + length] = 2
+    changed = np.isfinite(kernels.fill_gaps(depth, GAP, SLOPE, 0.0, 1)) & np.isnan(depth)
+    assert changed.any() == small
+
+
+@pytest.mark.parametrize(("ragged", "left"), [(0.06, 3), (0.04, 0)])
+def test_goes_on_until_half_as_ragged(kernels: Kernels, ragged: float, left: int) -> None:
+    """After one pass a gap is left in the middle of the widest, on 39 pixels of a row, 0.026: that is less
+    than half of 0.06, and more than half of 0.04, though less than 0.04 itself.
+    """
+    depth = np.full((3, 40), 2, np.float32)
+    depth[:, 4:28:6] = depth[:, 33:36] = np.nan
+    assert np.isnan(kernels.fill_gaps(depth, GAP, SLOPE, ragged, 2)).sum() == left
 
 
 def test_nearer_surface_wins(kernels: Kernels) -> None:
@@ -128,9 +145,12 @@ def test_nearer_surface_wins(kernels: Kernels) -> None:
 
 def test_each_pass_reaches_a_pixel_farther(kernels: Kernels) -> None:
     """Into a hole five pixels wide the first pass fills its rim, the third all of it."""
-    depth = np.full((9, 9), 3, np.float32)
+    depth = np.full((9, 30), np.nan, np.float32)
+    depth[:, :9] = 3
     depth[2:7, 2:7] = np.nan
-    left = [int(np.isnan(kernels.fill_gaps(depth, GAP, SLOPE, 0.0, n)).sum()) for n in range(5)]
+    depth[4, [25, 27]] = 1, 5  # two surfaces of one pixel: this gap stays, and the image ragged
+    filled = (kernels.fill_gaps(depth, GAP, SLOPE, 0.0, passes)[:, :9] for passes in range(5))
+    left = [int(np.isnan(each).sum()) for each in filled]
     assert left == [25, 9, 1, 0, 0]
 
 

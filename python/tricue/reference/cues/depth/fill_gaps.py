@@ -8,15 +8,17 @@ from tricue.reference.checks import refuse
 from tricue.reference.depth_pixels import has_depth
 
 NEIGHBOURS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
+SMALL = 3  # pixels
 VOTES = 2  # neighbours on the nearest surface, at least
 
 
 def fill_gaps(
     depth: NDArray[np.float32], gap: float, slope: float, ragged: float, passes: int
 ) -> NDArray[np.float32]:
-    """(H, W): while more than the share ``ragged`` of the measured pixels have an unmeasured one to their
-    right, and at most ``passes`` times, the gaps get the mean of their neighbours on the nearest surface,
-    z' <= z + gap + slope (z z) with z the nearest. In float32; NaN where nothing was measured nor filled.
+    """(H, W): where there are more small gaps than the share ``ragged`` of the measured pixels, then until
+    there are at most half as many, and at most ``passes`` times, gaps get the mean of their neighbours on the
+    nearest surface, z' <= z + gap + slope (z z) with z the nearest. In float32; NaN where nothing was
+    measured nor filled.
     """
     for name, value in (("gap", gap), ("slope", slope)):
         if not 0 <= value < np.inf:
@@ -26,13 +28,21 @@ def fill_gaps(
     if passes < 0:
         refuse("passes", "at least 0", passes)
     image = np.where(has_depth(depth), depth, np.float32(np.nan))
-    for _ in range(passes):
+    for number in range(passes):
         measured = np.isfinite(image)
-        ends = measured[:, :-1] & ~measured[:, 1:]
-        if ends.sum() <= ragged * measured.sum():
+        least = ragged / 2 if number > 0 else ragged
+        if _small_gaps(measured) <= least * measured.sum():
             break
         image = np.where(measured, image, _surfaces(image, gap, slope))
     return image
+
+
+def _small_gaps(measured: NDArray[np.bool_]) -> int:
+    """How often 1 to SMALL unmeasured pixels of a row lie between two measured ones."""
+    width = measured.shape[1]
+    padded = np.pad(measured, ((0, 0), (0, SMALL + 1)))
+    goes_on = np.any([padded[:, 1 + gap : 1 + gap + width] for gap in range(1, SMALL + 1)], axis=0)
+    return int((measured & ~padded[:, 1 : 1 + width] & goes_on).sum())
 
 
 def _surfaces(image: NDArray[np.float32], gap: float, slope: float) -> NDArray[np.float32]:
@@ -44,6 +54,7 @@ def _surfaces(image: NDArray[np.float32], gap: float, slope: float) -> NDArray[n
     total, votes = np.zeros((2, height, width), np.float32)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         reach = nearest + (np.float32(gap) + np.float32(slope) * (nearest * nearest))
+        reach = np.fmin(reach, np.finfo(np.float32).max)  # where the square overflows
         for neighbour in around:
             on_it = neighbour <= reach
             total += np.where(on_it, neighbour, np.float32(0))
