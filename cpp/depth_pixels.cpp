@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "depth_pixels.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "check.hpp"
 
 namespace tricue {
@@ -18,6 +21,11 @@ std::string shape(int rows, int cols) {
 }
 
 }  // namespace
+
+float float_at_least(double s) {
+    const auto nearest = static_cast<float>(s);
+    return nearest < s ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
+}
 
 void require_camera(VectorRef camera) {
     require_size(camera, 4, "camera");
