@@ -8,8 +8,8 @@ namespace tricue {
 
 /// What depth_components tells of C objects, and cut_sides.
 struct ObjectTable {
-    StatesRef table;          ///< (C, 7): x, y, width, height, area, pixels; depth, metres; label
-    FloatsRef columns, rows;  ///< (C, bins) each: how its pixels are spread over its box
+    StatesRef table;              ///< (C, 7): x, y, width, height, area, pixels; depth, metres; label
+    FloatsRef columns, rows;      ///< (C, bins) each: how its pixels are spread over its box
     Eigen::Ref<const Flags> cut;  ///< (C, 4)
 };
 
