@@ -37,8 +37,11 @@ void require_camera(VectorRef camera) {
 void require_table(StatesRef table) {
     require_shape(table, table.rows(), 7, "table");
     require_finite(table, "table");
-    for (Eigen::Index i = 0; i < table.rows(); ++i)
+    for (Eigen::Index i = 0; i < table.rows(); ++i) {
+        for (Eigen::Index j = 2; j < 4; ++j)
+            if (!(table(i, j) > 0.0)) refuse("table", "sizes above 0", table(i, j));
         if (!(table(i, 5) > 0.0)) refuse("table", "depths above 0", table(i, 5));
+    }
 }
 
 Rays rays(VectorRef camera, const DepthView& depth) {

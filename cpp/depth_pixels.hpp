@@ -37,7 +37,7 @@ Rays rays(VectorRef camera, const DepthView& depth);
 void require_camera(VectorRef camera);
 
 /// @throws std::invalid_argument unless it is what depth_components gives of objects that were measured: (C, 7), finite, their
-/// depths above 0
+/// widths, heights and depths above 0
 void require_table(StatesRef table);
 
 /// @throws std::invalid_argument unless the mask has the depth image's shape
