@@ -33,7 +33,7 @@ class DepthParticleParams(Params):
     edge_gap: float = parameter(0.06, unit="m", source=OURS, low=0, doc="jump that cuts, plus")
     edge_slope: float = parameter(0.01, unit="1/m", source=OURS, low=0, doc="this times z²: noise grows")
     ragged: float = parameter(
-        0.035, unit="of the pixels", source=OURS, low=0, high=1, doc="small gaps; with more they are filled"
+        0.06, unit="of the pixels", source=OURS, low=0, high=1, doc="small gaps; with more they are filled"
     )
     gap_passes: int = parameter(
         3, unit="pixels", source=OURS, low=0, high=16, doc="filled from a gap's rim at most; 0: no gaps"
