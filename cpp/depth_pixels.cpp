@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "depth_pixels.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "check.hpp"
 
 namespace tricue {
@@ -19,6 +22,11 @@ std::string shape(int rows, int cols) {
 
 }  // namespace
 
+float float_at_least(double s) {
+    const auto nearest = static_cast<float>(s);
+    return nearest < s ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
+}
+
 void require_camera(VectorRef camera) {
     require_size(camera, 4, "camera");
     require_finite(camera, "camera");
@@ -29,8 +37,11 @@ void require_camera(VectorRef camera) {
 void require_table(StatesRef table) {
     require_shape(table, table.rows(), 7, "table");
     require_finite(table, "table");
-    for (Eigen::Index i = 0; i < table.rows(); ++i)
+    for (Eigen::Index i = 0; i < table.rows(); ++i) {
+        for (Eigen::Index j = 2; j < 4; ++j)
+            if (!(table(i, j) > 0.0)) refuse("table", "sizes above 0", table(i, j));
         if (!(table(i, 5) > 0.0)) refuse("table", "depths above 0", table(i, 5));
+    }
 }
 
 Rays rays(VectorRef camera, const DepthView& depth) {

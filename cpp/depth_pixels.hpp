@@ -20,6 +20,9 @@ using Labels = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen:
     return (z > 0.0f) & (z <= std::numeric_limits<float>::max());
 }
 
+/// The least float that isn't below: `z >= float_at_least(s)` says of a float z what `z >= s` says, and `<` likewise.
+float float_at_least(double s);
+
 /// Back-projection, a column's and a row's share of it: the pixel (u, v) at depth z is (x[u] z, y[v] z, z), metres, camera
 /// frame. Computed in float64, kept in float32.
 struct Rays {
@@ -34,7 +37,7 @@ Rays rays(VectorRef camera, const DepthView& depth);
 void require_camera(VectorRef camera);
 
 /// @throws std::invalid_argument unless it is what depth_components gives of objects that were measured: (C, 7), finite, their
-/// depths above 0
+/// widths, heights and depths above 0
 void require_table(StatesRef table);
 
 /// @throws std::invalid_argument unless the mask has the depth image's shape

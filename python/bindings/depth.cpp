@@ -6,6 +6,7 @@
 #include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
 #include "cues/depth/divide_depth.hpp"
+#include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
 #include "cues/depth/height_above.hpp"
 #include "cues/depth/plane_support.hpp"
@@ -37,6 +38,12 @@ Bytes divide_depth_arrays(const Array<float>& depth, const Bytes& mask, const Ar
     const auto under = mask_image(mask, "mask");
     const auto limits = vector(dividers, "dividers");
     return give(unlocked(pixels(view), [&] { return divide_depth(view, under, limits); }));
+}
+
+Array<float> fill_gaps_arrays(const Array<float>& depth, double gap, double slope, double ragged,
+                              int passes) {
+    const auto view = depth_image(depth, "depth");
+    return give(unlocked(pixels(view), [&] { return fill_gaps(view, gap, slope, ragged, passes); }));
 }
 
 Eigen::Map<const Triples> index_triples(const Array<std::int64_t>& triples) {
@@ -101,6 +108,12 @@ void define_depth(py::module_& m) {
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
           "The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), "
           "equations (35), (36).");
+    m.def(
+        "fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"), py::arg("ragged"),
+        py::arg("passes"),
+        "Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those "
+        "up to gap + slope z^2 behind the nearest; where there are more small gaps than the share ragged of "
+        "the measured pixels, else as it is. NaN where nothing was measured nor filled.");
     m.def(
         "floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
         py::arg("tolerance"), py::arg("up"), py::arg("least_cosine"),

@@ -81,7 +81,9 @@ Array<bool> cut_sides_arrays(const Array<float>& depth, const Array<double>& tab
     const auto metres = depth_image(depth, "depth");
     const auto boxes = states(table, "table");
     const auto lens = vector(camera, "camera");
-    return give(cut_sides(metres, boxes, lens, {border, beside, nearer, share}));
+    const auto work = boxes.rows() * 48;  // places
+    return give(
+        unlocked(work, [&] { return cut_sides(metres, boxes, lens, {border, beside, nearer, share}); }));
 }
 
 Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int columns) {
@@ -102,7 +104,9 @@ Array<double> measure_objects_arrays(const Array<double>& table, const Array<flo
     const auto sides = flags(cut, "cut", 4);
     const auto lens = vector(camera, "camera");
     const auto floor = vector(plane, "plane");
-    return give(measure_objects({boxes, across, down, sides}, lens, {floor, feet, legs}));
+    return give(unlocked(across.size() + down.size(), [&] {
+        return measure_objects({boxes, across, down, sides}, lens, {floor, feet, legs});
+    }));
 }
 
 }  // namespace

@@ -197,6 +197,13 @@ def ellipse_search(
     (rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up to margin times as large, and the shares of the mask's pixels (H, W) in both.
     """
 
+def fill_gaps(
+    depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those up to gap + slope z^2 behind the nearest; where there are more small gaps than the share ragged of the measured pixels, else as it is. NaN where nothing was measured nor filled.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -615,6 +622,9 @@ class Kernels(Protocol):
         margin: float,
         mask: numpy.typing.NDArray[numpy.uint8] | None,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def fill_gaps(
+        self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

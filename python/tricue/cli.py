@@ -108,6 +108,7 @@ def _add_track(verb: argparse.ArgumentParser) -> None:
         help="frames a second of images that tell no times (default 30); videos, cameras, VOT, TUM and "
         "Princeton have their own",
     )
+    _add_stereo(verb)
     _add_depth(verb)
     verb.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
     verb.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
@@ -120,6 +121,18 @@ def _add_track(verb: argparse.ArgumentParser) -> None:
     )
     verb.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
     _add_common(verb)
+
+
+def _add_stereo(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument(
+        "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"
+    )
+    verb.add_argument(
+        "--rectify", action="store_true", help="the pairs are raw: rectify them by OpenCV's --calibration"
+    )
+    verb.add_argument(
+        "--unit", type=float, metavar="M", help="metres per unit of the board in OpenCV's --calibration"
+    )
 
 
 def _add_depth(verb: argparse.ArgumentParser) -> None:

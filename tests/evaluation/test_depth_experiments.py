@@ -90,6 +90,7 @@ def test_variants_differ_from_the_default_as_they_say():
         "measurement": 0.0,
         "floor": False,
         "edges": False,
+        "gap_passes": 0,
     }
     for keywords in kept.values():
         assert all(getattr(default, name) != value for name, value in keywords.items())

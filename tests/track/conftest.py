@@ -93,17 +93,13 @@ def pass_by(passing: DepthScene, follow: Follow) -> Callable[..., list[Track]]:
 
 @pytest.fixture(scope="session")
 def objects_of() -> Callable[..., Objects]:
-    """Objects of the given states (C, 5), seen at one pixel a centimetre, which fill 55 % of their boxes; cut
-    (C, 4) nowhere unless told.
-    """
+    """Objects of the given states (C, 5), which fill 55 % of their boxes; cut (C, 4) nowhere unless told."""
 
     def make(states: Sequence[Sequence[float]], cut: Sequence[Sequence[int]] | None = None) -> Objects:
         five = np.array(states, np.float64).reshape(-1, 5)
         even = np.full((len(five), SLICES), 1 / SLICES, np.float32)
-        corners = five[:, :2] - five[:, 3:] / 2
         return Objects(
             states=five,
-            rectangles=100 * np.concatenate([corners, five[:, 3:]], axis=1),
             cut=np.zeros((len(five), 4), np.bool_) if cut is None else np.array(cut, np.bool_),
             shift=np.zeros((len(five), 2)),
             columns=even,

@@ -6,9 +6,8 @@ them may be a person.
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, DepthParticleTracker, Intrinsics
-from tricue.track.depth_model import rectangles_of, states_of
-from tricue.track.depth_objects import SLICES, completed, joined, segment
+from tricue import Box, DepthParticleTracker, Intrinsics, reference
+from tricue.track.depth_objects import SLICES, segment
 from tricue.track.depth_start import humans, in_box, somebody
 from tricue.track.foreground import NO_FLOOR, Foreground, foreground, numbers
 
@@ -26,7 +25,9 @@ def drawn(*boxes: tuple[Box, float], wall: float = WALL, shape: tuple[int, int] 
     for box, z in boxes:
         left, top, right, bottom = map(int, box.xyxy)
         depth[max(0, top) : max(0, bottom), max(0, left) : max(0, right)] = z
-    return foreground(None, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False))[0]
+    return foreground(
+        reference, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
+    )[0]
 
 
 def metric(box: Box, z: float) -> NDArray[np.float64]:
@@ -44,7 +45,7 @@ def test_two_boxes_are_two_objects(kernels):
     the pixel, centroids in the middle to half a pixel, the larger first, nothing cut.
     """
     objects = segment(kernels, drawn(*TWO, wall=np.nan), NO_FLOOR, P)
-    assert objects.boxes == [LEFT_BOX, RIGHT_BOX]
+    np.testing.assert_allclose(objects.boxes(NUMBERS), [LEFT_BOX, RIGHT_BOX], rtol=1e-12)
     np.testing.assert_allclose(objects.states, [metric(*each) for each in TWO], rtol=1e-6, atol=1e-6)
     assert objects.whole.all()
     np.testing.assert_allclose(objects.area, objects.states[:, 3] * objects.states[:, 4], rtol=1e-6)
@@ -54,11 +55,10 @@ def test_two_boxes_are_two_objects(kernels):
 def test_a_wall_behind_changes_nothing(kernels):
     """With a wall behind them the boxes are the same, and the wall is one more object, cut by the image."""
     objects = segment(kernels, drawn(*TWO), NO_FLOOR, P)
-    assert LEFT_BOX in objects.boxes
-    assert RIGHT_BOX in objects.boxes
-    wall = objects.boxes.index(Box(0, 0, 176, 144))
-    assert objects.cut[wall].all()
-    assert objects.states[wall, 2] == pytest.approx(WALL)
+    expected = [Box(0, 0, 176, 144), LEFT_BOX, RIGHT_BOX]
+    np.testing.assert_allclose(objects.boxes(NUMBERS), expected, rtol=1e-12, atol=1e-10)
+    assert objects.cut[0].all()
+    assert objects.states[0, 2] == pytest.approx(WALL)
 
 
 def test_distributions_are_shares(kernels):
@@ -125,9 +125,11 @@ def test_nothing_in_range_is_no_object(wall, kernels):
     """Without anything in range there are no objects, and each field has its shape."""
     objects = segment(kernels, drawn(wall=wall), NO_FLOOR, P)
     assert objects.states.shape == (0, 5)
-    assert objects.rectangles.shape == (0, 4)
     assert objects.cut.shape == (0, 4)
-    assert objects.boxes == []
+    assert objects.shift.shape == (0, 2)
+    assert objects.columns.shape == objects.rows.shape == (0, SLICES)
+    assert objects.area.shape == (0,)
+    assert objects.boxes(NUMBERS) == []
 
 
 def test_feet_come_back_from_the_floor(kernels):
@@ -141,11 +143,10 @@ def test_feet_come_back_from_the_floor(kernels):
     head = bare.states[0, 1] - bare.states[0, 4] / 2
     assert standing.states[0, 4] == pytest.approx(bare.states[0, 4] + 0.2)
     assert standing.states[0, 1] - standing.states[0, 4] / 2 == pytest.approx(head)
-    np.testing.assert_allclose(
-        rectangles_of(standing.states, NUMBERS)[0, :4],
-        [*standing.boxes[0].center, standing.boxes[0].width, standing.boxes[0].height],
-        rtol=1e-6,
-    )
+    (box,) = standing.boxes(NUMBERS)
+    left, top, right, _ = LEFT_BOX.xyxy
+    ((_, lowest),) = CAMERA.project(np.array([[0, foot + 0.2, NEARER]])) + 0.5
+    np.testing.assert_allclose(box.xyxy, [left, top, right, lowest], rtol=1e-9)
 
 
 @pytest.mark.parametrize("over", [-0.1, 0.5])
@@ -163,22 +164,14 @@ def test_boxes_of_thinned_images_are_where_their_states_are(resolution, kernels)
     """In an image thinned out an object's box in pixels is its metric state as the camera sees it, and within
     a step of the box drawn.
     """
-    p = Params(floor=False, resolution=resolution)
+    p = Params(floor=False, resolution=resolution, gap_passes=0)
     depth = drawn((LEFT_BOX, NEARER), wall=np.nan).depth
     fg, plane = foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
     objects = segment(kernels, fg, plane, p)
-    box, (x, y, w, h, _) = objects.boxes[0], rectangles_of(objects.states, NUMBERS)[0]
+    (box,), ((x, y, z, w, h),) = objects.boxes(NUMBERS), objects.states
     assert np.abs(np.subtract(box, LEFT_BOX)).max() <= fg.step
-    np.testing.assert_allclose([*box.center, box.width, box.height], [x, y, w, h], atol=1e-4)
-
-
-def test_states_and_rectangles_are_inverse():
-    """A rectangle's state, seen by the camera, is the rectangle, and its centre projects as OpenCV has it."""
-    rng = np.random.default_rng(0)
-    rectangles = rng.uniform([0, 0, 2, 2, 0.5], [176, 144, 90, 140, 8], (50, 5))
-    states = states_of(rectangles, NUMBERS)
-    np.testing.assert_allclose(rectangles_of(states, NUMBERS), rectangles, rtol=1e-12)
-    np.testing.assert_allclose(CAMERA.project(states[:, :3]) + 0.5, rectangles[:, :2], rtol=1e-10)
+    corners = np.array([[x - w / 2, y - h / 2, z], [x + w / 2, y + h / 2, z]])
+    np.testing.assert_allclose(box.xyxy, (CAMERA.project(corners) + 0.5).ravel(), rtol=0, atol=1e-10)
 
 
 def person(x: float = 0.0, z: float = 3.0, width: float = 0.5, height: float = 1.7) -> list[float]:
@@ -234,7 +227,7 @@ def test_a_box_starts_at_the_depth_of_its_object(kernels):
     fg = drawn(*TWO)
     objects = segment(kernels, fg, NO_FLOOR, P)
     loose = Box(LEFT_BOX.x - 4, LEFT_BOX.y - 6, LEFT_BOX.width + 9, LEFT_BOX.height + 8)
-    found = in_box(loose, objects, fg)
+    found = in_box(loose, objects, fg, P)
     np.testing.assert_allclose(found.state, metric(loose, NEARER), rtol=1e-6)
     assert found.whole.all()
 
@@ -244,7 +237,7 @@ def test_a_box_on_no_object_has_the_depth_of_its_middle(kernels):
     fg = drawn((LEFT_BOX, NEARER))
     objects = segment(kernels, fg, NO_FLOOR, P)
     part = Box(LEFT_BOX.x + 10, LEFT_BOX.y + 10, 12, 12)
-    np.testing.assert_allclose(in_box(part, objects, fg).state, metric(part, NEARER), rtol=1e-6)
+    np.testing.assert_allclose(in_box(part, objects, fg, P).state, metric(part, NEARER), rtol=1e-6)
 
 
 @pytest.mark.parametrize("size", [2, 3, 5])
@@ -255,89 +248,11 @@ def test_a_small_box_in_a_thinned_image_has_a_depth(size, corner, kernels):
     fg, plane = foreground(
         kernels, np.full((144, 176), 3.0, np.float32), NUMBERS, NO_FLOOR, np.random.default_rng(0), p
     )
-    found = in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg)
+    found = in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg, p)
     assert found.state[2] == pytest.approx(3.0)
 
 
 def test_a_box_on_nothing_is_named(kernels):
     """A box without a measurement in its middle is an error that names it."""
     with pytest.raises(ValueError, match=r"^box: expected a target with measured depth"):
-        in_box(Box(10, 10, 20, 20), segment(kernels, drawn(wall=np.nan), NO_FLOOR, P), drawn(wall=np.nan))
-
-
-EXPECTED = np.array(person(width=0.6, height=1.8))
-
-
-def test_whole_objects_are_complete(objects_of):
-    """What nothing cuts stays as it is, however small."""
-    objects = objects_of([person(), person(1.0, height=0.9)])
-    np.testing.assert_array_equal(completed(objects, EXPECTED, EXPECTED[3:]), objects.states)
-
-
-@pytest.mark.parametrize(
-    ("side", "axis", "sense"), [(0, 0, -1), (1, 0, 1), (2, 1, -1), (3, 1, 1)], ids=["l", "r", "t", "b"]
-)
-def test_cut_objects_are_completed_on_the_side_that_is_cut(side, axis, sense, objects_of):
-    """An object cut at one side has the usual size, and its free side stays where it was."""
-    half = EXPECTED.copy()
-    half[3 + axis] /= 2
-    cut = [[int(i == side) for i in range(4)]]
-    state = completed(objects_of([half], cut), EXPECTED, EXPECTED[3:])[0]
-    assert state[3 + axis] == pytest.approx(EXPECTED[3 + axis])
-    free = half[axis] - sense * half[3 + axis] / 2
-    assert state[axis] - sense * state[3 + axis] / 2 == pytest.approx(free)
-    others = [i for i in range(5) if i not in (axis, 3 + axis)]
-    np.testing.assert_array_equal(state[others], half[others])
-
-
-@pytest.mark.parametrize(("expected_x", "x"), [(0.0, 0.0), (0.1, 0.1), (5.0, 0.15), (-5.0, -0.15)])
-def test_objects_cut_on_both_sides_are_where_they_are_expected(expected_x, x, objects_of):
-    """Cut at the left and the right, an object lies as near to its expected place as covers what is seen."""
-    half = EXPECTED.copy()
-    half[3] = 0.3
-    expected = EXPECTED + [expected_x, 0, 0, 0, 0]
-    state = completed(objects_of([half], [[1, 1, 0, 0]]), expected, EXPECTED[3:])[0]
-    assert state[0] == pytest.approx(x)
-    assert state[3] == pytest.approx(0.6)
-
-
-def test_larger_cut_objects_stay(objects_of):
-    """What is cut but already larger than usual isn't shrunk, and the objects themselves stay."""
-    large = person(width=0.9, height=2.0)
-    objects = objects_of([large, person(width=0.2)], [[1, 0, 1, 0], [1, 0, 0, 0]])
-    before = objects.states.copy()
-    np.testing.assert_array_equal(completed(objects, EXPECTED, EXPECTED[3:])[0], large)
-    np.testing.assert_array_equal(objects.states, before)
-
-
-def test_pieces_are_joined(objects_of):
-    """A body and the leg that a gap cut off become one, of the box round both, its centroid between theirs by
-    area; depth and the other objects stay.
-    """
-    body, leg = [0.0, -0.3, 3.0, 0.6, 1.2], [0.1, 0.6, 3.1, 0.2, 0.5]
-    stranger = person(1.5)
-    objects = objects_of([body, leg, stranger])
-    both = joined(objects, 0, EXPECTED)
-    np.testing.assert_allclose(both.states[0], [0.0, -0.025, 3.0, 0.6, 1.75], atol=1e-12)
-    np.testing.assert_allclose(both.rectangles[0], [-30, -90, 60, 175], atol=1e-9)
-    centroid = (0.72 * np.array([0, -0.3]) + 0.1 * np.array([0.1, 0.6])) / 0.82
-    np.testing.assert_allclose(both.states[0, :2] + both.shift[0], centroid, atol=1e-12)
-    np.testing.assert_array_equal(both.states[1:], objects.states[1:])
-    np.testing.assert_array_equal(objects.states[0], body)
-
-
-@pytest.mark.parametrize(
-    "other",
-    [[0.0, 0.6, 3.5, 0.2, 0.5], [0.6, 0.0, 3.0, 0.3, 1.7], [0.0, 0.0, 3.0, 3.0, 3.0]],
-    ids=["behind", "beside", "larger than both"],
-)
-def test_strangers_are_not_joined(other, objects_of):
-    """What is at another depth, outside the expected rectangle, or larger than it is no piece of it."""
-    objects = objects_of([[0.0, -0.3, 3.0, 0.6, 1.2], other])
-    np.testing.assert_array_equal(joined(objects, 0, EXPECTED).states, objects.states)
-
-
-def test_a_union_is_cut_where_its_pieces_are(objects_of):
-    """A body whole and a leg cut at the bottom make something cut at the bottom."""
-    objects = objects_of([[0, -0.3, 3, 0.6, 1.2], [0.1, 0.6, 3, 0.2, 0.5]], [[0, 0, 0, 0], [0, 0, 0, 1]])
-    assert joined(objects, 0, EXPECTED).cut[0].tolist() == [False, False, False, True]
+        in_box(Box(10, 10, 20, 20), segment(kernels, drawn(wall=np.nan), NO_FLOOR, P), drawn(wall=np.nan), P)

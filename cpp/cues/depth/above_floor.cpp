@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/above_floor.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,14 +44,16 @@ Floats above_floor(const DepthView& depth, VectorRef camera, VectorRef plane, co
     require_finite(plane, "plane");
     require_space(space);
     const Eigen::Array4f p = plane.cast<float>();
+    const bool known = (plane != 0.0).any();
+    if (!known)  // 0 times a slope that float32 can't hold would be NaN
+        for (auto* slopes : {&across, &down}) std::fill(slopes->begin(), slopes->end(), 0.0f);
     for (float& x : across) x = p[0] * x;
-    const float offset = (plane == 0.0).all() ? std::numeric_limits<float>::infinity() : p[3];
     const Limits limits{static_cast<float>(space.near), static_cast<float>(space.far),
-                        static_cast<float>(space.clear)};
+                        known ? static_cast<float>(space.clear) : -std::numeric_limits<float>::infinity()};
     Floats kept(depth.rows, depth.cols);
     for (int v = 0; v < depth.rows; ++v)
         keep_row(depth.row(v), across.data(), depth.cols, p[1] * down[static_cast<std::size_t>(v)] + p[2],
-                 offset, limits, kept.data() + std::ptrdiff_t{v} * depth.cols);
+                 p[3], limits, kept.data() + std::ptrdiff_t{v} * depth.cols);
     return kept;
 }
 

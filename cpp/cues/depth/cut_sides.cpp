@@ -31,7 +31,7 @@ bool is_covered(const DepthView& depth, const Beside& box, double u0, double v0,
         const double t = (i + 0.5) / kPlaces, u = u0 + t * (u1 - u0), v = v0 + t * (v1 - v0);
         nearer += is_nearer(depth, box.x + u * box.half_width, box.y + v * box.half_height, box.limit);
     }
-    return nearer > share * kPlaces;
+    return static_cast<double>(nearer) / kPlaces > share;
 }
 
 void require(StatesRef table, VectorRef camera, const Cut& cut) {

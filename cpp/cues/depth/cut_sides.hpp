@@ -24,7 +24,7 @@ struct Cut {
 /// the box that is larger by `beside` all round). Pixels outside the image, or not measured, are not nearer.
 ///
 /// @param depth  metres
-/// @param table  (C, 7): x, y, width, height, pixels; area; depth z, metres, above 0; label: depth_components' table
+/// @param table  (C, 7): x, y, width, height, pixels; area; depth z, metres; label: depth_components' table; sizes, z above 0
 /// @param camera (4,): fx, fy above 0, cx, cy, pixels
 /// @param cut    border not negative; beside, nearer finite, not negative; share in [0, 1]
 /// @returns      (C, 4): left, right, top, bottom

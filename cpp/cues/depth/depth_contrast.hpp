@@ -19,9 +19,10 @@ struct Places {
 /// likelihood of all its particles at once.
 ///
 /// A state (X, Y, Z, W, H) is the upright rectangle W x H with the centre (X, Y, Z), seen by the camera: centre
-/// (X fx / Z + cx + 1/2, Y fy / Z + cy + 1/2), W fx / Z wide and H fy / Z high, where pixel (0, 0) covers [0, 1) x [0, 1). A place
-/// at the share u of the half width is in column floor(x + (w / 2) u), likewise rows, in float64. Which depths count, and the
-/// distance from the model, are depth_distance's.
+/// (X (fx / Z) + (cx + 1/2), Y (fy / Z) + (cy + 1/2)), W (fx / Z) wide and H (fy / Z) high, where pixel (0, 0) covers
+/// [0, 1) x [0, 1); what is so near that this overflows is outside the image. A place at the share u of the half width is in
+/// column floor(x + (w / 2) u), likewise rows, in float64. Which depths count, and the distance from the model, are
+/// depth_distance's.
 ///
 /// @param depth  metres; may be empty
 /// @param camera (4,): fx, fy above 0, cx, cy, pixels, (0, 0) is the centre of the first

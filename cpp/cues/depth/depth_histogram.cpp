@@ -28,13 +28,15 @@ void require_levels(const DepthLevels& levels) {
 TRICUE_MULTIVERSION
 void levels_of_row(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
                    const DepthLevels& levels, std::int32_t* __restrict level) {
-    const double near = levels.near, far = levels.far;
-    const double scale = levels.count / (far - near), top = levels.count - 1;
+    const float least = float_at_least(levels.near), end = float_at_least(levels.far);
+    const auto near = static_cast<float>(levels.near);
+    const auto scale = static_cast<float>(levels.count / (levels.far - levels.near));
+    const auto top = static_cast<float>(levels.count - 1);
     const std::int32_t none = levels.count;
     in_blocks(n, [=](std::ptrdiff_t x) {
-        const double z = depth[x], place = (z - near) * scale;
-        const bool counts = has_depth(depth[x]) & (mask[x] != 0) & (z >= near) & (z < far);
-        const double within = counts & (place < top) ? place : top;
+        const float z = depth[x], place = (z - near) * scale;
+        const bool counts = has_depth(z) & (mask[x] != 0) & (z >= least) & (z < end);
+        const float within = counts & (place < top) ? place : top;
         level[x] = counts ? static_cast<std::int32_t>(within) : none;
     });
 }

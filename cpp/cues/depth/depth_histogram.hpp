@@ -14,7 +14,8 @@ struct DepthLevels {
 
 /// How many pixels under the mask lie in every level of depth.
 ///
-/// level = floor((z - near) (levels / (far - near))), computed in float64 in this order, at most levels - 1.
+/// level = floor((z - near) (levels / (far - near))), from 0 to levels - 1, in float32, to which near and the quotient are
+/// rounded; what is in [near, far) is decided exactly.
 ///
 /// @param depth metres; what wasn't measured isn't counted
 /// @param mask  of the same shape: pixels where it is 0 aren't counted

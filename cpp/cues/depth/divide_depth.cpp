@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/divide_depth.hpp"
 
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "blocks.hpp"
 #include "check.hpp"
+#include "depth_pixels.hpp"
 #include "simd.hpp"
 
 namespace tricue {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 void require_dividers(VectorRef dividers) {
     const auto count = dividers.size();
@@ -20,12 +17,6 @@ void require_dividers(VectorRef dividers) {
     require_finite(dividers, "dividers");
     for (Eigen::Index k = 1; k < count; ++k)
         if (dividers[k] < dividers[k - 1]) refuse("dividers", "ascending numbers", dividers[k]);
-}
-
-/// The least float that isn't below: `z >= up(s)` says of a float z what `z >= s` says.
-float up(double s) {
-    const auto nearest = static_cast<float>(s);
-    return nearest < s ? std::nextafter(nearest, kInfinity) : nearest;
 }
 
 /// Writes each label over those before, as the dividers ascend: a depth keeps that of the last divider it has reached.
@@ -51,7 +42,7 @@ Labels divide_depth(const DepthView& depth, const ImageView& mask, VectorRef div
     require_mask(mask, depth);
     require_dividers(dividers);
     std::vector<float> floats;
-    for (const double s : dividers) floats.push_back(up(s));
+    for (const double s : dividers) floats.push_back(float_at_least(s));
     const int divisions = static_cast<int>(floats.size()) - 1;
     Labels labels(depth.rows, depth.cols);
     for (int y = 0; y < depth.rows; ++y)

@@ -8,8 +8,8 @@ namespace tricue {
 
 /// What depth_components tells of C objects, and cut_sides.
 struct ObjectTable {
-    StatesRef table;          ///< (C, 7): x, y, width, height, area, pixels; depth, metres, above 0; label
-    FloatsRef columns, rows;  ///< (C, bins) each: how its pixels are spread over its box
+    StatesRef table;              ///< (C, 7): x, y, width, height, area, pixels; depth, metres; label
+    FloatsRef columns, rows;      ///< (C, bins) each: how its pixels are spread over its box
     Eigen::Ref<const Flags> cut;  ///< (C, 4)
 };
 
@@ -26,7 +26,7 @@ struct Ground {
 /// (n · X + d) / max(-ny, 0.1), along the camera's y axis. An object that stands on the floor gets a strip of that height
 /// added at its lower edge, and its centroid comes down by the strip's share, legs x strip / height, of the area.
 ///
-/// @param objects all finite
+/// @param objects all finite; widths, heights and depths above 0
 /// @param camera  (4,): fx, fy above 0, cx, cy, pixels, (0, 0) is the centre of the first
 /// @returns       (C, 8): X, Y, Z of the box's centre, Z being the object's mean depth, width, height; from that centre to the
 ///                centroid, x and y; area: metres, camera frame, and square metres

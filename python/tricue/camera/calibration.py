@@ -31,7 +31,7 @@ def opencv_intrinsics(path: Path, *, key: str | None = None, size: Size | None =
 
     key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1.
     """
-    with _OpenCVFile(path) as file:
+    with OpenCVFile(path) as file:
         keys = (key,) if key else _OPENCV_KEYS
         matrix = next((m for m in map(file.matrix, keys) if m is not None), None)
         if matrix is None:
@@ -44,13 +44,13 @@ def opencv_rig(path: Path, *, unit: float = 1.0, size: Size | None = None) -> St
 
     unit: metres per unit of the calibration's board: 0.001 where its squares were given in millimetres.
     """
-    with _OpenCVFile(path) as file:
+    with OpenCVFile(path) as file:
         left, right = file.matrix("P1"), file.matrix("P2")
         if left is None or right is None:
             raise ValueError(
                 f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them"
             )
-        return _rig(left, right, positive(unit, "unit", "metres"), size or file.size(), path)
+        return projected_rig(left, right, positive(unit, "unit", "metres"), size or file.size(), path)
 
 
 def kitti_intrinsics(path: Path, *, camera: int = 2, size: Size | None = None) -> Intrinsics:
@@ -63,7 +63,7 @@ def kitti_rig(path: Path, *, cameras: tuple[int, int] = (2, 3), size: Size | Non
     """Two rectified cameras of a KITTI calibration, left first: (2, 3) are color, (0, 1) grey."""
     values = _kitti(path)
     left, right = (_kitti_projection(values, camera, path) for camera in cameras)
-    return _rig(left, right, 1.0, size or _kitti_size(values, cameras[0]), path)
+    return projected_rig(left, right, 1.0, size or _kitti_size(values, cameras[0]), path)
 
 
 def princeton_intrinsics(path: Path, *, size: Size | None = None) -> Intrinsics:
@@ -96,7 +96,7 @@ def toml_rig(path: Path, *, table: str | None = None, size: Size | None = None) 
     return _named(path, StereoRig, _toml_intrinsics(values, size, path), _value(values, "baseline", path))
 
 
-class _OpenCVFile:
+class OpenCVFile:
     """A ``cv2.FileStorage`` opened for reading, whose failures are exceptions with the file's name."""
 
     def __init__(self, path: Path) -> None:
@@ -117,11 +117,13 @@ class _OpenCVFile:
         self.storage.release()
 
     def matrix(self, key: str) -> Matrix | None:
+        """The matrix of that name, None where there is none."""
         node = self.storage.getNode(key)
         matrix = None if node.empty() or not node.isMap() else node.mat()
         return None if matrix is None else np.asarray(matrix, np.float64)
 
     def size(self) -> Size | None:
+        """Width and height of the images, None where the file doesn't say it."""
         for names in (("image_width", "image_height"), ("width", "height"), ("imageWidth", "imageHeight")):
             nodes = [self.storage.getNode(name) for name in names]
             if all(node.isInt() for node in nodes):
@@ -145,7 +147,8 @@ def _named(path: Path, kind: Callable[..., Camera], *values: Any) -> Camera:
         raise type(error)(f"{path}: {error}") from None
 
 
-def _rig(left: Matrix, right: Matrix, unit: float, size: Size | None, path: Path) -> StereoRig:
+def projected_rig(left: Matrix, right: Matrix, unit: float, size: Size | None, path: Path) -> StereoRig:
+    """The rig of two rectified cameras' projection matrices (3, 4); ``path`` for the errors."""
     intrinsics = _intrinsics(left, size, path)
     if left.shape != (3, 4) or right.shape != (3, 4):
         raise ValueError(f"{path}: expected projection matrices (3, 4), got {left.shape} and {right.shape}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The intrinsics in a calibration file of any known format, for images of a certain size."""
+"""The intrinsics or the rig in a calibration file of any known format, for images of a certain size."""
 
 import re
 from collections.abc import Callable
@@ -8,9 +8,10 @@ from pathlib import Path
 
 from tricue import toml
 from tricue.camera.calibration import princeton_intrinsics
-from tricue.camera.rig import Intrinsics, Size
+from tricue.camera.rig import Intrinsics, Size, StereoRig
 
 Reader = Callable[..., Intrinsics]
+TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
 
 
 def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
@@ -34,16 +35,44 @@ def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
     return own
 
 
+def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
+    """The rectified rig of a file by OpenCV (YAML, XML, JSON) with P1 and P2, by KITTI (.txt), or in TOML.
+
+    size: width and height of the images, pixels. unit: metres per unit of the board of OpenCV's calibration,
+    1 without it; ValueError with the other formats, which are in metres. ValueError or OSError names the
+    file, as :func:`read_intrinsics` does.
+    """
+    kind = _format(path)
+    if unit is not None and kind != OPENCV:
+        raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in metres")
+    if kind == PRINCETON:
+        raise ValueError(f"{path}: expected the calibration of a stereo pair, got one camera's")
+    read_intrinsics(path, size, "color")  # whether it is for images of this size
+    if kind == OPENCV:
+        return StereoRig.from_opencv(path, unit=1.0 if unit is None else unit, size=size)
+    if kind == KITTI:
+        return StereoRig.from_kitti(path, size=size)
+    return StereoRig.from_toml(path, table=_table(path, "color"), size=size)
+
+
 def _reader(path: Path, channel: str) -> Reader:
-    if path.suffix.lower() == ".toml":
+    kind = _format(path)
+    if kind == TOML:
         return partial(Intrinsics.from_toml, path, table=_table(path, channel))
+    read = {PRINCETON: princeton_intrinsics, OPENCV: Intrinsics.from_opencv, KITTI: Intrinsics.from_kitti}
+    return partial(read[kind], path)
+
+
+def _format(path: Path) -> str:
+    if path.suffix.lower() == ".toml":
+        return TOML
     if path.suffix.lower() == ".mat":
-        return partial(princeton_intrinsics, path)
+        return PRINCETON
     text = path.read_text(encoding="utf-8", errors="replace")
     if path.suffix.lower() in (".yml", ".yaml", ".xml", ".json") or re.match(r"\s*(%YAML|<\?xml|\{)", text):
-        return partial(Intrinsics.from_opencv, path)
+        return OPENCV
     if re.search(r"^P(_rect_)?\d+:? ", text, re.MULTILINE):
-        return partial(Intrinsics.from_kitti, path)
+        return KITTI
     raise ValueError(
         f"{path}: expected a calibration by OpenCV (.yml, .xml, .json), KITTI (.txt), Princeton (.mat) "
         "or in .toml"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How sequence folders are laid out: VOT's, TUM's, Princeton's, OTB's, images alone."""
+"""How sequence folders are laid out: VOT's, TUM's, Princeton's, KITTI's, OTB's, images alone."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera import princeton
+from tricue.camera import kitti, princeton
 from tricue.camera.depth_images import MILLIMETRES, DepthReader, is_depth, known_scale
 from tricue.camera.streams import Images, Stream, Timed, Video, image_paths, sane_rate, timed_images
 from tricue.camera.truth import VOT, find_ptb_truth, find_truth
@@ -26,6 +26,7 @@ class Layout(NamedTuple):
     channels: dict[str, Stream]
     truth: NDArray[np.float64] | None = None
     notes: tuple[str, ...] = ()
+    calibration: Path | None = None
 
 
 def read_layout(folder: Path, scale: float | None) -> Layout:
@@ -43,6 +44,8 @@ def read_layout(folder: Path, scale: float | None) -> Layout:
         return Layout(princeton.pair(color, depth, scale), find_ptb_truth(folder))
     if (folder / VOT).is_file() and all(_counted(folder / channel) for channel in ("color", "depth")):
         return _vot_rgbd(folder, scale)
+    if sequence := kitti.find_sequence(folder):
+        return _kitti(sequence)
     return _plain(folder, scale)
 
 
@@ -183,8 +186,18 @@ def _closest_pairs(first: Sequence[float], second: Sequence[float], apart: float
     return sorted(pairs.items())
 
 
+def _kitti(sequence: kitti.Sequence) -> Layout:
+    """The color pair, or the left images alone. Its labels are of many targets: none of them is the truth."""
+    channels: dict[str, Stream] = {"color": Images(image_paths(sequence.left))}
+    if sequence.right:
+        channels["right"] = Images(image_paths(sequence.right))
+    return Layout(channels, calibration=sequence.calibration)
+
+
 def _plain(folder: Path, scale: float | None) -> Layout:
-    """Images in a folder of a usual name or in the folder itself, or one video; depth in depth/."""
+    """Images in a folder of a usual name or in the folder itself, or one video; depth in depth/, and right/
+    beside left/.
+    """
     places = [folder / sub for sub in _COLOR_FOLDERS if (folder / sub).is_dir()]
     images = next((paths for place in (*places, folder) if (paths := image_paths(place))), [])
     if images and is_depth(images[0]):
@@ -193,6 +206,8 @@ def _plain(folder: Path, scale: float | None) -> Layout:
     channels: dict[str, Stream] = {}
     if images:
         channels["color"] = _color_images(images)
+        if images[0].parent == folder / "left" and (folder / "right").is_dir():
+            channels["right"] = Images(image_paths(folder / "right"))
     elif video := _video(folder, optional=bool(depth)):
         channels["color"] = video
     if depth and channels and scale is None:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Whatever can be tracked in: a video, a folder of images, a sequence of a benchmark, a camera."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,18 +18,21 @@ from tricue.camera.streams import FASTEST, Camera, Stream, Video, image_paths, i
 CALIBRATION = "intrinsics.toml"  # looked for in a sequence's folder, and in the folder of all sequences
 PRINCETON = "frames.mat"  # the same of the Princeton benchmark, in the sequence's folder
 
+Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
+
 
 @dataclass(frozen=True)
 class Source:
     """Frames in order, made of one stream a channel, with what is known about them.
 
-    channels: "color", "depth" or both; images that belong together are at the same place of each. Times and
+    channels: "color", "right", "depth"; images that belong together are at the same place of each. Times and
         frame rate are those of the first channel that has its own.
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where unknown; M may differ from the
         number of frames.
     calibration: a file with the cameras' intrinsics that lies beside the images.
     notes: what was left out of a folder and why, a sentence each.
     rate: frames a second of images of which nothing tells the times.
+    rectify: makes a raw pair of color and right a rectified one.
 
     ValueError where the channels are known to differ in length, also while iterating, and for a ``rate``
     beside times of their own.
@@ -40,6 +44,7 @@ class Source:
     calibration: Path | None = None
     notes: tuple[str, ...] = ()
     rate: float | None = None
+    rectify: Rectify | None = None
 
     def __post_init__(self) -> None:
         if self.rate is not None:
@@ -47,7 +52,7 @@ class Source:
         known = {name: stream.length for name, stream in self.channels.items() if stream.length is not None}
         if len(set(known.values())) > 1:
             got = " and ".join(f"{length} {name}" for name, length in known.items())
-            raise ValueError(f"{self.name}: expected as many color as depth images, got {got}")
+            raise ValueError(f"{self.name}: expected as many {' as '.join(known)} images, got {got}")
 
     @property
     def fps(self) -> float:
@@ -81,12 +86,15 @@ class Source:
             if len(moment) < len(streams):
                 ended = next(name for name in streams if name not in moment)
                 raise ValueError(
-                    f"{self.name}: expected as many color as depth images, "
+                    f"{self.name}: expected as many {' as '.join(streams)} images, "
                     f"got {count} {ended} and more {next(iter(moment))}"
                 )
             images = {name: image for name, (_, image) in moment.items()}
             seconds = moment[self._clock][0] if self.rate is None else count / self.rate
-            yield Frame(images.get("color"), images.get("depth"), timestamp=seconds)
+            color, right = images.get("color"), images.get("right")
+            if self.rectify and color is not None and right is not None:
+                color, right = self.rectify(color, right)
+            yield Frame(color, images.get("depth"), right, seconds)
             count += 1
 
     @property
@@ -117,19 +125,24 @@ def open_source(
     depth: str | Path | None = None,
     depth_scale: float | None = None,
     fps: float | None = None,
+    right: str | Path | None = None,
 ) -> Source:
     """Open a video file, a folder of images, a sequence folder, or a camera by its number.
 
     A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
-    benchmark's (``rgb/r-0-1.png``), or one video, with a file of true boxes. 16-bit images are depth.
+    benchmark's (``rgb/r-0-1.png``), or one video, with a file of true boxes. 16-bit images are depth. Stereo
+    pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
 
     depth: a folder of 16-bit images, or a sequence folder with depth, beside the color of ``place``; they are
         paired by order.
     depth_scale: metres per unit of depth; needed but for VOT's, TUM's and Princeton's, whose format says it.
     fps: frames a second of images of which nothing tells the times, 30 without it; ValueError beside times.
+    right: the right camera's video, folder or number, where ``place`` is the left one's; paired by order.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
     source = _opened(place, depth_scale)
+    if right is not None:
+        source = _with_right(source, place, right)
     if depth is not None:
         source = _with_depth(source, place, Path(depth), depth_scale)
     if depth_scale is not None and "depth" not in source.channels:
@@ -143,10 +156,28 @@ def _opened(place: str | Path, scale: float | None) -> Source:
     path = _existing(Path(place))
     if path.is_dir():
         layout = read_layout(path, scale)
-        return Source(path.resolve().name, layout.channels, layout.truth, _calibration(path), layout.notes)
+        calibration = _calibration(path) or layout.calibration
+        return Source(path.resolve().name, layout.channels, layout.truth, calibration, layout.notes)
     if is_image(path):
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
     return Source(path.stem, {"color": Video(path)})
+
+
+def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
+    """The source's color as the left image, with another place's color as the right one."""
+    streams = [opened.channels.get("color") for opened in (source, _opened(right, None))]
+    for stream, at in zip(streams, (place, f"--right {right}"), strict=True):
+        if stream is None:
+            raise ValueError(f"{at}: expected color images of a stereo pair, found only depth")
+    left, other = streams
+    assert left
+    assert other
+    if isinstance(left, Camera) != isinstance(other, Camera):
+        raise ValueError(f"--right {right}: expected two cameras or two recordings, got one of each")
+    note = "the two cameras are read one after the other; what moves fast isn't at one place in both"
+    notes = (*source.notes, note) if isinstance(left, Camera) else source.notes
+    rest = {name: stream for name, stream in source.channels.items() if name not in ("color", "right")}
+    return replace(source, channels={"color": left, "right": other, **rest}, notes=notes)
 
 
 def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | None) -> Source:
@@ -156,7 +187,7 @@ def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | N
         raise ValueError(f"{place}: expected color images beside --depth {depth}, found only depth")
     if isinstance(color, Camera):
         raise ValueError(f"--depth {depth}: expected with a video or a folder, got {source.name}")
-    channels = {"color": color, "depth": _depth_stream(_existing(depth), scale)}
+    channels = {**source.channels, "depth": _depth_stream(_existing(depth), scale)}
     return replace(source, channels=channels, calibration=source.calibration or _calibration(depth))
 
 

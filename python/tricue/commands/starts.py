@@ -33,6 +33,8 @@ def advice(message: str, source: Source, tracker: Tracker) -> str:
         return f"; {BOX}" if finds_by_itself(tracker) else f"; {BOX} or {FACE}"
     if message.startswith("frame: expected the channel depth"):
         return "; ".join(("", "give its depth images with --depth FOLDER", *source.notes))
+    if message.startswith("frame: expected the channel right"):
+        return "; give the right camera's images with --right PLACE"
     if message.startswith("frame: expected the channel color") and IN_DEPTH in names():
         return f"; --tracker {IN_DEPTH} tracks in depth"
     return ""

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import tricue
-from tricue.camera.rig import Intrinsics
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.sources import Source, open_source
 from tricue.commands.calibrations import find_calibration
 from tricue.commands.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
@@ -28,12 +28,13 @@ INTERRUPTED = 130
 
 
 class Run(NamedTuple):
-    """What is run: the source, the tracker, and the camera's intrinsics where they are known."""
+    """What is run: the source, the tracker, and the camera's intrinsics, or the pair's rig, where known."""
 
     source: Source
     tracker: Tracker
     intrinsics: Intrinsics | None
     start: Start | None
+    rig: StereoRig | None = None
 
 
 def track(options: Namespace) -> int:
@@ -100,18 +101,26 @@ def _prepare(options: Namespace) -> tuple[Run, list[str]]:
         from tricue.evaluation.paths import check_format
 
         check_format(options.plot)
-    source = open_source(options.input, depth=options.depth, depth_scale=options.depth_scale, fps=options.fps)
-    for place in (Path(options.input), options.calibration, options.params):
+    source = open_source(
+        options.input,
+        depth=options.depth,
+        depth_scale=options.depth_scale,
+        fps=options.fps,
+        right=options.right,
+    )
+    right = Path(options.right) if options.right else None
+    for place in (Path(options.input), right, options.calibration, options.params):
         _spare_the_input(place, (options.output, options.csv, options.json, options.plot))
-    intrinsics, note = find_calibration(options, source)
-    camera = {} if intrinsics is None else {"intrinsics": intrinsics}
+    found = find_calibration(options, source)
+    source = found.rectified(source)
     tracker = make_tracker(
-        options.tracker, options.params, options.set, options.seed, options.kernels, **camera
+        options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
     )
     # A tracker that wasn't told may assume a camera of its own.
-    known = intrinsics or getattr(tracker, "intrinsics", None)
-    run = Run(source, tracker, known, choose_start(options, source, tracker))
-    return run, [*source.notes, *([note] if note else [])]
+    rig = found.rig
+    known = rig.intrinsics if rig else found.intrinsics or getattr(tracker, "intrinsics", None)
+    run = Run(source, tracker, known, choose_start(options, source, tracker), rig)
+    return run, [*source.notes, *([found.note] if found.note else [])]
 
 
 def _outputs(options: Namespace, run: Run) -> Iterator[Output]:
@@ -152,6 +161,7 @@ def _about(options: Namespace, run: Run) -> dict[str, Any]:
         "kernels": options.kernels,
         "params": {name: _plain(value) for name, value in dataclasses.asdict(run.tracker.params).items()},
         "intrinsics": None if run.intrinsics is None else dataclasses.asdict(run.intrinsics),
+        "baseline": None if run.rig is None else run.rig.baseline,
     }
 
 

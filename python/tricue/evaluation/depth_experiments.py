@@ -82,6 +82,7 @@ EXPERIMENTS: dict[str, Experiment[DepthScene, DepthCurve]] = {
                 measurement=0.0,
                 floor=False,
                 edges=False,
+                gap_passes=0,
             ),
         },
         scenes={

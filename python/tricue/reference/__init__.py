@@ -37,6 +37,7 @@ from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
 from tricue.reference.cues.depth.divide_depth import divide_depth
+from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.measure_objects import measure_objects
@@ -71,6 +72,7 @@ __all__ = [
     "ellipse_gradient",
     "ellipse_histogram",
     "ellipse_search",
+    "fill_gaps",
     "floor_plane",
     "height_above",
     "histogram_mean",

@@ -39,7 +39,10 @@ def require_table(table: NDArray[np.float64]) -> None:
     """Refuse what depth_components doesn't give of objects that were measured."""
     require_shape("table", table, (len(table), 7))
     require_finite("table", table)
-    for depth in table[:, 5]:
+    for _, _, width, height, _, depth, _ in table:
+        for size in (width, height):
+            if not size > 0:
+                refuse("table", "sizes above 0", float(size))
         if not depth > 0:
             refuse("table", "depths above 0", float(depth))
 

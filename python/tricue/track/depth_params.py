@@ -14,7 +14,7 @@ class DepthParticleParams(Params):
     """Lengths are in metres: a person has about the same size everywhere in front of the camera.
 
     The paper's own form is ``histogram="absolute"``, ``likelihood="linear"``, ``contrast=0``,
-    ``measurement=0``, ``floor=False``, ``edges=False``.
+    ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``.
     """
 
     particles: int = parameter(100, unit="particles", source="section V", low=2, high=100_000)
@@ -32,6 +32,12 @@ class DepthParticleParams(Params):
     edges: bool = parameter(True, unit="-", source=OURS, doc="cut objects apart at jumps of the depth")
     edge_gap: float = parameter(0.06, unit="m", source=OURS, low=0, doc="jump that cuts, plus")
     edge_slope: float = parameter(0.01, unit="1/m", source=OURS, low=0, doc="this times z²: noise grows")
+    ragged: float = parameter(
+        0.06, unit="of the pixels", source=OURS, low=0, high=1, doc="small gaps; with more they are filled"
+    )
+    gap_passes: int = parameter(
+        3, unit="pixels", source=OURS, low=0, high=16, doc="filled from a gap's rim at most; 0: no gaps"
+    )
     levels: int = parameter(256, unit="levels", source="section IV.B", low=8, high=4096, doc="of the range")
     bandwidth: float = parameter(
         0.12, unit="m", source=OURS, above=0, doc="of the depth's kernel density (32)"

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large."""
+"""The part of a depth image in which a target can be: in range, above the floor, thinned out where large.
+
+An image that is riddled with gaps is mended first: bodies would fall apart in it.
+"""
 
 from typing import NamedTuple
 
@@ -50,6 +53,8 @@ def foreground(
     """The foreground, and the floor's plane (6,), what floor_plane gives: zeros while none is known."""
     step = max(1, round(depth.shape[1] / p.resolution))
     thin = np.ascontiguousarray(depth[::step, ::step])
+    if p.gap_passes:
+        thin = k.fill_gaps(thin, p.edge_gap, p.edge_slope, p.ragged, p.gap_passes)
     thinned = camera / step
     if p.floor:
         plane = floor(k, thin, thinned, plane, rng, p.near)

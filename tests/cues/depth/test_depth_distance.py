@@ -52,12 +52,14 @@ def case(seed: int, rectangles: int = 5, n: int = 30, levels: int = 16, reach: f
     st.floats(0.01, 5),
 )
 def test_twin_measures_the_same(seed: int, rectangles: int, n: int, levels: int, reach: float) -> None:
-    """Counts agree exactly; distances to the order of a sum over the levels, and three roundings."""
+    """Counts agree exactly. Distances are off by the order of a sum over the levels, and three roundings, and
+    by two roundings of the shares, at most 1 in sum, which are subtracted: alike ones leave nothing else.
+    """
     arguments = case(seed, rectangles, n, levels, reach)
     native, twin = (k.depth_distance(*arguments) for k in (_core, reference))
     assert native.shape == (rectangles, 3)
     assert_array_equal(native[:, 1:], twin[:, 1:])
-    assert_allclose(native[:, 0], twin[:, 0], rtol=(levels + 3) * EPS)
+    assert_allclose(native[:, 0], twin[:, 0], rtol=(levels + 3) * EPS, atol=2 * EPS)
 
 
 @pytest.mark.parametrize("view", [np.s_[3:40, 5:50], np.s_[:1, :1], np.s_[:1], np.s_[:, :1], np.s_[::2]])

@@ -19,8 +19,9 @@ def rectangle_prior(
     """
     _require(states, size, spread, state, deviation, most)
     off = np.log(states[:, -2:] / size) / spread
-    away = (states - state) / deviation
-    prior: Floats = -(off**2).sum(axis=1) / 2 - np.minimum((away**2).sum(axis=1) / 2, most)
+    with np.errstate(over="ignore"):
+        away = (((states - state) / deviation) ** 2).sum(axis=1)
+    prior: Floats = -(off**2).sum(axis=1) / 2 - np.minimum(away / 2, most)
     return prior
 
 

@@ -11,6 +11,7 @@ from tricue.reference.depth_pixels import require_camera
 Floats = NDArray[np.float64]
 
 MOST = 64
+OUTSIDE = np.array([-1.0, -1.0, 0.0, 0.0])  # a rectangle of no pixels
 
 
 def depth_contrast(
@@ -28,14 +29,21 @@ def depth_contrast(
     ``ring`` is a margin, in half sizes, and how many places a side has there.
     """
     _require(camera, states, grid, ring)
+    with np.errstate(over="ignore", invalid="ignore"):
+        rectangles = _seen_by(camera, states)
+        inside = depth_distance(depth, rectangles, model, _grid(*grid), reach, nearer)
+        around = depth_distance(depth, rectangles, np.zeros(1), _ring(*ring), reach, nearer)
+    return np.column_stack([inside, around[:, 1]])
+
+
+def _seen_by(camera: Floats, states: Floats) -> Floats:
+    """(N, 5): centre x, y, width, height, pixels, and Z."""
     fx, fy, cx, cy = camera
     x, y, z, width, height = states.T
-    rectangles = np.column_stack(
-        [x * fx / z + (cx + 0.5), y * fy / z + (cy + 0.5), width * fx / z, height * fy / z, z]
-    )
-    inside = depth_distance(depth, rectangles, model, _grid(*grid), reach, nearer)
-    around = depth_distance(depth, rectangles, np.zeros(1), _ring(*ring), reach, nearer)
-    return np.column_stack([inside, around[:, 1]])
+    per_x, per_y = fx / z, fy / z
+    seen = np.column_stack([x * per_x + (cx + 0.5), y * per_y + (cy + 0.5), width * per_x, height * per_y, z])
+    seen[~np.isfinite(seen).all(axis=1), :4] = OUTSIDE
+    return seen
 
 
 def _middles(n: int) -> Floats:

@@ -12,7 +12,7 @@ def depth_histogram(
     depth: NDArray[np.float32], mask: NDArray[np.uint8], near: float, far: float, levels: int
 ) -> NDArray[np.float64]:
     """(levels,): how many pixels under the mask have near <= z < far, by level
-    floor((z - near) (levels / (far - near))), at most levels - 1.
+    floor((z - near) (levels / (far - near))), at most levels - 1, in float32.
     """
     require_mask(mask, depth)
     if not np.isfinite(near):
@@ -21,9 +21,9 @@ def depth_histogram(
         refuse("far", "a finite number above near", float(far))
     if not 1 <= levels <= 65536:
         refuse("levels", "1 to 65536", levels)
-    z = depth[has_depth(depth) & (mask != 0)].astype(np.float64)
-    z = z[(near <= z) & (z < far)]
+    z = depth[has_depth(depth) & (mask != 0)]
+    z = z[(near <= z.astype(np.float64)) & (z.astype(np.float64) < far)]
     with np.errstate(over="ignore", invalid="ignore"):  # where far and near are neighbours
-        place = (z - near) * np.divide(levels, far - near)
+        place = (z - np.float32(near)) * np.float32(np.divide(levels, far - near))
     level = np.where(place < levels - 1, place, levels - 1).astype(np.intp)
     return np.bincount(level, minlength=levels).astype(np.float64)

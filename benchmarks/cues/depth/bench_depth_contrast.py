@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""Distances and contrasts of 100 rectangles in metres: native, reference, and a script on OpenCV."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Depth = NDArray[np.float32]
+Floats = NDArray[np.float64]
+LEVELS, GRID, RING, REACH, NEARER = 64, (14, 10), (1.3, 12), 0.5, 0.2
+
+
+def read(depth: Depth, camera: Floats, states: Floats, u: Floats, v: Floats) -> Depth:
+    """Depths less Z at places (u, v), in half sizes; beyond reach where nothing is measured."""
+    half = states[:, None, 3:] / 2 * np.stack([u, v], axis=-1)
+    places = (states[:, None, :2] + half) / states[:, None, 2:3] * camera[:2] + camera[2:]
+    seen = cv2.remap(depth, places.astype(np.float32), None, cv2.INTER_NEAREST, borderValue=np.nan)
+    return np.nan_to_num(seen - states[:, 2:3], nan=2 * REACH).astype(np.float32)
+
+
+def script(
+    depth: Depth,
+    camera: Floats,
+    states: Floats,
+    model: Floats,
+    grid: tuple[int, int],
+    ring: tuple[float, int],
+    reach: float,
+    nearer: float,
+) -> Floats:
+    """The peer: two remaps, which round where we take the floor, and calcHist of each rectangle."""
+    v, u = middles(grid)
+    along, off = (2 * np.arange(ring[1]) + 1) / ring[1] - 1, np.full(ring[1], ring[0])
+    inside = read(depth, camera, states, u, v)
+    around = read(
+        depth,
+        camera,
+        states,
+        np.concatenate([-off, off, along, along]),
+        np.concatenate([along, along, -off, off]),
+    )
+    measured = np.empty((len(states), 4))
+    measured[:, 2] = (inside < -nearer).mean(axis=1)
+    measured[:, 3] = ((around >= -reach) & (around < reach)).mean(axis=1)
+    for i, row in enumerate(inside):
+        histogram = cv2.calcHist([row], [0], None, [len(model)], [-reach, reach]).ravel()
+        counted = histogram.sum()
+        distance = np.linalg.norm(histogram / counted - model) / np.sqrt(2) if counted else 1
+        measured[i, :2] = distance, counted / len(row)
+    return measured
+
+
+def middles(grid: tuple[int, int]) -> tuple[Floats, Floats]:
+    """v and u of a grid's places."""
+    v, u = ((2 * np.arange(n) + 1) / n - 1 for n in grid)
+    return np.repeat(v, grid[1]), np.tile(u, grid[0])
+
+
+@pytest.mark.benchmark(group="depth_contrast")
+@pytest.mark.parametrize(
+    "depth_contrast",
+    [_core.depth_contrast, reference.depth_contrast, script],
+    ids=["native", "reference", "peer"],
+)
+def bench_depth_contrast(benchmark: Any, depth_contrast: Callable[..., Any], camera: Floats) -> None:
+    """Twins measure the same; remap's places are rounded to 1/32 of a pixel, so a few differ."""
+    rng = np.random.default_rng(0)
+    depth = np.full((144, 176), 5, np.float32)
+    depth[30:, 60:110] = 2.5
+    depth += rng.normal(0, 0.05, depth.shape).astype(np.float32)
+    depth[rng.random(depth.shape) < 0.05] = np.nan
+    states = rng.normal([-0.03, 0.58, 2.5, 0.65, 1.3], [0.1, 0.1, 0.1, 0.04, 0.08], (100, 5))
+    model = np.histogram(rng.normal(0, 0.05, 5000), LEVELS, (-REACH, REACH))[0] / 5000
+    arguments = (depth, camera, states, model, GRID, RING, REACH, NEARER)
+    measured = benchmark(depth_contrast, *arguments)
+    expected = reference.depth_contrast(*arguments)
+    assert np.median(expected[:, 1] - expected[:, 3]) > 0.3
+    assert_allclose(
+        measured, expected, **({"atol": 0.05} if depth_contrast is script else {"rtol": 100 * 2.0**-52})
+    )

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: MIT
+"""How much of a depth image of 176x144, every other pixel, is on a floor: native, reference, and a script on
+NumPy.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Depth = NDArray[np.float32]
+Floats = NDArray[np.float64]
+TOLERANCE, STEP = 0.04, 2
+
+
+def script(depth: Depth, camera: Floats, plane: Floats, tolerance: float, step: int) -> Floats:
+    """The peer: back-project the thinned image, one product, two means."""
+    fx, fy, cx, cy = camera.astype(np.float32) / step
+    thin = depth[::step, ::step]
+    v, u = np.indices(thin.shape, np.float32)
+    points = np.dstack([(u - cx) / fx * thin, (v - cy) / fy * thin, thin])[thin > 0]
+    height = points @ plane[:3].astype(np.float32) + np.float32(plane[3])
+    return np.array([np.mean(abs(height) <= tolerance), np.mean(height < -3 * tolerance)])
+
+
+@pytest.mark.benchmark(group="plane_support")
+@pytest.mark.parametrize(
+    "plane_support",
+    [_core.plane_support, reference.plane_support, script],
+    ids=["native", "reference", "peer"],
+)
+def bench_plane_support(
+    benchmark: Any, plane_support: Callable[..., Any], room: Depth, camera: Floats
+) -> None:
+    """All count the same, but for two of 6000 pixels that float32 may put on the other side of a limit."""
+    arguments = room, camera, np.array([0.0, -1.0, 0.0, 1.0]), TOLERANCE, STEP
+    support = benchmark(plane_support, *arguments)
+    assert support[0] > 0.2
+    assert_allclose(support, reference.plane_support(*arguments), rtol=0, atol=2 / 6000)

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/fill_gaps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "blocks.hpp"
+#include "check.hpp"
+#include "depth_pixels.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kLargest = std::numeric_limits<float>::max();
+
+TRICUE_MULTIVERSION
+void copy_row(const float* __restrict depth, int n, float missing, float* __restrict copy) {
+    in_blocks(n, [=](std::ptrdiff_t x) { copy[x] = has_depth(depth[x]) ? depth[x] : missing; });
+}
+
+/// A depth image with a rim of one pixel, infinite there and where nothing was measured: so that is never the nearest.
+struct Padded {
+    int rows, cols;
+    std::vector<float> pixels;
+
+    explicit Padded(const DepthView& depth)
+        : rows(depth.rows),
+          cols(depth.cols),
+          pixels((static_cast<std::size_t>(rows) + 2) * (static_cast<std::size_t>(cols) + 2), kFar) {
+        for (int y = 0; y < rows; ++y) copy_row(depth.row(y), cols, kFar, row(y));
+    }
+
+    /// From the first pixel of row y on, which is between -1 and `rows`; the rim's pixels are beside it.
+    float* row(int y) { return pixels.data() + (std::ptrdiff_t{y} + 1) * (std::ptrdiff_t{cols} + 2) + 1; }
+    DepthView view() { return {row(0), rows, cols, std::ptrdiff_t{cols} + 2}; }
+};
+
+/// `known` has four more bytes, all 0: what is beyond the row's end isn't known to be measured.
+TRICUE_MULTIVERSION
+void count_row(const float* __restrict depth, int n, std::uint8_t* __restrict known, std::int32_t* measured,
+               std::int32_t* gaps) {
+    in_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
+    std::int32_t all = 0, small = 0;
+    for (int x = 0; x < n; ++x) all += known[x];
+    for (int x = 0; x < n; ++x)
+        small += known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
+    *measured = all;
+    *gaps = small;
+}
+
+bool is_ragged(const DepthView& depth, double share) {
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(depth.cols) + 4);
+    std::int64_t measured = 0, gaps = 0;
+    for (int y = 0; y < depth.rows; ++y) {
+        std::int32_t measured_here = 0, gaps_here = 0;
+        count_row(depth.row(y), depth.cols, known.data(), &measured_here, &gaps_here);
+        measured += measured_here;
+        gaps += gaps_here;
+    }
+    return static_cast<double>(gaps) > share * static_cast<double>(measured);
+}
+
+/// A copy, NaN where nothing was measured.
+Floats cleaned(const DepthView& depth) {
+    Floats copy(depth.rows, depth.cols);
+    for (int y = 0; y < depth.rows; ++y)
+        copy_row(depth.row(y), depth.cols, std::numeric_limits<float>::quiet_NaN(),
+                 copy.data() + std::ptrdiff_t{y} * depth.cols);
+    return copy;
+}
+
+inline float least(float a, float b) {
+    return a < b ? a : b;
+}
+
+/// Written out: compilers don't vectorise a loop over the neighbours inside the one over the pixels.
+TRICUE_MULTIVERSION
+void fill_row(const float* __restrict above, const float* __restrict here, const float* __restrict below,
+              int n, float gap, float slope, float* __restrict filled) {
+    in_blocks(n, [=](std::ptrdiff_t x) {
+        const float a = above[x - 1], b = above[x], c = above[x + 1], d = here[x - 1], e = here[x + 1],
+                    f = below[x - 1], g = below[x], h = below[x + 1];
+        const float nearest = least(least(least(a, b), least(c, d)), least(least(e, f), least(g, h)));
+        // Where the square overflows, what wasn't measured still isn't on the surface.
+        const float reach = least(nearest + (gap + slope * (nearest * nearest)), kLargest);
+        const auto value = [reach](float z) { return z <= reach ? z : 0.0f; };
+        const auto vote = [reach](float z) { return z <= reach ? 1.0f : 0.0f; };
+        const float sum =
+            value(a) + value(b) + value(c) + value(d) + value(e) + value(f) + value(g) + value(h);
+        const float votes = vote(a) + vote(b) + vote(c) + vote(d) + vote(e) + vote(f) + vote(g) + vote(h);
+        const float mean = sum / votes, old = here[x];
+        filled[x] = old <= kLargest ? old : votes >= 2.0f ? mean : kFar;
+    });
+}
+
+/// One pass, in place: the rows that it still reads are kept as they were.
+void fill_once(Padded& image, float gap, float slope) {
+    const auto width = static_cast<std::size_t>(image.cols) + 2;
+    std::vector<float> above(width, kFar), here(width);
+    for (int y = 0; y < image.rows; ++y) {
+        float* row = image.row(y);
+        std::copy_n(row - 1, width, here.begin());
+        fill_row(above.data() + 1, here.data() + 1, image.row(y + 1), image.cols, gap, slope, row);
+        std::swap(above, here);
+    }
+}
+
+void require_step(double value, const char* name) {
+    if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
+}
+
+}  // namespace
+
+Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged, int passes) {
+    require_step(gap, "gap");
+    require_step(slope, "slope");
+    if (!(ragged >= 0.0 && ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", ragged);
+    if (passes < 0) refuse("passes", "at least 0", passes);
+    if (passes == 0 || !is_ragged(depth, ragged)) return cleaned(depth);
+    Padded image(depth);
+    for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged / 2)); ++pass)
+        fill_once(image, static_cast<float>(gap), static_cast<float>(slope));
+    return cleaned(image.view());
+}
+
+}  // namespace tricue

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: MIT
+"""Rectified pairs from raw ones: both images remapped so that a point lies in the same row of each.
+
+The raw cameras are OpenCV's pinhole model with its distortion coefficients (cv2.stereoCalibrate), not its
+fisheye model. x_right = rotation @ x_left + translation.
+"""
+
+from collections.abc import Sequence
+from contextlib import ExitStack
+from typing import Any, NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.calibration import Matrix, OpenCVFile, projected_rig
+from tricue.camera.frame import Frame
+from tricue.camera.numbers import positive
+from tricue.camera.rig import Path, Size, StereoRig
+
+# The names in the files of OpenCV's sample stereo_calib, and those that others give.
+_CAMERA = ("M{}", "K{}", "cameraMatrix{}", "camera_matrix_{}", "CM{}")
+_DISTORTION = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
+_ZERO_DISPARITY = 0x400  # cv2.CALIB_ZERO_DISPARITY, which cv2 5 calls otherwise
+
+
+class RawPair(NamedTuple):
+    """Two cameras as they are, left first."""
+
+    cameras: tuple[Matrix, Matrix]  # (3, 3), pixels
+    distortions: tuple[Matrix, Matrix]  # (n,), n = 4, 5, 8, 12 or 14
+    rotation: Matrix  # (3, 3), left to right
+    translation: Matrix  # (3,), left to right, in the unit of the calibration's board
+
+
+class Rectified(NamedTuple):
+    """What cv2.stereoRectify gives."""
+
+    turns: tuple[Matrix, Matrix]  # R1, R2 (3, 3)
+    projections: tuple[Matrix, Matrix]  # P1, P2 (3, 4)
+
+
+class Rectification:
+    """Rectifies raw pairs of one size; made once, called for each pair.
+
+    raw: the calibrated cameras. size: width and height of the raw images, pixels; rectified ones are as
+        large, black where the raw ones saw nothing. unit: metres per unit of the translation. rectified:
+        where the images are turned to; by default so that focal length and principal point stay nearly.
+    rig: the rectified pair's.
+    """
+
+    rig: StereoRig
+
+    def __init__(
+        self, raw: RawPair, size: Size, *, unit: float = 1.0, rectified: Rectified | None = None
+    ) -> None:
+        self._prepare(raw, size, unit, rectified, "rectification")
+
+    @classmethod
+    def from_opencv(cls, *paths: Path, unit: float = 1.0, size: Size | None = None) -> "Rectification":
+        """From files of ``cv2.FileStorage``: M1, D1, M2, D2 with R1, R2, P1, P2 or, without these, with R, T.
+
+        paths: one file, or several that together hold all, as intrinsics.yml and extrinsics.yml of OpenCV's
+            sample. unit: metres per unit of the board, 0.001 for millimetres. size: of the raw images, needed
+            where the files don't hold it.
+        ValueError or OSError names the file and what it lacks.
+        """
+        if not paths:
+            raise ValueError("paths: expected a calibration file, got none")
+        made = cls.__new__(cls)
+        with ExitStack() as stack:
+            files = _Files(
+                [stack.enter_context(OpenCVFile(path)) for path in paths], " and ".join(map(str, paths))
+            )
+            rectified = files.rectified()
+            made._prepare(
+                files.raw(posed=rectified is None), size or files.size(), unit, rectified, files.names
+            )
+        return made
+
+    def __call__(self, left: NDArray[Any], right: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """The rectified pair of a raw one: uint8, BGR or grey, of the size of the calibration."""
+        pair = Frame(left, right=right)  # checks both
+        camera = self.rig.intrinsics
+        if left.shape[:2] != (camera.height, camera.width):
+            raise ValueError(
+                f"left: expected images of {camera.width}x{camera.height} pixels, which the calibration is "
+                f"for, got {left.shape[1]}x{left.shape[0]}"
+            )
+        assert pair.color is not None
+        assert pair.right is not None
+        first, second = (
+            np.asarray(cv2.remap(image, *maps, cv2.INTER_LINEAR))
+            for image, maps in zip((pair.color, pair.right), self._maps, strict=True)
+        )
+        return first, second
+
+    def _prepare(
+        self, raw: RawPair, size: Size, unit: float, rectified: Rectified | None, names: str
+    ) -> None:
+        turns, projections = rectified or _rectify(raw, size)
+        self.rig = projected_rig(*projections, positive(unit, "unit", "metres"), size, names)
+        self._maps = [
+            # Fixed point: cv2.remap's own resolution, 1/32 px, at a third of the memory of floats.
+            cv2.initUndistortRectifyMap(camera, bent, turn, projection[:, :3], size, cv2.CV_16SC2)
+            for camera, bent, turn, projection in zip(
+                raw.cameras, raw.distortions, turns, projections, strict=True
+            )
+        ]
+
+
+def _rectify(raw: RawPair, size: Size) -> Rectified:
+    """Bouguet's rotations by OpenCV, and one camera matrix for both: the mean focal length, and the principal
+    point that leaves the mean optical axis where it was.
+
+    The matrices of cv2.stereoRectify aren't taken: they come from the undistorted corners, which real
+    coefficients, fitted where the board was, often send anywhere.
+    """
+    (left, right), (bent_left, bent_right) = raw.cameras, raw.distortions
+    rotations = cv2.stereoRectify(
+        left,
+        bent_left,
+        right,
+        bent_right,
+        size,
+        raw.rotation,
+        raw.translation[:, None],
+        flags=_ZERO_DISPARITY,
+    )
+    first, second = (np.asarray(turn, np.float64) for turn in rotations[:2])
+    focal = float(np.mean([camera[[0, 1], [0, 1]] for camera in raw.cameras]))
+    axes = [turn[:2, 2] / turn[2, 2] for turn in (first, second)]  # where (0, 0, 1) is turned to
+    middle = np.mean(
+        [camera[:2, 2] - focal * axis for camera, axis in zip(raw.cameras, axes, strict=True)], 0
+    )
+    one = np.array([[focal, 0, middle[0], 0], [0, focal, middle[1], 0], [0, 0, 1, 0]])
+    other = one.copy()
+    other[:2, 3] = focal * (second @ raw.translation)[:2]
+    return Rectified((first, second), (one, other))
+
+
+class _Files(NamedTuple):
+    """Files that together hold a calibration."""
+
+    files: Sequence[OpenCVFile]
+    names: str
+
+    def raw(self, posed: bool) -> RawPair:
+        """The cameras; ``posed`` needs R and T."""
+        cameras, distortions = self.pair(_CAMERA), self.pair(_DISTORTION)
+        rotation, translation = self._first(("R", "rotation")), self._first(("T", "translation"))
+        there = {"M1 and M2": cameras is not None, "D1 and D2": distortions is not None}
+        if posed:
+            there |= {"R": rotation is not None, "T": translation is not None}
+        if missing := [name for name, found in there.items() if not found]:
+            raise ValueError(
+                f"{self.names}: expected M1, D1, M2, D2 of the raw cameras and R, T between them, as "
+                f"cv2.stereoCalibrate gives them; found no {' and no '.join(missing)}"
+            )
+        assert cameras
+        assert distortions
+        for camera, distortion in zip(cameras, distortions, strict=True):
+            self._check(camera, (3, 3), "a camera matrix")
+            if distortion.size not in (4, 5, 8, 12, 14):
+                raise ValueError(
+                    f"{self.names}: expected 4, 5, 8, 12 or 14 distortion coefficients, got {distortion.size}"
+                )
+        if rotation is None or translation is None:
+            return RawPair(cameras, distortions, np.eye(3), np.zeros(3))
+        rotation = np.asarray(cv2.Rodrigues(rotation)[0]) if rotation.size == 3 else rotation
+        self._check(rotation, (3, 3), "a rotation R")
+        self._check(translation.ravel(), (3,), "a translation T")
+        return RawPair(cameras, distortions, rotation, translation.ravel())
+
+    def rectified(self) -> Rectified | None:
+        """R1, R2, P1 and P2, where all of them are there."""
+        turns, projections = self.pair(("R{}",)), self.pair(("P{}",))
+        if turns is None or projections is None:
+            return None
+        for turn in turns:
+            self._check(turn, (3, 3), "a rotation R1, R2")
+        return Rectified(turns, projections)
+
+    def pair(self, patterns: Sequence[str]) -> tuple[Matrix, Matrix] | None:
+        """Left and right of the first name of which there are both."""
+        for pattern in patterns:
+            left, right = (self._first((pattern.format(number),)) for number in (1, 2))
+            if left is not None and right is not None:
+                return left, right
+        return None
+
+    def size(self) -> Size:
+        size = next((size for file in self.files if (size := file.size())), None)
+        if size is None:
+            raise ValueError(
+                f"{self.names}: the file doesn't hold the image's size; pass size=(width, height)"
+            )
+        return size
+
+    def _first(self, keys: Sequence[str]) -> Matrix | None:
+        found = (file.matrix(key) for file in self.files for key in keys)
+        return next((matrix for matrix in found if matrix is not None), None)
+
+    def _check(self, matrix: Matrix, shape: tuple[int, ...], what: str) -> None:
+        if matrix.shape != shape or not np.isfinite(matrix).all():
+            raise ValueError(f"{self.names}: expected {what} {shape} of finite numbers, got {matrix.shape}")

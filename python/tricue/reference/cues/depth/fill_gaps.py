@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+"""Filling the gaps of a depth image that is riddled with them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+from tricue.reference.depth_pixels import has_depth
+
+NEIGHBOURS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
+SMALL = 3  # pixels
+VOTES = 2  # neighbours on the nearest surface, at least
+
+
+def fill_gaps(
+    depth: NDArray[np.float32], gap: float, slope: float, ragged: float, passes: int
+) -> NDArray[np.float32]:
+    """(H, W): where there are more small gaps than the share ``ragged`` of the measured pixels, then until
+    there are at most half as many, and at most ``passes`` times, gaps get the mean of their neighbours on the
+    nearest surface, z' <= z + gap + slope (z z) with z the nearest. In float32; NaN where nothing was
+    measured nor filled.
+    """
+    for name, value in (("gap", gap), ("slope", slope)):
+        if not 0 <= value < np.inf:
+            refuse(name, "a finite number, not negative", float(value))
+    if not 0 <= ragged <= 1:
+        refuse("ragged", "a share from 0 to 1", float(ragged))
+    if passes < 0:
+        refuse("passes", "at least 0", passes)
+    image = np.where(has_depth(depth), depth, np.float32(np.nan))
+    for number in range(passes):
+        measured = np.isfinite(image)
+        least = ragged / 2 if number > 0 else ragged
+        if _small_gaps(measured) <= least * measured.sum():
+            break
+        image = np.where(measured, image, _surfaces(image, gap, slope))
+    return image
+
+
+def _small_gaps(measured: NDArray[np.bool_]) -> int:
+    """How often 1 to SMALL unmeasured pixels of a row lie between two measured ones."""
+    width = measured.shape[1]
+    padded = np.pad(measured, ((0, 0), (0, SMALL + 1)))
+    goes_on = np.any([padded[:, 1 + gap : 1 + gap + width] for gap in range(1, SMALL + 1)], axis=0)
+    return int((measured & ~padded[:, 1 : 1 + width] & goes_on).sum())
+
+
+def _surfaces(image: NDArray[np.float32], gap: float, slope: float) -> NDArray[np.float32]:
+    """(H, W) the mean of the neighbours on the nearest surface round each pixel; NaN where they are few."""
+    height, width = image.shape
+    padded = np.pad(image, 1, constant_values=np.nan)
+    around = [padded[y : y + height, x : x + width] for y, x in NEIGHBOURS]
+    nearest = np.fmin.reduce(around)
+    total, votes = np.zeros((2, height, width), np.float32)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        reach = nearest + (np.float32(gap) + np.float32(slope) * (nearest * nearest))
+        reach = np.fmin(reach, np.finfo(np.float32).max)  # where the square overflows
+        for neighbour in around:
+            on_it = neighbour <= reach
+            total += np.where(on_it, neighbour, np.float32(0))
+            votes += on_it
+        mean = total / votes
+    return np.where((votes >= VOTES) & np.isfinite(mean), mean, np.float32(np.nan))

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""What is known of rectangles before they are looked at."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose, assert_array_equal
+from numpy.typing import NDArray
+from scipy.stats import norm
+from tricue import _core, reference
+from tricue.kernels import Kernels
+
+Floats = NDArray[np.float64]
+Case = dict[str, Any]
+EPS = float(np.finfo(np.float64).eps)
+
+
+def case(count: int = 40, dimensions: int = 5, seed: int = 0, **changes: Any) -> Case:
+    """Arguments of `rectangle_prior`: states near a usual size and a measured state."""
+    rng = np.random.default_rng(seed)
+    states = rng.normal(0, 1, (count, dimensions))
+    states[:, -2:] = rng.uniform(0.1, 3, (count, 2))
+    arguments: Case = {
+        "states": states,
+        "size": rng.uniform(0.3, 2, 2),
+        "spread": rng.uniform(0.1, 0.5, 2),
+        "state": rng.normal(0, 1, dimensions),
+        "deviation": rng.uniform(0.05, 1, dimensions),
+        "most": 12.0,
+    }
+    return arguments | changes
+
+
+@given(st.integers(0, 2**32), st.integers(0, 40), st.integers(2, 9), st.floats(0, 1e6) | st.just(np.inf))
+def test_twin_knows_the_same(seed: int, count: int, dimensions: int, most: float) -> None:
+    """Native and reference agree for any N and D: of D + 2 squares, all of one sign, each is rounded twice
+    but for its logarithm, which two libraries compute to 4 ulps; and their sum D + 2 times.
+    """
+    arguments = case(count, dimensions, seed, most=most)
+    native, twin = (k.rectangle_prior(**arguments) for k in (_core, reference))
+    assert native.shape == (count,)
+    assert_allclose(native, twin, rtol=(2 * 4 + 4 + dimensions + 2) * EPS)
+
+
+def test_agrees_with_densities(kernels: Kernels) -> None:
+    """Without a limit it is the logarithm of log-normal densities of the sizes, and normal ones of the state,
+    SciPy's, each over its density at its mode.
+    """
+    arguments = case(30, most=np.inf)
+    states, size, spread, state, deviation, _ = arguments.values()
+    # The mode of log(s / size), not of s: without the 1 / s of the change of variables.
+    expected = norm.logpdf(np.log(states[:, 3:]), np.log(size), spread) - norm.logpdf(0, 0, spread)
+    measured = norm.logpdf(states, state, deviation) - norm.logpdf(0, 0, deviation)
+    assert_allclose(
+        kernels.rectangle_prior(**arguments), expected.sum(axis=1) + measured.sum(axis=1), rtol=1e-12
+    )
+
+
+def test_example_by_hand(kernels: Kernels) -> None:
+    """One deviation off costs half a nat, two cost two, of size or state, and a far state costs the most."""
+    size, spread = np.array([0.5, 2.0]), np.array([0.25, 0.5])
+    state, deviation = np.array([1.0, 0.5, 2.0]), np.array([0.5, np.inf, np.inf])
+    at = np.array([1.0, 0.5, 2.0])
+    states = np.array(
+        [
+            at,
+            at * [1, np.exp(0.25), 1],
+            at * [1, 1, np.exp(-1)],
+            at + [1, 0, 0],
+            at - [50, 0, 0],
+            at * [51, 1, np.exp(0.5)],
+        ]
+    )
+    prior = kernels.rectangle_prior(states, size, spread, state, deviation, 3.0)
+    assert_allclose(prior, [0, -0.5, -2, -2, -3, -3.5], rtol=8 * EPS)
+
+
+def test_twice_is_as_far_as_half(kernels: Kernels) -> None:
+    """Sizes count by their ratio to the usual: twice and half of it cost the same, and scale by two changes
+    nothing.
+    """
+    unmeasured = {"deviation": np.full(2, np.inf)}
+    sizes = case(20, 2, **unmeasured)
+    prior = kernels.rectangle_prior(**sizes)
+    mirrored = kernels.rectangle_prior(**sizes | {"states": sizes["size"] ** 2 / sizes["states"]})
+    assert_allclose(prior, mirrored, rtol=20 * EPS, atol=20 * EPS)
+    twice = kernels.rectangle_prior(**sizes | {"states": 2 * sizes["states"], "size": 2 * sizes["size"]})
+    assert_array_equal(prior, twice)
+
+
+@given(st.integers(0, 2**32), st.floats(0, 20))
+def test_costs_at_most_the_most(seed: int, most: float) -> None:
+    """A measured state costs from nothing to ``most``, whatever its deviation, and at the best both are at
+    their best: no prior is above 0.
+    """
+    measured = case(30, seed=seed, most=most)
+    nothing = measured | {"deviation": np.full(5, np.inf)}
+    sharp = measured | {"deviation": np.full(5, 1e-300)}
+    for kernels in (_core, reference):
+        alone = kernels.rectangle_prior(**nothing)
+        cost = alone - kernels.rectangle_prior(**measured)
+        assert cost.min() >= 0
+        assert cost.max() <= most + 50 * EPS * np.abs(alone).max()
+        assert_allclose(alone - kernels.rectangle_prior(**sharp), most, rtol=1e-9, atol=1e-9)
+        assert alone.max() <= 0
+
+
+@pytest.mark.parametrize(
+    "unmeasured", [{"deviation": np.full(5, np.inf)}, {"most": 0.0}], ids=["wide", "free"]
+)
+def test_not_measured(kernels: Kernels, unmeasured: Case) -> None:
+    """Infinite deviations, or a cost of at most nothing, leave the sizes alone: the state isn't seen."""
+    here, there = case(**unmeasured), case(**unmeasured, state=np.full(5, 7.0))
+    assert_array_equal(kernels.rectangle_prior(**here), kernels.rectangle_prior(**there))
+    usual = here | {"states": np.column_stack([here["states"][:, :3], np.tile(here["size"], (40, 1))])}
+    assert_array_equal(kernels.rectangle_prior(**usual), 0)
+
+
+def test_each_by_itself(kernels: Kernels) -> None:
+    """A state's prior is its own in any company, and inputs stay as they are."""
+    arguments = case(12)
+    before = arguments["states"].copy()
+    together = kernels.rectangle_prior(**arguments)
+    alone = [kernels.rectangle_prior(**arguments | {"states": before[[i]]})[0] for i in range(12)]
+    assert_allclose(together, alone, rtol=(2 * 4 + 4 + 7) * EPS)  # NumPy's loops for one and for many differ
+    assert_array_equal(arguments["states"], before)
+
+
+BAD_VALUES: list[tuple[Case, str]] = [
+    ({"states": np.ones((3, 1))}, "states: expected 2 columns or more, got 1"),
+    ({"states": np.full((3, 5), np.nan)}, "states: expected finite numbers, got nan"),
+    ({"states": np.ones((3, 5)) * [1, 1, 1, 0, 1]}, "states: expected sizes above 0, got 0"),
+    ({"states": np.ones((3, 5)) * [1, 1, 1, 1, -2]}, "states: expected sizes above 0, got -2"),
+    ({"states": np.ones((3, 4))}, r"state: expected shape \(4,\), got \(5,\)"),
+    ({"size": np.ones(3)}, r"size: expected shape \(2,\), got \(3,\)"),
+    ({"size": np.array([1.0, np.inf])}, "size: expected finite numbers, got inf"),
+    ({"size": np.array([1.0, 0])}, "size: expected numbers above 0, got 0"),
+    ({"spread": np.ones(1)}, r"spread: expected shape \(2,\), got \(1,\)"),
+    ({"spread": np.array([1.0, np.nan])}, "spread: expected finite numbers, got nan"),
+    ({"spread": np.array([-1.0, 1])}, "spread: expected numbers above 0, got -1"),
+    ({"state": np.zeros(4)}, r"state: expected shape \(5,\), got \(4,\)"),
+    ({"state": np.full(5, -np.inf)}, "state: expected finite numbers, got -inf"),
+    ({"deviation": np.ones(6)}, r"deviation: expected shape \(5,\), got \(6,\)"),
+    ({"deviation": np.zeros(5)}, "deviation: expected numbers above 0, got 0"),
+    ({"deviation": np.full(5, np.nan)}, "deviation: expected numbers above 0, got nan"),
+    ({"most": -1.0}, "most: expected a number of at least 0, got -1"),
+    ({"most": np.nan}, "most: expected a number of at least 0, got nan"),
+]
+
+
+@pytest.mark.parametrize(("changes", "message"), BAD_VALUES)
+def test_refuses_values(kernels: Kernels, changes: Case, message: str) -> None:
+    """Each argument that doesn't fit is named, with what was expected and what came."""
+    with pytest.raises(ValueError, match=message):
+        kernels.rectangle_prior(**case(3, **changes))
+
+
+@pytest.mark.parametrize("name", ["states", "size", "spread", "state", "deviation"])
+def test_converts_nothing(name: str) -> None:
+    """Single precision and strided views are named, never converted."""
+    values = case()[name]
+    with pytest.raises(TypeError, match=f"{name}: expected float64"):
+        _core.rectangle_prior(**case(**{name: values.astype(np.float32)}))
+    with pytest.raises(ValueError, match=f"{name}: expected a C-contiguous"):
+        _core.rectangle_prior(**case(**{name: np.repeat(values, 2, axis=-1)[..., ::2]}))
