@@ -54,7 +54,9 @@ class Eyes(NamedTuple):
         """(3,) metres of a place in box coordinates with a disparity, and its covariance (3, 3)."""
         place = p.place_noise * step
         variances = np.array([place**2, place**2, p.disparity_noise**2])
-        points, covariances = k.back_project(np.array([[x - 0.5, y - 0.5, disparity]]), variances, self.rig)
+        points, covariances = k.back_project(
+            np.array([[x - 0.5, y - 0.5, disparity]]), variances, self.rig[:4], float(self.rig[4])
+        )
         if p.noise == "polynomial":
             return points[0], np.diag(_cubic_noise(self, points[0], p) ** 2)
         return points[0], covariances[0]

@@ -11,7 +11,9 @@ from tricue.track.stereo_params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 
-MEASURED = 7  # numbers of (7): X, Y, Z, three colors, the intersection; velocity, where it is there, comes after
+MEASURED = (
+    7  # numbers of (7): X, Y, Z, three colors, the intersection; velocity, where it is there, comes after
+)
 COLOR_DRIFT = 2.0  # levels a frame, standard deviation of the model's mean
 INTERSECTION_DRIFT, INTERSECTION_NOISE = 1.0, 0.1  # section 4.1: unity; ours
 SLOWED = 0.9  # of the velocity, a frame without a measurement
@@ -51,7 +53,9 @@ def start(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilter:
 
 def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
     """(6), or with the velocity that the head has."""
-    return HeadFilter(*k.kalman_predict(state.mean, state.covariance, *_dynamics(len(state.mean), seconds, p)))
+    return HeadFilter(
+        *k.kalman_predict(state.mean, state.covariance, *_dynamics(len(state.mean), seconds, p))
+    )
 
 
 def deviations(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:

@@ -41,7 +41,9 @@ def find_again(
     while z < p.far:
         disparity = eyes.disparity(z)
         minor, major = (half / 2 * f / z for half, f in zip(size, eyes.rig[:2].tolist(), strict=True))
-        off = abs(found - np.float32(disparity / pair.step)) <= max(p.coherent, (1 - NEARER) / 2 * disparity / pair.step)
+        off = abs(found - np.float32(disparity / pair.step)) <= max(
+            p.coherent, (1 - NEARER) / 2 * disparity / pair.step
+        )
         middle = np.array([columns / 2, rows / 2, minor / step, major / step])
         grid = (rows, columns, 1)
         if min(minor, major) / step > 1:

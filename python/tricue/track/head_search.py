@@ -12,6 +12,7 @@ from tricue.track.stereo_params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 NO_BIN = np.uint16(65535)
+LEAST = 8  # pixels at the head's depth; with fewer all count
 
 
 class Place(NamedTuple):
@@ -59,11 +60,20 @@ def in_places(ellipse: Ellipse, view: View, step: int) -> Floats:
 
 
 def histogram_of(k: Kernels, view: View, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:
-    """(L,) of sum 1, or of 0, C of (2): of the pixels in an ellipse, or of those at the head's depth alone."""
+    """(L,) of sum 1, C of (2): of the pixels in an ellipse, or of those alone that are at the head's depth."""
     bins = view.bins
     if p.learn == "coherent":
         bins = np.where(view.coherent, bins, NO_BIN)
+    counts = _count(k, bins, ellipse, view, step, p)
+    if counts.sum() < LEAST:
+        counts = _count(k, view.bins, ellipse, view, step, p)
+    return counts / max(counts.sum(), 1.0)
+
+
+def _count(
+    k: Kernels, bins: NDArray[np.uint16], ellipse: Ellipse, view: View, step: int, p: StereoHeadParams
+) -> Floats:
     size = p.bins[0] * p.bins[1] * p.bins[2]
     inside, _ = k.ellipse_histogram(bins, in_places(ellipse, view, step)[None], size, 1.0)
     counts: Floats = inside[0].astype(np.float64)
-    return counts / max(counts.sum(), 1.0)
+    return counts

@@ -102,7 +102,9 @@ class StereoHeadTracker:
             first = measure(k, pair, eyes, head.ellipse, depth.disparity, None, p)
         if first is None:
             span = f"near and far, {p.near:g} and {p.far:g} m"
-            raise ValueError(f"box: expected a head with a disparity between {span}, got none in {tuple(head)}")
+            raise ValueError(
+                f"box: expected a head with a disparity between {span}, got none in {tuple(head)}"
+            )
         return first
 
     def _follow(self, state: HeadState, pair: Pair, seconds: float) -> None:

@@ -11,7 +11,7 @@ OURS = "our experiment: benchmarks/README.md"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StereoHeadParams(Params):
-    """"Places" are pixels of an image of about ``resolution`` columns, in which the head is searched.
+    """ "Places" are pixels of an image of about ``resolution`` columns, in which the head is searched.
 
     The paper's own form is ``ring_weight=0``, ``depth_weight=0``, ``learn="all"``, ``motion="constant"``,
     ``noise="polynomial"``, ``disparity_noise=1``, ``center="mean"``, ``feedback=True``; unfused, as in its
@@ -22,7 +22,12 @@ class StereoHeadParams(Params):
         160, unit="pixels", source="section 5", low=16, doc="columns of the image that is searched, about"
     )
     search: tuple[int, int] = parameter(
-        (8, 4), unit="places", source="section 5: 8, 2; " + OURS, low=0, high=64, doc="to each side, up and down"
+        (8, 4),
+        unit="places",
+        source="section 5: 8, 2; " + OURS,
+        low=0,
+        high=64,
+        doc="to each side, up and down",
     )
     bins: tuple[int, int, int] = parameter(
         (32, 32, 4), unit="bins", source=OURS, low=1, high=64, doc="of B - G, G - R, B + G + R"
@@ -31,10 +36,16 @@ class StereoHeadParams(Params):
         64, unit="levels", source=OURS, low=1, high=255, doc="where the axes of B - G and G - R end"
     )
     ring: float = parameter(1.5, unit="semi-axes", source=OURS, above=1, high=4, doc="the surround's outline")
-    ring_weight: float = parameter(0.5, unit="-", source=OURS, low=0, doc="of the surround in a place's score")
+    ring_weight: float = parameter(
+        0.5, unit="-", source=OURS, low=0, doc="of the surround in a place's score"
+    )
     depth_weight: float = parameter(0.5, unit="-", source=OURS, low=0, doc="of coherent depth in that score")
     coherent: float = parameter(
-        1.5, unit="places", source=OURS, above=0, doc="of disparity, within which a pixel is at the head's depth"
+        1.5,
+        unit="places",
+        source=OURS,
+        above=0,
+        doc="of disparity, within which a pixel is at the head's depth",
     )
 
     learning_rate: float = parameter(0.1, unit="per frame", source="a of (2)", low=0, high=1)
@@ -42,7 +53,12 @@ class StereoHeadParams(Params):
         "coherent", unit="-", source="all: section 3.1; " + OURS, doc="pixels that are learnt"
     )
     gate: float = parameter(
-        0.6, unit="of usual", source="section 3.1: a threshold; " + OURS, low=0, high=1, doc="of (1), to learn"
+        0.6,
+        unit="of usual",
+        source="section 3.1: a threshold; " + OURS,
+        low=0,
+        high=1,
+        doc="of (1), to learn",
     )
 
     disparities: tuple[int, int] = parameter(
@@ -50,13 +66,19 @@ class StereoHeadParams(Params):
     )
     window: int = parameter(5, unit="places", source=OURS, low=1, high=15, doc="side of the matched window")
     uniqueness: int = parameter(5, unit="percent", source=OURS, low=0, high=100, doc="of a match's cost")
-    prefilter: bool = parameter(True, unit="-", source=OURS, doc="compare edges: both cameras differ in light")
+    prefilter: bool = parameter(
+        True, unit="-", source=OURS, doc="compare edges: both cameras differ in light"
+    )
     center: Literal["median", "mean"] = parameter("median", unit="-", source="mean: (5); " + OURS)
 
     fuse: bool = parameter(True, unit="-", source="section 4; False: unfused, figure 3")
     motion: Literal["velocity", "constant"] = parameter("velocity", unit="-", source="constant: (6); " + OURS)
     agility: float = parameter(
-        3.0, unit="m/s²", source=OURS, above=0, doc="acceleration; of constant motion metres a frame are fastest"
+        3.0,
+        unit="m/s²",
+        source=OURS,
+        above=0,
+        doc="acceleration; of constant motion metres a frame are fastest",
     )
     fastest: float = parameter(1.5, unit="m/s", source="a walk", above=0, doc="of the head")
     noise: Literal["propagated", "polynomial"] = parameter(
@@ -65,13 +87,17 @@ class StereoHeadParams(Params):
     disparity_noise: float = parameter(0.25, unit="pixels", source="1: figure 2; " + OURS, above=0)
     place_noise: float = parameter(0.7, unit="places", source=OURS, above=0, doc="of the ellipse's centre")
     color_noise: float = parameter(4.0, unit="levels", source="section 4.1; " + OURS, above=0)
-    feedback: bool = parameter(False, unit="-", source="True: section 4.1; " + OURS, doc="of the filter's colors")
+    feedback: bool = parameter(
+        False, unit="-", source="True: section 4.1; " + OURS, doc="of the filter's colors"
+    )
     rate: float = parameter(30.0, unit="frames/s", source="section 5", above=0, doc="without timestamps")
 
     seen_above: float = parameter(
         0.5, unit="of usual", source=OURS, low=0, high=1, doc="of a place's score: the head is seen"
     )
-    surprise: float = parameter(5.0, unit="deviations", source=OURS, above=0, doc="of a position that isn't it")
+    surprise: float = parameter(
+        5.0, unit="deviations", source=OURS, above=0, doc="of a position that isn't it"
+    )
     lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="not seen until LOST")
     again_after: float = parameter(
         0.1, unit="s", source=OURS, low=0, doc="not seen until it is looked for everywhere"
