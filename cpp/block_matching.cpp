@@ -64,8 +64,8 @@ template <int N, typename Case>
     const std::uint16_t *row = sums.data + x, *outside = search.outside + x;
     const Words none = Words{} + kNoCost;
     Words best = none, below = none, above = none, second = none, at = {}, k = {};
-    Words before = none, last = none;  // the candidate before, and its cost
-    Words earlier = none;              // the least cost of all before that
+    Words before = none, last = none;  // the cost of the candidate before, and its number
+    Words earlier = none;              // the least cost of all before that one
     for (int candidate = 0; candidate < sums.candidates; ++candidate, row += sums.stride) {
         Words cost, term;
         read(row, cost);
