@@ -8,12 +8,12 @@ import pytest
 from tricue import scenes
 from tricue.scenes import head_moves, heads
 
-SEEDS = range(3)
+SEEDS = range(2)
 
 
 @pytest.fixture(scope="module")
 def all_kinds():
-    """100 frames of every kind, 160x120, of 3 seeds each."""
+    """100 frames of every kind, 160x120, of 2 seeds each."""
     return {kind: [scenes.head(seed, kind=kind) for seed in SEEDS] for kind in scenes.KINDS}
 
 
@@ -174,7 +174,7 @@ def test_turning_shows_only_hair(all_kinds):
 
 
 def test_hair_has_another_color_than_the_face(all_kinds):
-    """From face to hair the mean color of the head's middle changes by 15 % or more in two of three seeds."""
+    """From face to hair the mean color of the head's middle changes by 15 % or more."""
     changed = 0
     for scene in all_kinds["turning"]:
         face, hair = np.argmin(scene.facing), np.argmax(scene.facing)
@@ -183,7 +183,7 @@ def test_hair_has_another_color_than_the_face(all_kinds):
             for index in (face, hair)
         ]
         changed += np.abs(np.log(colors[0] / colors[1])).max() > 0.15
-    assert changed >= 2
+    assert changed == len(SEEDS)
 
 
 def test_a_hand_hides_the_head_and_leaves(all_kinds):
