@@ -26,10 +26,11 @@ def depth_of(
     k: Kernels, pair: Pair, ellipse: Ellipse, span: tuple[int, int], p: StereoHeadParams
 ) -> Depth | None:
     """The disparity in an ellipse, pixels, within a span, both ends included; None where nothing is matched."""
+    window = min(p.window + 2 * (pair.step - 1), WIDEST)
     x, y, minor, major = ellipse
+    minor, major = (max(half - p.rim * window, half / 2) for half in (minor, major))
     left, top = math.floor(x - minor), math.floor(y - major)
     region = (left, top, math.ceil(x + minor) - left, math.ceil(y + major) - top)
-    window = min(p.window + 2 * (pair.step - 1), WIDEST)
     found = k.sad_disparity(*pair.grey, region, True, *span, window, p.uniqueness, p.prefilter, NO_CHECK)
     seen = found[np.isfinite(found)]
     if seen.size < LEAST:

@@ -10,7 +10,7 @@ from tricue.kernels import Kernels
 from tricue.track.eyes import Eyes
 from tricue.track.head_depth import Depth, depth_of, span_round
 from tricue.track.head_filter import INTERSECTION_NOISE, MEASURED
-from tricue.track.head_search import Place, best_place, histogram_of
+from tricue.track.head_search import Place, best_place, first_histogram, histogram_of
 from tricue.track.head_view import Ellipse, Pair, look
 from tricue.track.stereo_params import StereoHeadParams
 
@@ -44,7 +44,7 @@ def measure(
     """
     view = look(k, pair, ellipse, disparity, p)
     if histogram is None:
-        colors = histogram_of(k, view, ellipse, pair.step, p)
+        colors = first_histogram(k, view, ellipse, pair.step, p)
         place = best_place(k, view, ellipse, colors, pair.step, (0, 0), p)
     else:
         place = best_place(k, view, ellipse, histogram, pair.step, p.search, p)

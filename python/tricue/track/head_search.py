@@ -12,6 +12,7 @@ from tricue.track.stereo_params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 NO_BIN = np.uint16(65535)
+CAP = 0.3  # of the head's height
 LEAST = 8  # pixels at the head's depth; with fewer all count
 
 
@@ -50,7 +51,7 @@ def best_place(
 def score(measured: Floats, p: StereoHeadParams) -> Floats:
     """(...,) of intersections and coherent shares (..., 4), each of an ellipse and of the ring round it."""
     color, around, coherent, behind = np.moveaxis(measured, -1, 0)
-    return np.asarray(color - p.ring_weight * around + p.depth_weight * (coherent - 0.5 * behind))
+    return np.asarray(color - p.ring_weight * around + p.depth_weight * (coherent - p.depth_ring * behind))
 
 
 def in_places(ellipse: Ellipse, view: View, step: int) -> Floats:
@@ -68,6 +69,14 @@ def histogram_of(k: Kernels, view: View, ellipse: Ellipse, step: int, p: StereoH
     if counts.sum() < LEAST:
         counts = _count(k, view.bins, ellipse, view, step, p)
     return counts / max(counts.sum(), 1.0)
+
+
+def first_histogram(k: Kernels, view: View, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:
+    """(L,) of sum 1: skin and hair, so that a head is still one from behind; hair is what is on top."""
+    x, y, minor, major = ellipse
+    cap = (x, y - (1 - CAP) * major, minor, CAP * major)
+    whole, hair = (histogram_of(k, view, each, step, p) for each in (ellipse, cap))
+    return (1 - p.hair) * whole + p.hair * hair
 
 
 def _count(

@@ -20,14 +20,20 @@ class HeadState:
     shape: tuple[int, ...]
     eyes: Eyes
     size: tuple[float, float]  # metres, width and height of the head
-    histogram: Floats  # M of (2)
+    first: Floats  # (L,) its colors at first
+    learnt: Floats  # M of (2)
     filter: HeadFilter
     score: float  # of its place
     usual: float  # running means: of that,
     intersection: float  # of (1),
     share: float  # of the share of the ellipse at the head's depth
+    light: Floats | None  # (3,) mean blue, green, red of the first picture
     timestamp: float | None
     missed: float = 0.0  # seconds for which it was not seen
+
+    def histogram(self, p: StereoHeadParams) -> Floats:
+        """(L,) the model that is searched for."""
+        return p.anchor * self.first + (1 - p.anchor) * self.learnt
 
     def lost(self, p: StereoHeadParams) -> bool:
         """Whether it has been gone for long."""

@@ -12,14 +12,16 @@ from tricue.track import head_filter, lifecycle
 from tricue.track.eyes import Eyes
 from tricue.track.head_depth import depth_of, span_everywhere
 from tricue.track.head_filter import HeadFilter
-from tricue.track.head_lost import find_again
+from tricue.track.head_lost import Head, find_again
 from tricue.track.head_measure import Measured, measure
 from tricue.track.head_state import HeadState
-from tricue.track.head_view import Pair
+from tricue.track.head_view import Pair, light_of
 from tricue.track.stereo_params import StereoHeadParams
 from tricue.track.track import Status, Track
 
+ASIDE = 0.2  # metres, off its way, of a head that was just missed
 USUAL_RATE = 0.05  # per frame, of running means
+STEADY = 1.1
 
 
 class StereoHeadTracker:
@@ -64,17 +66,21 @@ class StereoHeadTracker:
         left, right, timestamp = lifecycle.stereo_pair(frame)
         eyes = Eyes.of(lifecycle.rig_for(self.rig, left.shape))
         head = lifecycle.box_in(as_box(box), left)
-        first = self._first(Pair.of(left, right, self.params), eyes, head)
+        light = light_of(left) if self.params.light else None
+        pair = Pair.of(left, right, None, self.params)
+        first = self._first(pair, eyes, head)
         self._state = HeadState(
             shape=left.shape,
             eyes=eyes,
             size=eyes.size(*head.ellipse[2:], float(first.values[2])),
-            histogram=first.colors,
+            first=first.colors,
+            learnt=first.colors,
             filter=head_filter.start(first.values, first.noise, self.params),
             score=first.place.score,
             usual=first.place.score,
             intersection=first.place.intersection,
             share=first.depth.share,
+            light=light,
             timestamp=timestamp,
         )
         return self._track(self._state)
@@ -89,7 +95,7 @@ class StereoHeadTracker:
         left, right, timestamp = lifecycle.stereo_pair(frame, before.shape)
         state = replace(before, timestamp=timestamp)
         seconds = lifecycle.elapsed(before.timestamp, timestamp, self.params.rate)
-        self._follow(state, Pair.of(left, right, self.params), seconds)
+        self._follow(state, Pair.of(left, right, state.light, self.params), seconds)
         self._state = state
         return self._track(state)
 
@@ -113,23 +119,25 @@ class StereoHeadTracker:
         predicted = head_filter.predict(k, state.filter, seconds, p)
         disparity = state.eyes.project(predicted.position)[2]
         ellipse = state.eyes.ellipse(predicted.position, state.size)
-        measured = measure(k, pair, state.eyes, ellipse, disparity, state.histogram, p)
+        measured = measure(k, pair, state.eyes, ellipse, disparity, state.histogram(p), p)
         if measured is not None and self._recognised(state, measured, predicted):
             self._accept(state, measured, head_filter.correct(k, predicted, measured.values, measured.noise))
             return
-        again = self._found_again(state, pair) if state.missed > p.again_after else None
+        again = self._found_again(state, pair, predicted) if state.missed > p.again_after else None
         if again is not None:
             self._accept(state, again, head_filter.start(again.values, again.noise, p))
         else:
             self._miss(state, predicted, seconds)
 
-    def _found_again(self, state: HeadState, pair: Pair) -> Measured | None:
-        """The head somewhere else in the picture."""
+    def _found_again(self, state: HeadState, pair: Pair, predicted: HeadFilter) -> Measured | None:
+        """The head somewhere else in the picture, as far as it can have gone."""
         k, p = self._k, self.params
-        found = find_again(k, pair, state.eyes, state.size, state.histogram, p)
+        z, reach = float(predicted.position[2]), ASIDE + p.fastest * state.missed
+        head = Head(state.size, state.histogram(p), max(z - reach, p.near), min(max(z + reach, 2 * p.near), p.far))
+        found = find_again(k, pair, state.eyes, head, p)
         if found is None:
             return None
-        measured = measure(k, pair, state.eyes, *found, state.histogram, p)
+        measured = measure(k, pair, state.eyes, *found, state.histogram(p), p)
         return measured if measured is not None and self._alike(state, measured, p.again_above) else None
 
     def _recognised(self, state: HeadState, measured: Measured, predicted: HeadFilter) -> bool:
@@ -150,9 +158,9 @@ class StereoHeadTracker:
         if measured.place.intersection < p.gate * state.intersection:
             return
         state.intersection += USUAL_RATE * (measured.place.intersection - state.intersection)
-        state.histogram = state.histogram + p.learning_rate * (measured.colors - state.histogram)
+        state.learnt = state.learnt + p.learning_rate * (measured.colors - state.learnt)
         if p.feedback:
-            state.histogram = self._k.shift_histogram(state.histogram, p.bins, p.chroma, state.filter.color)
+            state.learnt = self._k.shift_histogram(state.learnt, p.bins, p.chroma, state.filter.color)
 
     def _miss(self, state: HeadState, predicted: HeadFilter, seconds: float) -> None:
         """Coast: neither size nor model learn."""

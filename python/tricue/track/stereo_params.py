@@ -30,7 +30,7 @@ class StereoHeadParams(Params):
         doc="to each side, up and down",
     )
     bins: tuple[int, int, int] = parameter(
-        (32, 32, 4), unit="bins", source=OURS, low=1, high=64, doc="of B - G, G - R, B + G + R"
+        (16, 16, 8), unit="bins", source=OURS, low=1, high=64, doc="of B - G, G - R, B + G + R"
     )
     chroma: int = parameter(
         64, unit="levels", source=OURS, low=1, high=255, doc="where the axes of B - G and G - R end"
@@ -39,16 +39,23 @@ class StereoHeadParams(Params):
     ring_weight: float = parameter(
         0.5, unit="-", source=OURS, low=0, doc="of the surround in a place's score"
     )
-    depth_weight: float = parameter(0.5, unit="-", source=OURS, low=0, doc="of coherent depth in that score")
+    depth_weight: float = parameter(0.4, unit="-", source=OURS, low=0, doc="of coherent depth in that score")
+    depth_ring: float = parameter(0.5, unit="-", source=OURS, low=0, doc="of the surround in that share")
     coherent: float = parameter(
-        1.5,
+        0.6,
         unit="places",
         source=OURS,
         above=0,
         doc="of disparity, within which a pixel is at the head's depth",
     )
 
-    learning_rate: float = parameter(0.1, unit="per frame", source="a of (2)", low=0, high=1)
+    hair: float = parameter(
+        0.5, unit="of the histogram", source="section 3.1: skin and hair; " + OURS, low=0, high=1, doc="at first"
+    )
+    anchor: float = parameter(
+        0.15, unit="of the histogram", source=OURS, low=0, high=1, doc="that stays as it was at first"
+    )
+    learning_rate: float = parameter(0.3, unit="per frame", source="a of (2): 0.1; " + OURS, low=0, high=1)
     learn: Literal["coherent", "all"] = parameter(
         "coherent", unit="-", source="all: section 3.1; " + OURS, doc="pixels that are learnt"
     )
@@ -71,6 +78,13 @@ class StereoHeadParams(Params):
     )
     center: Literal["median", "mean"] = parameter("median", unit="-", source="mean: (5); " + OURS)
 
+    rim: float = parameter(
+        0.25, unit="windows", source="0: (5); " + OURS, low=0, high=1, doc="not matched: the window sees what is behind"
+    )
+    light: bool = parameter(
+        True, unit="-", source=OURS, doc="colors are taken as in the first frame's light"
+    )
+
     fuse: bool = parameter(True, unit="-", source="section 4; False: unfused, figure 3")
     motion: Literal["velocity", "constant"] = parameter("velocity", unit="-", source="constant: (6); " + OURS)
     agility: float = parameter(
@@ -80,7 +94,7 @@ class StereoHeadParams(Params):
         above=0,
         doc="acceleration; of constant motion metres a frame are fastest",
     )
-    fastest: float = parameter(1.5, unit="m/s", source="a walk", above=0, doc="of the head")
+    fastest: float = parameter(1.0, unit="m/s", source="a walk indoors", above=0, doc="of the head")
     noise: Literal["propagated", "polynomial"] = parameter(
         "propagated", unit="-", source="polynomial: (9); " + OURS, doc="of a measured position"
     )
