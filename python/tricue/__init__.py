@@ -21,6 +21,7 @@ from tricue.track.track import Status, Track
 if TYPE_CHECKING:
     from tricue.track.color_particle import ColorParticleTracker
     from tricue.track.depth_particle import DepthParticleTracker
+    from tricue.track.stereo_head import StereoHeadTracker
 
     __version__: str
 
@@ -31,6 +32,7 @@ __all__ = [
     "Frame",
     "Intrinsics",
     "Status",
+    "StereoHeadTracker",
     "StereoRig",
     "Track",
     "__version__",
@@ -39,7 +41,11 @@ __all__ = [
 ]
 
 
-_TRACKERS = {"ColorParticleTracker": "color-particle", "DepthParticleTracker": "depth-particle"}
+_TRACKERS = {
+    "ColorParticleTracker": "color-particle",
+    "DepthParticleTracker": "depth-particle",
+    "StereoHeadTracker": "stereo-head",
+}
 
 
 def __getattr__(name: str) -> Any:

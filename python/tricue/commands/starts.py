@@ -20,7 +20,7 @@ def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start 
     if options.detect == "person" and not finds_by_itself(tracker):
         raise ValueError(f"--detect person: {options.tracker} doesn't look for people; {BOX} or {FACE}")
     if options.detect == "face":
-        from tricue.commands.faces import find_face
+        from tricue.track.faces import find_face
 
         return lambda frame: _face(frame, find_face)
     box = options.box or (None if options.detect else source.first_box)

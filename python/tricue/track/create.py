@@ -9,6 +9,7 @@ from tricue.track.track import Tracker
 _TRACKERS = {
     "color-particle": "tricue.track.color_particle:ColorParticleTracker",
     "depth-particle": "tricue.track.depth_particle:DepthParticleTracker",
+    "stereo-head": "tricue.track.stereo_head:StereoHeadTracker",
 }
 
 

@@ -12,6 +12,7 @@ from tricue.track.stereo_params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 
+LEAST_NOISE = 1e-4  # metres, where a polynomial has a zero
 SAMPLES = 64  # of the working range, that the cubic polynomials are fitted to
 
 
@@ -65,11 +66,11 @@ class Eyes(NamedTuple):
 def _cubic_noise(eyes: Eyes, point: Floats, p: StereoHeadParams) -> Floats:
     """e of (9), (3,) metres: what an error of the disparity does to each coordinate, by cubic polynomials."""
     errors = [np.polyval(each, value) for each, value in zip(polynomials(eyes, p), point, strict=True)]
-    return np.abs(np.array(errors)) + 1e-4
+    return np.asarray(np.abs(errors)) + LEAST_NOISE
 
 
 def polynomials(eyes: Eyes, p: StereoHeadParams) -> list[Floats]:
-    """Three times four coefficients a_i0 .. a_i3 of (9), fitted to the back-projection over the working range.
+    """Three times four coefficients a_i0 .. a_i3 of (9), fitted to the back-projection in the working range.
 
     X and Y are those of the image's rim, in proportion to Z: what figure 2 shows.
     """

@@ -25,7 +25,7 @@ class Depth(NamedTuple):
 def depth_of(
     k: Kernels, pair: Pair, ellipse: Ellipse, span: tuple[int, int], p: StereoHeadParams
 ) -> Depth | None:
-    """The disparity in an ellipse, pixels, within a span, both ends included; None where nothing is matched."""
+    """The disparity in an ellipse, pixels, in a span, ends included; None where nothing is matched."""
     window = min(p.window + 2 * (pair.step - 1), WIDEST)
     x, y, minor, major = ellipse
     minor, major = (max(half - p.rim * window, half / 2) for half in (minor, major))

@@ -20,7 +20,7 @@ SLOWED = 0.9  # of the velocity, a frame without a measurement
 
 
 class HeadFilter(NamedTuple):
-    """mean (7,) or (10,): X, Y, Z metres, mean color in levels, intersection (1), velocity m/s; covariance."""
+    """mean (7,) or (10,): X, Y, Z, metres; mean color, levels; (1); velocity, m/s. And its covariance."""
 
     mean: Floats
     covariance: Floats
@@ -53,9 +53,10 @@ def start(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilter:
 
 def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
     """(6), or with the velocity that the head has."""
-    return HeadFilter(
-        *k.kalman_predict(state.mean, state.covariance, *_dynamics(len(state.mean), seconds, p))
-    )
+    dynamics = _dynamics(len(state.mean), seconds, p)
+    mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
+    mean[2] = min(max(mean[2], p.near), p.far)
+    return HeadFilter(mean, covariance)
 
 
 def deviations(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
@@ -85,7 +86,7 @@ def _dynamics(size: int, seconds: float, p: StereoHeadParams) -> tuple[Floats, F
     places, velocities = np.arange(3), np.arange(MEASURED, size)
     noise[range(3, MEASURED), range(3, MEASURED)] = [COLOR_DRIFT**2] * 3 + [INTERSECTION_DRIFT**2]
     if p.motion == "constant":
-        noise[places, places] = (p.fastest * seconds) ** 2
+        noise[places, places] = (p.fastest * seconds) ** 2  # "the maximum displacement that we expect"
         return transition, noise
     transition[places, velocities] = seconds
     power = p.agility**2

@@ -22,7 +22,7 @@ SMALLEST = 1.0  # semi-axis, of those places
 
 
 class Head(NamedTuple):
-    """What is looked for: its size, (2,) metres, its colors (L,), and its distance, metres, from near to far."""
+    """What is looked for: its size, metres, its colors (L,), and its distance, metres, from near to far."""
 
     size: tuple[float, float]
     histogram: Floats
@@ -60,7 +60,7 @@ def find_again(
 def _distances(head: Head) -> list[float]:
     """From near to far, each a little farther than the one before."""
     count = max(1, math.ceil(math.log(head.far / head.near) / -math.log(NEARER)))
-    return np.geomspace(head.near, head.far, count + 1).tolist()
+    return [float(z) for z in np.geomspace(head.near, head.far, count + 1)]
 
 
 def _disparities(k: Kernels, pair: Pair, eyes: Eyes, head: Head, p: StereoHeadParams) -> Singles:

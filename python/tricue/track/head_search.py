@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the head is in a view: the ellipse with the greatest intersection, Moreno et al. 2002, section 3.1."""
+"""Where the head is in a view: the ellipse most like the model, Moreno et al. 2002, section 3.1."""
 
 from typing import NamedTuple
 
@@ -51,7 +51,8 @@ def best_place(
 def score(measured: Floats, p: StereoHeadParams) -> Floats:
     """(...,) of intersections and coherent shares (..., 4), each of an ellipse and of the ring round it."""
     color, around, coherent, behind = np.moveaxis(measured, -1, 0)
-    return np.asarray(color - p.ring_weight * around + p.depth_weight * (coherent - p.depth_ring * behind))
+    depth = coherent - p.depth_ring * behind
+    return np.asarray(color - p.ring_weight * around + p.depth_weight * depth)
 
 
 def in_places(ellipse: Ellipse, view: View, step: int) -> Floats:
@@ -61,14 +62,14 @@ def in_places(ellipse: Ellipse, view: View, step: int) -> Floats:
 
 
 def histogram_of(k: Kernels, view: View, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:
-    """(L,) of sum 1, C of (2): of the pixels in an ellipse, or of those alone that are at the head's depth."""
+    """(L,) of sum 1, C of (2): of the pixels in an ellipse, or of those of them at the head's depth."""
     bins = view.bins
     if p.learn == "coherent":
         bins = np.where(view.coherent, bins, NO_BIN)
     counts = _count(k, bins, ellipse, view, step, p)
     if counts.sum() < LEAST:
         counts = _count(k, view.bins, ellipse, view, step, p)
-    return counts / max(counts.sum(), 1.0)
+    return np.asarray(counts / max(counts.sum(), 1.0))
 
 
 def first_histogram(k: Kernels, view: View, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:

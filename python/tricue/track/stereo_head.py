@@ -6,16 +6,18 @@ from typing import Any
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike, as_box
-from tricue.camera.frame import FrameLike
+from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import StereoRig
+from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track import head_filter, lifecycle
 from tricue.track.eyes import Eyes
+from tricue.track.faces import find_face
 from tricue.track.head_depth import depth_of, span_everywhere
 from tricue.track.head_filter import HeadFilter
 from tricue.track.head_lost import Head, find_again
 from tricue.track.head_measure import Measured, measure
 from tricue.track.head_state import HeadState
-from tricue.track.head_view import Pair, light_of
+from tricue.track.head_view import Image, Pair, light_of
 from tricue.track.stereo_params import StereoHeadParams
 from tricue.track.track import Status, Track
 
@@ -27,9 +29,9 @@ STEADY = 1.1
 class StereoHeadTracker:
     """Follows a head in the colors of a rectified stereo pair, in metres and in changing light.
 
-    An ellipse of the head's size is moved to where its colors are most like the model's, skin and hair, and its
-    disparity most like the expected; the depth in it is measured, and position, mean color and likeness are
-    filtered. The result predicts place, size and disparity in the next frame.
+    An ellipse of the head's size is moved to where its colors are most like the model's, skin and hair, and
+    its disparity most like the expected; the depth in it is measured, and position, mean color and likeness
+    are filtered. The result predicts place, size and disparity in the next frame.
 
     ``StereoHeadTracker(rig=None, seed=0, kernels="native", **parameters)``: the parameters are those of
     :attr:`Params`, one by one or all at once as ``params=``. Without ``rig`` a usual one is assumed, and
@@ -58,14 +60,18 @@ class StereoHeadTracker:
         self._k = kernel_sets.load(kernels)
         self._state: HeadState | None = None
 
-    def init(self, frame: FrameLike, box: BoxLike) -> Track:
-        """Start, or start again, on the head in ``box``, (x, y, width, height) in pixels of the left image.
+    def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
+        """Start, or start again, on the head in ``box``, (x, y, width, height) in pixels of the left image,
+        or, without one, on the largest frontal face.
 
-        ValueError where no part of the box is inside, or nothing in it has a disparity within near and far.
+        ValueError where no part of the box is inside, where nothing in it has a disparity between near and
+        far, and, without a box, where no face is found. Warns (UserWarning) of a pair that isn't rectified,
+        or whose images are swapped, as far as that is seen.
         """
         left, right, timestamp = lifecycle.stereo_pair(frame)
         eyes = Eyes.of(lifecycle.rig_for(self.rig, left.shape))
-        head = lifecycle.box_in(as_box(box), left)
+        head = lifecycle.box_in(_face(left) if box is None else as_box(box), left)
+        warn_of_stereo(as_frame(frame), stacklevel=2)
         light = light_of(left) if self.params.light else None
         pair = Pair.of(left, right, None, self.params)
         first = self._first(pair, eyes, head)
@@ -114,7 +120,7 @@ class StereoHeadTracker:
         return first
 
     def _follow(self, state: HeadState, pair: Pair, seconds: float) -> None:
-        """Predict, search, measure, correct; learn, or coast and look everywhere while the head isn't seen."""
+        """Predict, search, measure, correct; learn, or coast and look everywhere while it isn't seen."""
         k, p = self._k, self.params
         predicted = head_filter.predict(k, state.filter, seconds, p)
         disparity = state.eyes.project(predicted.position)[2]
@@ -133,7 +139,8 @@ class StereoHeadTracker:
         """The head somewhere else in the picture, as far as it can have gone."""
         k, p = self._k, self.params
         z, reach = float(predicted.position[2]), ASIDE + p.fastest * state.missed
-        head = Head(state.size, state.histogram(p), max(z - reach, p.near), min(max(z + reach, 2 * p.near), p.far))
+        near, far = max(z - reach, p.near), min(z + reach, p.far)
+        head = Head(state.size, state.histogram(p), near, far)
         found = find_again(k, pair, state.eyes, head, p)
         if found is None:
             return None
@@ -185,3 +192,11 @@ class StereoHeadTracker:
     def __setstate__(self, values: dict[str, Any]) -> None:
         self.__dict__.update(values)
         self._k = kernel_sets.load(self.kernels)
+
+
+def _face(image: Image) -> Box:
+    """The largest face in an image; ValueError where there is none."""
+    face = find_face(image)
+    if face is None:
+        raise ValueError("box: expected (x, y, width, height), as no face was found in this frame")
+    return face

@@ -37,7 +37,7 @@ def _cascade() -> Any:  # cv2 5's types don't know it
     file = Path(folder or "", "haarcascade_frontalface_default.xml")
     if folder is None or classifier is None or not file.is_file():
         raise ImportError(
-            f"--detect face: cv2 {cv2.__version__} has no face cascade; "
-            "give --box x,y,width,height, or pip install 'opencv-python-headless<5'"
+            f"box: a face can't be looked for, as cv2 {cv2.__version__} has no cascade; "
+            "give a box (--box x,y,width,height), or pip install 'opencv-python-headless<5'"
         )
     return classifier(str(file))

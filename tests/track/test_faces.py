@@ -5,7 +5,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue.camera.sources import open_source
-from tricue.commands import faces
+from tricue.track import faces
 
 has_cascade = hasattr(cv2, "CascadeClassifier") and any(
     Path(cv2.data.haarcascades).glob("*frontalface_default*")
@@ -40,6 +40,7 @@ def test_a_cv2_without_cascades_is_explained(lacking: str, monkeypatch: pytest.M
         monkeypatch.setattr(Path, "is_file", lambda _: False)
     faces._cascade.cache_clear()
     with pytest.raises(
-        ImportError, match=r"^--detect face: cv2 \S+ has no face cascade; give --box x,y,width,height"
+        ImportError,
+        match=r"^box: a face can't be looked for, as cv2 \S+ has no cascade; give a box \(--box ",
     ):
         faces.find_face(np.zeros((60, 80, 3), np.uint8))
