@@ -37,7 +37,7 @@ def find_again(
     step = pair.step * THIN
     found = _disparities(k, pair, eyes, head, p)
     rows, columns = found.shape
-    bins = k.color_bins(pair.colors, (0, 0, columns * THIN, rows * THIN), p.bins, p.chroma, THIN)
+    bins = pair.bins(k, (0, 0, columns * THIN, rows * THIN), THIN, p)
     best: tuple[float, Ellipse, float] | None = None
     for z in _distances(head):
         disparity = eyes.disparity(z)
