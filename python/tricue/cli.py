@@ -150,7 +150,7 @@ def _add_depth(verb: argparse.ArgumentParser) -> None:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="the camera's, by OpenCV, KITTI, Princeton or in TOML",
+        help="the camera's or the pair's, by OpenCV, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=_angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"

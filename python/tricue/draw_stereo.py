@@ -52,8 +52,9 @@ def stereo_overlay(
     canvas = overlay(frame.color, track, truth=truth, note=note)
     patch = disparity_round(frame, track, rig)
     if patch is not None:
-        inset = _inset(frame.color, track, patch, canvas.shape)
-        _paste(canvas, inset, patch, track, frame.color.shape)
+        scale = canvas.shape[0] / frame.color.shape[0]
+        target = Box(*(scale * number for number in track.box))
+        _paste(canvas, _inset(frame.color, track, patch, canvas.shape), patch, target)
     return canvas
 
 
@@ -123,15 +124,13 @@ def _shades(part: Image, patch: Patch) -> Image:
     return shades
 
 
-def _paste(canvas: Image, inset: Image, patch: Patch, track: Track, shape: tuple[int, ...]) -> None:
-    """Into the upper right corner, or the lower one where the target is in the upper one."""
+def _paste(canvas: Image, inset: Image, patch: Patch, target: Box) -> None:
+    """Into a corner where the target isn't, the words in the upper left one aside; captioned."""
     height, width = inset.shape[:2]
     caption = round(32 * letter_size(canvas))
-    left, top = canvas.shape[1] - width - EDGE, EDGE
-    scale = canvas.shape[0] / shape[0]
-    room = Box(left, top, width, height + caption)
-    if room.iou(Box(*(value * scale for value in track.box))) > 0:
-        top = canvas.shape[0] - height - caption - EDGE
+    low, right = canvas.shape[0] - height - caption - EDGE, canvas.shape[1] - width - EDGE
+    corners = (right, low), (EDGE, low), (right, EDGE)
+    left, top = min(corners, key=lambda at: target.iou(Box(at[0], at[1], width, height + caption)))
     canvas[top : top + height, left : left + width] = inset
     cv2.rectangle(canvas, (left - 1, top - 1), (left + width, top + height), _FRAME, 1)
     words = f"disparity {patch.expected:.1f} px"
