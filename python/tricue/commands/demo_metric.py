@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """What the demos in metres measure in a scene, whatever the cameras: errors, overlaps, what was said."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.commands.progress import Progress
 from tricue.commands.run import Clock
+from tricue.draw import OverlayWriter
 from tricue.evaluation.depth_curves import HALF, HIDDEN
 from tricue.scenes import DepthScene, StereoScene
 from tricue.track.track import Status, Track
@@ -51,3 +54,18 @@ class Result(Generic[S]):
     def speed(self) -> float:
         """Frames a second."""
         return self.clock.updates / self.clock.tracking
+
+
+def follow_all(
+    scenes: Mapping[str, Callable[..., S]],
+    seed: int,
+    video: OverlayWriter,
+    follow: Callable[[str, S, OverlayWriter], Result[S]],
+) -> dict[str, Result[S]]:
+    """Make each scene by its name, and follow it into the one video, which is closed then."""
+    results: dict[str, Result[S]] = {}
+    with video, Progress(len(scenes)) as progress:
+        for done, (name, make) in enumerate(scenes.items()):
+            progress(done, f"scenes, now {name}")
+            results[name] = follow(name, make(seed=seed), video)
+    return results

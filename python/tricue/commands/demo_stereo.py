@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.commands.demo_metric import Floats, Result
-from tricue.commands.progress import Progress
+from tricue.commands.demo_metric import Floats, Result, follow_all
 from tricue.commands.run import steps
 from tricue.draw import OverlayWriter
 from tricue.draw_stereo import stereo_overlay
@@ -36,14 +35,8 @@ def demo_stereo(options: Namespace) -> int:
     from tricue.evaluation import figures
 
     figures.require()
-    results: dict[str, Result[StereoScene]] = {}
-    with (
-        OverlayWriter(options.output / f"{options.tracker}.mp4", FPS) as video,
-        Progress(len(SCENES)) as progress,
-    ):
-        for done, (name, make) in enumerate(SCENES.items()):
-            progress(done, f"scenes, now {name}")
-            results[name] = _follow(options, name, make(seed=options.seed), video)
+    video = OverlayWriter(options.output / f"{options.tracker}.mp4", FPS)
+    results = follow_all(SCENES, options.seed, video, partial(_follow, options))
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
     print(f"{options.tracker}: a head before a stereo pair of 160x120, seed {options.seed}\n")
