@@ -25,11 +25,14 @@ examples:
   tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
+  tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
+  tricue track kitti/ --tracker stereo-head --box 560,170,30,60 --set near=5 --set far=40
 """
 _DEMO_EXAMPLES = """\
 examples:
   tricue demo
   tricue demo depth-particle                                  people before a depth camera, in metres
+  tricue demo stereo-head                                     a head before a stereo pair, in metres
   tricue demo color-particle --kernels reference --output here
 """
 _REPRODUCE_EXAMPLES = """\
@@ -147,7 +150,7 @@ def _add_depth(verb: argparse.ArgumentParser) -> None:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="the camera's, by OpenCV, KITTI, Princeton or in TOML",
+        help="the camera's or the pair's, by OpenCV, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=_angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
