@@ -70,7 +70,9 @@ def test_variants_differ_from_the_default_as_they_say():
     printed = kept["as printed"]
     assert kept["the paper's filter"].items() <= printed.items()
     assert kept["unfused"] == {"fuse": False}
-    assert kept["neither"] == kept["without updating"] | kept["light not compensated"]
+    for name in ("light not compensated", "color alone"):
+        assert kept[f"{name}, without updating"] == kept[name] | kept["without updating"]
+    assert kept["color alone"] == kept["light not compensated"] | kept["without depth in the search"]
     document = StereoHeadParams.__doc__
     said = document[document.index("The paper's own form") : document.index("unfused")]
     assert said.count("=") == len(printed)

@@ -74,6 +74,8 @@ PRINTED: dict[str, Any] = {
     "feedback": True,
 }
 
+COLOR_ALONE: dict[str, Any] = {"light": False, "depth_weight": 0.0}  # in the search, as it is seen
+
 EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
     "moreno-fig3": Experiment(
         models={
@@ -84,7 +86,9 @@ EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
             "without depth in the search": _stereo(depth_weight=0.0),
             "without updating": _stereo(learning_rate=0.0),
             "light not compensated": _stereo(light=False),
-            "neither": _stereo(light=False, learning_rate=0.0),
+            "light not compensated, without updating": _stereo(light=False, learning_rate=0.0),
+            "color alone": _stereo(**COLOR_ALONE),
+            "color alone, without updating": _stereo(**COLOR_ALONE, learning_rate=0.0),
         },
         scenes={
             stereo_figures.NORMAL: _scene(),

@@ -18,6 +18,7 @@ from tricue.evaluation.stereo_curves import (
 from tricue.scenes import StereoScene
 
 NORMAL, DISTURBED, LARGE = "normal", "normal, 0.3 px noise", "normal, 640x480"
+SIZES = {NORMAL: "160x120", LARGE: "640x480"}
 TRUE, OF_FUSED, OF_UNFUSED, OF_PAPER = "black", COLORS[0], COLORS[1], COLORS[2]
 
 
@@ -87,18 +88,18 @@ def _deviations(axes: Any, first: Mapping[tuple[str, str], StereoCurve]) -> None
 
 
 def _times(axes: Any, curves: Sequence[StereoCurve]) -> None:
-    """(d): of the default."""
-    models = list(dict.fromkeys(curve.model for curve in curves))
-    for row, scene in enumerate((NORMAL, LARGE)):
+    """(d): of the first model, the default."""
+    model, known = curves[0].model, {curve.scene for curve in curves}
+    sizes = {name: size for name, size in SIZES.items() if name in known}
+    for row, scene in enumerate(sizes):
         left = 0.0
-        for color, (name, seconds) in zip(
-            COLORS, module_seconds(curves, scene, models[0]).items(), strict=False
-        ):
+        modules = module_seconds(curves, scene, model)
+        for color, (name, seconds) in zip(COLORS, modules.items(), strict=False):
             label = name if row == 0 else None
             axes.barh(row, 1e6 * seconds, left=left, color=color, height=0.5, label=label)
             left += 1e6 * seconds
         axes.annotate(f" {left:.0f}", (left, row), va="center")
-    axes.set(yticks=[0, 1], yticklabels=["160x120", "640x480"], xlabel="us per frame")
+    axes.set(yticks=range(len(sizes)), yticklabels=sizes.values(), xlabel="us per frame")
     axes.invert_yaxis()
     axes.margins(x=0.2, y=0.3)
     axes.set_title("time per module", loc="left")
