@@ -39,6 +39,7 @@ _REPRODUCE_EXAMPLES = """\
 examples:
   tricue reproduce sabeti-fig1
   tricue reproduce sabeti-depth --jobs 2
+  tricue reproduce moreno-fig3 --jobs 2
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
 
@@ -166,7 +167,9 @@ def _add_demo(verb: argparse.ArgumentParser) -> None:
 
 
 def _add_reproduce(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument("experiment", metavar="EXPERIMENT", help="sabeti-fig1, sabeti-fig2, sabeti-depth")
+    verb.add_argument(
+        "experiment", metavar="EXPERIMENT", help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3"
+    )
     verb.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"
     )
