@@ -16,6 +16,7 @@ Singles = NDArray[np.float32]
 
 WIDEST = 31  # window
 LEAST = 8  # pixels with a disparity
+MOST = 4000  # disparities at once
 
 
 class Depth(NamedTuple):
@@ -49,9 +50,12 @@ def span_round(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, i
     return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
 
 
-def span_everywhere(eyes: Eyes, p: StereoHeadParams) -> tuple[int, int]:
-    """The disparities between far and near, pixels."""
-    return math.floor(eyes.disparity(p.far)), math.ceil(eyes.disparity(p.near))
+def span_between(eyes: Eyes, near: float, far: float, step: int) -> tuple[int, int]:
+    """The disparities from far to near, metres, in places ``step`` wide, as far as a picture has them."""
+    most = min(eyes.shape[1] // step, MOST)
+    first, last = (eyes.disparity(z) / step for z in (far, near))
+    begin = min(math.floor(first), most)
+    return begin, max(begin, math.ceil(min(last, most)))
 
 
 def _median(values: Singles) -> float:

@@ -35,7 +35,8 @@ class Pair(NamedTuple):
     @classmethod
     def of(cls, left: Image, right: Image, light: Floats | None, p: StereoHeadParams) -> "Pair":
         """From the images of a frame, BGR and BGR or grey, and the first frame's light."""
-        step = max(1, round(left.shape[1] / p.resolution))
+        height, width = left.shape[:2]
+        step = max(1, min(round(width / p.resolution), height, width))
         grey = _grey(left), _grey(right)
         small = grey if step == 1 else (_smaller(grey[0], step), _smaller(grey[1], step))
         places = np.ascontiguousarray(left[step // 2 :: step, step // 2 :: step])
@@ -86,7 +87,7 @@ def look(k: Kernels, pair: Pair, ellipse: Ellipse, disparity: float, p: StereoHe
     left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
     bins = pair.bins(k, (left, top, right, bottom), 1, p)
-    middle = disparity / step
+    middle = min(disparity / step, float(pair.small[0].shape[1]))
     first, last = round(middle) - p.disparities[0], round(middle) + p.disparities[1]
     region = (left, top, right - left, bottom - top)
     found = k.sad_disparity(
