@@ -21,9 +21,10 @@ class Case(NamedTuple):
 
 
 class Made(NamedTuple):
-    """Something of ours that may fail while it is made; cv2's trackers have no use for it."""
+    """Something of ours that may fail while it is made; cv2's trackers get its bare image, if it has one."""
 
     make: Callable[[], Any]
+    bare: Any = None
 
 
 def made(value: Any) -> Any:

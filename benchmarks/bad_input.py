@@ -17,6 +17,7 @@ from typing import Any
 
 import bad_color
 import bad_depth
+import bad_stereo
 import cv2
 import tricue
 from bad_case import Case, Made
@@ -41,12 +42,13 @@ def follow_with(create: Callable[[], Any]) -> Follow:
     """A tracker of cv2's on a case; None where it has no use for it."""
 
     def follow(case: Case) -> Any:
-        if any(isinstance(image, Made) for image in (case.first, case.second)):
+        first, second = (each.bare if isinstance(each, Made) else each for each in (case.first, case.second))
+        if any(isinstance(each, Made) and each.bare is None for each in (case.first, case.second)):
             return None
         tracker = create()
         if case.starts:
-            tracker.init(case.first, case.box)
-        return tracker.update(case.second)
+            tracker.init(first, case.box)
+        return tracker.update(second)
 
     return follow
 
@@ -135,7 +137,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--output", type=Path, default=PAGE)
     output = parser.parse_args().output
-    parts = [part for ours in (bad_color, bad_depth) for part in (ours.HEAD, table(ours))]
+    parts = [part for ours in (bad_color, bad_depth, bad_stereo) for part in (ours.HEAD, table(ours))]
     output.parent.mkdir(exist_ok=True)
     output.write_text("".join([HEAD, *parts]), encoding="utf-8")
 

@@ -20,11 +20,12 @@ from tricue.camera.box import Box
 from tricue.evaluation import metrics, peers
 from tricue.evaluation.compare_depth import pictures
 from tricue.evaluation.one_pass import Contender, Run, one_thread, run
-from tricue.scenes import DepthScene, Scene, face_over_clutter, walker
+from tricue.scenes import DepthScene, Scene, StereoScene, face_over_clutter, head, walker
 
 ROUNDS = 12
 PAIR_ROUNDS = 30
 DEPTH_FRAMES, FEW = 60, 8  # in depth; of what takes over 50 ms a frame
+STEREO_FRAMES = 100
 SLOW = 3  # rounds for what takes over 2 ms a frame
 OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 Make = Callable[[], Contender]
@@ -67,6 +68,15 @@ in turn. cv2's trackers see the depth as an 8-bit picture, made before the clock
 | frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 |
 | --- | --- | --- | --- | --- | --- | --- |
 """
+STEREO = """
+## Trackers in stereo
+
+A head in light that swings by 30 %, {frames} pairs of a stereo camera; {rounds} rounds in turn. cv2's trackers see the left image alone, and
+give no position. The reference runs once, on {few} pairs.
+
+| frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 | median error |
+| --- | --- | --- | --- | --- | --- | --- | --- |
+"""
 SIZES = """
 ## Frame sizes and particles
 
@@ -95,6 +105,7 @@ def main(path: Path) -> None:
             KERNELS + "\n".join(kernel_rows(json.loads(path.read_text()))),
             TRACKERS.format(rounds=ROUNDS) + "\n".join(tracker_rows(scene())),
             DEPTH.format(frames=DEPTH_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(depth_rows()),
+            STEREO.format(frames=STEREO_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(stereo_rows()),
             SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())),
             PAIRS.format(rounds=PAIR_ROUNDS) + "\n".join(pair_rows()) + "\n",
         ]
@@ -175,11 +186,55 @@ def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
         for name, peer in peers.available().items()
         if name in ("KCF", "CSRT")
     }
+    return in_turn(entries, scene.boxes[0])
+
+
+def stereo_rows() -> Iterator[str]:
+    """A line a size and tracker in stereo."""
+    for size in ("160x120", "640x480"):
+        scene = head(0, STEREO_FRAMES, size)
+        runs = stereo_runs(scene)
+        best = {name: np.min([each.seconds for each in found], axis=0).mean() for name, found in runs.items()}
+        for name, found in runs.items():
+            p50, p99 = np.percentile([each.seconds for each in found], [50, 99]) * 1e3
+            count = len(found[0].boxes)
+            held = np.mean(metrics.overlaps(found[0].boxes, scene.boxes[:count]) > 0.5)
+            ratio = best[name] / best["stereo-head"]
+            times = f"{1 / best[name]:,.0f} | {p50:.3f} | {p99:.3f} | {ratio:.2f}"
+            yield f"| {size} | {name} | {times} | {held:.0%} | {off(found[0], scene)} |"
+
+
+def off(found: Run, scene: StereoScene) -> str:
+    """The median error of the position as a share of the distance; nothing where there is no position."""
+    if np.isnan(found.positions).any():
+        return ""
+    truth = scene.positions[: len(found.positions)]
+    shares = np.linalg.norm(found.positions - truth, axis=1) / np.linalg.norm(truth, axis=1)
+    return f"{np.median(shares):.1%}"
+
+
+def stereo_runs(scene: StereoScene) -> dict[str, list[Run]]:
+    """The trackers' runs, in turn over the rounds; slow ones sit out the later."""
+    make = partial(tricue.create, "stereo-head", rig=scene.rig)
+    entries: dict[str, tuple[Make, Any, int]] = {
+        "stereo-head": (make, scene.frames, ROUNDS),
+        "stereo-head, reference": (partial(make, kernels="reference"), scene.frames[:FEW], 1),
+    }
+    entries |= {
+        name: (partial(peer, 0), scene.frames, SLOW)
+        for name, peer in peers.available().items()
+        if name in ("KCF", "CSRT")
+    }
+    return in_turn(entries, scene.boxes[0])
+
+
+def in_turn(entries: dict[str, tuple[Make, Any, int]], box: Box) -> dict[str, list[Run]]:
+    """Runs of how each is made, on its frames, in as many of the rounds."""
     runs: dict[str, list[Run]] = {name: [] for name in entries}
     for turn in range(ROUNDS):
-        for name, (make_one, frames, rounds) in entries.items():
+        for name, (make, frames, rounds) in entries.items():
             if turn < rounds:
-                runs[name].append(run(make_one(), frames, scene.boxes[0]))
+                runs[name].append(run(make(), frames, box))
     return runs
 
 

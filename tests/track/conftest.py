@@ -1,15 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""Scenes on which the color and the depth particle tracker are proved."""
+"""Scenes on which the color and the depth particle tracker and the stereo head tracker are proved."""
 
+import functools
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, ColorParticleTracker, DepthParticleTracker, Track
+from tricue import Box, ColorParticleTracker, DepthParticleTracker, StereoHeadTracker, Track
 from tricue.camera.frame import FrameLike
-from tricue.scenes import DepthScene, Scene, crossing, face_over_clutter, photographs, walker
+from tricue.scenes import (
+    DepthScene,
+    Scene,
+    StereoScene,
+    crossing,
+    face_over_clutter,
+    head,
+    photographs,
+    walker,
+)
 from tricue.scenes.paste import ellipse_mask, expose, paste
 from tricue.track.depth_objects import SLICES, Objects
 
@@ -108,3 +118,23 @@ def objects_of() -> Callable[..., Objects]:
         )
 
     return make
+
+
+@pytest.fixture(scope="session")
+def heads() -> Callable[..., StereoScene]:
+    """Scenes of a head before a stereo pair, by the arguments of ``head``; each is made once."""
+    return functools.cache(head)
+
+
+@pytest.fixture(scope="session")
+def covered(heads: Callable[..., StereoScene]) -> StereoScene:
+    """45 frames of a head that a hand covers half way."""
+    return heads(1, 45, kind="hidden")
+
+
+@pytest.fixture(scope="session")
+def cover_up(covered: StereoScene, follow: Follow) -> Callable[..., list[Track]]:
+    """The tracks of that scene, with a fresh stereo tracker of the given parameters."""
+    return lambda **parameters: follow(
+        StereoHeadTracker(rig=covered.rig, **parameters), covered.frames, covered.boxes[0]
+    )

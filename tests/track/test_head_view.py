@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""That the stereo head tracker sees places in the first light, and what is at its head's depth."""
+
+import cv2
+import numpy as np
+import pytest
+from tricue import StereoHeadTracker
+from tricue.track.head_view import Pair, light_of, look
+
+Params = StereoHeadTracker.Params
+P = Params()
+NO_BIN = 65535
+
+
+def picture(height: int, width: int, seed: int = 0) -> np.ndarray:
+    """Clouds of color with fine grain, BGR."""
+    rng = np.random.default_rng(seed)
+    coarse = rng.integers(30, 220, (height // 4 + 1, width // 4 + 1, 3)).astype(np.uint8)
+    smooth = cv2.resize(coarse, (width, height), interpolation=cv2.INTER_CUBIC).astype(int)
+    return np.clip(smooth + rng.integers(-9, 10, smooth.shape), 0, 255).astype(np.uint8)
+
+
+def shifted(image: np.ndarray, disparity: int) -> np.ndarray:
+    """The right image of what lies wholly at a disparity."""
+    return np.roll(image, -disparity, axis=1)
+
+
+@pytest.mark.parametrize("gains", [(2, 2, 2), (2, 1, 4), (1, 1, 1)], ids=str)
+def test_another_light_is_taken_out_exactly(gains):
+    """A picture whose channels are whole multiples of what they were in the first light is seen as it was, to
+    the last bit.
+    """
+    first = picture(24, 32) // 4
+    lit = first * np.array(gains, np.uint8)
+    np.testing.assert_array_equal(Pair.of(lit, lit, light_of(first), P).colors, first)
+
+
+@pytest.mark.parametrize("gain", [0.5, 0.77, 1.3])
+def test_a_gain_leaves_a_rounding(gain):
+    """A picture rounded to 8 bits in a light of any gain is seen within what that costs: half a level over
+    the gain, half of its own, and the mean's share.
+    """
+    first = picture(60, 80) // 2 + 20
+    lit = np.rint(first * gain).astype(np.uint8)
+    seen = Pair.of(lit, lit, light_of(first), P).colors
+    assert np.abs(seen.astype(int) - first).max() <= 0.5 / gain + 0.5 + 0.1
+
+
+def test_without_light_nothing_is_changed():
+    """Without the first frame's light colors are the picture's own."""
+    image = picture(24, 32)
+    np.testing.assert_array_equal(Pair.of(image, image, None, P).colors, image)
+
+
+@pytest.mark.parametrize("level", [0, 255])
+def test_black_and_white_are_survived(level):
+    """A picture without light, or full of it, has finite gains: black stays black, white is in the range."""
+    image = np.full((24, 32, 3), level, np.uint8)
+    seen = Pair.of(image, image, light_of(picture(24, 32)), P).colors
+    assert (seen.max() == 0) == (level == 0)
+    assert np.isfinite(light_of(image)).all()
+
+
+def test_light_is_the_mean():
+    """It is the mean of each channel."""
+    image = picture(24, 32)
+    np.testing.assert_allclose(light_of(image), image.mean(axis=(0, 1)), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("width", "resolution", "step"),
+    [(160, 160, 1), (640, 160, 4), (320, 160, 2), (200, 160, 1), (100, 160, 1)],
+)
+def test_places_are_every_so_manieth_pixel(width, resolution, step):
+    """A place is the middle pixel of a square of step by step, and about ``resolution`` of them lie in a row;
+    the small grey pictures are those squares' means.
+    """
+    image = picture(48, width)
+    pair = Pair.of(image, shifted(image, 3), None, Params(resolution=resolution))
+    assert pair.step == step
+    np.testing.assert_array_equal(pair.colors, image[step // 2 :: step, step // 2 :: step])
+    grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    np.testing.assert_array_equal(pair.grey[0], grey)
+    squares = grey.reshape(48 // step, step, width // step, step).mean(axis=(1, 3))
+    assert np.abs(pair.small[0] - squares).max() <= 0.5 + 1e-6
+
+
+@pytest.mark.parametrize("shape", [(37, 501), (50, 333), (45, 642)], ids=str)
+def test_sizes_that_step_does_not_divide_are_whole(shape, kernels):
+    """Where the step leaves a rest every place of the small pictures still has a color."""
+    image = picture(*shape)
+    pair = Pair.of(image, image, None, P)
+    assert pair.step > 1
+    for color, small in zip(pair.colors.shape, pair.small[0].shape, strict=False):
+        assert small <= color <= small + 1
+
+
+def test_the_images_stay_as_they_were():
+    """Neither picture is written to."""
+    image = picture(48, 64)
+    left, right = image.copy(), shifted(image, 2)
+    kept = right.copy()
+    Pair.of(left, right, 2 * light_of(left), P)
+    np.testing.assert_array_equal(left, image)
+    np.testing.assert_array_equal(right, kept)
+
+
+@pytest.mark.parametrize(("width", "expected"), [(160, 6.0), (640, 24.0)])
+def test_what_is_about_at_a_disparity_is_coherent(width, expected, kernels):
+    """Of a picture at one disparity nearly all places are coherent with it, and hardly any with one of three
+    places more or less.
+    """
+    image = picture(3 * width // 4, width)
+    pair = Pair.of(image, shifted(image, round(expected)), None, P)
+    ellipse = (width / 2, 3 * width / 8, 10.0 * pair.step, 12.0 * pair.step)
+    shares = [
+        look(kernels, pair, ellipse, expected + off * pair.step, P).coherent.mean() for off in (-3, 0, 3)
+    ]
+    assert shares[1] > 0.95
+    assert max(shares[0], shares[2]) < 0.05
+
+
+@pytest.mark.parametrize("center", [(80.0, 60.0), (0.0, 0.0), (158.0, 3.0), (-400.0, 900.0)], ids=str)
+def test_a_view_holds_all_that_the_search_touches(center, kernels):
+    """A view reaches over ring and search to every side; its places outside the picture have no bin and no
+    depth, those inside the bin of their color.
+    """
+    image = picture(120, 160)
+    pair = Pair.of(image, shifted(image, 5), None, P)
+    x, y = center
+    view = look(kernels, pair, (x, y, 8.0, 10.0), 5.0, P)
+    assert view.bins.shape == view.coherent.shape
+    height, width = view.bins.shape
+    assert view.left <= x - P.ring * 8 - P.search[0]
+    assert view.top <= y - P.ring * 10 - P.search[1]
+    assert view.left + width >= x + P.ring * 8 + P.search[0]
+    assert view.top + height >= y + P.ring * 10 + P.search[1]
+    rows, columns = np.mgrid[view.top : view.top + height, view.left : view.left + width]
+    inside = (rows >= 0) & (rows < 120) & (columns >= 0) & (columns < 160)
+    assert (view.bins[~inside] == NO_BIN).all()
+    assert not view.coherent[~inside].any()
+    whole = kernels.color_bins(image, (0, 0, 160, 120), P.bins, P.chroma, 1)
+    np.testing.assert_array_equal(view.bins[inside], whole[rows[inside], columns[inside]])
