@@ -25,17 +25,21 @@ examples:
   tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
+  tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
+  tricue track kitti/ --tracker stereo-head --box 560,170,30,60 --set near=5 --set far=40
 """
 _DEMO_EXAMPLES = """\
 examples:
   tricue demo
   tricue demo depth-particle                                  people before a depth camera, in metres
+  tricue demo stereo-head                                     a head before a stereo pair, in metres
   tricue demo color-particle --kernels reference --output here
 """
 _REPRODUCE_EXAMPLES = """\
 examples:
   tricue reproduce sabeti-fig1
   tricue reproduce sabeti-depth --jobs 2
+  tricue reproduce moreno-fig3 --jobs 2
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
 
@@ -147,7 +151,7 @@ def _add_depth(verb: argparse.ArgumentParser) -> None:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="the camera's, by OpenCV, KITTI, Princeton or in TOML",
+        help="the camera's or the pair's, by OpenCV, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=_angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
@@ -163,7 +167,9 @@ def _add_demo(verb: argparse.ArgumentParser) -> None:
 
 
 def _add_reproduce(verb: argparse.ArgumentParser) -> None:
-    verb.add_argument("experiment", metavar="EXPERIMENT", help="sabeti-fig1, sabeti-fig2, sabeti-depth")
+    verb.add_argument(
+        "experiment", metavar="EXPERIMENT", help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3"
+    )
     verb.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"
     )

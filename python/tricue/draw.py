@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Pictures and videos of tracks: box, ellipse, particles, status, score, position; depth as color."""
 
+import math
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -163,6 +164,22 @@ class OverlayWriter:
         raise OSError(f"{self.path}: this OpenCV can write neither mp4v nor MJPG videos")
 
 
+def letter_size(canvas: Image) -> float:
+    """OpenCV's font scale of the words in a picture."""
+    return max(0.4, float(canvas.shape[0]) / 800)
+
+
+def put_text(canvas: Image, words: str, place: tuple[int, int], color: Color) -> None:
+    """Write words, outlined, that begin at (x, y), pixels, on their baseline, or sooner to end inside."""
+    size = letter_size(canvas)
+    (width, _), _ = cv2.getTextSize(words, _FONT, size, 1)
+    place = max(0, min(place[0], canvas.shape[1] - width - 2)), place[1]
+    # A thick line for the outline would be a bolder, wider font in cv2 5, whose letters lie elsewhere.
+    around = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (dx, dy) != (0, 0)]
+    for (dx, dy), ink in [*((step, _SHADOW) for step in around), ((0, 0), color)]:
+        cv2.putText(canvas, words, (place[0] + dx, place[1] + dy), _FONT, size, ink, 1, cv2.LINE_AA)
+
+
 def _canvas(image: NDArray[Any], scale: int, interpolation: int) -> Image:
     color = cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) if image.ndim == 2 else image
     large = (
@@ -199,13 +216,10 @@ def _words(canvas: Image, track: Track, note: str) -> None:
     _text(canvas, note, 1, _INK)
     if track.position is not None:
         x, y, z = track.position
-        _text(canvas, f"x {x:+.2f}  y {y:+.2f}  z {z:.2f} m", 2, _INK)
+        sure = "" if track.covariance is None else f" +- {math.sqrt(max(track.covariance[2, 2], 0)):.3f}"
+        _text(canvas, f"x {x:+.2f}  y {y:+.2f}  z {z:.2f}{sure} m", 2, _INK)
 
 
 def _text(canvas: Image, words: str, line: int, color: Color) -> None:
-    size = max(0.4, canvas.shape[0] / 800)
-    place = (round(16 * size), round(36 * size * (line + 1)))
-    # A thick line for the outline would be a bolder, wider font in cv2 5, whose letters lie elsewhere.
-    around = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (dx, dy) != (0, 0)]
-    for (dx, dy), ink in [*((step, _SHADOW) for step in around), ((0, 0), color)]:
-        cv2.putText(canvas, words, (place[0] + dx, place[1] + dy), _FONT, size, ink, 1, cv2.LINE_AA)
+    size = letter_size(canvas)
+    put_text(canvas, words, (round(16 * size), round(36 * size * (line + 1))), color)

@@ -16,12 +16,36 @@ FLAT = Step(0, Frame(IMAGE), Track(Box(1, 2, 3, 4), 0.5, Status.LOST), 0.1)
 SOLID = Step(
     7,
     Frame(IMAGE, timestamp=0.25),
-    Track(Box(1 / 3, -2, 3, 4), 0.25, Status.TRACKED, np.array([0.1, 0.2, 3.0])),
+    Track(
+        Box(1 / 3, -2, 3, 4),
+        0.25,
+        Status.TRACKED,
+        np.array([0.1, 0.2, 3.0]),
+        np.array([[1e-6, 2e-9, 3], [2e-9, 4, 5], [3, 5, 1 / 3e5]]),
+    ),
     0.1,
 )
 EXPECTED: list[list[Any]] = [
-    [0, None, "lost", 0.5, 1.0, 2.0, 3.0, 4.0, None, None, None],
-    [7, 0.25, "tracked", 0.25, 0.333333, -2.0, 3.0, 4.0, 0.1, 0.2, 3.0],
+    [0, None, "lost", 0.5, 1.0, 2.0, 3.0, 4.0, *[None] * 9],
+    [
+        7,
+        0.25,
+        "tracked",
+        0.25,
+        0.333333,
+        -2.0,
+        3.0,
+        4.0,
+        0.1,
+        0.2,
+        3.0,
+        1e-6,
+        2e-9,
+        3.0,
+        4.0,
+        5.0,
+        3.33333e-6,
+    ],
 ]
 
 
@@ -31,7 +55,8 @@ def test_csv(tmp_path: Path) -> None:
         output.write(FLAT)
         output.write(SOLID)
     rows = list(csv.reader((tmp_path / "new" / "t.csv").read_text().splitlines()))
-    assert ",".join(rows[0]) == "frame,time_s,status,score,x,y,width,height,X_m,Y_m,Z_m"
+    covariance = "XX_m2,XY_m2,XZ_m2,YY_m2,YZ_m2,ZZ_m2"
+    assert ",".join(rows[0]) == f"frame,time_s,status,score,x,y,width,height,X_m,Y_m,Z_m,{covariance}"
     assert rows[1:] == [["" if value is None else str(value) for value in row] for row in EXPECTED]
 
 

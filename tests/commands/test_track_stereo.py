@@ -20,7 +20,7 @@ class Pair:
 
     Params = Params
 
-    def __init__(self, rig: StereoRig, seed: int = 0, kernels: str = "native") -> None:
+    def __init__(self, rig: StereoRig | None = None, seed: int = 0, kernels: str = "native") -> None:
         self.params, self.rig = Params(), rig
         self.box = Box(0, 0, 1, 1)
 
@@ -32,6 +32,8 @@ class Pair:
         frame.require("right")
         assert frame.color is not None
         assert frame.right is not None
+        if self.rig is None:
+            return Track(self.box, 1.0, Status.TRACKED)
         difference = float(frame.color.mean()) - float(frame.right.mean())
         position = self.rig.intrinsics.back_project(20, 20, self.rig.depth(difference))
         return Track(self.box, 1.0, Status.TRACKED, position)
@@ -150,9 +152,9 @@ def test_raw_pairs_are_rectified(pair: list[str], tmp_path: Path, monkeypatch: p
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        ([], "needs the pair's calibration; give --calibration FILE"),
         (["--fov", "60"], "--fov: color-particle needs the pair's baseline too"),
         (["--rectify"], "--rectify: expected with --calibration FILE"),
+        (["--unit", "0.001"], "--unit: expected with --calibration FILE"),
         (["--calibration", "raw.yml"], "raw.yml: expected P1 and P2 of a rectified rig"),
         (["--calibration", "rig.yml", "--rectify"], "found no M1 and M2"),
         (["--calibration", "rig.yml", "--unit", "0"], "unit: expected metres above 0"),
@@ -181,13 +183,45 @@ def test_errors_in_a_line(
     assert error.count("\n") == 1
 
 
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_without_a_calibration_there_is_no_position(
+    pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a pair alone is tracked, and one line warns of what a missing calibration costs."""
+    content = tracked(pair, tmp_path / "o.json")
+    assert [track["Z_m"] for track in content["tracks"]] == [None] * 3
+    assert content["baseline"] is None
+    expected = (
+        "the pair's calibration isn't known; tracks will have no position in metres; give --calibration"
+    )
+    error = capsys.readouterr().err
+    assert error.startswith(f"tricue track: warning: {expected}")
+    assert error.count("\n") == 1
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_a_calibration_of_one_camera_beside_the_pair_is_left_out(
+    pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a file that nobody asked for, without a baseline, is no error; the warning says why."""
+    (tmp_path / "intrinsics.toml").write_text("fx = 500.0\nfy = 500.0\ncx = 32.0\ncy = 24.0\n")
+    assert tracked(pair, tmp_path / "o.json")["baseline"] is None
+    error = capsys.readouterr().err
+    assert "left out the calibration beside the images" in error
+    assert "expected the key baseline" in error
+    assert error.count("\n") == 1
+
+
 def test_a_missing_right_image_is_asked_for(
     pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It proves that a stereo tracker on left images alone says how to give the right ones."""
-    command = [pair[0], pair[1], *BOX, "--calibration", str(rectified(tmp_path / "c.yml"))]
-    assert main(command) == 2
-    assert "give the right camera's images with --right PLACE" in capsys.readouterr().err
+    command = [pair[0], pair[1], *BOX]
+    for more in ([], ["--calibration", str(rectified(tmp_path / "c.yml"))]):
+        assert main([*command, *more]) == 2
+        error = capsys.readouterr().err
+        assert "give the right camera's images with --right PLACE" in error
+        assert error.count("\n") == 1
 
 
 @pytest.mark.parametrize("option", [["--rectify"], ["--unit", "0.001"]])

@@ -2,6 +2,7 @@
 """The intrinsics or the rig for a tracker that takes one: from a file, angles, from beside the images."""
 
 import inspect
+import warnings
 from argparse import Namespace
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -63,21 +64,38 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
 
 
 def _stereo(options: Namespace, source: Source) -> Calibration:
-    """The pair's rig; --rectify takes the raw cameras of the same file."""
+    """The pair's rig; --rectify takes the raw cameras of the same file.
+
+    Warns (UserWarning) where there is none: the tracker runs all the same, but knows no position.
+    """
     if options.fov:
         raise ValueError(f"--fov: {options.tracker} needs the pair's baseline too; give {STEREO_FILE}")
-    if options.rectify and not options.calibration:
-        raise ValueError("--rectify: expected with --calibration FILE, by OpenCV, of the raw cameras")
+    for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
+        if value and not options.calibration:
+            raise ValueError(f"{option}: expected with --calibration FILE, by OpenCV")
     if options.rectify:
         unit = 1.0 if options.unit is None else options.unit
         made = Rectification.from_opencv(options.calibration, unit=unit, size=source.size)
         return Calibration(rig=made.rig, rectify=made)
     if options.calibration:
         return Calibration(rig=read_rig(options.calibration, source.size, options.unit))
-    if source.calibration is None:
-        raise ValueError(f"{source.name}: {options.tracker} needs the pair's calibration; give {STEREO_FILE}")
-    rig = read_rig(source.calibration, source.size, options.unit)
-    return Calibration(rig=rig, note=f"calibration found: {source.calibration}")
+    return _found_rig(source)
+
+
+def _found_rig(source: Source) -> Calibration:
+    """From the file beside the pair; nobody asked for it, so that what is wrong with it is no error."""
+    why = "the pair's calibration isn't known"
+    if source.calibration is not None:
+        try:
+            rig = read_rig(source.calibration, source.size)
+        except ValueError as error:
+            why = f"left out the calibration beside the images: {error}"
+        else:
+            return Calibration(rig=rig, note=f"calibration found: {source.calibration}")
+    if "right" in source.channels:  # else it is the right images that are missed first
+        text = f"{why}; tracks will have no position in metres; give {STEREO_FILE}"
+        warnings.warn(text, stacklevel=2)
+    return Calibration()
 
 
 def _from_angles(source: Source, fov: tuple[float, ...]) -> Intrinsics:

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """``tricue demo``: scenes with known truth, tracked; an error table, an overlay video and a plot.
 
-Here are those in color, a face over clutter; commands.demo_depth has those in depth.
+Here are those in color, a face over clutter; commands.demo_depth has those in depth, commands.demo_stereo
+those of a stereo pair.
 """
 
 from argparse import Namespace
@@ -18,6 +19,7 @@ from tricue.draw import OverlayWriter, overlay
 from tricue.track.create import create
 
 IN_DEPTH = ("depth-particle",)  # trackers that need depth
+IN_STEREO = ("stereo-head",)  # trackers that need a pair
 LOST = 25.0  # pixels off the true centre, where a face counts as lost
 FPS = 15.0
 FLOOR = 0.1  # pixels, of the logarithmic plot
@@ -39,6 +41,10 @@ def demo(options: Namespace) -> int:
         from tricue.commands.demo_depth import demo_depth
 
         return demo_depth(options)
+    if options.tracker in IN_STEREO:
+        from tricue.commands.demo_stereo import demo_stereo
+
+        return demo_stereo(options)
     return _demo_color(options)
 
 

@@ -11,11 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
+from tricue.camera.rig import StereoRig
 from tricue.draw import Image, OverlayWriter, depth_overlay, depth_range, overlay
+from tricue.draw_stereo import stereo_overlay
 from tricue.track.track import Track
 
 CALM = 0.1  # a frame's share in the range of the video's shades
-COLUMNS = ("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m")
+COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")  # the upper triangle, row by row
+COLUMNS = (
+    *("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
+    *COVARIANCE,
+)
 
 
 class Step(NamedTuple):
@@ -42,12 +48,18 @@ class Output(AbstractContextManager[Any], Protocol):
 
 
 def row(step: Step) -> list[Any]:
-    """The values of COLUMNS, None where absent; six decimals."""
+    """The values of COLUMNS, None where absent; six decimals, of covariances six digits."""
     track, position = step.track, step.track.position
     metres = [None] * 3 if position is None else np.asarray(position).tolist()
     numbers = [step.frame.timestamp, track.score, *track.box, *metres]
     time, *others = [None if number is None else round(float(number), 6) for number in numbers]
-    return [step.number, time, str(track.status), *others]
+    return [step.number, time, str(track.status), *others, *_covariance(track)]
+
+
+def _covariance(track: Track) -> list[float | None]:
+    if track.covariance is None:
+        return [None] * len(COVARIANCE)
+    return [float(f"{value:.6g}") for value in track.covariance[np.triu_indices(3)]]
 
 
 class CsvOutput:
@@ -93,10 +105,14 @@ class JsonOutput:
 
 
 class VideoOutput:
-    """The overlay video: on the depth where the tracker segments it or there is nothing else."""
+    """The overlay video: on the depth where the tracker segments it or there is nothing else.
 
-    def __init__(self, path: Path, fps: float) -> None:
+    rig: the stereo pair's, where the tracker knows it; then the disparity is shown.
+    """
+
+    def __init__(self, path: Path, fps: float, rig: StereoRig | None = None) -> None:
         self._writer = OverlayWriter(path, fps)
+        self._rig = rig
         self._range: tuple[float, float] | None = None
 
     @property
@@ -120,6 +136,8 @@ class VideoOutput:
                 near=near,
                 far=far,
             )
+        if self._rig is not None and step.frame.right is not None:
+            return stereo_overlay(step.frame, step.track, self._rig, note=note)
         assert color is not None  # a frame has one of the two
         return overlay(color, step.track, particles=step.particles, note=note)
 

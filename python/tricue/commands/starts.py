@@ -29,6 +29,8 @@ def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start 
 
 def advice(message: str, source: Source, tracker: Tracker) -> str:
     """What to do about an error on the first frame; "" where the error says enough."""
+    if message.startswith("box: expected a head with a disparity"):
+        return "; --set near=METRES and --set far=METRES change what is looked for"
     if message.startswith("box:"):
         return f"; {BOX}" if finds_by_itself(tracker) else f"; {BOX} or {FACE}"
     if message.startswith("frame: expected the channel depth"):

@@ -126,7 +126,7 @@ def _prepare(options: Namespace) -> tuple[Run, list[str]]:
 def _outputs(options: Namespace, run: Run) -> Iterator[Output]:
     """One after the other, so that the first is closed if the second can't be opened."""
     if options.output:
-        yield VideoOutput(options.output, run.source.fps)
+        yield VideoOutput(options.output, run.source.fps, run.rig)
     if options.csv:
         yield CsvOutput(options.csv)
     if options.json:

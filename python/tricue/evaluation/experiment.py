@@ -2,7 +2,7 @@
 """What every experiment is: models on scenes from many seeds, and what becomes of their curves."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Generic, NamedTuple, TypeVar
 
@@ -13,7 +13,7 @@ S = TypeVar("S")  # a scene
 C = TypeVar("C")  # a curve: what one model did in one scene
 
 Maker = Callable[..., Contender]
-"""Makes a tracker, called with ``seed=``, and with ``intrinsics=`` where the scene has a depth camera."""
+"""Makes a tracker, called with ``seed=``, and with ``intrinsics=`` or ``rig=`` where the scene has one."""
 
 Models = Mapping[str, Maker]
 """How to make each model's tracker."""
@@ -41,3 +41,5 @@ class Experiment(Generic[S, C]):
     summarize: Callable[[Sequence[C]], str]
     write_csv: Callable[[Path, Iterable[C]], None]
     draw: figures.Draw[C, S]
+    at_most: Mapping[str, int] = field(default_factory=dict)
+    """The seeds of scenes that take too long for all of them."""

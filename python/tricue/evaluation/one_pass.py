@@ -15,7 +15,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.track.track import Status, Track
 
-_UNKNOWN = np.full(3, np.nan)
+_UNKNOWN, _UNSURE = np.full(3, np.nan), np.full((3, 3), np.nan)
 
 
 class Contender(Protocol):
@@ -37,6 +37,8 @@ class Run:
     statuses: tuple[Status, ...]
     positions: NDArray[np.float64]
     """(M, 3) metres in the camera frame; NaN where the tracker gave none."""
+    covariances: NDArray[np.float64]
+    """(M, 3, 3) of the positions, square metres; NaN where the tracker gave none."""
     seconds: NDArray[np.float64]
     """(M - 1,) one per update; neither init nor decoding is in it."""
 
@@ -67,6 +69,7 @@ def run(tracker: Contender, frames: Sequence[Frame], box: Box) -> Run:
         scores=np.array([track.score for track in tracks], dtype=np.float64),
         statuses=tuple(track.status for track in tracks),
         positions=np.array([_UNKNOWN if track.position is None else track.position for track in tracks]),
+        covariances=np.array([_UNSURE if t.covariance is None else t.covariance for t in tracks]),
         seconds=np.array(seconds),
     )
 

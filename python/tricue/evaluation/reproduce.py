@@ -9,7 +9,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from tricue.evaluation import color_experiments, depth_experiments, figures
+from tricue.evaluation import color_experiments, depth_experiments, figures, stereo_experiments
 from tricue.evaluation.experiment import C, Case, Experiment, Maker, Models, S
 
 Task = tuple[str, Callable[..., S], int]
@@ -18,6 +18,7 @@ Task = tuple[str, Callable[..., S], int]
 EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     **color_experiments.EXPERIMENTS,
     **depth_experiments.EXPERIMENTS,
+    **stereo_experiments.EXPERIMENTS,
 }
 
 
@@ -40,9 +41,10 @@ def run(
 ) -> Report:
     """Run an experiment and write ``output/NAME.png`` and ``output/NAME.csv``, a line per frame.
 
-    Every model runs on every scene from ``seeds`` seeds. ``progress(done, total)`` is called after each
-    scene, ``jobs`` scenes run at once. ``models`` takes the place of the paper's. ValueError for an unknown
-    name, ImportError that names the extra where scikit-image or matplotlib is missing.
+    Every model runs on every scene from ``seeds`` seeds, on slow scenes from fewer.
+    ``progress(done, total)`` is called after each scene, ``jobs`` scenes run at once. ``models`` takes the
+    place of the paper's. ValueError for an unknown name, ImportError that names the extra where scikit-image
+    or matplotlib is missing.
     """
     if name not in EXPERIMENTS:
         raise ValueError(f"experiment: expected one of {', '.join(EXPERIMENTS)}, got {name!r}")
@@ -66,7 +68,12 @@ def _all_curves(
     jobs: int,
     progress: Callable[[int, int], None] | None,
 ) -> Iterator[C]:
-    tasks = [(scene, make, seed) for seed in range(seeds) for scene, make in experiment.scenes.items()]
+    tasks = [
+        (scene, make, seed)
+        for seed in range(seeds)
+        for scene, make in experiment.scenes.items()
+        if seed < experiment.at_most.get(scene, seeds)
+    ]
     work = partial(_curves, experiment.measure, models)
     for done, curves in enumerate(_mapped(work, tasks, jobs), start=1):
         if progress:

@@ -132,9 +132,9 @@ class DepthParticleTracker:
         before = lifecycle.started(self._state)
         depth, timestamp = lifecycle.depth_image(frame, before.shape)
         random = self._rng.bit_generator.state
-        state = replace(before)
+        state = replace(before, timestamp=timestamp)
         try:
-            self._follow(state, depth, self._elapsed(state, timestamp))
+            self._follow(state, depth, lifecycle.elapsed(before.timestamp, timestamp, self.params.rate))
         except BaseException:
             self._rng.bit_generator.state = random
             raise
@@ -155,12 +155,6 @@ class DepthParticleTracker:
             self._accept(state, fg, swarm, seen, found, seconds)
         else:
             self._miss(state, fg, prediction, seconds)
-
-    def _elapsed(self, state: State, timestamp: float | None) -> float:
-        before, state.timestamp = state.timestamp, timestamp
-        if before is None or timestamp is None or timestamp <= before:
-            return 1 / self.params.rate
-        return min(timestamp - before, 1.0)
 
     def _sweep(
         self, state: State, fg: Foreground, prediction: Prediction, found: Found | None, measured: Measured

@@ -5,14 +5,18 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.eyes import Eyes
 from tricue.track.head_view import NO_CHECK, Ellipse, Pair
 from tricue.track.stereo_params import StereoHeadParams
 
+Singles = NDArray[np.float32]
+
 WIDEST = 31  # window
 LEAST = 8  # pixels with a disparity
+MOST = 4000  # disparities at once
 
 
 class Depth(NamedTuple):
@@ -35,7 +39,7 @@ def depth_of(
     seen = found[np.isfinite(found)]
     if seen.size < LEAST:
         return None
-    disparity = float(np.median(seen) if p.center == "median" else seen.mean())
+    disparity = _median(seen) if p.center == "median" else float(seen.mean())
     near = np.count_nonzero(np.abs(seen - np.float32(disparity)) <= p.coherent * pair.step)
     return Depth(disparity, near / (math.pi * minor * major))
 
@@ -46,6 +50,15 @@ def span_round(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, i
     return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
 
 
-def span_everywhere(eyes: Eyes, p: StereoHeadParams) -> tuple[int, int]:
-    """The disparities between far and near, pixels."""
-    return math.floor(eyes.disparity(p.far)), math.ceil(eyes.disparity(p.near))
+def span_between(eyes: Eyes, near: float, far: float, step: int) -> tuple[int, int]:
+    """The disparities from far to near, metres, in places ``step`` wide, as far as a picture has them."""
+    most = min(eyes.shape[1] // step, MOST)
+    first, last = (eyes.disparity(z) / step for z in (far, near))
+    begin = min(math.floor(first), most)
+    return begin, max(begin, math.ceil(min(last, most)))
+
+
+def _median(values: Singles) -> float:
+    """As numpy.median, which takes five times as long for so few."""
+    ordered, half = np.sort(values), values.size // 2
+    return float(ordered[half]) if values.size % 2 else float(ordered[half - 1] + ordered[half]) / 2

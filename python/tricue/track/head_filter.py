@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The Kalman filter of Moreno et al. 2002, section 4: position, the model's mean color, the intersection."""
 
+import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -53,7 +55,8 @@ def start(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilter:
 
 def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
     """(6), or with the velocity that the head has."""
-    dynamics = _dynamics(len(state.mean), seconds, p)
+    speed = p.fastest if p.motion == "constant" else p.agility
+    dynamics = _dynamics(len(state.mean), seconds, speed)
     mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
     mean[2] = min(max(mean[2], p.near), p.far)
     return HeadFilter(mean, covariance)
@@ -61,9 +64,18 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
 
 def deviations(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
     """How far a measurement (7,) is from the expected position: its Mahalanobis distance."""
-    off = measured[:3] - predicted.position
-    spread = predicted.uncertainty + noise[:3, :3]
-    return float(np.sqrt(off @ np.linalg.solve(spread, off)))
+    off = (measured[:3] - predicted.position).tolist()
+    xx, xy, xz, _, yy, yz, _, _, zz = (predicted.uncertainty + noise[:3, :3]).ravel().tolist()
+    # By Cholesky's three steps, by hand: numpy.linalg takes longer than the whole correction.
+    a = xx**0.5
+    b, c = xy / a, xz / a
+    d = (yy - b * b) ** 0.5
+    e = (yz - b * c) / d
+    f = (zz - c * c - e * e) ** 0.5
+    u = off[0] / a
+    v = (off[1] - b * u) / d
+    w = (off[2] - c * u - e * v) / f
+    return math.sqrt(u * u + v * v + w * w)
 
 
 def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
@@ -80,16 +92,17 @@ def coasted(predicted: HeadFilter) -> HeadFilter:
     return HeadFilter(mean, predicted.covariance)
 
 
-def _dynamics(size: int, seconds: float, p: StereoHeadParams) -> tuple[Floats, Floats]:
-    """F and Q of a state of 7 or 10 numbers."""
+@lru_cache(maxsize=16)
+def _dynamics(size: int, seconds: float, most: float) -> tuple[Floats, Floats]:
+    """F and Q of a state of 7 numbers, that moves at most so many m/s, or 10, by at most so many m/s²."""
     transition, noise = np.eye(size), np.zeros((size, size))
     places, velocities = np.arange(3), np.arange(MEASURED, size)
     noise[range(3, MEASURED), range(3, MEASURED)] = [COLOR_DRIFT**2] * 3 + [INTERSECTION_DRIFT**2]
-    if p.motion == "constant":
-        noise[places, places] = (p.fastest * seconds) ** 2  # "the maximum displacement that we expect"
+    if size == MEASURED:
+        noise[places, places] = (most * seconds) ** 2  # "the maximum displacement that we expect"
         return transition, noise
     transition[places, velocities] = seconds
-    power = p.agility**2
+    power = most**2
     noise[places, places] = power * seconds**4 / 4
     noise[places, velocities] = noise[velocities, places] = power * seconds**3 / 2
     noise[velocities, velocities] = power * seconds**2

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.eyes import Eyes
+from tricue.track.head_depth import span_between
 from tricue.track.head_search import score
 from tricue.track.head_view import NO_CHECK, Ellipse, Pair
 from tricue.track.stereo_params import StereoHeadParams
@@ -22,24 +23,31 @@ SMALLEST = 1.0  # semi-axis, of those places
 
 
 class Head(NamedTuple):
-    """What is looked for: its size, metres, its colors (L,), and its distance, metres, from near to far."""
+    """What is looked for: its size, metres, its colors (L,), where it was last, (3,) metres, and how far from
+    there it can be.
+    """
 
     size: tuple[float, float]
     histogram: Floats
-    near: float
-    far: float
+    seen: Floats
+    reach: float
+
+    def distances(self, p: StereoHeadParams) -> tuple[float, float]:
+        """The nearest and the farthest that it can be, metres."""
+        z = float(self.seen[2])
+        return max(z - self.reach, p.near), min(z + self.reach, p.far)
 
 
 def find_again(
     k: Kernels, pair: Pair, eyes: Eyes, head: Head, p: StereoHeadParams
 ) -> tuple[Ellipse, float] | None:
-    """The ellipse and the disparity, pixels, that are most like a head, anywhere in the picture."""
+    """The ellipse and the disparity, pixels, that are most like a head, wherever it can be in the picture."""
     step = pair.step * THIN
     found = _disparities(k, pair, eyes, head, p)
     rows, columns = found.shape
-    bins = k.color_bins(pair.colors, (0, 0, columns * THIN, rows * THIN), p.bins, p.chroma, THIN)
+    bins = pair.bins(k, (0, 0, columns * THIN, rows * THIN), THIN, p)
     best: tuple[float, Ellipse, float] | None = None
-    for z in _distances(head):
+    for z in _distances(*head.distances(p)):
         disparity = eyes.disparity(z)
         minor, major = (half / 2 * f / z for half, f in zip(head.size, eyes.rig[:2].tolist(), strict=True))
         if min(minor, major) / step < SMALLEST:
@@ -50,30 +58,45 @@ def find_again(
         middle = np.array([columns / 2, rows / 2, minor / step, major / step])
         grid = (rows, columns, 1)
         scores = score(k.ellipse_search(bins, middle, grid, head.histogram, p.ring, there), p)
+        x, y = _places(columns) * step, _places(rows) * step
+        scores[~_within_reach(head, eyes, x, y, z)] = -np.inf
         row, column = divmod(int(np.argmax(scores)), columns)
-        if best is None or scores[row, column] > best[0]:
-            x, y = (columns / 2 + column - columns // 2) * step, (rows / 2 + row - rows // 2) * step
-            best = float(scores[row, column]), (x, y, minor, major), disparity
+        if scores[row, column] > (-np.inf if best is None else best[0]):
+            best = float(scores[row, column]), (float(x[column]), float(y[row]), minor, major), disparity
     return None if best is None else best[1:]
 
 
-def _distances(head: Head) -> list[float]:
+def _distances(near: float, far: float) -> list[float]:
     """From near to far, each a little farther than the one before."""
-    count = max(1, math.ceil(math.log(head.far / head.near) / -math.log(NEARER)))
-    return [float(z) for z in np.geomspace(head.near, head.far, count + 1)]
+    count = max(1, math.ceil(math.log(far / near) / -math.log(NEARER)))
+    return [float(z) for z in np.geomspace(near, far, count + 1)]
+
+
+def _places(count: int) -> Floats:
+    """Where the grid of ellipse_search puts the centre, which is in the middle of so many places."""
+    return np.arange(float(count)) + (count / 2 - count // 2)
+
+
+def _within_reach(head: Head, eyes: Eyes, x: Floats, y: Floats, z: float) -> NDArray[np.bool_]:
+    """(rows, columns) whether the head can be at x and y, box coordinates, at a distance."""
+    fx, fy, cx, cy, _ = eyes.rig.tolist()
+    aside = (x - 0.5 - cx) * z / fx - head.seen[0]
+    below = (y - 0.5 - cy) * z / fy - head.seen[1]
+    ahead = z - head.seen[2]
+    return np.asarray(aside**2 + below[:, None] ** 2 + ahead**2 <= head.reach**2)
 
 
 def _disparities(k: Kernels, pair: Pair, eyes: Eyes, head: Head, p: StereoHeadParams) -> Singles:
     """Of every THIN-th place, in places; those that a head can have."""
     height, width = pair.small[0].shape
-    first, last = (eyes.disparity(z) / pair.step for z in (head.far, head.near))
+    first, last = span_between(eyes, *head.distances(p), pair.step)
     region = (0, 0, width, height)
     found = k.sad_disparity(
         *pair.small,
         region,
         False,
-        math.floor(first) - 1,
-        math.ceil(last) + 1,
+        first - 1,
+        last + 1,
         p.window,
         p.uniqueness,
         p.prefilter,

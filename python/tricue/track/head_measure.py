@@ -38,7 +38,8 @@ def measure(
     histogram: Floats | None,
     p: StereoHeadParams,
 ) -> Measured | None:
-    """Look for the head round an ellipse, at about a disparity, pixels; None where nothing has a disparity.
+    """Look for the head round an ellipse, at about a disparity, pixels; None where nothing has one that a
+    head between near and far has.
 
     Without a histogram the place is the ellipse itself, and its colors are the model.
     """
@@ -53,6 +54,8 @@ def measure(
     if depth is None:
         return None
     point, covariance = eyes.point(k, *place.ellipse[:2], depth.disparity, pair.step, p)
+    if not p.near <= point[2] <= p.far:  # NaN, too, where the disparity is none
+        return None
     noise = np.zeros((MEASURED, MEASURED))
     noise[:3, :3] = covariance
     noise[range(3, MEASURED), range(3, MEASURED)] = [p.color_noise**2] * 3 + [INTERSECTION_NOISE**2]

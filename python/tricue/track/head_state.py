@@ -23,6 +23,7 @@ class HeadState:
     first: Floats  # (L,) its colors at first
     learnt: Floats  # M of (2)
     filter: HeadFilter
+    seen: Floats  # (3,) metres, where it was last
     score: float  # of its place
     usual: float  # running means: of that,
     intersection: float  # of (1),

@@ -13,20 +13,21 @@ from tricue.track.stereo_params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
+Region = tuple[int, int, int, int]
 Ellipse = tuple[float, float, float, float]  # centre x, y, semi-axes minor (along x), major; pixels
 
-LEVELS = np.arange(256.0)
 NO_CHECK = -1  # of left against right
 
 
 class Pair(NamedTuple):
     """A rectified pair, and how it is searched: every ``step``-th pixel is a place.
 
-    colors: (h, w, 3) BGR of the places, as in the light of the first frame. grey: (H, W), left and right, and
-    small: the same, ``step`` times smaller.
+    colors: (h, w, 3) BGR of the places. gains: (3,) that make them what they were in the first frame's light
+    (von Kries), if any. grey: (H, W), left and right, and small: the same, ``step`` times smaller.
     """
 
     colors: Image
+    gains: Floats | None
     grey: tuple[Image, Image]
     small: tuple[Image, Image]
     step: int
@@ -34,23 +35,28 @@ class Pair(NamedTuple):
     @classmethod
     def of(cls, left: Image, right: Image, light: Floats | None, p: StereoHeadParams) -> "Pair":
         """From the images of a frame, BGR and BGR or grey, and the first frame's light."""
-        step = max(1, round(left.shape[1] / p.resolution))
+        height, width = left.shape[:2]
+        step = max(1, min(round(width / p.resolution), height, width))
         grey = _grey(left), _grey(right)
         small = grey if step == 1 else (_smaller(grey[0], step), _smaller(grey[1], step))
         places = np.ascontiguousarray(left[step // 2 :: step, step // 2 :: step])
-        return cls(places if light is None else _lit(places, light), grey, small, step)
+        gains = None if light is None else light / np.maximum(light_of(places), 1.0)
+        return cls(places, gains, grey, small, step)
+
+    def bins(self, k: Kernels, region: Region, step: int, p: StereoHeadParams) -> NDArray[np.uint16]:
+        """Of every step-th place of a region (x0, y0, x1, y1), as color_bins gives them."""
+        height, width = self.colors.shape[:2]
+        x0, y0, x1, y1 = region
+        left, top = min(max(x0, 0), width), min(max(y0, 0), height)
+        seen = self.colors[top : max(y1, top), left : max(x1, left)]
+        if self.gains is not None and seen.size:
+            seen = cv2.transform(seen, np.diag(self.gains)).astype(np.uint8, copy=False)
+        return k.color_bins(seen, (x0 - left, y0 - top, x1 - left, y1 - top), p.bins, p.chroma, step)
 
 
 def light_of(left: Image) -> Floats:
     """(3,) the mean blue, green and red of a picture: what falls on it, as far as what is in it stays."""
     return np.array(cv2.mean(left)[:3])
-
-
-def _lit(image: Image, light: Floats) -> Image:
-    """An image as it would be in another light: each channel by its own gain (von Kries)."""
-    gains = light / np.maximum(light_of(image), 1.0)
-    table = np.clip(LEVELS[:, None] * gains + 0.5, 0, 255).astype(np.uint8)
-    return cv2.LUT(image, table[None]).astype(np.uint8, copy=False)
 
 
 def _grey(image: Image) -> Image:
@@ -80,8 +86,8 @@ def look(k: Kernels, pair: Pair, ellipse: Ellipse, disparity: float, p: StereoHe
     x, y, minor, major = (each / step for each in ellipse)
     left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
-    bins = k.color_bins(pair.colors, (left, top, right, bottom), p.bins, p.chroma, 1)
-    middle = disparity / step
+    bins = pair.bins(k, (left, top, right, bottom), 1, p)
+    middle = min(disparity / step, float(pair.small[0].shape[1]))
     first, last = round(middle) - p.disparities[0], round(middle) + p.disparities[1]
     region = (left, top, right - left, bottom - top)
     found = k.sad_disparity(

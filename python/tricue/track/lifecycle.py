@@ -96,7 +96,7 @@ def stereo_pair(
 def elapsed(before: float | None, now: float | None, rate: float) -> float:
     """Seconds between two timestamps; of a frame at a rate, frames/s, where they tell nothing."""
     if before is None or now is None or now <= before:
-        return 1 / rate
+        return min(1 / rate, LONGEST)
     return min(now - before, LONGEST)
 
 

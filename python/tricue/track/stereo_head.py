@@ -12,7 +12,7 @@ from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track import head_filter, lifecycle
 from tricue.track.eyes import Eyes
 from tricue.track.faces import find_face
-from tricue.track.head_depth import depth_of, span_everywhere
+from tricue.track.head_depth import depth_of, span_between
 from tricue.track.head_filter import HeadFilter
 from tricue.track.head_lost import Head, find_again
 from tricue.track.head_measure import Measured, measure
@@ -21,7 +21,8 @@ from tricue.track.head_view import Image, Pair, light_of
 from tricue.track.stereo_params import StereoHeadParams
 from tricue.track.track import Status, Track
 
-ASIDE = 0.2  # metres, off its way, of a head that was just missed
+ASIDE = 0.3  # metres, from where it was last seen, of a head that was just missed
+LARGEST = 4000  # pixels, of a box
 USUAL_RATE = 0.05  # per frame, of running means
 STEADY = 1.1
 
@@ -71,6 +72,8 @@ class StereoHeadTracker:
         left, right, timestamp = lifecycle.stereo_pair(frame)
         eyes = Eyes.of(lifecycle.rig_for(self.rig, left.shape))
         head = lifecycle.box_in(_face(left) if box is None else as_box(box), left)
+        if max(head.width, head.height) > LARGEST:
+            raise ValueError(f"box: expected a head of at most {LARGEST} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
         light = light_of(left) if self.params.light else None
         pair = Pair.of(left, right, None, self.params)
@@ -82,6 +85,7 @@ class StereoHeadTracker:
             first=first.colors,
             learnt=first.colors,
             filter=head_filter.start(first.values, first.noise, self.params),
+            seen=first.values[:3],
             score=first.place.score,
             usual=first.place.score,
             intersection=first.place.intersection,
@@ -108,7 +112,7 @@ class StereoHeadTracker:
     def _first(self, pair: Pair, eyes: Eyes, head: Box) -> Measured:
         """The head in a box; ValueError where nothing in it has a disparity."""
         k, p = self._k, self.params
-        depth = depth_of(k, pair, head.ellipse, span_everywhere(eyes, p), p)
+        depth = depth_of(k, pair, head.ellipse, span_between(eyes, p.near, p.far, 1), p)
         first = None
         if depth is not None:
             first = measure(k, pair, eyes, head.ellipse, depth.disparity, None, p)
@@ -129,18 +133,17 @@ class StereoHeadTracker:
         if measured is not None and self._recognised(state, measured, predicted):
             self._accept(state, measured, head_filter.correct(k, predicted, measured.values, measured.noise))
             return
-        again = self._found_again(state, pair, predicted) if state.missed > p.again_after else None
+        again = self._found_again(state, pair) if state.missed > p.again_after else None
         if again is not None:
             self._accept(state, again, head_filter.start(again.values, again.noise, p))
         else:
             self._miss(state, predicted, seconds)
 
-    def _found_again(self, state: HeadState, pair: Pair, predicted: HeadFilter) -> Measured | None:
+    def _found_again(self, state: HeadState, pair: Pair) -> Measured | None:
         """The head somewhere else in the picture, as far as it can have gone."""
         k, p = self._k, self.params
-        z, reach = float(predicted.position[2]), ASIDE + p.fastest * state.missed
-        near, far = max(z - reach, p.near), min(z + reach, p.far)
-        head = Head(state.size, state.histogram(p), near, far)
+        reach = ASIDE + p.fastest * state.missed
+        head = Head(state.size, state.histogram(p), state.seen, reach)
         found = find_again(k, pair, state.eyes, head, p)
         if found is None:
             return None
@@ -159,7 +162,7 @@ class StereoHeadTracker:
         """Make the filter's state that of the head, and learn its colors where they are like the model's."""
         p = self.params
         state.filter = corrected if p.fuse else head_filter.start(measured.values, measured.noise, p)
-        state.score, state.missed = measured.place.score, 0.0
+        state.seen, state.score, state.missed = state.filter.position, measured.place.score, 0.0
         state.usual += USUAL_RATE * (measured.place.score - state.usual)
         state.share += USUAL_RATE * (measured.depth.share - state.share)
         if measured.place.intersection < p.gate * state.intersection:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """The parameters of the stereo head tracker."""
 
+import math
 from dataclasses import dataclass
 from typing import Literal
 
 from tricue.track.params import Params, parameter
 
+MOST_BINS = 65535  # that 16 bits number
 OURS = "our experiment: benchmarks/README.md"
 
 
@@ -111,12 +113,14 @@ class StereoHeadParams(Params):
         0.6, unit="of usual", source=OURS, low=0, high=1, doc="score and depth of the head seen there"
     )
     lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="not seen, until LOST")
-    near: float = parameter(0.4, unit="m", source=OURS, above=0, doc="least distance of a head")
+    near: float = parameter(0.4, unit="m", source=OURS, low=0.01, doc="least distance of a head")
     far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance")
 
     def __post_init__(self) -> None:
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if self.near >= self.far:
             raise ValueError(f"near: expected under far, {self.far:g} m, got {self.near:g}")
+        if math.prod(self.bins) > MOST_BINS:
+            raise ValueError(f"bins: expected at most {MOST_BINS} in all, got {self.bins}")
         if self.window % 2 == 0:
             raise ValueError(f"window: expected an odd number, got {self.window}")
