@@ -35,6 +35,12 @@ def test_both_trackers_of_the_paper_are_there() -> None:
     assert {"ColorParticleTracker", "DepthParticleTracker"} <= set(tricue.__all__)
 
 
+def test_the_stereo_tracker_is_there() -> None:
+    """It proves that the name of the stereo tracker, its class and its rig are what users were told."""
+    assert "stereo-head" in registry.names()
+    assert {"StereoHeadTracker", "StereoRig"} <= set(tricue.__all__)
+
+
 def test_the_version_stands_in_one_place() -> None:
     """It proves that __version__ is what pyproject.toml says."""
     declared = re.search(r'^version = "(.+)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)

@@ -16,3 +16,14 @@ def test_unknown_names_list_the_known(name: str) -> None:
     """It proves that an unknown name is an error that lists the names there are."""
     with pytest.raises(ValueError, match=r"^name: expected one of .*'color-particle'.*, got "):
         tricue.create(name)
+
+
+def test_the_stereo_tracker_by_its_name() -> None:
+    """It proves that "stereo-head" makes a StereoHeadTracker, with its rig, seed, kernels and parameters."""
+    rig = tricue.StereoRig(tricue.Intrinsics.from_fov(160, 120, 55), 0.12)
+    tracker = tricue.create("stereo-head", rig=rig, seed=3, kernels="reference", fuse=False)
+    assert isinstance(tracker, tricue.StereoHeadTracker)
+    assert (tracker.rig, tracker.seed, tracker.kernels) == (rig, 3, "reference")
+    assert tracker.params == tricue.StereoHeadTracker.Params(fuse=False)
+    with pytest.raises(TypeError, match=r"^rig: expected tricue.StereoRig, got Intrinsics"):
+        tricue.create("stereo-head", rig=rig.intrinsics)

@@ -2,6 +2,7 @@
 import numpy as np
 import pytest
 import tricue
+from tricue.scenes import head
 from tricue.track.track import Tracker
 
 BRIGHT = np.full((20, 30, 3), 200, np.uint8)
@@ -40,3 +41,18 @@ def test_misuse_is_named(drift: Tracker) -> None:
         tricue.as_opencv("csrt")  # type: ignore[arg-type]
     with pytest.raises(RuntimeError, match="expected init first"):
         tricue.as_opencv(drift).getTrackingScore()
+
+
+def test_stereo_pairs_pass_through() -> None:
+    """It proves that a loop written for OpenCV can follow a head, given frames with both images, and is told
+    by name when one is missing.
+    """
+    scene = head(0, 6)
+    tracker = tricue.as_opencv(tricue.create("stereo-head", rig=scene.rig))
+    plain = tricue.create("stereo-head", rig=scene.rig)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    plain.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:]:
+        assert tracker.update(frame) == (True, plain.update(frame).box.as_int())
+    with pytest.raises(ValueError, match="expected the channel right"):
+        tracker.update(scene.frames[0].color)  # type: ignore[arg-type]
