@@ -50,7 +50,7 @@ def find_again(
     for z in _distances(*head.distances(p)):
         disparity = eyes.disparity(z)
         minor, major = (half / 2 * f / z for half, f in zip(head.size, eyes.rig[:2].tolist(), strict=True))
-        if min(minor, major) / step < SMALLEST:
+        if not SMALLEST <= min(minor, major) / step <= max(rows, columns):
             continue
         places = disparity / pair.step
         within = max(p.coherent, (1 - NEARER) / 2 * places)

@@ -22,6 +22,7 @@ from tricue.track.stereo_params import StereoHeadParams
 from tricue.track.track import Status, Track
 
 ASIDE = 0.3  # metres, from where it was last seen, of a head that was just missed
+SOLID = 0.3  # of a head at its disparity; what is farther than `far` has chance matches
 LARGEST = 4000  # pixels, of a box
 USUAL_RATE = 0.05  # per frame, of running means
 STEADY = 1.1
@@ -114,7 +115,7 @@ class StereoHeadTracker:
         k, p = self._k, self.params
         depth = depth_of(k, pair, head.ellipse, span_between(eyes, p.near, p.far, 1), p)
         first = None
-        if depth is not None:
+        if depth is not None and depth.share > SOLID:
             first = measure(k, pair, eyes, head.ellipse, depth.disparity, None, p)
         if first is None:
             span = f"near and far, {p.near:g} and {p.far:g} m"

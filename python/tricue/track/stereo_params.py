@@ -113,7 +113,7 @@ class StereoHeadParams(Params):
         0.6, unit="of usual", source=OURS, low=0, high=1, doc="score and depth of the head seen there"
     )
     lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="not seen, until LOST")
-    near: float = parameter(0.4, unit="m", source=OURS, low=0.01, doc="least distance of a head")
+    near: float = parameter(0.4, unit="m", source=OURS, low=0.001, doc="least distance of a head")
     far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance")
 
     def __post_init__(self) -> None:
