@@ -24,7 +24,8 @@ from tricue.track.head_filter import (
 
 Params = StereoHeadTracker.Params
 P = Params()
-WIDE = Params(near=1e-3, far=1e3)  # in which no simulated head reaches an end
+WIDE = Params(far=100.0)  # in which no simulated head reaches an end,
+MIDDLE = np.array([0.2, -0.1, 20.0, 5.0, -12.0, 300.0, 0.8])  # from here
 CONSTANT = Params(motion="constant")
 SECONDS = 1 / 30
 VALUES = np.array([0.2, -0.1, 2.0, 5.0, -12.0, 300.0, 0.8])
@@ -44,9 +45,9 @@ def simulated(kernels, seed: int) -> Iterator[tuple[np.ndarray, HeadFilter, floa
     gain = np.array([SECONDS**2 / 2, SECONDS])
     for _ in range(RUNS):
         truth = np.concatenate(
-            [VALUES - ROOT @ rng.standard_normal(7), WIDE.fastest / 3**0.5 * rng.normal(size=3)]
+            [MIDDLE - ROOT @ rng.standard_normal(7), WIDE.fastest / 3**0.5 * rng.normal(size=3)]
         )
-        state = start(VALUES, NOISE, WIDE)
+        state = start(MIDDLE, NOISE, WIDE)
         for _ in range(FRAMES):
             push = WIDE.agility * rng.standard_normal(3)
             truth[:3] += SECONDS * truth[7:] + gain[0] * push
@@ -184,12 +185,12 @@ def test_errors_have_no_bias(kernels):
 
 def test_wrong_noise_would_be_seen(kernels, monkeypatch):
     """The check above has teeth: a filter that thinks heads half as agile doesn't pass it."""
-    slow = Params(agility=P.agility / 2, near=1e-3, far=1e3)
+    slow = Params(agility=P.agility / 2, far=WIDE.far)
     monkeypatch.setattr(head_filter, "predict", lambda k, state, seconds, _: predict(k, state, seconds, slow))
     squares = []
     rng = np.random.default_rng(2)
     for _ in range(RUNS):
-        truth, state = np.concatenate([VALUES, np.zeros(3)]), start(VALUES, NOISE, WIDE)
+        truth, state = np.concatenate([MIDDLE, np.zeros(3)]), start(MIDDLE, NOISE, WIDE)
         for _ in range(FRAMES):
             push = P.agility * rng.standard_normal(3)
             truth[:3] += SECONDS * truth[7:] + SECONDS**2 / 2 * push

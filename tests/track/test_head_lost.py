@@ -14,6 +14,7 @@ Params = StereoHeadTracker.Params
 P = Params()
 SKIN = np.array([110, 140, 205])
 WIDTH, HEIGHT = 0.17, 0.21  # metres
+CAMERA = Intrinsics.from_fov(160, 120, 55)
 FAR_WALL = 3  # pixels of disparity at 160 columns
 
 
@@ -64,6 +65,18 @@ def overlap(ellipse: tuple[float, float, float, float], box: Box) -> float:
     return Box.from_ellipse(*ellipse).iou(box)
 
 
+def anywhere(colors: np.ndarray) -> Head:
+    """A head of these colors that may be at any place and distance."""
+    return Head((WIDTH, HEIGHT), colors, np.array([0.0, 0.0, 3.0]), 100.0)
+
+
+def metric(eyes: Eyes, place: tuple[float, float, float]) -> np.ndarray:
+    """(3,) metres of a place on the stage."""
+    x, y, z = place
+    height, width = eyes.shape
+    return CAMERA.back_project(x * width - 0.5, y * height - 0.5, z)
+
+
 ANYWHERE = [(x, y, z) for z in (0.8, 1.3, 2.0, 3.0) for x in (0.25, 0.5, 0.8) for y in (0.3, 0.65)]
 
 
@@ -77,8 +90,7 @@ def test_a_head_is_found_anywhere(kernels, place):
     """
     k, eyes = load(kernels), Eyes.of(rig())
     pair, (box,) = stage(eyes, [place], [SKIN])
-    head = Head((WIDTH, HEIGHT), histogram(k, SKIN), P.near, P.far)
-    found = find_again(k, pair, eyes, head, P)
+    found = find_again(k, pair, eyes, anywhere(histogram(k, SKIN)), P)
     assert found is not None
     ellipse, disparity = found
     assert overlap(ellipse, box) > 0.5
@@ -91,9 +103,7 @@ def test_places_are_pixels_of_the_picture():
     eyes = Eyes.of(rig(4))
     pair, (box,) = stage(eyes, [(0.7, 0.4, 1.5)], [SKIN])
     assert pair.step == 4
-    ellipse, disparity = find_again(
-        kernels, pair, eyes, Head((WIDTH, HEIGHT), histogram(kernels, SKIN), P.near, P.far), P
-    )
+    ellipse, disparity = find_again(kernels, pair, eyes, anywhere(histogram(kernels, SKIN)), P)
     assert overlap(ellipse, box) > 0.5
     assert disparity == pytest.approx(eyes.disparity(1.5), rel=1 / NEARER - 1)
 
@@ -104,29 +114,56 @@ def test_colors_tell_heads_apart(ours):
     kernels = load("native")
     eyes, colors = Eyes.of(rig()), [SKIN, np.array([190, 120, 60])]
     pair, boxes = stage(eyes, [(0.3, 0.5, 1.6), (0.75, 0.5, 1.6)], colors)
-    head = Head((WIDTH, HEIGHT), histogram(kernels, colors[ours]), P.near, P.far)
-    ellipse, _ = find_again(kernels, pair, eyes, head, P)
+    ellipse, _ = find_again(kernels, pair, eyes, anywhere(histogram(kernels, colors[ours])), P)
     assert overlap(ellipse, boxes[ours]) > 0.5
 
 
+@pytest.mark.parametrize(
+    "places",
+    [
+        [(0.3, 0.5, 2.6), (0.75, 0.5, 1.1)],
+        [(0.2, 0.5, 1.6), (0.8, 0.5, 1.6)],
+        [(0.5, 0.2, 1.4), (0.5, 0.8, 1.4)],
+    ],
+    ids=["nearer", "beside", "below"],
+)
 @pytest.mark.parametrize("ours", [0, 1])
-def test_distances_tell_heads_apart(ours):
-    """Of two heads of the same colors the one that is where the head can have gone is found."""
-    kernels = load("native")
-    eyes = Eyes.of(rig())
-    places = [(0.3, 0.5, 2.6), (0.75, 0.5, 1.1)]
+def test_a_head_is_found_where_it_can_be(ours, places):
+    """Of two heads of the same colors the one within reach of where it was is found, whether the other is
+    nearer or farther, beside it or below, and what is found is within reach.
+    """
+    k, eyes = load("native"), Eyes.of(rig())
     pair, boxes = stage(eyes, places, [SKIN, SKIN])
-    z = places[ours][2]
-    head = Head((WIDTH, HEIGHT), histogram(kernels, SKIN), 0.85 * z, 1.15 * z)
-    ellipse, disparity = find_again(kernels, pair, eyes, head, P)
+    there = metric(eyes, places[ours])
+    head = Head((WIDTH, HEIGHT), histogram(k, SKIN), there + [0.1, -0.1, 0.05], 0.35)
+    ellipse, disparity = find_again(k, pair, eyes, head, P)
     assert overlap(ellipse, boxes[ours]) > 0.5
-    assert 0.85 * z <= eyes.disparity(1.0) / disparity <= 1.15 * z * (1 + 1e-12)
+    z = eyes.disparity(1.0) / disparity
+    found = CAMERA.back_project(ellipse[0] - 0.5, ellipse[1] - 0.5, z)
+    assert np.linalg.norm(found - head.seen) <= head.reach * (1 + 1e-12)
+
+
+def test_out_of_reach_is_nowhere():
+    """Where no place of the picture is within reach nothing is found, however like the head it is."""
+    k, eyes = load("native"), Eyes.of(rig())
+    pair, _ = stage(eyes, [(0.5, 0.5, 1.5)], [SKIN])
+    aside = Head((WIDTH, HEIGHT), histogram(k, SKIN), np.array([5.0, 0.0, 1.5]), 0.3)
+    assert find_again(k, pair, eyes, aside, P) is None
+
+
+@pytest.mark.parametrize(
+    ("z", "reach", "expected"), [(2.0, 0.5, (1.5, 2.5)), (0.5, 0.3, (P.near, 0.8)), (5.9, 1.0, (4.9, P.far))]
+)
+def test_reach_and_range_bound_the_distance(z, reach, expected):
+    """A head can be nearer and farther by its reach, between near and far."""
+    head = Head((WIDTH, HEIGHT), np.ones(1), np.array([0.3, 0.1, z]), reach)
+    assert head.distances(P) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(("near", "far"), [(0.4, 6.0), (1.0, 1.05), (2.0, 2.0)])
 def test_distances_are_a_step_apart(near, far):
     """They go from near to far, both included, each at most 1 / NEARER times the one before."""
-    found = _distances(Head((WIDTH, HEIGHT), np.ones(1), near, far))
+    found = _distances(near, far)
     assert found[0] == pytest.approx(near, rel=1e-12)
     assert found[-1] == pytest.approx(far, rel=1e-12)
     ratios = np.divide(found[1:], found[:-1])
@@ -139,5 +176,5 @@ def test_what_is_too_small_to_see_is_not_looked_for(kernels):
     eyes = Eyes.of(rig())
     image = cv2.resize(np.zeros((2, 2, 3), np.uint8), (160, 120))
     pair = Pair.of(image, image, None, P)
-    tiny = Head((0.002, 0.002), histogram(kernels, SKIN), P.near, P.far)
+    tiny = anywhere(histogram(kernels, SKIN))._replace(size=(0.002, 0.002))
     assert find_again(kernels, pair, eyes, tiny, P) is None

@@ -25,40 +25,65 @@ def shifted(image: np.ndarray, disparity: int) -> np.ndarray:
     return np.roll(image, -disparity, axis=1)
 
 
+def all_bins(k, image: np.ndarray, light: np.ndarray | None) -> np.ndarray:
+    """The bins of a picture's places, as in a light."""
+    height, width = image.shape[:2]
+    return Pair.of(image, image, light, P).bins(k, (0, 0, width, height), 1, P)
+
+
 @pytest.mark.parametrize("gains", [(2, 2, 2), (2, 1, 4), (1, 1, 1)], ids=str)
-def test_another_light_is_taken_out_exactly(gains):
-    """A picture whose channels are whole multiples of what they were in the first light is seen as it was, to
-    the last bit.
+def test_another_light_is_taken_out_exactly(gains, kernels):
+    """A picture whose channels are whole multiples of what they were in the first light has the bins that it
+    had, every one.
     """
     first = picture(24, 32) // 4
     lit = first * np.array(gains, np.uint8)
-    np.testing.assert_array_equal(Pair.of(lit, lit, light_of(first), P).colors, first)
+    expected = kernels.color_bins(first, (0, 0, 32, 24), P.bins, P.chroma, 1)
+    np.testing.assert_array_equal(all_bins(kernels, lit, light_of(first)), expected)
 
 
 @pytest.mark.parametrize("gain", [0.5, 0.77, 1.3])
-def test_a_gain_leaves_a_rounding(gain):
-    """A picture rounded to 8 bits in a light of any gain is seen within what that costs: half a level over
-    the gain, half of its own, and the mean's share.
+def test_gains_are_those_of_the_light(gain):
+    """In a light of any gain, rounded to 8 bits, the gain that leads back is 1 / gain, to what rounding does
+    to the mean: half a level of it at most.
     """
     first = picture(60, 80) // 2 + 20
     lit = np.rint(first * gain).astype(np.uint8)
-    seen = Pair.of(lit, lit, light_of(first), P).colors
-    assert np.abs(seen.astype(int) - first).max() <= 0.5 / gain + 0.5 + 0.1
+    gains = Pair.of(lit, lit, light_of(first), P).gains
+    np.testing.assert_allclose(gains, 1 / gain, rtol=0.5 / light_of(lit).min())
 
 
-def test_without_light_nothing_is_changed():
-    """Without the first frame's light colors are the picture's own."""
+def test_without_light_nothing_is_changed(kernels):
+    """Without the first frame's light bins are those of the picture's own colors."""
     image = picture(24, 32)
-    np.testing.assert_array_equal(Pair.of(image, image, None, P).colors, image)
+    expected = kernels.color_bins(image, (0, 0, 32, 24), P.bins, P.chroma, 1)
+    np.testing.assert_array_equal(all_bins(kernels, image, None), expected)
+
+
+@pytest.mark.parametrize("light", [False, True])
+@pytest.mark.parametrize("step", [1, 3])
+@pytest.mark.parametrize(
+    "region", [(-7, -5, 40, 30), (4, 3, 19, 18), (25, 20, 90, 80), (99, 0, 120, 9)], ids=str
+)
+def test_a_region_is_a_part_of_the_whole(region, step, light, kernels):
+    """Bins of a region, over the edge too, are those of the whole picture in that light, and none outside."""
+    image = picture(24, 32) // 4
+    lit = 2 * image
+    pair = Pair.of(lit, lit, light_of(image) if light else None, P)
+    expected = kernels.color_bins(image if light else lit, region, P.bins, P.chroma, step)
+    np.testing.assert_array_equal(pair.bins(kernels, region, step, P), expected)
 
 
 @pytest.mark.parametrize("level", [0, 255])
-def test_black_and_white_are_survived(level):
-    """A picture without light, or full of it, has finite gains: black stays black, white is in the range."""
+def test_black_and_white_are_survived(level, kernels):
+    """A picture without light, or full of it, has finite gains, and one bin everywhere: black stays black."""
     image = np.full((24, 32, 3), level, np.uint8)
-    seen = Pair.of(image, image, light_of(picture(24, 32)), P).colors
-    assert (seen.max() == 0) == (level == 0)
-    assert np.isfinite(light_of(image)).all()
+    light = light_of(picture(24, 32))
+    assert np.isfinite(Pair.of(image, image, light, P).gains).all()
+    bins = all_bins(kernels, image, light)
+    assert (bins == bins[0, 0]).all()
+    if level == 0:
+        np.testing.assert_array_equal(bins, all_bins(kernels, image, None))
 
 
 def test_light_is_the_mean():
