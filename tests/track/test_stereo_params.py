@@ -53,7 +53,7 @@ REFUSED: dict[str, tuple[Any, ...]] = {
     "again_after": (-0.1,),
     "again_above": (-0.1, 1.1),
     "lost_after": (-0.1,),
-    "near": (0, -1.0, 0.009, 6.0, 9.0),
+    "near": (0, -1.0, 0.0009, 6.0, 9.0),
     "far": (0, -1.0),
 }
 
@@ -271,7 +271,7 @@ def test_one_choice_of_the_paper_still_follows(name, heads, follow):
         {"again_after": 1e9},
         {"lost_after": 0},
         {"lost_after": 1e9},
-        {"near": 0.01},
+        {"near": 0.001},
         {"far": 20},
         {"far": 1e9},
         {"near": 1.0, "far": 1.0001},
