@@ -76,8 +76,8 @@ class StereoHeadTracker:
         if max(head.width, head.height) > LARGEST:
             raise ValueError(f"box: expected a head of at most {LARGEST} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
-        light = light_of(left) if self.params.light else None
         pair = Pair.of(left, right, None, self.params)
+        light = light_of(pair.colors) if self.params.light else None
         first = self._first(pair, eyes, head)
         self._state = HeadState(
             shape=left.shape,
@@ -113,14 +113,16 @@ class StereoHeadTracker:
     def _first(self, pair: Pair, eyes: Eyes, head: Box) -> Measured:
         """The head in a box; ValueError where nothing in it has a disparity."""
         k, p = self._k, self.params
-        depth = depth_of(k, pair, head.ellipse, span_between(eyes, p.near, p.far, 1), p)
+        # The median, whatever p.center: wrong matches anywhere between near and far pull a mean.
+        span = span_between(eyes, p.near, p.far, 1)
+        depth = depth_of(k, pair, head.ellipse, span, replace(p, center="median"))
         first = None
         if depth is not None and depth.share > SOLID:
             first = measure(k, pair, eyes, head.ellipse, depth.disparity, None, p)
         if first is None:
-            span = f"near and far, {p.near:g} and {p.far:g} m"
+            limits = f"near and far, {p.near:g} and {p.far:g} m"
             raise ValueError(
-                f"box: expected a head with a disparity between {span}, got none in {tuple(head)}"
+                f"box: expected a head with a disparity between {limits}, got none in {tuple(head)}"
             )
         return first
 
