@@ -36,16 +36,17 @@ format: $(VENV)/dev
 stubs: $(VENV)/dev
 	$(BIN)/python tools/stubs.py
 
-# The same tests on a build with the sanitizers, which must be loaded before Python, and whose last words pytest must not
-# capture. What Python itself leaks is not looked at.
+# The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
+# Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.
 sanitize: $(VENV)/dev
 	rm -rf $(SANITIZED)
 	SKBUILD_BUILD_DIR=build/debug SKBUILD_CMAKE_BUILD_TYPE=Debug SKBUILD_INSTALL_STRIP=false \
 	    SKBUILD_CMAKE_DEFINE="TRICUE_SANITIZE=ON;TRICUE_WERROR=ON" \
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
-	PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
+	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest --capture=sys
+	    $(BIN)/python -m pytest --capture=sys tests/camera tests/cues tests/fuse tests/track/test_*bad_input.py \
+	    tests/track/test_*_kernels.py
 
 clean:
 	rm -rf $(VENV) build dist
