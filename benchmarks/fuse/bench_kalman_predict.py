@@ -20,7 +20,7 @@ PEER = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
 
 def peer(mean: Floats, covariance: Floats, transition: Floats, noise: Floats) -> tuple[Floats, Floats]:
     """OpenCV's, which has a state of its own that must be set, and writes into what it was set to."""
-    PEER.statePost, PEER.errorCovPost = mean.copy(), covariance.copy()
+    PEER.statePost, PEER.errorCovPost = mean[:, None].copy(), covariance.copy()
     PEER.transitionMatrix, PEER.processNoiseCov = transition, noise
     return PEER.predict()[:, 0], PEER.errorCovPre
 

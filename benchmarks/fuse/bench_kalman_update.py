@@ -22,9 +22,9 @@ def peer(
     mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
 ) -> tuple[Floats, ...]:
     """OpenCV's, which has a state of its own that must be set, and tells no innovation covariance."""
-    PEER.statePre, PEER.errorCovPre = mean.copy(), covariance.copy()
+    PEER.statePre, PEER.errorCovPre = mean[:, None].copy(), covariance.copy()
     PEER.measurementMatrix, PEER.measurementNoiseCov = observation, noise
-    return PEER.correct(measurement)[:, 0], PEER.errorCovPost
+    return PEER.correct(measurement[:, None])[:, 0], PEER.errorCovPost
 
 
 CONTENDERS = {"native": _core.kalman_update, "reference": reference.kalman_update, "peer": peer}
