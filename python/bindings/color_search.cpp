@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "arrays.hpp"
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_gradient.hpp"
@@ -27,8 +29,10 @@ Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const C
     const Region corners{x0, y0, x1, y1};
     const ColorSpace space = color_space(bins, chroma);
     const Region seen = corners.clipped(view);
-    return give(unlocked(std::ptrdiff_t{seen.x1 - seen.x0} * (seen.y1 - seen.y0),
-                         [&] { return color_bins(view, corners, space, step); }));
+    // In corners that are the wrong way round the difference may not fit an int.
+    const auto cols = std::max<std::ptrdiff_t>(0, std::ptrdiff_t{seen.x1} - seen.x0);
+    const auto rows = std::max<std::ptrdiff_t>(0, std::ptrdiff_t{seen.y1} - seen.y0);
+    return give(unlocked(cols * rows, [&] { return color_bins(view, corners, space, step); }));
 }
 
 BinsView bins_image(const Array<std::uint16_t>& bins) {
