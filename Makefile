@@ -45,8 +45,8 @@ sanitize: $(VENV)/dev
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
 	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest --capture=sys tests/camera tests/cues tests/fuse tests/track/test_*bad_input.py \
-	    tests/track/test_*_kernels.py
+	    $(BIN)/python -m pytest --capture=sys tests/camera tests/cues tests/fuse \
+	    tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
 
 clean:
 	rm -rf $(VENV) build dist

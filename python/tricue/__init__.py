@@ -19,9 +19,9 @@ from tricue.track.opencv import as_opencv
 from tricue.track.track import Status, Track
 
 if TYPE_CHECKING:
-    from tricue.track.color_particle import ColorParticleTracker
-    from tricue.track.depth_particle import DepthParticleTracker
-    from tricue.track.stereo_head import StereoHeadTracker
+    from tricue.track.color_particle.tracker import ColorParticleTracker
+    from tricue.track.depth_particle.tracker import DepthParticleTracker
+    from tricue.track.stereo_head.tracker import StereoHeadTracker
 
     __version__: str
 

@@ -9,7 +9,7 @@ from tricue import Status, Track
 from tricue.evaluation import depth_experiments, reproduce
 from tricue.evaluation.experiment import Case
 from tricue.scenes import crossing, walker
-from tricue.track.depth_params import DepthParticleParams
+from tricue.track.depth_particle.params import DepthParticleParams
 
 pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install tricue[demo]")
 

@@ -9,7 +9,7 @@ from tricue.evaluation import reproduce, stereo_experiments
 from tricue.evaluation.experiment import Case
 from tricue.evaluation.stereo_experiments import Trial
 from tricue.scenes import KINDS
-from tricue.track.stereo_params import StereoHeadParams
+from tricue.track.stereo_head.params import StereoHeadParams
 
 EXPERIMENT = stereo_experiments.EXPERIMENTS["moreno-fig3"]
 CASE = Case("m", "s", 0)

@@ -21,7 +21,7 @@ from tricue.scenes import (
     walker,
 )
 from tricue.scenes.paste import ellipse_mask, expose, paste
-from tricue.track.depth_objects import SLICES, Objects
+from tricue.track.depth_particle.objects import SLICES, Objects
 
 Image = NDArray[np.uint8]
 Place = tuple[float, float] | None

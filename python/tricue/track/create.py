@@ -7,9 +7,9 @@ from typing import Any
 from tricue.track.track import Tracker
 
 _TRACKERS = {
-    "color-particle": "tricue.track.color_particle:ColorParticleTracker",
-    "depth-particle": "tricue.track.depth_particle:DepthParticleTracker",
-    "stereo-head": "tricue.track.stereo_head:StereoHeadTracker",
+    "color-particle": "tricue.track.color_particle.tracker:ColorParticleTracker",
+    "depth-particle": "tricue.track.depth_particle.tracker:DepthParticleTracker",
+    "stereo-head": "tricue.track.stereo_head.tracker:StereoHeadTracker",
 }
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.color_params import ColorParticleParams
+from tricue.track.color_particle.params import ColorParticleParams
 
 Floats = NDArray[np.float64]
 Pair = tuple[float, float]

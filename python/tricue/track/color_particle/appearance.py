@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""What the target looks like, and how likely a window of the image is to show it."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.color_particle.contrast import ColorContrast
+from tricue.track.color_particle.observation import RankSpatial, observation
+from tricue.track.color_particle.params import ColorParticleParams
+from tricue.track.pattern import grid, ring
+
+Floats = NDArray[Any]
+Image = NDArray[np.uint8]
+
+
+class Look(NamedTuple):
+    """The samples of N windows: (N, 3, n) on the grid inside, (N, 3, m) in the ring around."""
+
+    inside: Image
+    around: Image
+
+
+class Appearance:
+    """The observation model and the colors against the surround, learnt together."""
+
+    def __init__(self, p: ColorParticleParams) -> None:
+        self.model = observation(p)
+        self.contrast = ColorContrast(p.color_weight) if p.color_weight > 0 else None
+        self.grid = grid(*p.grid, p.grid_reach)
+        self.ring = ring(p.ring_samples, *p.ring)
+        self.linear = p.likelihood == "linear"
+        self.sharpness = self.model.sharpness if p.sharpness is None else p.sharpness
+
+    def look(self, k: Kernels, image: Image, ellipses: Floats) -> Look:
+        """Read the windows of N ellipses."""
+        return Look(
+            k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
+        )
+
+    def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
+        """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
+        distance, contrast = self.measure(k, image, ellipses, searching)
+        if self.linear:
+            contrast += np.log(np.maximum(1 - distance, 1e-12))
+        else:
+            contrast -= self.sharpness * distance * distance
+        return contrast
+
+    def measure(
+        self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False
+    ) -> tuple[Floats, Floats]:
+        """(N,) distances to the model, and (N,) of the color term; both in one pass where a kernel does."""
+        if self.contrast and isinstance(self.model, RankSpatial):
+            maps, table = self.model.maps, self.contrast.table
+            distances, contrast = k.rank_contrast(image, ellipses, self.grid, self.ring, maps, table)
+            return self.model.chosen(distances, searching), self.contrast.weight * contrast
+        look = self.look(k, image, ellipses)
+        distance = self.model.distance(k, *look, searching).astype(np.float64)
+        return distance, self.contrast.log_likelihood(k, *look) if self.contrast else np.zeros(len(ellipses))
+
+    def recognition(self, k: Kernels, look: Look, searching: bool = False) -> float:
+        """How surely the first window shows the target, in [0, 1]."""
+        return self.model.recognition(k, *look, searching)
+
+    def learn(
+        self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float
+    ) -> None:
+        """Blend the window of one ellipse (1, 4) into the models; rates of 1 start them."""
+        self.model.learn(k, *look, rate)
+        if self.contrast:
+            self.contrast.learn(k, image, ellipse, color_rate)

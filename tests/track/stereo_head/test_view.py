@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""That the stereo head tracker sees places in the first light, and what is at its head's depth."""
+
+import cv2
+import numpy as np
+import pytest
+from tricue import StereoHeadTracker
+from tricue.track.stereo_head.view import Pair, light_of, look
+
+Params = StereoHeadTracker.Params
+P = Params()
+NO_BIN = 65535
+
+
+def picture(height: int, width: int, seed: int = 0) -> np.ndarray:
+    """Clouds of color with fine grain, BGR."""
+    rng = np.random.default_rng(seed)
+    coarse = rng.integers(30, 220, (height // 4 + 1, width // 4 + 1, 3)).astype(np.uint8)
+    smooth = cv2.resize(coarse, (width, height), interpolation=cv2.INTER_CUBIC).astype(int)
+    return np.clip(smooth + rng.integers(-9, 10, smooth.shape), 0, 255).astype(np.uint8)
+
+
+def shifted(image: np.ndarray, disparity: int) -> np.ndarray:
+    """The right image of what lies wholly at a disparity."""
+    return np.roll(image, -disparity, axis=1)
+
+
+def all_bins(k, image: np.ndarray, light: np.ndarray | None) -> np.ndarray:
+    """The bins of a picture's places, as in a light."""
+    height, width = image.shape[:2]
+    return Pair.of(image, image, light, P).bins(k, (0, 0, width, height), 1, P)
+
+
+@pytest.mark.parametrize("gains", [(2, 2, 2), (2, 1, 4), (1, 1, 1)], ids=str)
+def test_another_light_is_taken_out_exactly(gains, kernels):
+    """A picture whose channels are whole multiples of what they were in the first light has the bins that it
+    had, every one.
+    """
+    first = picture(24, 32) // 4
+    lit = first * np.array(gains, np.uint8)
+    expected = kernels.color_bins(first, (0, 0, 32, 24), P.bins, P.chroma, 1)
+    np.testing.assert_array_equal(all_bins(kernels, lit, light_of(first)), expected)
+
+
+@pytest.mark.parametrize("gain", [0.5, 0.77, 1.3])
+def test_gains_are_those_of_the_light(gain):
+    """In a light of any gain, rounded to 8 bits, the gain that leads back is 1 / gain, to what rounding does
+    to the mean: half a level of it at most.
+    """
+    first = picture(60, 80) // 2 + 20
+    lit = np.rint(first * gain).astype(np.uint8)
+    gains = Pair.of(lit, lit, light_of(first), P).gains
+    np.testing.assert_allclose(gains, 1 / gain, rtol=0.5 / light_of(lit).min())
+
+
+def test_without_light_nothing_is_changed(kernels):
+    """Without the first frame's light bins are those of the picture's own colors."""
+    image = picture(24, 32)
+    expected = kernels.color_bins(image, (0, 0, 32, 24), P.bins, P.chroma, 1)
+    np.testing.assert_array_equal(all_bins(kernels, image, None), expected)
+
+
+@pytest.mark.parametrize("light", [False, True])
+@pytest.mark.parametrize("step", [1, 3])
+@pytest.mark.parametrize(
+    "region", [(-7, -5, 40, 30), (4, 3, 19, 18), (25, 20, 90, 80), (99, 0, 120, 9)], ids=str
+)
+def test_a_region_is_a_part_of_the_whole(region, step, light, kernels):
+    """Bins of a region, over the edge too, are those of the whole picture in that light, and none outside."""
+    image = picture(24, 32) // 4
+    lit = 2 * image
+    pair = Pair.of(lit, lit, light_of(image) if light else None, P)
+    expected = kernels.color_bins(image if light else lit, region, P.bins, P.chroma, step)
+    np.testing.assert_array_equal(pair.bins(kernels, region, step, P), expected)
+
+
+@pytest.mark.parametrize("level", [0, 255])
+def test_black_and_white_are_survived(level, kernels):
+    """A picture without light, or full of it, has finite gains, and one bin everywhere: black stays black."""
+    image = np.full((24, 32, 3), level, np.uint8)
+    light = light_of(picture(24, 32))
+    assert np.isfinite(Pair.of(image, image, light, P).gains).all()
+    bins = all_bins(kernels, image, light)
+    assert (bins == bins[0, 0]).all()
+    if level == 0:
+        np.testing.assert_array_equal(bins, all_bins(kernels, image, None))
+
+
+def test_light_is_the_mean():
+    """It is the mean of each channel."""
+    image = picture(24, 32)
+    np.testing.assert_allclose(light_of(image), image.mean(axis=(0, 1)), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("width", "resolution", "step"),
+    [(160, 160, 1), (640, 160, 4), (320, 160, 2), (200, 160, 1), (100, 160, 1)],
+)
+def test_places_are_every_so_manieth_pixel(width, resolution, step):
+    """A place is the middle pixel of a square of step by step, and about ``resolution`` of them lie in a row;
+    the small grey pictures are those squares' means.
+    """
+    image = picture(48, width)
+    pair = Pair.of(image, shifted(image, 3), None, Params(resolution=resolution))
+    assert pair.step == step
+    np.testing.assert_array_equal(pair.colors, image[step // 2 :: step, step // 2 :: step])
+    grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    np.testing.assert_array_equal(pair.grey[0], grey)
+    squares = grey.reshape(48 // step, step, width // step, step).mean(axis=(1, 3))
+    assert np.abs(pair.small[0] - squares).max() <= 0.5 + 1e-6
+
+
+@pytest.mark.parametrize("shape", [(37, 501), (50, 333), (45, 642)], ids=str)
+def test_sizes_that_step_does_not_divide_are_whole(shape, kernels):
+    """Where the step leaves a rest every place of the small pictures still has a color."""
+    image = picture(*shape)
+    pair = Pair.of(image, image, None, P)
+    assert pair.step > 1
+    for color, small in zip(pair.colors.shape, pair.small[0].shape, strict=False):
+        assert small <= color <= small + 1
+
+
+def test_the_images_stay_as_they_were():
+    """Neither picture is written to."""
+    image = picture(48, 64)
+    left, right = image.copy(), shifted(image, 2)
+    kept = right.copy()
+    Pair.of(left, right, 2 * light_of(left), P)
+    np.testing.assert_array_equal(left, image)
+    np.testing.assert_array_equal(right, kept)
+
+
+@pytest.mark.parametrize(("width", "expected"), [(160, 6.0), (640, 24.0)])
+def test_what_is_about_at_a_disparity_is_coherent(width, expected, kernels):
+    """Of a picture at one disparity nearly all places are coherent with it, and hardly any with one of three
+    places more or less.
+    """
+    image = picture(3 * width // 4, width)
+    pair = Pair.of(image, shifted(image, round(expected)), None, P)
+    ellipse = (width / 2, 3 * width / 8, 10.0 * pair.step, 12.0 * pair.step)
+    shares = [
+        look(kernels, pair, ellipse, expected + off * pair.step, P).coherent.mean() for off in (-3, 0, 3)
+    ]
+    assert shares[1] > 0.95
+    assert max(shares[0], shares[2]) < 0.05
+
+
+@pytest.mark.parametrize("center", [(80.0, 60.0), (0.0, 0.0), (158.0, 3.0), (-400.0, 900.0)], ids=str)
+def test_a_view_holds_all_that_the_search_touches(center, kernels):
+    """A view reaches over ring and search to every side; its places outside the picture have no bin and no
+    depth, those inside the bin of their color.
+    """
+    image = picture(120, 160)
+    pair = Pair.of(image, shifted(image, 5), None, P)
+    x, y = center
+    view = look(kernels, pair, (x, y, 8.0, 10.0), 5.0, P)
+    assert view.bins.shape == view.coherent.shape
+    height, width = view.bins.shape
+    assert view.left <= x - P.ring * 8 - P.search[0]
+    assert view.top <= y - P.ring * 10 - P.search[1]
+    assert view.left + width >= x + P.ring * 8 + P.search[0]
+    assert view.top + height >= y + P.ring * 10 + P.search[1]
+    rows, columns = np.mgrid[view.top : view.top + height, view.left : view.left + width]
+    inside = (rows >= 0) & (rows < 120) & (columns >= 0) & (columns < 160)
+    assert (view.bins[~inside] == NO_BIN).all()
+    assert not view.coherent[~inside].any()
+    whole = kernels.color_bins(image, (0, 0, 160, 120), P.bins, P.chroma, 1)
+    np.testing.assert_array_equal(view.bins[inside], whole[rows[inside], columns[inside]])
