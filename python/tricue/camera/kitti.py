@@ -8,9 +8,57 @@ image_02/data/0000000000.png with calib_cam_to_cam.txt one folder up. All are re
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tricue.camera.streams import image_paths
 
 SIDES = {"image_02": "image_03", "image_2": "image_3"}
+LABEL = 17  # words in a line of a tracking label
+IGNORED = "DontCare"
+
+
+class Label(NamedTuple):
+    """A target of a tracking sequence, a row for each of the M frames in which it is labelled.
+
+    frames: (M,) counted from 0, rising. boxes: (M, 4) x, y, width, height, pixels of the left image. nearest:
+    (M,) the depth of the nearest side of its cuboid, metres, as the left camera sees it.
+    """
+
+    name: str
+    frames: NDArray[np.int64]
+    boxes: NDArray[np.float64]
+    nearest: NDArray[np.float64]
+
+
+def read_labels(path: Path) -> list[Label]:
+    """The targets in a file of KITTI's tracking labels, by their numbers; regions to ignore are left out.
+
+    ValueError names the line that isn't such a label.
+    """
+    lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    rows: dict[tuple[int, str], list[tuple[int, list[float]]]] = {}
+    for number, line in enumerate(lines, 1):
+        words = line.split()
+        if not words:
+            continue
+        try:
+            frame, track, kind, values = int(words[0]), int(words[1]), words[2], [*map(float, words[5:17])]
+        except (IndexError, ValueError):
+            values = []
+        if len(values) != LABEL - 5:
+            raise ValueError(f"{path}, line {number}: expected a tracking label, got {line!r:.60}")
+        if kind != IGNORED:
+            rows.setdefault((track, kind), []).append((frame, values))
+    return [_label(f"{kind} {track}", sorted(found)) for (track, kind), found in sorted(rows.items())]
+
+
+def _label(name: str, rows: list[tuple[int, list[float]]]) -> Label:
+    frames = np.array([frame for frame, _ in rows])
+    # alpha, the box's corners, height, width, length, the cuboid's x, y, z in metres, its turn about y
+    _, x0, y0, x1, y1, _, width, length, _, _, z, turn = np.array([values for _, values in rows]).T
+    half = (np.abs(np.sin(turn)) * length + np.abs(np.cos(turn)) * width) / 2
+    return Label(name, frames, np.stack([x0, y0, x1 - x0, y1 - y0], axis=1), z - half)
 
 
 class Sequence(NamedTuple):
@@ -19,6 +67,11 @@ class Sequence(NamedTuple):
     left: Path
     right: Path | None
     calibration: Path | None
+
+    @property
+    def labels(self) -> Path:
+        """Where a tracking sequence has its labels, be they there or not."""
+        return self.left.parent.parent / "label_02" / f"{self.left.name}.txt"
 
 
 def find_sequence(folder: Path) -> Sequence | None:

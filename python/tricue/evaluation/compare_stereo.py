@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""Trackers of pairs beside OpenCV's in the left images: ``python -m tricue.evaluation.compare_stereo``.
+
+The distances between which a target is looked for are those where a pair's disparity is a quarter of the
+image's width and 4 pixels. All other parameters are the defaults.
+"""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+import tricue
+from tricue.camera.box import Box
+from tricue.camera.rig import StereoRig
+from tricue.evaluation import metrics, peers, sequences, stereo_sequences
+from tricue.evaluation.one_pass import Contender, run
+from tricue.evaluation.stereo_sequences import StereoSequence
+from tricue.track.track import Status
+
+PEERS = ("CSRT", "KCF", "still-box")
+WIDEST, NARROWEST = 0.25, 4.0  # of the image's width; pixels of disparity
+
+Maker = Callable[[StereoRig], Contender]
+
+
+class Row(NamedTuple):
+    """A tracker on a sequence: shares of the frames, mean overlap, and the median error of its disparity."""
+
+    sequence: str
+    tracker: str
+    tracked: float
+    auc: float
+    iou: float
+    success: float
+    disparity_error: float
+    """Pixels; NaN for a tracker without positions."""
+    updates: float
+    """Per second."""
+
+
+def makers() -> dict[str, Maker]:
+    """Tricue's trackers of pairs, and the peers that the installed cv2 has."""
+    known = peers.available()
+    found: dict[str, Maker] = {"stereo-head": _head}
+    for name in PEERS:
+        if name in known:
+            found[name] = lambda rig, make=known[name]: make(0)  # type: ignore[misc]
+    return found
+
+
+def _head(rig: StereoRig) -> Contender:
+    product = rig.intrinsics.fx * rig.baseline
+    near, far = product / (WIDEST * rig.intrinsics.width), product / NARROWEST
+    return tricue.StereoHeadTracker(rig=rig, near=near, far=far)
+
+
+def measure(name: str, make: Maker, sequence: StereoSequence) -> Row:
+    """Run one tracker over one sequence from its first true box."""
+    result = run(make(sequence.rig), sequence.frames, Box(*sequence.truth[0].tolist()))
+    score = metrics.score(result.boxes, sequence.truth)
+    rig = sequence.rig
+    errors = np.abs(rig.intrinsics.fx * rig.baseline / result.positions[:, 2] - sequence.disparities)
+    return Row(
+        sequence.name,
+        name,
+        result.statuses.count(Status.TRACKED) / len(result.statuses),
+        score.auc,
+        float(np.nanmean(metrics.overlaps(result.boxes, sequence.truth))),
+        score.success,
+        float(np.nanmedian(errors)) if np.isfinite(errors).any() else float("nan"),
+        result.frames_per_second,
+    )
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Markdown, a line per sequence and tracker."""
+    lines = [
+        "| sequence | tracker | TRACKED | AUC | mean IoU | IoU > 0.5 | disparity error | updates/s |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    for row in rows:
+        error = "-" if np.isnan(row.disparity_error) else f"{row.disparity_error:.2f} px"
+        shares = f"{row.tracked:.0%} | {row.auc:.2f} | {row.iou:.2f} | {row.success:.0%}"
+        lines.append(f"| {row.sequence} | {row.tracker} | {shares} | {error} | {row.updates:,.0f} |")
+    return "\n".join(lines)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measure and print the table; the exit code."""
+    parser = argparse.ArgumentParser(prog="python -m tricue.evaluation.compare_stereo", description=__doc__)
+    parser.add_argument("folder", type=Path, nargs="?", help="of sequences; found through TRICUE_DATA")
+    parser.add_argument("--unit", type=float, default=1.0, help="metres, of OpenCV's calibration files")
+    options = parser.parse_args(arguments)
+    folder = options.folder or sequences.data_folder() / "stereo"
+    folders = stereo_sequences.find(folder)
+    if not folders:
+        parser.error(f"folder: expected stereo sequences with true boxes under {folder}")
+    rows = [
+        measure(name, make, sequence)
+        for found in folders
+        for sequence in stereo_sequences.load(found, options.unit)
+        for name, make in makers().items()
+    ]
+    print(table(rows))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
