@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "arrays.hpp"
 #include "camera/back_project.hpp"
 #include "cues/stereo/sad_disparity.hpp"
@@ -15,10 +17,11 @@ Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const R
                                   bool ellipse, int first, int last, int window, int uniqueness,
                                   bool prefilter, int tolerance) {
     const auto view = gray_image(left, "left"), other = gray_image(right, "right");
-    const auto [x, y, width, height] = region;
-    const StereoRegion part{x, y, width, height, ellipse};
+    const auto [x0, y0, x1, y1] = region;
+    const StereoRegion part{{x0, y0, x1, y1}, ellipse};
     const StereoMatching matching{window, uniqueness, prefilter, tolerance};
-    const auto work = std::ptrdiff_t{width} * height;  // negative sides raise anyway
+    const auto work =
+        (std::ptrdiff_t{x1} - x0) * std::min(std::ptrdiff_t{y1} - y0, std::ptrdiff_t{view.rows});
     return give(unlocked(work, [&] { return sad_disparity(view, other, part, {first, last}, matching); }));
 }
 
@@ -50,7 +53,7 @@ void define_stereo(py::module_& m) {
     m.def("sad_disparity", sad_disparity_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
           py::arg("ellipse"), py::arg("first"), py::arg("last"), py::arg("window") = 5,
           py::arg("uniqueness") = 15, py::arg("prefilter") = true, py::arg("tolerance") = -1,
-          "Disparities (h, w), pixels, of the region (left, top, width, height) of the left of two rectified "
+          "Disparities (h, w), pixels, of the region (x0, y0, x1, y1) of the left of two rectified "
           "gray images (H, W), or of the ellipse in it, x_right = x_left - d, d in [first, last]: equations "
           "(3), (4); NaN where rejected or not seen. uniqueness in percent, 0 rejects nothing; tolerance of "
           "the "

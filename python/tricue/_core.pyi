@@ -404,7 +404,7 @@ def sad_disparity(
     tolerance: int = -1,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Disparities (h, w), pixels, of the region (left, top, width, height) of the left of two rectified gray images (H, W), or of the ellipse in it, x_right = x_left - d, d in [first, last]: equations (3), (4); NaN where rejected or not seen. uniqueness in percent, 0 rejects nothing; tolerance of the left-right check in pixels, negative for none.
+    Disparities (h, w), pixels, of the region (x0, y0, x1, y1) of the left of two rectified gray images (H, W), or of the ellipse in it, x_right = x_left - d, d in [first, last]: equations (3), (4); NaN where rejected or not seen. uniqueness in percent, 0 rejects nothing; tolerance of the left-right check in pixels, negative for none.
     """
 
 def sample_ellipses(

@@ -15,8 +15,8 @@ Disparity = NDArray[np.float32]
 Matcher = Callable[[Image, Image], Disparity]
 
 COUNT, WINDOW = 16, 5
-WHOLE = (COUNT - 1, 0, 160 - COUNT + 1, 120)  # the columns that StereoBM computes
-HEAD = (70, 40, 30, 36)
+WHOLE = (COUNT - 1, 0, 160, 120)  # the columns that StereoBM computes
+HEAD = (70, 40, 100, 76)
 
 
 def pair() -> tuple[Image, Image]:
@@ -41,10 +41,10 @@ def head(kernel: Callable[..., Disparity]) -> Matcher:
 def peer(region: tuple[int, int, int, int]) -> Matcher:
     """StereoBM over the whole image, which has no regions, and at least 16 disparities."""
     matcher = cv2.StereoBM_create(COUNT, WINDOW)
-    x, y, width, height = region
+    x0, y0, x1, y1 = region
 
     def compute(left: Image, right: Image) -> Disparity:
-        found = matcher.compute(left, right)[y : y + height, x : x + width]
+        found = matcher.compute(left, right)[y0:y1, x0:x1]
         return np.asarray(np.where(found >= 0, found, np.nan) / np.float32(16))
 
     return compute

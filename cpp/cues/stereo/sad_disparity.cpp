@@ -11,7 +11,6 @@
 
 #include "block_matching.hpp"
 #include "camera/ellipse_rows.hpp"
-#include "camera/region.hpp"
 #include "check.hpp"
 #include "disparity_rows.hpp"
 #include "stereo_rows.hpp"
@@ -36,9 +35,11 @@ void require_arguments(const ImageView& left, const ImageView& right, const Ster
     };
     if (left.rows < 1 || left.cols < 1) refuse("left", "at least one pixel", "none");
     if (size(left) != size(right)) refuse("right", "the left image's shape " + size(left), size(right));
-    if (std::min(region.width, region.height) < 1 || std::max(region.width, region.height) > kMaxSide)
+    const auto [x0, y0, x1, y1] = region.place;
+    const auto width = std::int64_t{x1} - x0, height = std::int64_t{y1} - y0;
+    if (std::min(width, height) < 1 || std::max(width, height) > kMaxSide)
         refuse("region", "a width and height of 1 to 16384",
-               std::to_string(region.width) + " x " + std::to_string(region.height));
+               std::to_string(width) + " x " + std::to_string(height));
     if (range.first > range.last)
         refuse("last", "at least first, " + std::to_string(range.first), range.last);
     if (std::int64_t{range.last} - range.first >= kMaxCandidates)
@@ -47,14 +48,6 @@ void require_arguments(const ImageView& left, const ImageView& right, const Ster
     if (matching.window < 1 || matching.window > widest || matching.window % 2 == 0)
         refuse("window", "an odd number, 1 to " + std::to_string(widest), matching.window);
     require_between(matching.uniqueness, 0, 100, "uniqueness");
-}
-
-Region seen_part(const StereoRegion& region, const ImageView& image) {
-    const auto clip = [](int begin, int size, int limit) {
-        return static_cast<int>(std::clamp<std::int64_t>(std::int64_t{begin} + size, 0, limit));
-    };
-    return {clip(region.left, 0, image.cols), clip(region.top, 0, image.rows),
-            clip(region.left, region.width, image.cols), clip(region.top, region.height, image.rows)};
 }
 
 /// Matches the part of a region that the left image shows, `seen`, not empty, row by row. Each candidate lies in the right image for
@@ -142,23 +135,25 @@ private:
 Floats sad_disparity(const ImageView& left, const ImageView& right, const StereoRegion& region,
                      const DisparityRange& range, const StereoMatching& matching) {
     require_arguments(left, right, region, range, matching);
-    Floats disparity = Floats::Constant(region.height, region.width, kNone);
-    const Region seen = seen_part(region, left);
+    const auto [left_end, top, right_end, bottom] = region.place;
+    const int width = right_end - left_end, height = bottom - top;
+    Floats disparity = Floats::Constant(height, width, kNone);
+    const Region seen = region.place.clipped(left);
     const DisparityRange near{std::max(range.first, seen.x0 - (left.cols - 1)),
                               std::min(range.last, seen.x1 - 1)};
     if (seen.x0 >= seen.x1 || seen.y0 >= seen.y1 || near.first > near.last) return disparity;
 
-    const EllipseRows ellipse{region.width, region.height};
+    const EllipseRows ellipse{width, height};
     const auto span = [&](int y) {
-        const int margin = region.ellipse ? ellipse.margin(y - region.top) : 0;
-        return std::pair(region.left + margin, region.left + region.width - margin);
+        const int margin = region.ellipse ? ellipse.margin(y - region.place.y0) : 0;
+        return std::pair(region.place.x0 + margin, region.place.x1 - margin);
     };
     const int candidates = near.last - near.first + 1;
     const auto uniqueness = static_cast<unsigned>(matching.uniqueness);
     Matcher matcher(left, right, seen, near, matching);
     Claims claims(seen.x0 - near.last, seen.x1 - near.first);
     matcher.run(uniqueness > 0, span, [&](int y, int x0, int x1, const Matches& matches) {
-        float* row = &disparity(y - region.top, x0 - region.left);
+        float* row = &disparity(y - region.place.y0, x0 - region.place.x0);
         refine_matches(matches, x1 - x0, near.first, candidates, uniqueness, row);
         if (matching.tolerance >= 0) claims.check(matches, x0, x1, near.first, matching.tolerance, row);
     });

@@ -3,13 +3,14 @@
 
 #include "camera/arrays.hpp"
 #include "camera/image_view.hpp"
+#include "camera/region.hpp"
 
 namespace tricue {
 
-/// A rectangle of the left image, which may reach over its edge; of it either all pixels count or those whose centres lie in the
-/// inscribed ellipse. Sides of 1 to 16384.
+/// A part of the left image, sides of 1 to 16384, which may reach over its edge; of it either all pixels count or those whose centres
+/// lie in the inscribed ellipse.
 struct StereoRegion {
-    int left, top, width, height;
+    Region place;
     bool ellipse;
 };
 

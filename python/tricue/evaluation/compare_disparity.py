@@ -81,7 +81,7 @@ def measure(
     matcher = cv2.StereoBM.create(pair.disparities, window)
     matcher.setUniquenessRatio(uniqueness)
     matcher.setTextureThreshold(0)
-    region = (pair.disparities - 1, 0, width - pair.disparities + 1, height)
+    region = (pair.disparities - 1, 0, width, height)
 
     def theirs() -> NDArray[np.generic]:
         return np.asarray(matcher.compute(pair.left, right))
@@ -97,7 +97,7 @@ def measure(
     truth = pair.truth[:, pair.disparities - 1 :]
     known = truth <= pair.disparities - 2
     both = known & np.isfinite(found[0]) & np.isfinite(found[1])
-    work = region[2] * region[3] * pair.disparities / 1e9
+    work = (width - pair.disparities + 1) * height * pair.disparities / 1e9
     results = []
     for each, time in zip(found, seconds, strict=True):
         errors = np.abs(each[both] - truth[both])

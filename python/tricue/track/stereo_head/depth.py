@@ -33,8 +33,7 @@ def depth_of(
     window = min(p.window + 2 * (pair.step - 1), WIDEST)
     x, y, minor, major = ellipse
     minor, major = (max(half - p.rim * window, half / 2) for half in (minor, major))
-    left, top = math.floor(x - minor), math.floor(y - major)
-    region = (left, top, math.ceil(x + minor) - left, math.ceil(y + major) - top)
+    region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
     found = k.sad_disparity(*pair.grey, region, True, *span, window, p.uniqueness, p.prefilter, NO_CHECK)
     seen = found[np.isfinite(found)]
     if seen.size < LEAST:

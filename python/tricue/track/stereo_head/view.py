@@ -86,10 +86,10 @@ def look(k: Kernels, pair: Pair, ellipse: Ellipse, disparity: float, p: StereoHe
     x, y, minor, major = (each / step for each in ellipse)
     left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
-    bins = pair.bins(k, (left, top, right, bottom), 1, p)
+    region = (left, top, right, bottom)
+    bins = pair.bins(k, region, 1, p)
     middle = min(disparity / step, float(pair.small[0].shape[1]))
     first, last = round(middle) - p.disparities[0], round(middle) + p.disparities[1]
-    region = (left, top, right - left, bottom - top)
     found = k.sad_disparity(
         *pair.small, region, False, first, last, p.window, p.uniqueness, p.prefilter, NO_CHECK
     )

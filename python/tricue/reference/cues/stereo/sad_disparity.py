@@ -27,13 +27,13 @@ def sad_disparity(
     prefilter: bool = True,
     tolerance: int = -1,
 ) -> Disparity:
-    """(h, w) of the region (left, top, width, height): the best d of each pixel, equations (3), (4)."""
+    """(h, w) of the region (x0, y0, x1, y1): the best d of each pixel, equations (3), (4)."""
     _require(left, right, region, first, last, window, uniqueness, prefilter)
     if prefilter:
         left_gray, right_gray = x_sobel(left), x_sobel(right)
     else:
         left_gray, right_gray = left.astype(np.int64), right.astype(np.int64)
-    x, y, width, height = region
+    x, y, width, height = _rectangle(region)
     disparity = np.full((height, width), np.nan, np.float32)
     rows = np.flatnonzero((y + np.arange(height) >= 0) & (y + np.arange(height) < left.shape[0]))
     columns = np.flatnonzero((x + np.arange(width) >= 0) & (x + np.arange(width) < left.shape[1]))
@@ -118,6 +118,11 @@ def consistent(u: Ints, disparity: Ints, cost: Ints, tolerance: int) -> NDArray[
     return agrees
 
 
+def _rectangle(region: Rectangle) -> Rectangle:
+    x0, y0, x1, y1 = region
+    return x0, y0, x1 - x0, y1 - y0
+
+
 def _require(
     left: Image,
     right: Image,
@@ -132,8 +137,9 @@ def _require(
         refuse("left", "at least one pixel", "none")
     if left.shape != right.shape:
         refuse("right", f"the left image's shape {left.shape}", right.shape)
-    if not 1 <= min(region[2:]) <= max(region[2:]) <= 16384:
-        refuse("region", "a width and height of 1 to 16384", f"{region[2]} x {region[3]}")
+    _, _, width, height = _rectangle(region)
+    if not 1 <= min(width, height) <= max(width, height) <= 16384:
+        refuse("region", "a width and height of 1 to 16384", f"{width} x {height}")
     if first > last:
         refuse("last", f"at least first, {first}", last)
     if last - first >= 4096:
