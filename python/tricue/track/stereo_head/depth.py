@@ -30,17 +30,27 @@ def depth_of(
     k: Kernels, pair: Pair, ellipse: Ellipse, span: tuple[int, int], p: StereoHeadParams
 ) -> Depth | None:
     """The disparity in an ellipse, pixels, in a span, ends included; None where nothing is matched."""
-    window = min(p.window + 2 * (pair.step - 1), WIDEST)
-    x, y, minor, major = ellipse
-    minor, major = (max(half - p.rim * window, half / 2) for half in (minor, major))
-    region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
-    found = k.sad_disparity(*pair.grey, region, True, *span, window, p.uniqueness, p.prefilter, NO_CHECK)
-    seen = found[np.isfinite(found)]
+    seen, area = _matches(k, pair, ellipse, span, p)
     if seen.size < LEAST:
         return None
     disparity = _median(seen) if p.center == "median" else float(seen.mean())
-    near = np.count_nonzero(np.abs(seen - np.float32(disparity)) <= p.coherent * pair.step)
-    return Depth(disparity, near / (math.pi * minor * major))
+    return Depth(disparity, np.count_nonzero(_together(seen, disparity, pair, p)) / area)
+
+
+def first_depth(
+    k: Kernels, pair: Pair, ellipse: Ellipse, span: tuple[int, int], p: StereoHeadParams
+) -> Depth | None:
+    """The same where nothing is expected yet: the disparity that most matches share, for in a wide span wrong
+    ones pull even a median.
+    """
+    seen, area = _matches(k, pair, ellipse, span, p)
+    if seen.size < LEAST:
+        return None
+    candidates = np.unique(np.round(seen))
+    near = [_together(seen, candidate, pair, p) for candidate in candidates.tolist()]
+    most = max(near, key=np.count_nonzero)
+    shared = seen[most] if most.any() else seen
+    return Depth(_median(shared), np.count_nonzero(most) / area)
 
 
 def span_round(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, int]:
@@ -55,6 +65,22 @@ def span_between(eyes: Eyes, near: float, far: float, step: int) -> tuple[int, i
     first, last = (eyes.disparity(z) / step for z in (far, near))
     begin = min(math.floor(first), most)
     return begin, max(begin, math.ceil(min(last, most)))
+
+
+def _matches(
+    k: Kernels, pair: Pair, ellipse: Ellipse, span: tuple[int, int], p: StereoHeadParams
+) -> tuple[Singles, float]:
+    """The disparities found in an ellipse without its rim, and how many pixels that has."""
+    window = min(p.window + 2 * (pair.step - 1), WIDEST)
+    x, y, minor, major = ellipse
+    minor, major = (max(half - p.rim * window, half / 2) for half in (minor, major))
+    region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
+    found = k.sad_disparity(*pair.grey, region, True, *span, window, p.uniqueness, p.prefilter, NO_CHECK)
+    return found[np.isfinite(found)], math.pi * minor * major
+
+
+def _together(seen: Singles, disparity: float, pair: Pair, p: StereoHeadParams) -> NDArray[np.bool_]:
+    return np.asarray(np.abs(seen - np.float32(disparity)) <= np.float32(p.coherent * pair.step))
 
 
 def _median(values: Singles) -> float:

@@ -16,6 +16,8 @@ from tricue.track.stereo_head.view import Ellipse, Pair, look
 
 Floats = NDArray[np.float64]
 
+SURE = 0.02  # of a place's score, that even the best lack
+
 
 class Measured(NamedTuple):
     """The place and the depth of a head, its colors C (L,), and the measurement of (8), (7,), with its
@@ -27,6 +29,19 @@ class Measured(NamedTuple):
     colors: Floats
     values: Floats
     noise: Floats
+
+    def doubted(self, usual: float, p: StereoHeadParams) -> "Measured":
+        """The same, its position the less certain the less its place is like the model than usual.
+
+        Not where the noise is the paper's polynomial of the distance, (9).
+        """
+        # Rounded, so that both sets of kernels, whose scores differ by 1e-6, give the same track.
+        doubt = round((1 - self.place.score) / max(1 - usual, SURE), 2)
+        if doubt <= 1 or p.noise == "polynomial":
+            return self
+        noise = self.noise.copy()
+        noise[:3, :3] *= doubt
+        return self._replace(noise=noise)
 
 
 def measure(

@@ -12,7 +12,7 @@ from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track import lifecycle
 from tricue.track.faces import find_face
 from tricue.track.stereo_head import filter as head_filter
-from tricue.track.stereo_head.depth import depth_of, span_between
+from tricue.track.stereo_head.depth import first_depth, span_between
 from tricue.track.stereo_head.eyes import Eyes
 from tricue.track.stereo_head.filter import HeadFilter
 from tricue.track.stereo_head.lost import Head, find_again
@@ -114,9 +114,7 @@ class StereoHeadTracker:
     def _first(self, pair: Pair, eyes: Eyes, head: Box) -> Measured:
         """The head in a box; ValueError where nothing in it has a disparity."""
         k, p = self._k, self.params
-        # The median, whatever p.center: wrong matches anywhere between near and far pull a mean.
-        span = span_between(eyes, p.near, p.far, 1)
-        depth = depth_of(k, pair, head.ellipse, span, replace(p, center="median"))
+        depth = first_depth(k, pair, head.ellipse, span_between(eyes, p.near, p.far, 1), p)
         first = None
         if depth is not None and depth.share > SOLID:
             first = measure(k, pair, eyes, head.ellipse, depth.disparity, None, p)
@@ -134,6 +132,8 @@ class StereoHeadTracker:
         disparity = state.eyes.project(predicted.position)[2]
         ellipse = state.eyes.ellipse(predicted.position, state.size)
         measured = measure(k, pair, state.eyes, ellipse, disparity, state.histogram(p), p)
+        if measured is not None:
+            measured = measured.doubted(state.usual, p)
         if measured is not None and self._recognised(state, measured, predicted):
             self._accept(state, measured, head_filter.correct(k, predicted, measured.values, measured.noise))
             return

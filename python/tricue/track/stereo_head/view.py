@@ -17,6 +17,7 @@ Region = tuple[int, int, int, int]
 Ellipse = tuple[float, float, float, float]  # centre x, y, semi-axes minor (along x), major; pixels
 
 NO_CHECK = -1  # of left against right
+AROUND = 7  # places, side of the square by which gaps in the disparity are filled
 
 
 class Pair(NamedTuple):
@@ -52,6 +53,17 @@ class Pair(NamedTuple):
         if self.gains is not None and seen.size:
             seen = cv2.transform(seen, np.diag(self.gains)).astype(np.uint8, copy=False)
         return k.color_bins(seen, (x0 - left, y0 - top, x1 - left, y1 - top), p.bins, p.chroma, step)
+
+
+def _coherent(found: NDArray[np.float32], middle: float, reach: float) -> Image:
+    """Where disparities are about the middle one; where none was found, as in hair of one color, what most of
+    those round it are.
+    """
+    near = np.abs(found - np.float32(middle)) <= np.float32(reach)
+    known = found == found  # not NaN
+    votes = near.astype(np.int16) * 2 - known
+    most = cv2.boxFilter(votes, -1, (AROUND, AROUND), normalize=False, borderType=cv2.BORDER_CONSTANT) > 0
+    return np.asarray(np.where(known, near, most)).view(np.uint8)
 
 
 def light_of(left: Image) -> Floats:
@@ -93,5 +105,8 @@ def look(k: Kernels, pair: Pair, ellipse: Ellipse, disparity: float, p: StereoHe
     found = k.sad_disparity(
         *pair.small, region, False, first, last, p.window, p.uniqueness, p.prefilter, NO_CHECK
     )
-    coherent = np.abs(found - np.float32(middle)) <= np.float32(p.coherent)
-    return View(left, top, bins, coherent.view(np.uint8))
+    coherent = _coherent(found, middle, p.coherent)
+    height, width = pair.small[0].shape  # there is no head beyond them
+    coherent[: max(-top, 0)] = coherent[max(height - top, 0) :] = 0
+    coherent[:, : max(-left, 0)] = coherent[:, max(width - left, 0) :] = 0
+    return View(left, top, bins, coherent)
