@@ -45,7 +45,8 @@ def _smoothed(histogram: Floats, smoothing: float) -> Floats:
         weight = np.exp(-0.5 * (step * step))
         total += weight * _beside(histogram, j)
         weights += weight * _beside(np.ones(len(histogram)), j)
-    return total / weights
+    smooth: Floats = total / weights
+    return smooth
 
 
 def _beside(values: Floats, j: int) -> Floats:

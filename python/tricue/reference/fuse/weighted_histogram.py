@@ -35,5 +35,4 @@ def weighted_histogram(
     if mask is not None:
         counts &= mask[inside] != 0
     places = value_bins(values[inside], low, high, bins)[counts]
-    histogram: NDArray[np.float64] = np.bincount(places, weight[counts], bins + 1)[:bins]
-    return histogram
+    return np.bincount(places, weight[counts], bins + 1)[:bins].astype(np.float64)
