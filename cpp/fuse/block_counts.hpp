@@ -20,7 +20,7 @@ struct BlockCounts {
 /// @param mask      (H, W) target pixels, those that aren't 0
 /// @param disparity (H, W) pixels, NaN where there is no reading
 /// @param blocks    (N, 4) x0, y0, x1, y1: of a block are the pixels whose centres lie in it (camera/rectangle.hpp)
-/// @returns         means of sums in float64, of each column first
+/// @returns         means of sums in float64
 /// @throws std::invalid_argument on a mask of another shape, and blocks of another shape or that aren't finite
 /// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7.
 BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, StatesRef blocks);
