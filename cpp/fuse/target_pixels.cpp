@@ -21,8 +21,10 @@ std::string shape(const PlaneView& plane) {
     return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
 }
 
+constexpr double kRounding = 1e-6;   // of a sum
+constexpr double kMostRatio = 1e12;  // three of them, multiplied, are a float
+
 void require_density(VectorRef density) {
-    constexpr double kRounding = 1e-6;
     double sum = 0.0;
     for (const double share : density) {
         if (!(share >= 0.0 && std::isfinite(share)))
@@ -30,6 +32,16 @@ void require_density(VectorRef density) {
         sum += share;
     }
     if (sum != 0.0 && !(std::abs(sum - 1.0) <= kRounding)) refuse("densities", "a sum of 1, or of 0", sum);
+}
+
+void require_alternative(VectorRef alternative, Eigen::Index bins) {
+    require_size(alternative, bins, "alternatives");
+    double sum = 0.0;
+    for (const double share : alternative) {
+        if (!(share > 0.0 && std::isfinite(share))) refuse("alternatives", "finite numbers above 0", share);
+        sum += share;
+    }
+    if (!(sum <= 1.0 + kRounding)) refuse("alternatives", "a sum of at most 1", sum);
 }
 
 ValueRange range_of(const Cue& cue) {
@@ -45,16 +57,23 @@ void require(const std::vector<Cue>& cues, double threshold) {
     for (const Cue& cue : cues) {
         require_range(range_of(cue));
         require_density(cue.density);
+        if (cue.alternative) require_alternative(*cue.alternative, cue.density.size());
     }
     if (!(threshold > 0.0 && threshold <= 1.0)) refuse("threshold", "a number in (0, 1]", threshold);
 }
 
-/// How much likelier than by the uniform alternative each bin is; 0 without a reading.
-Table ratios(VectorRef density) {
-    const auto bins = static_cast<double>(density.size());
+/// How much likelier than by the alternative each bin is; 0 without a reading.
+Table ratios(const Cue& cue) {
+    const Eigen::Index count = cue.density.size();
+    const auto bins = static_cast<double>(count);
     Table table;
-    table.reserve(static_cast<std::size_t>(density.size()) + 1);
-    for (const double share : density) table.push_back(static_cast<float>(share * bins));
+    table.reserve(static_cast<std::size_t>(count) + 1);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const double share = cue.density[i];
+        const double ratio =
+            cue.alternative ? std::min(share / (*cue.alternative)[i], kMostRatio) : share * bins;
+        table.push_back(static_cast<float>(ratio));
+    }
     table.push_back(0.0f);
     return table;
 }
@@ -101,7 +120,7 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
     const auto columns = ramp(window.x0, window.x1, candidate.x0, candidate.x1, seen.x0, seen.x1);
     const auto rows = ramp(window.y0, window.y1, candidate.y0, candidate.y1, seen.y0, seen.y1);
     std::vector<Table> tables;
-    for (const Cue& cue : cues) tables.push_back(ratios(cue.density));
+    for (const Cue& cue : cues) tables.push_back(ratios(cue));
 
     TargetPixels target{Labels::Zero(first.rows, first.cols), Floats::Zero(first.rows, first.cols)};
     const int n = seen.x1 - seen.x0;

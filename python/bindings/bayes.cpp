@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <optional>
 
 #include "arrays.hpp"
 #include "fuse/block_counts.hpp"
+#include "fuse/block_mask.hpp"
 #include "fuse/target_distribution.hpp"
 #include "fuse/target_pixels.hpp"
 #include "fuse/temporal_window.hpp"
@@ -65,14 +67,18 @@ Array<double> weighted_histogram_arrays(const Array<float>& values, const Array<
 }
 
 std::tuple<Array<double>, double> target_distribution_arrays(const Array<double>& histogram, double smoothing,
-                                                             double ripple) {
+                                                             double ripple, double expected, double spread) {
     const auto weights = vector(histogram, "histogram");
-    auto found = unlocked(weights.size(), [&] { return target_distribution(weights, smoothing, ripple); });
+    auto found = unlocked(weights.size(),
+                          [&] { return target_distribution(weights, smoothing, ripple, expected, spread); });
     return {give(std::move(found.density)), found.peak};
 }
 
-std::vector<Cue> cues(const std::vector<Array<float>>& planes, const std::vector<Array<double>>& densities,
-                      const std::vector<std::pair<double, double>>& ranges) {
+using Densities = std::vector<Array<double>>;
+
+std::vector<Cue> cues(const std::vector<Array<float>>& planes, const Densities& densities,
+                      const std::vector<std::pair<double, double>>& ranges,
+                      const std::optional<Densities>& alternatives) {
     const auto as_many = [&](std::size_t count, const char* name) {
         if (count != planes.size())
             throw py::value_error(std::string(name) + ": expected " + std::to_string(planes.size()) +
@@ -80,19 +86,23 @@ std::vector<Cue> cues(const std::vector<Array<float>>& planes, const std::vector
     };
     as_many(densities.size(), "densities");
     as_many(ranges.size(), "ranges");
+    if (alternatives) as_many(alternatives->size(), "alternatives");
     std::vector<Cue> cues;
     for (std::size_t k = 0; k < planes.size(); ++k)
         cues.push_back({plane(planes[k], "planes"), vector(densities[k], "densities"), ranges[k].first,
                         ranges[k].second});
+    for (std::size_t k = 0; alternatives && k < planes.size(); ++k)
+        cues[k].alternative.emplace(vector((*alternatives)[k], "alternatives"));
     return cues;
 }
 
 std::tuple<Bytes, Array<float>> target_pixels_arrays(const std::vector<Array<float>>& planes,
-                                                     const std::vector<Array<double>>& densities,
+                                                     const Densities& densities,
                                                      const std::vector<std::pair<double, double>>& ranges,
                                                      const Corners& window, const Corners& candidate,
-                                                     double threshold) {
-    const auto each = cues(planes, densities, ranges);
+                                                     double threshold,
+                                                     const std::optional<Densities>& alternatives) {
+    const auto each = cues(planes, densities, ranges, alternatives);
     const TargetPlace place{rectangle(window), rectangle(candidate)};
     const auto work = each.empty() ? 0 : pixels(each[0].readings);
     auto target = unlocked(work, [&] { return target_pixels(each, place, threshold); });
@@ -118,23 +128,33 @@ std::tuple<Array<std::int64_t>, Array<std::int64_t>, Array<std::int64_t>, Array<
             give(std::move(seen.mean))};
 }
 
+Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
+    const auto each = states(blocks, "blocks");
+    return give(unlocked(std::ptrdiff_t{height} * width, [&] { return block_mask(each, height, width); }));
+}
+
 }  // namespace
 
 void define_bayes(py::module_& m) {
     m.def("block_counts", block_counts_arrays, py::arg("mask"), py::arg("disparity"), py::arg("blocks"),
           "(N,) each, of blocks (N, 4) x0, y0, x1, y1: how many pixels lie in the image, are set in the mask "
           "(H, W), have a finite disparity (H, W); and the mean disparity of those, NaN without any.");
+    m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
+          "(H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0.");
     m.def("target_distribution", target_distribution_arrays, py::arg("histogram"), py::arg("smoothing"),
-          py::arg("ripple") = 0.05,
+          py::arg("ripple") = 0.05, py::arg("expected") = std::numeric_limits<double>::quiet_NaN(),
+          py::arg("spread") = 1.0,
           "(L,) of sum 1: a histogram (L,), smoothed by a Gaussian of so many bins, beyond its minima beside "
           "the peak a line down to 0 (figure 6); and the peak, bin i being [i, i + 1), NaN of zeros. What "
-          "rises by at most ripple of the peak ends no minimum.");
-    m.def(
-        "target_pixels", target_pixels_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
-        py::arg("window"), py::arg("candidate"), py::arg("threshold") = 0.5,
-        "(H, W) 1 where the posterior is at least the threshold, else 0; and the posterior (H, W), "
-        "equations (10)-(12), of 1 to 3 planes (H, W), each with its density (bins,) over its range (low, "
-        "high). The prior is 1 in the window x0, y0, x1, y1 and falls to 0 at the candidate region's edge.");
+          "rises by at most ripple of the peak ends no minimum. The peak is the highest, or, unless expected "
+          "is NaN, the highest times a Gaussian of spread bins round it.");
+    m.def("target_pixels", target_pixels_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
+          py::arg("window"), py::arg("candidate"), py::arg("threshold") = 0.5,
+          py::arg("alternatives") = py::none(),
+          "(H, W) 1 where the posterior is at least the threshold, else 0; and the posterior (H, W), "
+          "equations (10)-(12), of 1 to 3 planes (H, W), each with its density (bins,) over its range (low, "
+          "high). The prior is 1 in the window x0, y0, x1, y1 and falls to 0 at the candidate region's edge. "
+          "The alternatives (bins,) are the densities of what isn't the target; without, all is as likely.");
     m.def("temporal_window", temporal_window_arrays, py::arg("mask"), py::arg("neighbours"), py::arg("share"),
           py::arg("trim") = 0.02,
           "The box x0, y0, x1, y1 of what is left of a mask (H, W), without a share trim of it at each side; "

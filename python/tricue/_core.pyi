@@ -50,6 +50,13 @@ def block_counts(
     (N,) each, of blocks (N, 4) x0, y0, x1, y1: how many pixels lie in the image, are set in the mask (H, W), have a finite disparity (H, W); and the mean disparity of those, NaN without any.
     """
 
+def block_mask(
+    blocks: numpy.typing.NDArray[numpy.float64], height: int, width: int
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    (H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0.
+    """
+
 def color_bins(
     image: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
@@ -502,10 +509,14 @@ def summarize(
     """
 
 def target_distribution(
-    histogram: numpy.typing.NDArray[numpy.float64], smoothing: float, ripple: float = 0.05
+    histogram: numpy.typing.NDArray[numpy.float64],
+    smoothing: float,
+    ripple: float = 0.05,
+    expected: float = ...,
+    spread: float = 1.0,
 ) -> tuple[numpy.typing.NDArray[numpy.float64], float]:
     """
-    (L,) of sum 1: a histogram (L,), smoothed by a Gaussian of so many bins, beyond its minima beside the peak a line down to 0 (figure 6); and the peak, bin i being [i, i + 1), NaN of zeros. What rises by at most ripple of the peak ends no minimum.
+    (L,) of sum 1: a histogram (L,), smoothed by a Gaussian of so many bins, beyond its minima beside the peak a line down to 0 (figure 6); and the peak, bin i being [i, i + 1), NaN of zeros. What rises by at most ripple of the peak ends no minimum. The peak is the highest, or, unless expected is NaN, the highest times a Gaussian of spread bins round it.
     """
 
 def target_pixels(
@@ -515,9 +526,10 @@ def target_pixels(
     window: tuple[float, float, float, float],
     candidate: tuple[float, float, float, float],
     threshold: float = 0.5,
+    alternatives: collections.abc.Sequence[numpy.typing.NDArray[numpy.float64]] | None = None,
 ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float32]]:
     """
-    (H, W) 1 where the posterior is at least the threshold, else 0; and the posterior (H, W), equations (10)-(12), of 1 to 3 planes (H, W), each with its density (bins,) over its range (low, high). The prior is 1 in the window x0, y0, x1, y1 and falls to 0 at the candidate region's edge.
+    (H, W) 1 where the posterior is at least the threshold, else 0; and the posterior (H, W), equations (10)-(12), of 1 to 3 planes (H, W), each with its density (bins,) over its range (low, high). The prior is 1 in the window x0, y0, x1, y1 and falls to 0 at the candidate region's edge. The alternatives (bins,) are the densities of what isn't the target; without, all is as likely.
     """
 
 def temporal_window(
@@ -577,6 +589,9 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.int64],
         numpy.typing.NDArray[numpy.float64],
     ]: ...
+    def block_mask(
+        self, blocks: numpy.typing.NDArray[numpy.float64], height: int, width: int
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def color_bins(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
@@ -883,7 +898,12 @@ class Kernels(Protocol):
         self, particles: numpy.typing.NDArray[numpy.float64], weights: numpy.typing.NDArray[numpy.float64]
     ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float]: ...
     def target_distribution(
-        self, histogram: numpy.typing.NDArray[numpy.float64], smoothing: float, ripple: float = 0.05
+        self,
+        histogram: numpy.typing.NDArray[numpy.float64],
+        smoothing: float,
+        ripple: float = 0.05,
+        expected: float = ...,
+        spread: float = 1.0,
     ) -> tuple[numpy.typing.NDArray[numpy.float64], float]: ...
     def target_pixels(
         self,
@@ -893,6 +913,7 @@ class Kernels(Protocol):
         window: tuple[float, float, float, float],
         candidate: tuple[float, float, float, float],
         threshold: float = 0.5,
+        alternatives: collections.abc.Sequence[numpy.typing.NDArray[numpy.float64]] | None = None,
     ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float32]]: ...
     def temporal_window(
         self, mask: numpy.typing.NDArray[numpy.uint8], neighbours: int, share: float, trim: float = 0.02

@@ -45,6 +45,7 @@ from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
+from tricue.reference.fuse.block_mask import block_mask
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
@@ -62,6 +63,7 @@ __all__ = [
     "back_project",
     "bhattacharyya",
     "block_counts",
+    "block_mask",
     "color_bins",
     "color_histogram",
     "color_lookup",

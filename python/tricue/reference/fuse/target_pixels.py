@@ -6,12 +6,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
+from tricue.reference.checks import refuse, require_shape
 from tricue.reference.rectangle_pixels import Rectangle, rectangle_pixels, require_finite_corners
 from tricue.reference.value_bins import require_range, value_bins
 
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
+
+MOST_RATIO = 1e12  # three of them, multiplied, are a float32
 
 
 def target_pixels(
@@ -21,25 +23,37 @@ def target_pixels(
     window: Rectangle,
     candidate: Rectangle,
     threshold: float = 0.5,
+    alternatives: Sequence[Floats] | None = None,
 ) -> tuple[NDArray[np.uint8], Plane]:
     """(H, W) where the posterior is at least ``threshold``, 1 or 0; and the posterior (H, W), (10)-(12).
 
     One to three planes (H, W) of u, v, d, NaN where there is no reading; of each its density (bins,), of sum
     1, over its range (low, high). The prior is 1 in the window (x0, y0, x1, y1) and falls linearly to 0 at
-    the edge of the candidate region. The alternative is that all readings in the ranges are as likely. No
-    target pixel is without all readings, has one outside its range, or lies outside the candidate region.
+    the edge of the candidate region. The alternatives are the densities (bins,) of what isn't the target, of
+    a sum of at most 1, as some of it may lie outside the range; None if all readings in the ranges are as
+    likely. No target pixel lacks a reading, has one outside its range, or lies outside the candidate region.
     """
     _require(planes, densities, ranges, threshold)
+    if alternatives is not None:
+        _require_alternatives(alternatives, densities)
     shape = planes[0].shape
     prior = _prior(window, candidate, shape)
     ratio = np.ones(shape, np.float32)  # P(F | obj) over that of the alternative, (12)
-    for plane, density, (low, high) in zip(planes, densities, ranges, strict=True):
-        bins = len(density)
-        table = np.append(density * bins, 0).astype(np.float32)  # the last where there is no reading
-        ratio *= table[value_bins(plane, low, high, bins)]
+    for k, (plane, density, (low, high)) in enumerate(zip(planes, densities, ranges, strict=True)):
+        table = _ratios(density, None if alternatives is None else alternatives[k])
+        ratio *= table[value_bins(plane, low, high, len(density))]
     odds = prior * ratio
     posterior = odds / (odds + np.float32(1))  # (11)
     return (posterior.astype(np.float64) >= threshold).astype(np.uint8), posterior
+
+
+def _ratios(density: Floats, alternative: Floats | None) -> Plane:
+    """(bins + 1,): how much likelier than by the alternative; the last is for where there is no reading."""
+    if alternative is None:
+        return np.append(density * len(density), 0).astype(np.float32)
+    with np.errstate(over="ignore"):
+        ratio = np.minimum(density / alternative, MOST_RATIO)
+    return np.append(ratio, 0).astype(np.float32)
 
 
 def _prior(window: Rectangle, candidate: Rectangle, shape: tuple[int, ...]) -> Plane:
@@ -94,3 +108,17 @@ def _require_density(density: Floats) -> None:
     total = float(density.sum())
     if total != 0 and not abs(total - 1) <= 1e-6:
         refuse("densities", "a sum of 1, or of 0", total)
+
+
+def _require_alternatives(alternatives: Sequence[Floats], densities: Sequence[Floats]) -> None:
+    if len(alternatives) != len(densities):
+        refuse("alternatives", f"{len(densities)}, as many as planes", len(alternatives))
+    for alternative, density in zip(alternatives, densities, strict=True):
+        require_shape("alternatives", alternative, density.shape)
+        strange = alternative[~(np.isfinite(alternative) & (alternative > 0))]
+        if strange.size:
+            refuse("alternatives", "finite numbers above 0", float(strange[0]))
+        with np.errstate(over="ignore"):
+            total = float(alternative.sum())
+        if not total <= 1 + 1e-6:
+            refuse("alternatives", "a sum of at most 1", total)
