@@ -24,6 +24,12 @@ stairs = arrays(np.float64, st.integers(1, 40), elements=st.integers(0, 4).map(f
 slopes = arrays(np.float64, st.integers(1, 60), elements=st.floats(0, 1, width=32))
 smoothings = st.sampled_from([0.0, 1e-300, 0.3, 1.0]) | st.floats(0, 1)  # of the bins
 ripples = st.sampled_from([0.0, 0.05, 0.3]) | st.floats(0, 0.99)
+# Off the range too, and so far off that all factors underflow.
+places = st.integers(-40, 640).map(lambda eighths: eighths / 8)
+expectations = (
+    st.just(np.nan) | places | st.floats(-100, 200) | st.floats(allow_nan=False, allow_infinity=False)
+)
+spreads = st.floats(0.3, 20) | st.floats(0, exclude_min=True)
 
 
 def bumps(count: int, *parts: tuple[float, float, float]) -> Floats:
@@ -68,6 +74,12 @@ def smoothed(histogram: Floats, smoothing: float) -> Floats:
     return np.asarray((total / ones)[radius : radius + len(histogram)])
 
 
+def weighted(histogram: Floats, smoothing: float, expected: float, spread: float) -> Floats:
+    """What the peak is of, as it is defined, by SciPy; it may underflow."""
+    smooth = smoothed(histogram, smoothing) if smoothing > 0.1 else histogram
+    return np.asarray(smooth * norm.pdf(np.arange(len(histogram)) + 0.5, expected, spread))
+
+
 def rises(side: Floats) -> float:
     """How far values rise again at most, from the peak outwards."""
     return float((side - np.minimum.accumulate(side)).max())
@@ -91,6 +103,104 @@ def test_finds_a_known_velocity(kernels: Kernels, mean: float) -> None:
     """A normal density's mean is found to a fiftieth of a bin, wherever in a bin it lies, at an edge too."""
     _, peak = kernels.target_distribution(bumps(64, (1, mean, 2.0)), 1.0)
     assert abs(peak - mean) < 0.02
+
+
+@given(stairs | slopes, smoothings, ripples, expectations, spreads)
+def test_twin_expects_the_same(
+    histogram: Floats, share: float, ripple: float, expected: float, spread: float
+) -> None:
+    """Native and reference agree on any expectation, however far off or narrow, as closely as without: the
+    weighted values are one rounding of exp less certain.
+    """
+    smoothing = share * min(len(histogram), 12)
+    arguments = histogram, smoothing, ripple, expected, spread
+    ours, theirs = (k.target_distribution(*arguments) for k in (_core, reference))
+    assert_allclose(ours[1], theirs[1], rtol=0, atol=2e-6)
+    assert_allclose(ours[0], theirs[0], rtol=0, atol=8e-6)
+
+
+@given(slopes, st.floats(0.2, 4), places, st.floats(0.7, 20))
+def test_weighs_as_scipy_does(histogram: Floats, smoothing: float, expected: float, spread: float) -> None:
+    """The peak lies in the highest bin of SciPy's Gaussian of the histogram times SciPy's normal density."""
+    smoothing = min(smoothing, len(histogram))
+    values = weighted(histogram, smoothing, expected, spread)
+    order = np.argsort(values)
+    assume(values[order[-1]] > 1e-250)  # nothing has underflowed that matters
+    assume(len(values) == 1 or values[order[-2]] < values[order[-1]] * (1 - 1e-6))
+    for k in (_core, reference):
+        _, peak = k.target_distribution(histogram, smoothing, 0.05, expected, spread)
+        assert int(peak) == order[-1]
+
+
+@pytest.mark.parametrize(("expected", "spread"), [(30.0, 4.0), (24.4, 6.0), (33.7, 3.0)])
+def test_product_of_two_gaussians(kernels: Kernels, expected: float, spread: float) -> None:
+    """Of a normal histogram, mean 28.3, standard deviation 3, the peak is the mean of the product of two
+    normal densities, each weighted by its precision, to a fiftieth of a bin.
+    """
+    _, peak = kernels.target_distribution(bumps(64, (1, 28.3, 3.0)), 0.0, 0.05, expected, spread)
+    mean = (28.3 / 3**2 + expected / spread**2) / (1 / 3**2 + 1 / spread**2)
+    assert abs(peak - mean) < 0.02
+
+
+def test_keeps_to_the_expected_peak(kernels: Kernels) -> None:
+    """Of a target and a background that fills more of the window, the one is found that is expected, to a
+    tenth of its width, and nearly its own density; without an expectation the background's.
+    """
+    target, background = bumps(80, (1, 30.2, 3.0)), bumps(80, (1, 48.0, 3.0))
+    mixed = 0.4 * target + 0.6 * background
+    density, peak = kernels.target_distribution(mixed, 0.5, 0.05, 30.5, 12.0)
+    assert abs(peak - 30.2) < 0.3
+    assert abs(density - target).sum() < 0.1
+    for expected in (np.nan, 47.0):
+        density, peak = kernels.target_distribution(mixed, 0.5, 0.05, expected, 12.0)
+        assert abs(peak - 48) < 0.3
+        assert abs(density - background).sum() < 0.1
+
+
+def test_shoulder_by_hand(kernels: Kernels) -> None:
+    """Where the histogram rises at once nothing is left beyond the peak's bin; on the other side the line
+    falls from the histogram's height there, 3, not from the highest.
+    """
+    histogram = np.array([0.0, 9, 2, 3, 5, 20, 1])
+    density, peak = kernels.target_distribution(histogram, 0.0, 0.0, 3.5, 0.1)
+    assert_allclose(peak, 3.5, atol=1e-12)
+    assert_allclose(density, np.array([0, 1, 2, 3, 0, 0, 0]) / 6, rtol=1e-9, atol=1e-12)
+
+
+def test_slight_rise_is_no_shoulder(kernels: Kernels) -> None:
+    """What rises from the peak by at most the ripple of its height, and falls again, stays."""
+    histogram = np.array([0.0, 40, 100, 103, 50, 0])
+    kept, _ = kernels.target_distribution(histogram, 0.0, 0.04, 2.5, 0.3)
+    assert_allclose(kept, histogram / histogram.sum())
+    cut, _ = kernels.target_distribution(histogram, 0.0, 0.02, 2.5, 0.3)
+    assert_allclose(cut, np.array([0, 40, 100, 0, 0, 0]) / 140)
+
+
+FAR = [(1e4, 4), (-1e4, 2), (1e308, 4), (-1.7e308, 2), (5.2, 4), (6.2, 7), (0.1, 2)]
+
+
+@pytest.mark.parametrize(("expected", "nearest"), FAR)
+@pytest.mark.parametrize("spread", [5e-324, 1e-200, 1e-3])
+def test_nothing_near(kernels: Kernels, expected: float, nearest: int, spread: float) -> None:
+    """Where all factors but one underflow, or all would, the peak is the nearest bin that isn't empty, the
+    first or last for what is off the range.
+    """
+    histogram = np.array([0, 0, 3, 8, 2, 0, 0, 6, 0, 0.0])
+    if abs(expected) > 10:
+        histogram[7] = 0
+    density, peak = kernels.target_distribution(histogram, 0.0, 0.0, expected, spread)
+    assert peak == nearest + 0.5
+    assert density[nearest] == 1
+
+
+def test_no_expectation(kernels: Kernels) -> None:
+    """NaN, the default, an infinite spread and a huge one all take the highest peak: the paper's form."""
+    histogram = np.random.default_rng(0).random(64)
+    paper, peak = kernels.target_distribution(histogram, 1.5)
+    for expected, spread in ((np.nan, 1.0), (20.0, np.inf), (1e308, np.inf), (20.0, 1e300)):
+        density, same = kernels.target_distribution(histogram, 1.5, 0.05, expected, spread)
+        assert_array_equal(density, paper)
+        assert same == peak
 
 
 def test_parabola(kernels: Kernels) -> None:
@@ -175,9 +285,10 @@ def test_ripple(kernels: Kernels) -> None:
 @pytest.mark.parametrize("bins", [1, 2, 5, 64])
 def test_nothing_there(kernels: Kernels, bins: int) -> None:
     """Of a histogram of zeros the density is zeros, and there is no peak."""
-    density, peak = kernels.target_distribution(np.zeros(bins), min(bins, 1.5))
-    assert_array_equal(density, np.zeros(bins))
-    assert np.isnan(peak)
+    for expected in (np.nan, 0.7, -1e308):
+        density, peak = kernels.target_distribution(np.zeros(bins), min(bins, 1.5), 0.05, expected)
+        assert_array_equal(density, np.zeros(bins))
+        assert np.isnan(peak)
 
 
 @pytest.mark.parametrize("smoothing", [0.0, 0.7, 5.0])
@@ -200,6 +311,42 @@ def test_is_a_density(histogram: Floats, share: float, ripple: float) -> None:
         assert 0.5 <= peak <= len(histogram) - 0.5
         beside = density[[int(np.floor(peak - 0.5)), int(np.ceil(peak - 0.5))]]
         assert beside.max() >= density.max() * (1 - 1e-8)
+
+
+@given(stairs | slopes, smoothings, ripples, expectations, spreads)
+def test_is_a_density_where_expected(
+    histogram: Floats, share: float, ripple: float, expected: float, spread: float
+) -> None:
+    """So it is with any expectation, its peak lies in a bin that isn't empty, and outwards from there no bin
+    is higher than the least before by more than the ripple.
+    """
+    assume(histogram.any())
+    smoothing = share * min(len(histogram), 12)
+    for k in (_core, reference):
+        density, peak = k.target_distribution(histogram, smoothing, ripple, expected, spread)
+        assert density.min() >= 0
+        assert_allclose(density.sum(), 1, rtol=1e-12)
+        assert 0.5 <= peak <= len(histogram) - 0.5
+        at = int(peak)
+        assert density[at] > 0
+        assert max(rises(density[at:]), rises(density[at::-1])) <= (ripple + 1e-8) * density[at]
+
+
+@given(slopes, smoothings, ripples, places, st.floats(0.7, 20))
+def test_mirror_of_the_expected(
+    histogram: Floats, share: float, ripple: float, expected: float, spread: float
+) -> None:
+    """Leftward velocities are expected as rightward ones are."""
+    smoothing = share * min(len(histogram), 12)
+    values = weighted(histogram, smoothing, expected, spread)
+    assume(values.max() > 1e-250)
+    assume(np.count_nonzero(values >= values.max() * (1 - 1e-6)) == 1)  # of equal peaks the first is taken
+    count = len(histogram)
+    here = _core.target_distribution(histogram, smoothing, ripple, expected, spread)
+    turned = np.ascontiguousarray(histogram[::-1])
+    there = _core.target_distribution(turned, smoothing, ripple, count - expected, spread)
+    assert_allclose(there[1], count - here[1], atol=1e-6)
+    assert_allclose(there[0][::-1], here[0], rtol=0, atol=4e-6)
 
 
 @given(slopes, smoothings, ripples)
@@ -251,6 +398,23 @@ def test_refuses(kernels: Kernels, histogram: Floats, smoothing: float, ripple: 
     """What is no histogram, and a smoothing or ripple that is none, is named."""
     with pytest.raises(ValueError, match=message):
         kernels.target_distribution(histogram, smoothing, ripple)
+
+
+BAD_EXPECTATIONS: list[tuple[float, float, str]] = [
+    (np.inf, 1.0, "expected: expected a finite number or NaN, got inf"),
+    (-np.inf, 1.0, "expected: expected a finite number or NaN, got -inf"),
+    (2.0, 0.0, "spread: expected a number above 0, got 0"),
+    (np.nan, -1.0, "spread: expected a number above 0, got -1"),
+    (2.0, np.nan, "spread: expected a number above 0, got nan"),
+]
+
+
+@pytest.mark.parametrize(("expected", "spread", "message"), BAD_EXPECTATIONS)
+def test_refuses_expectations(kernels: Kernels, expected: float, spread: float, message: str) -> None:
+    """An infinite peak, and what is no spread, is named, of zeros too."""
+    for histogram in (np.ones(4), np.zeros(4)):
+        with pytest.raises(ValueError, match=message):
+            kernels.target_distribution(histogram, 0.0, 0.05, expected, spread)
 
 
 BAD: list[tuple[Any, type[Exception], str]] = [

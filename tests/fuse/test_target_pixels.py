@@ -49,6 +49,13 @@ def case(
     return arguments | changes
 
 
+def around(cues: int = 3, bins: int = 64, seed: int = 0) -> list[Floats]:
+    """Densities of what isn't the target, of which a part lies outside the range; some bins nearly empty."""
+    rng = np.random.default_rng(seed)
+    shares = [rng.random(bins) * rng.choice([1, 1, 1e-9, 1e-200], bins) + 1e-300 for _ in range(cues)]
+    return [each / each.sum() * rng.uniform(0.3, 1) for each in shares]
+
+
 def assert_same(arguments: Case) -> None:
     """All is compared and computed alike, so to the last bit."""
     for ours, theirs in zip(*(k.target_pixels(**arguments) for k in (_core, reference)), strict=True):
@@ -63,6 +70,7 @@ def assert_same(arguments: Case) -> None:
     rectangles,
     rectangles,
     st.floats(0, 1, exclude_min=True),
+    st.booleans(),
 )
 def test_twin_decides_the_same(
     shape: tuple[int, int],
@@ -72,9 +80,11 @@ def test_twin_decides_the_same(
     window: Any,
     candidate: Any,
     threshold: float,
+    measured: bool,
 ) -> None:
-    """Native and reference agree exactly, for any planes, densities, rectangles and threshold."""
+    """Native and reference agree exactly, for any planes, densities, rectangles, threshold, alternatives."""
     changes = {"window": window, "candidate": candidate, "threshold": threshold}
+    changes["alternatives"] = around(cues, bins, seed) if measured else None
     assert_same(case(shape, cues, bins, seed, **changes))
 
 
@@ -108,9 +118,57 @@ def test_agrees_with_bayes(kernels: Kernels, cues: int) -> None:
     assert 0.01 < mask.mean() < 0.9
 
 
-def test_says_what_is_likely(kernels: Kernels) -> None:
-    """Drawn as the model says, target pixels from the densities, others evenly, odds by the prior: of pixels
-    with a posterior of about q a share q belongs to the target, within four standard deviations.
+@pytest.mark.parametrize("cues", [1, 2, 3])
+def test_agrees_with_bayes_of_two_densities(kernels: Kernels, cues: int) -> None:
+    """So it is P L / (P L + A) of measured alternatives, as far as odds are floats."""
+    whole = (0, 0, 80, 60)
+    rng = np.random.default_rng(1)
+    alternatives = [0.8 * each / each.sum() for each in rng.random((3, 64)) + 0.01][:cues]
+    arguments = case(cues=cues, window=whole, candidate=whole, alternatives=alternatives)
+    likelihood, other = np.ones((60, 80)), np.ones((60, 80))
+    of_cues = zip(*list(arguments.values())[:3], alternatives, strict=True)
+    for values, density, (low, high), alternative in of_cues:
+        at = np.digitize(np.nan_to_num(values, nan=np.inf), np.linspace(low, high, 65))
+        likelihood *= np.concatenate([[0], density, [0]])[at]
+        other *= np.concatenate([[0.2], alternative, [0.2]])[at]
+    _, posterior = kernels.target_pixels(**arguments)
+    assert_allclose(posterior, likelihood / (likelihood + other), rtol=10 * EPS32)
+    assert not np.allclose(posterior, kernels.target_pixels(**arguments | {"alternatives": None})[1])
+
+
+def test_even_alternatives(kernels: Kernels) -> None:
+    """Alternatives of 1 / bins, a power of two, are those that there are without, to the last bit."""
+    even = {"alternatives": [np.full(64, 1 / 64)] * 3}
+    for ours, theirs in zip(*(kernels.target_pixels(**case() | each) for each in (even, {})), strict=True):
+        assert_array_equal(ours, theirs)
+
+
+def test_what_is_as_frequent_round_the_target(kernels: Kernels) -> None:
+    """Readings as frequent round the target as on it say nothing: with all of them only the prior counts."""
+    density = np.arange(1, 65) / np.arange(1, 65).sum()
+    same = {"densities": [density] * 3, "alternatives": [density] * 3}
+    arguments = case(**same)
+    _, posterior = kernels.target_pixels(**arguments)
+    there = [(p >= low) & (p < high) for p, (low, high) in zip(arguments["planes"], RANGES, strict=True)]
+    share = prior(kernels, (60, 80), arguments["window"], arguments["candidate"])
+    assert_allclose(posterior, np.all(there, axis=0) * share / (share + 1), rtol=8 * EPS32)
+
+
+def test_what_is_hardly_round_the_target(kernels: Kernels) -> None:
+    """Ratios beyond any float make a pixel the target's, never NaN; one impossible cue rules it out."""
+    least, whole = np.full(2, 5e-324), (0, 0, 2, 1)
+    planes = [np.array([[0.1, 0.1]], np.float32), np.array([[0.1, 0.1]], np.float32)]
+    planes.append(np.array([[0.1, 0.9]], np.float32))
+    densities = [np.array([1.0, 0])] * 3
+    _, posterior = kernels.target_pixels(planes, densities, [(0, 1)] * 3, whole, whole, 0.5, [least] * 3)
+    assert_array_equal(posterior, [[1, 0]])
+
+
+@pytest.mark.parametrize("measured", [False, True])
+def test_says_what_is_likely(kernels: Kernels, measured: bool) -> None:
+    """Drawn as the model says, target pixels from the densities, others evenly, or from the alternatives, a
+    tenth of each reading outside its range, odds by the prior: of pixels with a posterior of about q a share
+    q belongs to the target, within four standard deviations.
     """
     rng = np.random.default_rng(0)
     shape, bins = (400, 500), 32
@@ -120,11 +178,14 @@ def test_says_what_is_likely(kernels: Kernels) -> None:
     target = rng.random(shape) < share
     peaked = np.exp(-0.5 * ((np.arange(bins) - 12) / 5) ** 2)
     peaked /= peaked.sum()
+    sloping = 0.9 * np.arange(1, bins + 1) / np.arange(1, bins + 1).sum()
+    others = np.append(sloping if measured else np.full(bins, 1 / bins), 0.1 * measured)
     planes = []
     for low, high in RANGES:
-        at = np.where(target, rng.choice(bins, shape, p=peaked), rng.integers(0, bins, shape))
+        at = np.where(target, rng.choice(bins, shape, p=peaked), rng.choice(bins + 1, shape, p=others))
         planes.append((low + (at + rng.random(shape)) * (high - low) / bins).astype(np.float32))
-    _, posterior = kernels.target_pixels(**arguments | {"planes": planes, "densities": [peaked] * 3})
+    drawn = {"planes": planes, "densities": [peaked] * 3, "alternatives": [sloping] * 3 if measured else None}
+    _, posterior = kernels.target_pixels(**arguments | drawn)
     for low in np.arange(0, 1, 0.1):
         inside = (posterior >= low) & (posterior < low + 0.1)
         expected = posterior[inside].mean(dtype=float)
@@ -227,9 +288,9 @@ def test_order_of_cues(kernels: Kernels) -> None:
 
 def test_leaves_inputs_alone(kernels: Kernels) -> None:
     """Nothing is written into what is passed."""
-    arguments, copy = case(), case()
+    arguments, copy = case(alternatives=around()), case(alternatives=around())
     kernels.target_pixels(**arguments)
-    for name in ("planes", "densities"):
+    for name in ("planes", "densities", "alternatives"):
         for ours, theirs in zip(arguments[name], copy[name], strict=True):
             assert_array_equal(ours, theirs)
 
@@ -249,6 +310,13 @@ BAD_VALUES: list[tuple[Case, str]] = [
     ({"densities": [HALVES, -HALVES, HALVES]}, "densities: expected finite numbers, none negative, got -0.5"),
     ({"densities": [np.full(2, np.nan)] * 3}, "densities: expected finite numbers, none negative, got nan"),
     ({"densities": [np.ones(2)] * 3}, "densities: expected a sum of 1, or of 0, got 2"),
+    ({"alternatives": [np.full(64, 1 / 64)]}, "alternatives: expected 3, as many as planes, got 1"),
+    ({"alternatives": []}, "alternatives: expected 3, as many as planes, got 0"),
+    ({"alternatives": [HALVES] * 3}, r"alternatives: expected shape \(64,\), got \(2,\)"),
+    ({"alternatives": [np.zeros(64)] * 3}, "alternatives: expected finite numbers above 0, got 0"),
+    ({"alternatives": [np.full(64, np.nan)] * 3}, "alternatives: expected finite numbers above 0, got nan"),
+    ({"alternatives": [np.full(64, np.inf)] * 3}, "alternatives: expected finite numbers above 0, got inf"),
+    ({"alternatives": [np.full(64, 1 / 32)] * 3}, "alternatives: expected a sum of at most 1, got 2"),
     ({"ranges": [(np.nan, 1)] * 3}, "low: expected a finite number, got nan"),
     ({"ranges": [(0, 0)] * 3}, "high: expected a finite number above low, got 0"),
     ({"window": (0, 0, np.nan, 1)}, "window: expected finite corners, got nan"),
@@ -272,6 +340,8 @@ BAD_ARRAYS: list[tuple[Case, type[Exception], str]] = [
     ({"planes": [ONE[0]] * 3}, ValueError, r"planes: expected a float32 plane \(H, W\), got float32 \(3,\)"),
     ({"densities": [HALVES.astype(np.float32)] * 3}, TypeError, r"densities: expected float64 \(N,\)"),
     ({"densities": [np.repeat(HALVES, 2)[::2]] * 3}, ValueError, "densities: expected a C-contiguous"),
+    ({"alternatives": [HALVES.astype(np.float32)] * 3}, TypeError, r"alternatives: expected float64 \(N,\)"),
+    ({"alternatives": [np.ones(128)[::2]] * 3}, ValueError, "alternatives: expected a C-contiguous"),
 ]
 
 
