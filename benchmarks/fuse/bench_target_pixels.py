@@ -20,6 +20,8 @@ def script(
     ranges: list[tuple[float, float]],
     window: Any,
     candidate: Any,
+    threshold: float,
+    alternatives: list[NDArray[np.float64]],
 ) -> tuple[NDArray[np.uint8], Plane]:
     """The peer: the same on the candidate region's pixels, of whole numbers here; the prior by np.interp."""
     x0, y0, x1, y1 = map(int, candidate)
@@ -27,23 +29,27 @@ def script(
     columns = np.interp(np.arange(x0, x1) + 0.5, [x0, window[0], window[2], x1], [0, 1, 1, 0])
     rows = np.interp(np.arange(y0, y1) + 0.5, [y0, window[1], window[3], y1], [0, 1, 1, 0])
     odds = np.minimum(columns, rows[:, None]).astype(np.float32)
-    for plane, density, (low, high) in zip(planes, densities, ranges, strict=True):
+    for plane, density, alternative, (low, high) in zip(planes, densities, alternatives, ranges, strict=True):
         bins = len(density)
         seen = plane[part]
         places = np.nan_to_num((seen - np.float32(low)) * np.float32(bins / (high - low)), nan=-1)
-        table = np.concatenate([[0], density * bins, [0]]).astype(np.float32)
+        table = np.concatenate([[0], density / alternative, [0]]).astype(np.float32)
         odds *= table[np.clip(np.floor(places), -1, bins).astype(np.int32) + 1]
     posterior = np.zeros(planes[0].shape, np.float32)
     posterior[part] = odds / (odds + 1)
-    return (posterior >= 0.5).astype(np.uint8), posterior
+    return (posterior >= threshold).astype(np.uint8), posterior
 
 
 CONTENDERS = {"native": _core.target_pixels, "reference": reference.target_pixels, "peer": script}
 
 
 def check(benchmark: Any, target_pixels: Callable[..., Any], target: Any) -> None:
-    """All decide alike but for a pixel whose reading lies where rounding decides on its bin."""
-    arguments = (target.planes, target.densities, RANGES, target.window, target.candidate)
+    """All decide alike but for a pixel whose reading lies where rounding decides on its bin. How the
+    alternatives are makes no difference to the time.
+    """
+    ramp = np.linspace(1, 2, len(target.densities[0]))
+    alternatives = [0.9 * ramp / ramp.sum()] * 3
+    arguments = (target.planes, target.densities, RANGES, target.window, target.candidate, 0.5, alternatives)
     mask, posterior = benchmark(target_pixels, *arguments)
     expected_mask, expected = reference.target_pixels(*arguments)
     assert expected_mask.mean() > 0.02
