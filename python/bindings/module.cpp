@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 
 namespace tricue::bindings {
+void define_bayes(pybind11::module_& m);
 void define_color(pybind11::module_& m);
 void define_color_search(pybind11::module_& m);
 void define_depth(pybind11::module_& m);
@@ -24,4 +25,5 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_stereo(m);
     tricue::bindings::define_fuse(m);
     tricue::bindings::define_kalman(m);
+    tricue::bindings::define_bayes(m);
 }

@@ -44,6 +44,8 @@ from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
+from tricue.reference.fuse.block_counts import block_counts
+from tricue.reference.fuse.block_mask import block_mask
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
@@ -51,11 +53,17 @@ from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
+from tricue.reference.fuse.target_distribution import target_distribution
+from tricue.reference.fuse.target_pixels import target_pixels
+from tricue.reference.fuse.temporal_window import temporal_window
+from tricue.reference.fuse.weighted_histogram import weighted_histogram
 
 __all__ = [
     "above_floor",
     "back_project",
     "bhattacharyya",
+    "block_counts",
+    "block_mask",
     "color_bins",
     "color_histogram",
     "color_lookup",
@@ -101,4 +109,8 @@ __all__ = [
     "skin_reference",
     "skin_rule",
     "summarize",
+    "target_distribution",
+    "target_pixels",
+    "temporal_window",
+    "weighted_histogram",
 ]

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""The rectangle round target pixels, among as many wrong ones: native, reference, and a script on OpenCV."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.testing import assert_array_equal
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Mask = NDArray[np.uint8]
+AROUND = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]], np.float32)
+NEIGHBOURS, SHARE, TRIM = 3, 0.2, 0.02
+
+
+def script(mask: Mask, neighbours: int, share: float, trim: float) -> tuple[Any, int, Mask]:
+    """The peer: filter2D for the neighbours, connected components, cumulative sums of rows and columns."""
+    counts = cv2.filter2D(mask, cv2.CV_8U, AROUND, borderType=cv2.BORDER_CONSTANT)
+    enough = mask * (counts >= neighbours)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(enough, ltype=cv2.CV_32S)
+    large = stats[:, cv2.CC_STAT_AREA] >= share * stats[1:, cv2.CC_STAT_AREA].max()
+    large[0] = False
+    left = large.astype(np.uint8)[labels]
+    count = cv2.countNonZero(left)
+    out = int(trim * count)
+    box = []
+    for axis in (0, 1):
+        places = np.cumsum(left.sum(axis=axis))
+        box.append(np.searchsorted(places, [out, count - 1 - out], side="right") + [0, 1])
+    return (box[0][0], box[1][0], box[0][1], box[1][1]), count, left
+
+
+CONTENDERS = {"native": _core.temporal_window, "reference": reference.temporal_window, "peer": script}
+
+
+def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> None:
+    """All leave the same, in the same box, of which both that and the clean-up have had to be found: some
+    pixels are left and some not, and, though half of them were anywhere, the box is in the candidate region.
+    """
+    wrong = np.random.default_rng(1).random(target.mask.shape) < target.mask.mean()
+    mask = target.mask | wrong.astype(np.uint8)
+    box, count, left = benchmark(temporal_window, mask, NEIGHBOURS, SHARE, TRIM)
+    expected = reference.temporal_window(mask, NEIGHBOURS, SHARE, TRIM)
+    assert tuple(box) == expected[0]
+    assert count == expected[1] == np.count_nonzero(left)
+    assert_array_equal(left, expected[2])
+    assert 0 < count < np.count_nonzero(mask)
+    x0, y0, x1, y1 = target.candidate
+    assert x0 <= box[0] < box[2] <= x1
+    assert y0 <= box[1] < box[3] <= y1
+
+
+@pytest.mark.benchmark(group="temporal_window, 160x120")
+@pytest.mark.parametrize("temporal_window", CONTENDERS.values(), ids=CONTENDERS)
+def bench_temporal_window(benchmark: Any, temporal_window: Callable[..., Any], small: Any) -> None:
+    """In the paper's frame."""
+    check(benchmark, temporal_window, small)
+
+
+@pytest.mark.benchmark(group="temporal_window, 640x480")
+@pytest.mark.parametrize("temporal_window", CONTENDERS.values(), ids=CONTENDERS)
+def bench_temporal_window_of_many(benchmark: Any, temporal_window: Callable[..., Any], large: Any) -> None:
+    """In a usual frame."""
+    check(benchmark, temporal_window, large)

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/block_counts.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "check.hpp"
+#include "lanes.hpp"
+#include "rectangle_pixels.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kLanes = 4;  // floats in one register, everywhere
+using Floats4 [[gnu::vector_size(4 * kLanes)]] = float;
+using Ints4 [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
+using Doubles4 [[gnu::vector_size(8 * kLanes)]] = double;
+
+constexpr float kMost = std::numeric_limits<float>::max();
+constexpr std::uint32_t kOnes = 0x01010101;  // in each byte
+
+/// What a block's pixels are, rows `stride` apart.
+struct Pixels {
+    const float* disparity;
+    std::ptrdiff_t disparity_stride;
+    const std::uint8_t* mask;
+    std::ptrdiff_t mask_stride;
+    int rows;
+};
+
+struct Totals {
+    double sum = 0.0;
+    std::int64_t readings = 0, targets = 0;
+};
+
+/// 0xff in the first bytes of four, 0 in others, whatever the order of bytes in a word.
+[[gnu::always_inline]] inline std::uint32_t first_bytes(int count) {
+    std::uint8_t bytes[kLanes] = {};
+    std::memset(bytes, 0xff, static_cast<std::size_t>(count));
+    std::uint32_t word;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+/// How many bytes of four aren't 0, but for those left out (0xff, else 0).
+[[gnu::always_inline]] inline std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t left_out) {
+    std::uint32_t bytes;
+    std::memcpy(&bytes, mask, sizeof bytes);
+    bytes &= ~left_out;
+    const std::uint32_t set = (((bytes & ~(kOnes << 7)) + ~(kOnes << 7)) | bytes) >> 7 & kOnes;
+    return set * kOnes >> 24;
+}
+
+/// Adds four columns but the first `skipped`, side by side, down the rows.
+[[gnu::always_inline]] inline void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
+    Doubles4 sums = {};
+    Ints4 readings = {};
+    const Ints4 wanted = skipped <= Ints4{0, 1, 2, 3};
+    const std::uint32_t left_out = first_bytes(skipped);
+    const float* disparity = pixels.disparity + x;
+    const std::uint8_t* mask = pixels.mask + x;
+    for (int y = 0; y < pixels.rows; ++y) {
+        Floats4 values;
+        read(disparity, values);
+        const Ints4 finite = (values >= -kMost) & (values <= kMost) & wanted;
+        readings -= finite;
+        Ints4 bits;
+        read(&values, bits);
+        bits &= finite;
+        read(&bits, values);
+        sums += __builtin_convertvector(values, Doubles4);
+        totals.targets += count_set(mask, left_out);
+        disparity += pixels.disparity_stride;
+        mask += pixels.mask_stride;
+    }
+    totals.sum += (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    totals.readings += readings[0] + readings[1] + readings[2] + readings[3];
+}
+
+/// One by one, where there are fewer than four.
+inline void add_column(const Pixels& pixels, int x, Totals& totals) {
+    for (int y = 0; y < pixels.rows; ++y) {
+        const float value = pixels.disparity[y * pixels.disparity_stride + x];
+        const bool finite = std::abs(value) <= kMost;
+        totals.sum += static_cast<double>(finite ? value : 0.0f);
+        totals.readings += finite;
+        totals.targets += pixels.mask[y * pixels.mask_stride + x] != 0;
+    }
+}
+
+/// Of what is left over by fours, the last four are read again, and count as far as they haven't.
+TRICUE_MULTIVERSION
+void add_block(const Pixels& pixels, int cols, Totals& totals) {
+    int x = 0;
+    for (; x + kLanes <= cols; x += kLanes) add_columns(pixels, x, 0, totals);
+    if (x < cols && cols >= kLanes)
+        add_columns(pixels, cols - kLanes, kLanes - (cols - x), totals);
+    else
+        for (; x < cols; ++x) add_column(pixels, x, totals);
+}
+
+}  // namespace
+
+BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, StatesRef blocks) {
+    const auto shape = [](int rows, int cols) {
+        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+    };
+    if (mask.rows != disparity.rows || mask.cols != disparity.cols)
+        refuse("mask", "shape " + shape(disparity.rows, disparity.cols), shape(mask.rows, mask.cols));
+    require_shape(blocks, blocks.rows(), 4, "blocks");
+    const Eigen::Index count = blocks.rows();
+    BlockCounts seen{Indices(count), Indices(count), Indices(count), Vector(count)};
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const auto block = blocks.row(i);
+        const Region part = rectangle_pixels({block[0], block[1], block[2], block[3]}, disparity.rows,
+                                             disparity.cols, "blocks");
+        const int rows = part.y1 - part.y0, cols = part.x1 - part.x0;
+        Totals totals;
+        if (rows > 0 && cols > 0)
+            add_block({disparity.row(part.y0) + part.x0, disparity.stride, mask.row(part.y0) + part.x0,
+                       mask.stride, rows},
+                      cols, totals);
+        const auto readings = static_cast<double>(totals.readings);
+        seen.pixels[i] = std::int64_t{rows} * cols;
+        seen.targets[i] = totals.targets;
+        seen.readings[i] = totals.readings;
+        seen.mean[i] = readings > 0.0 ? totals.sum / readings : std::numeric_limits<double>::quiet_NaN();
+    }
+    return seen;
+}
+
+}  // namespace tricue

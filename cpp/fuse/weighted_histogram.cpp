@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/weighted_histogram.hpp"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "blocks.hpp"
+#include "check.hpp"
+#include "rectangle_pixels.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+// Neighbours mostly share a bin, and a sum that was just written takes its time to be read again: so
+// neighbours are summed in different tables.
+constexpr std::size_t kTables = 4;
+
+/// The weights that count, 0 for others; without a mask it is null.
+TRICUE_MULTIVERSION
+void keep_weights(const float* __restrict weights, const std::uint8_t* __restrict mask, int n,
+                  float* __restrict kept) {
+    constexpr float kMost = std::numeric_limits<float>::max();
+    if (mask == nullptr)
+        in_blocks<16>(n, [=](std::ptrdiff_t x) {
+            const float weight = weights[x];
+            kept[x] = (weight > 0.0f) & (weight <= kMost) ? weight : 0.0f;
+        });
+    else
+        in_blocks<16>(n, [=](std::ptrdiff_t x) {
+            const float weight = weights[x];
+            kept[x] = (weight > 0.0f) & (weight <= kMost) & (mask[x] != 0) ? weight : 0.0f;
+        });
+}
+
+void require_shape(int rows, int cols, const PlaneView& values, const char* name) {
+    const auto shape = [](int height, int width) {
+        return "(" + std::to_string(height) + ", " + std::to_string(width) + ")";
+    };
+    if (rows != values.rows || cols != values.cols)
+        refuse(name, "shape " + shape(values.rows, values.cols), shape(rows, cols));
+}
+
+/// Adds a row's weights to the tables of `size` bins; the last bin is for values without one.
+void add_row(const std::vector<std::int32_t>& bin, const std::vector<float>& weight, std::size_t size,
+             double* sums) {
+    for (std::size_t x = 0; x < bin.size(); x += kTables)
+        for (std::size_t t = 0; t < kTables; ++t)
+            sums[t * size + static_cast<std::size_t>(bin[x + t])] += static_cast<double>(weight[x + t]);
+}
+
+}  // namespace
+
+Vector weighted_histogram(const PlaneView& values, const PlaneView& weights, const Rectangle& region,
+                          const ValueRange& range, const ImageView& mask) {
+    require_shape(weights.rows, weights.cols, values, "weights");
+    if (mask.data != nullptr) require_shape(mask.rows, mask.cols, values, "mask");
+    require_range(range);
+    const Region seen = rectangle_pixels(region, values.rows, values.cols, "region");
+    const int cols = seen.x1 - seen.x0;
+    const std::size_t size = static_cast<std::size_t>(range.bins) + 1;
+    const auto padded = (static_cast<std::size_t>(cols) + kTables - 1) / kTables * kTables;
+    std::vector<std::int32_t> bin(padded, range.bins);
+    std::vector<float> weight(padded);
+    std::vector<double> sums(kTables * size);
+    for (int y = seen.y0; y < seen.y1; ++y) {
+        value_bins(values.row(y) + seen.x0, cols, range, bin.data());
+        keep_weights(weights.row(y) + seen.x0, mask.data == nullptr ? nullptr : mask.row(y) + seen.x0, cols,
+                     weight.data());
+        add_row(bin, weight, size, sums.data());
+    }
+    Vector histogram(range.bins);
+    for (std::size_t i = 0; i + 1 < size; ++i)
+        histogram[static_cast<Eigen::Index>(i)] =
+            (sums[i] + sums[size + i]) + (sums[2 * size + i] + sums[3 * size + i]);
+    return histogram;
+}
+
+}  // namespace tricue

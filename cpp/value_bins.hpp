@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace tricue {
+
+/// The bins of a histogram of flow or disparity: `bins` of [low, high), pixels.
+struct ValueRange {
+    double low, high;
+    int bins;  ///< 1 to 65536
+};
+
+/// In which bin each value lies, `range.bins` for NaN and what isn't in [low, high), which is decided exactly; what
+/// weighted_histogram and target_pixels have in common.
+///
+/// bin = floor((value - low) (bins / (high - low))), at most bins - 1, in float32, to which low and the quotient are rounded.
+void value_bins(const float* values, int n, const ValueRange& range, std::int32_t* bin);
+
+/// @throws std::invalid_argument unless low < high are finite and there are 1 to 65536 bins
+void require_range(const ValueRange& range);
+
+}  // namespace tricue

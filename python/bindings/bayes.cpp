@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <optional>
+
+#include "arrays.hpp"
+#include "fuse/block_counts.hpp"
+#include "fuse/block_mask.hpp"
+#include "fuse/target_distribution.hpp"
+#include "fuse/target_pixels.hpp"
+#include "fuse/temporal_window.hpp"
+#include "fuse/weighted_histogram.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+using Corners = std::tuple<double, double, double, double>;
+using Box = std::tuple<int, int, int, int>;
+using Bytes = Array<std::uint8_t>;
+
+/// Pixels packed, rows maybe padded: a view of a part of an image works as the image does.
+template <typename Scalar>
+py::array packed_rows(const py::object& object, const char* name, const char* expected) {
+    auto array = require<Scalar>(object, name, 2, expected);
+    constexpr py::ssize_t kSize = sizeof(Scalar);
+    constexpr int kAligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    // NumPy leaves the stride of an axis of length 1 (and all of them in an empty array) undefined.
+    const bool packed = (array.flags() & kAligned) && (array.shape(1) == 1 || array.strides(1) == kSize);
+    const bool downward = array.shape(0) == 1 || (array.strides(0) >= 0 && array.strides(0) % kSize == 0);
+    if (array.size() > 0 && !(packed && downward))
+        throw py::value_error(std::string(name) +
+                              ": expected packed pixels; numpy.ascontiguousarray makes them");
+    return array;
+}
+
+PlaneView plane(const py::object& object, const char* name) {
+    const auto array = packed_rows<float>(object, name, "a float32 plane (H, W)");
+    return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
+}
+
+ImageView mask_view(const py::object& object, const char* name) {
+    const auto array = packed_rows<std::uint8_t>(object, name, "a uint8 mask (H, W)");
+    return {static_cast<const std::uint8_t*>(array.data()), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), 1, array.strides(0)};
+}
+
+Rectangle rectangle(const Corners& corners) {
+    const auto [x0, y0, x1, y1] = corners;
+    return {x0, y0, x1, y1};
+}
+
+std::ptrdiff_t pixels(const PlaneView& plane) {
+    return std::ptrdiff_t{plane.rows} * plane.cols;
+}
+
+Array<double> weighted_histogram_arrays(const Array<float>& values, const Array<float>& weights,
+                                        const Corners& region, double low, double high, int bins,
+                                        const std::optional<Bytes>& mask) {
+    const auto readings = plane(values, "values"), reliability = plane(weights, "weights");
+    const ImageView counted = mask ? mask_view(*mask, "mask") : ImageView{nullptr, 0, 0, 1, 0};
+    const Rectangle part = rectangle(region);
+    return give(unlocked(pixels(readings), [&] {
+        return weighted_histogram(readings, reliability, part, {low, high, bins}, counted);
+    }));
+}
+
+std::tuple<Array<double>, double> target_distribution_arrays(const Array<double>& histogram, double smoothing,
+                                                             double ripple, double expected, double spread) {
+    const auto weights = vector(histogram, "histogram");
+    auto found = unlocked(weights.size(),
+                          [&] { return target_distribution(weights, smoothing, ripple, expected, spread); });
+    return {give(std::move(found.density)), found.peak};
+}
+
+using Densities = std::vector<Array<double>>;
+
+std::vector<Cue> cues(const std::vector<Array<float>>& planes, const Densities& densities,
+                      const std::vector<std::pair<double, double>>& ranges,
+                      const std::optional<Densities>& alternatives) {
+    const auto as_many = [&](std::size_t count, const char* name) {
+        if (count != planes.size())
+            throw py::value_error(std::string(name) + ": expected " + std::to_string(planes.size()) +
+                                  ", as many as planes, got " + std::to_string(count));
+    };
+    as_many(densities.size(), "densities");
+    as_many(ranges.size(), "ranges");
+    if (alternatives) as_many(alternatives->size(), "alternatives");
+    std::vector<Cue> cues;
+    for (std::size_t k = 0; k < planes.size(); ++k)
+        cues.push_back({plane(planes[k], "planes"), vector(densities[k], "densities"), ranges[k].first,
+                        ranges[k].second});
+    for (std::size_t k = 0; alternatives && k < planes.size(); ++k)
+        cues[k].alternative.emplace(vector((*alternatives)[k], "alternatives"));
+    return cues;
+}
+
+std::tuple<Bytes, Array<float>> target_pixels_arrays(const std::vector<Array<float>>& planes,
+                                                     const Densities& densities,
+                                                     const std::vector<std::pair<double, double>>& ranges,
+                                                     const Corners& window, const Corners& candidate,
+                                                     double threshold,
+                                                     const std::optional<Densities>& alternatives) {
+    const auto each = cues(planes, densities, ranges, alternatives);
+    const TargetPlace place{rectangle(window), rectangle(candidate)};
+    const auto work = each.empty() ? 0 : pixels(each[0].readings);
+    auto target = unlocked(work, [&] { return target_pixels(each, place, threshold); });
+    return {give(std::move(target.mask)), give(std::move(target.posterior))};
+}
+
+std::tuple<Box, std::int64_t, Bytes> temporal_window_arrays(const Bytes& mask, int neighbours, double share,
+                                                            double trim) {
+    const auto set = mask_view(mask, "mask");
+    auto window = unlocked(std::ptrdiff_t{set.rows} * set.cols,
+                           [&] { return temporal_window(set, neighbours, share, trim); });
+    const auto& box = window.box;
+    return {Box{box.x0, box.y0, box.x1, box.y1}, window.count, give(std::move(window.mask))};
+}
+
+std::tuple<Array<std::int64_t>, Array<std::int64_t>, Array<std::int64_t>, Array<double>> block_counts_arrays(
+    const Bytes& mask, const Array<float>& disparity, const Array<double>& blocks) {
+    const auto set = mask_view(mask, "mask");
+    const auto readings = plane(disparity, "disparity");
+    const auto each = states(blocks, "blocks");
+    auto seen = unlocked(pixels(readings), [&] { return block_counts(set, readings, each); });
+    return {give(std::move(seen.pixels)), give(std::move(seen.targets)), give(std::move(seen.readings)),
+            give(std::move(seen.mean))};
+}
+
+Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
+    const auto each = states(blocks, "blocks");
+    return give(unlocked(std::ptrdiff_t{height} * width, [&] { return block_mask(each, height, width); }));
+}
+
+}  // namespace
+
+void define_bayes(py::module_& m) {
+    m.def("block_counts", block_counts_arrays, py::arg("mask"), py::arg("disparity"), py::arg("blocks"),
+          "(N,) each, of blocks (N, 4) x0, y0, x1, y1: how many pixels lie in the image, are set in the mask "
+          "(H, W), have a finite disparity (H, W); and the mean disparity of those, NaN without any.");
+    m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
+          "(H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0.");
+    m.def("target_distribution", target_distribution_arrays, py::arg("histogram"), py::arg("smoothing"),
+          py::arg("ripple") = 0.05, py::arg("expected") = std::numeric_limits<double>::quiet_NaN(),
+          py::arg("spread") = 1.0,
+          "(L,) of sum 1: a histogram (L,), smoothed by a Gaussian of so many bins, beyond its minima beside "
+          "the peak a line down to 0 (figure 6); and the peak, bin i being [i, i + 1), NaN of zeros. What "
+          "rises by at most ripple of the peak ends no minimum. The peak is the highest, or, unless expected "
+          "is NaN, the highest times a Gaussian of spread bins round it.");
+    m.def("target_pixels", target_pixels_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
+          py::arg("window"), py::arg("candidate"), py::arg("threshold") = 0.5,
+          py::arg("alternatives") = py::none(),
+          "(H, W) 1 where the posterior is at least the threshold, else 0; and the posterior (H, W), "
+          "equations (10)-(12), of 1 to 3 planes (H, W), each with its density (bins,) over its range (low, "
+          "high). The prior is 1 in the window x0, y0, x1, y1 and falls to 0 at the candidate region's edge. "
+          "The alternatives (bins,) are the densities of what isn't the target; without, all is as likely.");
+    m.def("temporal_window", temporal_window_arrays, py::arg("mask"), py::arg("neighbours"), py::arg("share"),
+          py::arg("trim") = 0.02,
+          "The box x0, y0, x1, y1 of what is left of a mask (H, W), without a share trim of it at each side; "
+          "how many pixels are left; and which, (H, W) of 1 and 0: those with enough of 8 neighbours set, in "
+          "regions of at least a share of the largest one's pixels.");
+    m.def("weighted_histogram", weighted_histogram_arrays, py::arg("values"), py::arg("weights"),
+          py::arg("region"), py::arg("low"), py::arg("high"), py::arg("bins"), py::arg("mask") = py::none(),
+          "(bins,) sums of the weights (H, W) of the values (H, W) in each bin of [low, high), of the pixels "
+          "in a region x0, y0, x1, y1 whose mask (H, W) isn't 0; NaN doesn't count.");
+}
+
+}  // namespace tricue::bindings

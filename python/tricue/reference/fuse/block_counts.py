@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""What is seen in the blocks of the target window (Okada, Shirai, Miura 1996, section 4.4)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_shape
+from tricue.reference.rectangle_pixels import rectangle_pixels
+
+Counts = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+
+def block_counts(
+    mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floats
+) -> tuple[Counts, Counts, Counts, Floats]:
+    """(N,) each, of blocks (N, 4) x0, y0, x1, y1: how many pixels lie in the image, how many are set in the
+    mask (H, W), how many have a finite disparity (H, W), and the mean disparity of those, NaN without any.
+    """
+    if mask.shape != disparity.shape:
+        refuse("mask", f"shape {disparity.shape}", mask.shape)
+    require_shape("blocks", blocks, (len(blocks), 4))
+    pixels, targets, readings = (np.zeros(len(blocks), np.int64) for _ in range(3))
+    mean = np.full(len(blocks), np.nan)
+    for i, (x0, y0, x1, y1) in enumerate(blocks):
+        inside = rectangle_pixels((x0, y0, x1, y1), mask.shape, "blocks")
+        seen = disparity[inside].astype(np.float64)
+        seen_finite = seen[np.isfinite(seen)]
+        pixels[i], readings[i] = seen.size, seen_finite.size
+        targets[i] = np.count_nonzero(mask[inside])
+        if seen_finite.size:
+            mean[i] = seen_finite.mean()
+    return pixels, targets, readings, mean

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+"""The pixels of the target's blocks (Okada, Shirai, Miura 1996, section 4.4)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_shape
+from tricue.reference.rectangle_pixels import rectangle_pixels
+
+
+def block_mask(blocks: NDArray[np.float64], height: int, width: int) -> NDArray[np.uint8]:
+    """(H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0."""
+    for name, size in (("height", height), ("width", width)):
+        if size < 0:
+            refuse(name, "at least 0", size)
+    require_shape("blocks", blocks, (len(blocks), 4))
+    mask = np.zeros((height, width), np.uint8)
+    for x0, y0, x1, y1 in blocks:
+        mask[rectangle_pixels((x0, y0, x1, y1), mask.shape, "blocks")] = 1
+    return mask

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""The target's part of a histogram (Okada, Shirai, Miura 1996, section 4.2 and figure 6)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+
+Floats = NDArray[np.float64]
+
+EQUAL = 1e-9  # of the peak: what differs less is the same height
+
+
+def target_distribution(
+    histogram: Floats, smoothing: float, ripple: float = 0.05, expected: float = np.nan, spread: float = 1.0
+) -> tuple[Floats, float]:
+    """(L,) the target's density, of sum 1, and its peak, in bins: bin 0 is [0, 1).
+
+    The histogram (L,) is smoothed by a Gaussian of ``smoothing`` bins. The peak is where that is highest; or,
+    as a target moves with nearly constant velocity (section 4.1), where it is highest times a Gaussian of
+    ``spread`` bins round the ``expected`` peak, unless that is NaN or the spread infinite. On either side of
+    the peak the smoothed histogram is cut at its local minimum: beyond, the line from the peak through the
+    minimum goes on down to 0. A minimum is the least value before the first rise by more than ``ripple`` of
+    the peak's height; where that is the peak itself, nothing is left beyond; without one the histogram stays.
+    A histogram of zeros is a density of zeros, with a peak of NaN.
+    """
+    _require(histogram, smoothing, ripple, expected, spread)
+    if not histogram.any():
+        return np.zeros(len(histogram)), np.nan
+    smooth = _smoothed(histogram / histogram.max(), smoothing)
+    at, peak = _peak(smooth * _closeness(smooth, expected, spread))
+    height = float(smooth[peak])  # P_obj is (at, height)
+    density = smooth.copy()
+    for bins in (np.arange(peak, -1, -1), np.arange(peak, len(smooth))):
+        minimum = _minimum(smooth[bins], height, max(ripple, EQUAL))
+        if minimum is not None:
+            beyond, least = bins[minimum + 1 :], smooth[bins[minimum]]  # P_+ or P_-
+            density[beyond] = 0
+            if minimum > 0:  # else the peak is a shoulder of a higher one
+                slope = (least - height) / (bins[minimum] - at)
+                density[beyond] = np.maximum(height + slope * (beyond - at), 0)  # down to P_0
+    return density / density.sum(), at + 0.5
+
+
+def _smoothed(histogram: Floats, smoothing: float) -> Floats:
+    """The mean by the Gaussian's weights of what there is: at the ends that is less. Either side is added to
+    the other first, so that a mirrored histogram is smoothed to a mirrored one, to the last bit.
+    """
+    total, weights = histogram.copy(), np.ones(len(histogram))
+    for j in range(1, int(np.ceil(4 * smoothing)) + 1):
+        step = j / smoothing
+        weight = np.exp(-0.5 * (step * step))
+        total += weight * _beside(histogram, j)
+        weights += weight * _beside(np.ones(len(histogram)), j)
+    smooth: Floats = total / weights
+    return smooth
+
+
+def _beside(values: Floats, j: int) -> Floats:
+    """values[i - j] + values[i + j] at i, of those that there are."""
+    padded = np.pad(values, j)
+    return np.asarray(padded[: len(values)] + padded[2 * j :])
+
+
+def _closeness(smooth: Floats, expected: float, spread: float) -> Floats:
+    """exp(-((centre - expected) / spread)² / 2) over its value in the nearest bin that isn't empty, at most
+    1: so however far the expected peak is, some product with the histogram doesn't underflow to 0.
+    """
+    center = np.arange(len(smooth)) + 0.5
+    if np.isnan(expected) or np.isinf(spread):
+        return np.ones(len(smooth))
+    there = center[smooth > 0]
+    nearest = there[np.abs(there - np.clip(expected, 0, len(smooth))).argmin()]
+    # ((centre - expected)² - (nearest - expected)²) / 2, without the squares, which would overflow.
+    with np.errstate(over="ignore"):
+        farther = (center - nearest) * ((center + nearest) / 2 - expected)
+        return np.asarray(np.exp(-np.maximum(farther, 0) / spread / spread))
+
+
+def _peak(values: Floats) -> tuple[float, int]:
+    """Where the first highest stretch is: its middle, or, of one bin, the top of the parabola through it; and
+    the bin that this lies in. 0 is the middle of the first.
+    """
+    top = values.max()
+    high = values >= top - EQUAL * top
+    begin = int(high.argmax())
+    length = int(np.argmin(np.append(high[begin:], False)))
+    end = begin + length - 1
+    if length > 1 or begin == 0 or end == len(values) - 1:
+        return (begin + end) / 2, (begin + end + 1) // 2
+    before, at, after = values[begin - 1 : begin + 2]
+    return float(begin + (before - after) / (2 * (before - 2 * at + after))), begin
+
+
+def _minimum(side: Floats, height: float, rise: float) -> int | None:
+    """Of values from the peak outwards, the first of the least before they rise; None if they don't."""
+    least = 0
+    for i in range(len(side)):
+        if side[i] < side[least] - EQUAL * height:
+            least = i
+        elif side[i] > side[least] + rise * height:
+            return least
+    return None
+
+
+def _require(histogram: Floats, smoothing: float, ripple: float, expected: float, spread: float) -> None:
+    if len(histogram) < 1:
+        refuse("histogram", "at least one bin", "none")
+    strange = histogram[~(np.isfinite(histogram) & (histogram >= 0))]
+    if strange.size:
+        refuse("histogram", "finite numbers, none negative", float(strange[0]))
+    if not 0 <= smoothing <= len(histogram):
+        refuse("smoothing", f"a number in [0, {len(histogram)}]", float(smoothing))
+    if not 0 <= ripple < 1:
+        refuse("ripple", "a number in [0, 1)", float(ripple))
+    if np.isinf(expected):
+        refuse("expected", "a finite number or NaN", float(expected))
+    if not spread > 0:
+        refuse("spread", "a number above 0", float(spread))
