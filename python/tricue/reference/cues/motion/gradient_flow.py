@@ -51,7 +51,7 @@ def solve(
     norms = np.sqrt((g_x**2 + g_y**2) * (h_x**2 + h_y**2))  # |G| |H|
     angle = np.divide(abs(cross), norms, out=np.zeros_like(norms), where=norms > 0)
     contrast = g_x**2 + g_y**2 + h_x**2 + h_y**2
-    kept = (contrast > ROUNDING) & (cross != 0) & (angle >= min_angle) & (contrast >= min_contrast)
+    kept = (contrast >= ROUNDING) & (cross != 0) & (angle >= min_angle) & (contrast >= min_contrast)
     u, v = (np.full(cross.shape, np.nan) for _ in range(2))
     np.divide(g_y * h_t - h_y * g_t, cross, out=u, where=kept)
     np.divide(h_x * g_t - g_x * h_t, cross, out=v, where=kept)

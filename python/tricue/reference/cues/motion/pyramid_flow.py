@@ -58,7 +58,7 @@ def pyramid_flow(
         flow = flow + step.clip(-LONGEST_STEP, LONGEST_STEP)
         flow = doubled(np.stack([median(plane) for plane in flow]), areas[level], areas[level - 1])
     step, angle, contrast = measure(before[0], now[0], areas[0], flow, sigma, pool)
-    kept = (contrast > ROUNDING) & (contrast >= min_contrast) & (angle >= min_angle)
+    kept = (contrast >= ROUNDING) & (contrast >= min_contrast) & (angle >= min_angle)
     kept &= (step**2).sum(axis=0) <= max_step**2
     flow = np.where(kept, flow + step, np.nan)
     u, v, angle, contrast = (plane.astype(np.float32) for plane in (*flow, angle, contrast))

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "camera/image_view.hpp"
+#include "camera/region.hpp"
+#include "flow_planes.hpp"
+
+namespace tricue {
+
+/// Optical flow by the generalized gradient method with two filters g, h, the derivatives of a Gaussian along x and y.
+///
+/// Each pixel's u, v solve the two constraints (4), (g*f)_x u + (g*f)_y v = -(g*f)_t and the same for h (as printed (4) has lost
+/// the minus of (3)): spatial gradients are those of the mean of both frames, temporal ones the difference current - previous.
+/// So the flow is that of what is halfway between the frames at this pixel: of two pixels' motion half a flow apart. It is valid
+/// for motions up to about sigma pixels; longer ones need pyramid_flow.
+///
+/// angle is (5), |sin| of the angle between the lines that the constraints are in the u-v plane; contrast is (6). u and v
+/// are NaN where angle or contrast is under its minimum or contrast under 1e-6, which is rounding.
+///
+/// Filters are sampled and cut off at 3 sigma (gaussian_rows.hpp); beyond a frame's edge its pixels go on, so that flow nearer to it
+/// is less exact.
+///
+/// @param previous, current gray frames of one size
+/// @param sigma             of the Gaussian, 0.5 to 16 pixels
+/// @param region            what is computed of it, in pixels of the frames; without it everything
+/// @throws std::invalid_argument on frames without pixels or of unlike sizes, and on numbers out of range
+/// Source: Okada, Shirai and Miura 1996, section 2.
+FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, double sigma,
+                         const FlowMinima& minima, const std::optional<Region>& region = {});
+
+}  // namespace tricue
