@@ -22,12 +22,12 @@ ConstraintRows::ConstraintRows(double sigma, int length)
       length_(length),
       mean_(static_cast<std::size_t>(whole_blocks(length) + 2 * taps_.radius)),
       change_(mean_.size()),
-      mean_bell_(2 * taps_.radius + 1, length, 0),
-      mean_slope_(2 * taps_.radius + 1, length, 0),
-      mean_curve_(2 * taps_.radius + 1, length, 0),
-      change_bell_(2 * taps_.radius + 1, length, 0),
-      change_slope_(2 * taps_.radius + 1, length, 0),
-      result_(5, length, 0) {}
+      mean_bell_(2 * taps_.radius + 1, length),
+      mean_slope_(2 * taps_.radius + 1, length),
+      mean_curve_(2 * taps_.radius + 1, length),
+      change_bell_(2 * taps_.radius + 1, length),
+      change_slope_(2 * taps_.radius + 1, length),
+      result_(5, length) {}
 
 void ConstraintRows::push(int y, const float* before, const float* now) {
     mean_and_change(before, now, length_ + 2 * taps_.radius, mean_.data(), change_.data());

@@ -23,7 +23,7 @@ void require_sigma(double sigma);
 
 /// Rows are filtered a block at a time: each must be writable up to a whole number of blocks, and readable up to that and the
 /// radius of the filter on both sides. What is read beyond the row counts only there.
-constexpr int kRowBlock = 16;
+constexpr int kRowBlock = 32;
 
 constexpr int whole_blocks(int n) {
     return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
@@ -39,24 +39,24 @@ void filter_across(const float* row, const GaussianTaps& taps, int n, float* bel
 void filter_down(const float* const* rows, const std::vector<float>& weights, int n, float* out);
 void slope_down(const float* const* rows, const std::vector<float>& weights, int n, float* out);
 
-/// Rows of equal length, each with a margin on both sides, that follow each other: a row takes the place of the one `count`
-/// above it. They all begin at a block.
+/// Rows of equal length that follow each other: a row takes the place of the one `count` above it.
 class RowRing {
 public:
-    RowRing(int count, int length, int margin);
+    RowRing(int count, int length);
+    RowRing(const RowRing&) = delete;  // a row's address would be of the other
+    RowRing& operator=(const RowRing&) = delete;
 
-    /// Its first pixel, behind the margin; any y from -count on.
-    float* row(int y) { return data_.data() + slot(y) * stride_ + margin_; }
+    /// Any y from -count on.
+    float* row(int y) { return first_ + static_cast<std::ptrdiff_t>((y + count_) % count_) * stride_; }
 
-    /// The rows y - radius to y + radius, in `pointers`.
+    /// The rows y - radius to y + radius; until the next call.
     const float* const* around(int y, int radius);
 
 private:
-    std::size_t slot(int y) const { return static_cast<std::size_t>((y + count_) % count_); }
-
     int count_;
-    std::size_t margin_, stride_;
+    std::ptrdiff_t stride_;
     std::vector<float> data_;
+    float* first_;
     std::vector<const float*> pointers_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "cues/motion/gradient_flow.hpp"
+#include "cues/motion/pyramid_flow.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -40,6 +41,16 @@ Planes gradient_flow_arrays(const Bytes& previous, const Bytes& current, double 
     }));
 }
 
+Planes pyramid_flow_arrays(const Bytes& previous, const Bytes& current, double sigma, int levels,
+                           double min_angle, double min_contrast, const Rectangle& rectangle, int pool,
+                           double max_step) {
+    const auto before = gray_image(previous, "previous"), now = gray_image(current, "current");
+    const auto region = part(rectangle);
+    return give_planes(unlocked(work(now, region), [&] {
+        return pyramid_flow(before, now, sigma, {levels, pool, max_step}, {min_angle, min_contrast}, region);
+    }));
+}
+
 }  // namespace
 
 void define_motion(py::module_& m) {
@@ -51,6 +62,15 @@ void define_motion(py::module_& m) {
         "or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, "
         "along "
         "x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.");
+    m.def(
+        "pyramid_flow", pyramid_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
+        py::arg("levels"), py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
+        py::arg("pool") = 3, py::arg("max_step") = 0.4,
+        "As gradient_flow, (h, w) each, for longer motions: from coarse to fine over 2 to 8 levels, previous "
+        "warped towards current, constraints pooled over 2 pool + 1 pixels square. The flow of what is at "
+        "the "
+        "pixel in current, NaN also where the last level's step is longer than max_step pixels; angle and "
+        "contrast are those of the window.");
 }
 
 }  // namespace tricue::bindings

@@ -68,7 +68,7 @@ def pyramid_flow(
 def measure(
     before: Floats, now: Floats, area: Rectangle, flow: Floats, sigma: float, pool: int
 ) -> tuple[Floats, Floats, Floats]:
-    """The step (2, h, w) from a flow to a better one, and both reliabilities, of an area.
+    """Give the step (2, h, w) from a flow to a better one, and both reliabilities, of an area.
 
     Least squares on the two constraints (4) of each pixel of a window, `before` warped towards `now`. Beyond the
     area the flow of its edge goes on, beyond a frame its pixels.
@@ -94,11 +94,12 @@ def measure(
     )
     xx, xy, yy, xt, yt = (correlate(product, box, box)[crop] for product in products)
     damping = rounding_noise(sigma)
-    determinant = (xx + damping) * (yy + damping) - xy**2
-    step = np.stack([xy * yt - (yy + damping) * xt, xy * xt - (xx + damping) * yt]) / determinant
+    determinant = np.maximum(xx * yy - xy**2, 0)
+    step = np.stack([xy * yt - (yy + damping) * xt, xy * xt - (xx + damping) * yt])
+    step /= determinant + damping * (xx + yy + damping)
     # |G x H| / (|G| |H|) of one pixel is |sin| where |G| = |H|, which 2 sqrt(det) / trace is too.
     contrast = xx + yy
-    root = np.sqrt(np.maximum(xx * yy - xy**2, 0))
+    root = np.sqrt(determinant)
     angle = np.divide(2 * root, contrast, out=np.zeros_like(root), where=contrast > 0)
     return step, angle, contrast
 
