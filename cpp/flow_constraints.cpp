@@ -37,7 +37,7 @@ void ConstraintRows::push(int y, const float* before, const float* now) {
 }
 
 Constraints ConstraintRows::row(int y) {
-    const auto around = [&](RowRing& ring) { return ring.around(y, taps_.radius); };
+    const auto around = [&](const RowRing& ring) { return ring.from(y - taps_.radius); };
     filter_down(around(mean_curve_), taps_.bell, length_, result_.row(0));
     slope_down(around(mean_slope_), taps_.slope, length_, result_.row(1));
     filter_down(around(mean_bell_), taps_.curve, length_, result_.row(2));

@@ -2,8 +2,8 @@
 #include "flow_field.hpp"
 
 #include <algorithm>
-#include <vector>
 
+#include "camera/arrays.hpp"
 #include "simd.hpp"
 
 namespace tricue {
@@ -35,12 +35,14 @@ void add_rows(const float* __restrict a, const float* __restrict b, int n, float
     for (int x = 0; x < n; ++x) out[x] = a[x] + b[x];
 }
 
+/// From halves of sums on, at pixel 0, and between them.
 TRICUE_MULTIVERSION
-void spread_row(const float* __restrict coarse, int n, float* __restrict pairs) {
-    for (int x = 0; x < n; ++x) {
-        pairs[2 * x] = coarse[x];
-        pairs[2 * x + 1] = 0.5F * (coarse[x] + coarse[x + 1]);
+void spread_row(const float* __restrict sum, int n, float* __restrict out) {
+    for (int x = 0; x < n / 2; ++x) {
+        out[2 * x] = sum[x];
+        out[2 * x + 1] = 0.5F * (sum[x] + sum[x + 1]);
     }
+    if (n % 2 == 1) out[n - 1] = sum[n / 2];
 }
 
 Floats median(const Floats& plane) {
@@ -56,31 +58,38 @@ Floats median(const Floats& plane) {
     return result;
 }
 
-Floats doubled(const Floats& plane, const Region& area, const Region& finer) {
-    const int cols = static_cast<int>(plane.cols()), width = finer.x1 - finer.x0;
-    Floats result(finer.y1 - finer.y0, width);
-    std::vector<float> sum(static_cast<std::size_t>(cols) + 1), pairs(2 * static_cast<std::size_t>(cols));
-    for (int y = finer.y0; y < finer.y1; ++y) {
-        const Eigen::Index top = y / 2 - area.y0, bottom = std::min(top + y % 2, plane.rows() - 1);
-        add_rows(&plane(top, 0), &plane(bottom, 0), cols, sum.data());
-        sum.back() = sum[sum.size() - 2];
-        spread_row(sum.data(), cols, pairs.data());
-        std::copy_n(pairs.data() + (finer.x0 - 2 * area.x0), width, &result(y - finer.y0, 0));
-    }
-    return result;
-}
-
 }  // namespace
 
 Region halved(const Region& area, int rows, int cols) {
     return {area.x0 / 2, area.y0 / 2, std::min(area.x1 / 2 + 1, cols), std::min(area.y1 / 2 + 1, rows)};
 }
 
-FlowField doubled(const FlowField& flow, const Region& finer) {
-    FlowField result(finer);
-    result.u = doubled(median(flow.u), flow.area, finer);
-    result.v = doubled(median(flow.v), flow.area, finer);
-    return result;
+FlowGuess::FlowGuess(const FlowField& coarse, const Region& area)
+    : area_(area),
+      x0_(2 * coarse.area.x0),
+      y0_(2 * coarse.area.y0),
+      u_(median(coarse.u)),
+      v_(median(coarse.v)),
+      sum_(1, u_.cols() + 1) {}
+
+void FlowGuess::row(int y, float* u, float* v) {
+    if (u_.size() == 0) {
+        std::fill_n(u, area_.x1 - area_.x0, 0.0F);
+        std::fill_n(v, area_.x1 - area_.x0, 0.0F);
+    } else {
+        double_row(u_, y, u);
+        double_row(v_, y, v);
+    }
+}
+
+void FlowGuess::double_row(const Floats& plane, int y, float* out) {
+    const int at = area_.y0 + y - y0_, skipped = area_.x0 - x0_, width = area_.x1 - area_.x0;
+    const Eigen::Index top = at / 2, bottom = std::min<Eigen::Index>(top + at % 2, plane.rows() - 1);
+    float* sum = sum_.data();
+    add_rows(&plane(top, 0), &plane(bottom, 0), static_cast<int>(plane.cols()), sum);
+    sum[plane.cols()] = sum[plane.cols() - 1];
+    if (skipped == 1) *out++ = 0.5F * (sum[0] + sum[1]);
+    spread_row(sum + skipped, width - skipped, out);
 }
 
 }  // namespace tricue

@@ -6,40 +6,17 @@
 #include <memory>
 
 #include "check.hpp"
-#include "lanes.hpp"
+#include "row_block.hpp"
 #include "simd.hpp"
 
 namespace tricue {
 namespace {
 
-constexpr int kReach = 3;  // sigmas on each side
-constexpr int kHalf = kRowBlock / 2;
+constexpr double kReach = 3.5;  // sigmas on each side, up to the outer edge of the last pixel
 
-/// A block is two registers of AVX-512 or four of AVX2, so that no sum waits for the one before. Sums have one order, whatever the machine.
-using Half [[gnu::vector_size(4 * kHalf)]] = float;
-
-struct Block {
-    Half a, b;
-};
-
-[[gnu::always_inline]] inline void load(const float* from, Block& to) {
-    read(from, to.a);
-    read(from + kHalf, to.b);
-}
-
-[[gnu::always_inline]] inline void store(const Block& from, float* to) {
-    write(from.a, to);
-    write(from.b, to + kHalf);
-}
-
-[[gnu::always_inline]] inline void add(float weight, const Block& block, Block& sum) {
-    sum.a += weight * block.a;
-    sum.b += weight * block.b;
-}
-
-[[gnu::always_inline]] inline void sum_and_difference(const float* before, const float* after, Block& sum,
-                                                      Block& difference) {
-    Block left, right;
+[[gnu::always_inline]] inline void sum_and_difference(const float* before, const float* after, RowBlock& sum,
+                                                      RowBlock& difference) {
+    RowBlock left, right;
     load(before, left);
     load(after, right);
     sum = {right.a + left.a, right.b + left.b};
@@ -51,7 +28,7 @@ template <bool kCurved>
                                           const float* slopes, const float* curves, int n, float* bell,
                                           float* slope, float* curve) {
     for (int x = 0; x < n; x += kRowBlock) {
-        Block middle, smooth{}, rise{}, bend{}, sum, difference;
+        RowBlock middle, smooth{}, rise{}, bend{}, sum, difference;
         load(row + x, middle);
         add(bells[0], middle, smooth);
         if (kCurved) add(curves[0], middle, bend);
@@ -71,7 +48,7 @@ template <bool kOdd>
 [[gnu::always_inline]] inline void down(const float* const* rows, int radius, const float* weights, int n,
                                         float* out) {
     for (int x = 0; x < n; x += kRowBlock) {
-        Block middle, total{}, sum, difference;
+        RowBlock middle, total{}, sum, difference;
         load(rows[radius] + x, middle);
         if (!kOdd) add(weights[0], middle, total);
         for (int k = 1; k <= radius; ++k) {
@@ -117,7 +94,7 @@ int radius_of(const std::vector<float>& weights) {
 
 }  // namespace
 
-GaussianTaps::GaussianTaps(double sigma) : radius(static_cast<int>(std::ceil(kReach * sigma))) {
+GaussianTaps::GaussianTaps(double sigma) : radius(static_cast<int>(std::ceil(kReach * sigma - 0.5))) {
     std::vector<double> samples(static_cast<std::size_t>(radius) + 1);
     double sum = 0, square = 0, fourth = 0;  // of the samples on both sides, times x^0, x^2, x^4
     for (int x = 0; x <= radius; ++x) {
@@ -161,14 +138,10 @@ void slope_down(const float* const* rows, const std::vector<float>& weights, int
 
 RowRing::RowRing(int count, int length)
     : count_(count),
-      stride_(whole_blocks(length)),
-      data_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(count) + kRowBlock),
-      first_(aligned(data_)) {}
-
-const float* const* RowRing::around(int y, int radius) {
-    pointers_.clear();
-    for (int i = -radius; i <= radius; ++i) pointers_.push_back(row(y + i));
-    return pointers_.data();
+      data_(static_cast<std::size_t>(whole_blocks(length)) * static_cast<std::size_t>(count) + kRowBlock) {
+    float* first = aligned(data_);
+    for (int i = 0; i < 2 * count; ++i)
+        rows_.push_back(first + std::ptrdiff_t{i % count} * whole_blocks(length));
 }
 
 }  // namespace tricue

@@ -23,23 +23,27 @@ void multiply(const Constraints& row, int n, const Products& out) {
 
 TRICUE_MULTIVERSION
 void mean_down(const float* const* rows, int count, float share, int n, float* out) {
-    constexpr int kBlock = kRowBlock;
-    for (int x = 0; x < n; x += kBlock) {
-        float sum[kBlock] = {};
-        for (int i = 0; i < count; ++i)
-            for (int k = 0; k < kBlock; ++k) sum[k] += rows[i][x + k];
-        for (int k = 0; k < kBlock; ++k) out[x + k] = share * sum[k];
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock sum{}, block, mean{};
+        for (int i = 0; i < count; ++i) {
+            load(rows[i] + x, block);
+            add(1, block, sum);
+        }
+        add(share, sum, mean);
+        store(mean, out + x);
     }
 }
 
 TRICUE_MULTIVERSION
 void mean_across(const float* row, int count, float share, int n, float* out) {
-    constexpr int kBlock = kRowBlock;
-    for (int x = 0; x < n; x += kBlock) {
-        float sum[kBlock] = {};
-        for (int i = 0; i < count; ++i)
-            for (int k = 0; k < kBlock; ++k) sum[k] += row[x + i + k];
-        for (int k = 0; k < kBlock; ++k) out[x + k] = share * sum[k];
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock sum{}, block, mean{};
+        for (int i = 0; i < count; ++i) {
+            load(row + x + i, block);
+            add(1, block, sum);
+        }
+        add(share, sum, mean);
+        store(mean, out + x);
     }
 }
 
@@ -66,7 +70,7 @@ Products PooledRows::row(int y) {
     const int side = 2 * pool_ + 1;
     const float share = 1 / static_cast<float>(side);
     for (int i = 0; i < 5; ++i) {
-        const auto* rows = products_[static_cast<std::size_t>(i)].around(y, pool_);
+        const auto* rows = products_[static_cast<std::size_t>(i)].from(y - pool_);
         mean_down(rows, side, share, length_ + 2 * pool_, sums_.row(0));
         mean_across(sums_.row(0), side, share, length_, result_.row(i));
     }

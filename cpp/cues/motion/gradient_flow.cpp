@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/motion/gradient_flow.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "flow_constraints.hpp"
@@ -12,8 +10,6 @@
 
 namespace tricue {
 namespace {
-
-constexpr float kSmallest = std::numeric_limits<float>::min();
 
 /// Cramer's rule on (4).
 TRICUE_MULTIVERSION
@@ -29,10 +25,12 @@ void solve_row(const Constraints& row, float min_angle, float min_contrast, int 
         const float cross = g_x * h_y - g_y * h_x;  // G x H
         const float g = g_x * g_x + g_y * g_y, h = h_x * h_x + h_y * h_y;
         const float norms = std::sqrt(g * h);
-        const float sine = std::fabs(cross) / (norms > kSmallest ? norms : kSmallest);  // 0 / 0 is 0
-        const float angle = sine < 1 ? sine : 1.0F;
+        const float sine = std::fabs(cross) / (norms > kRoundingContrast ? norms : kRoundingContrast);
+        const float bounded = sine < 1 ? sine : 1.0F;
+        const bool clear = (g >= kRoundingContrast) & (h >= kRoundingContrast);
+        const float angle = clear ? bounded : 0.0F;
         const float contrast = g + h;
-        const bool kept = (angle >= min_angle) & (contrast >= min_contrast) & (cross != 0);
+        const bool kept = (angle > 0) & (angle >= min_angle) & (contrast >= min_contrast);
         const float u = (g_y * h_t - h_y * g_t) / cross, v = (h_x * g_t - g_x * h_t) / cross;
         us[x] = kept ? u : kNoFlow;
         vs[x] = kept ? v : kNoFlow;
@@ -54,7 +52,7 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
     if (flow.planes.size() == 0) return flow;
 
     const auto min_angle = static_cast<float>(minima.angle);
-    const auto min_contrast = std::max(static_cast<float>(minima.contrast), kRoundingContrast);
+    const auto min_contrast = static_cast<float>(minima.contrast);
     ConstraintRows constraints(sigma, width);
     const int radius = constraints.radius(), length = width + 2 * radius;
     std::vector<float> before(static_cast<std::size_t>(length)), now(before.size());

@@ -13,14 +13,14 @@ namespace tricue {
 ///
 /// Each pixel's u, v solve the two constraints (4), (g*f)_x u + (g*f)_y v = -(g*f)_t and the same for h (as printed (4) has lost
 /// the minus of (3)): spatial gradients are those of the mean of both frames, temporal ones the difference current - previous.
-/// So the flow is that of what is halfway between the frames at this pixel: of two pixels' motion half a flow apart. It is valid
-/// for motions up to about sigma pixels; longer ones need pyramid_flow.
+/// So the flow is that of what is at this pixel halfway between the frames. It is best for motions up to half a sigma; of a wave
+/// w = 2 pi / length it gives 2 tan(w u / 2) / w, too much the longer the motion is. pyramid_flow finds long ones.
 ///
-/// angle is (5), |sin| of the angle between the lines that the constraints are in the u-v plane; contrast is (6). u and v
-/// are NaN where angle or contrast is under its minimum or contrast under 1e-6, which is rounding.
+/// angle is (5), |sin| of the angle between the lines that the constraints are in the u-v plane, 0 where |G|^2 or |H|^2 is
+/// under 1e-6, which is rounding; contrast is (6). u and v are NaN where angle is 0, or angle or contrast under its minimum.
 ///
-/// Filters are sampled and cut off at 3 sigma (gaussian_rows.hpp); beyond a frame's edge its pixels go on, so that flow nearer to it
-/// is less exact.
+/// Filters are sampled and cut off at 3.5 sigma (gaussian_rows.hpp); beyond a frame's edge its pixels go on, so that flow nearer to
+/// it is less exact.
 ///
 /// @param previous, current gray frames of one size
 /// @param sigma             of the Gaussian, 0.5 to 16 pixels

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "check.hpp"
-#include "float_image.hpp"
 #include "flow_constraints.hpp"
 #include "flow_field.hpp"
+#include "frame_rows.hpp"
+#include "gray_pyramid.hpp"
 #include "pooled_rows.hpp"
 #include "simd.hpp"
 
@@ -64,9 +65,9 @@ void add_steps(const Products& sums, float damping, int n, float* us, float* vs)
     }
 }
 
+/// u and v hold the flow that the step is from.
 TRICUE_MULTIVERSION
-void finish_row(const Products& sums, float damping, const Limits& limits, int n, const float* u_before,
-                const float* v_before, const FlowRow& out) {
+void finish_row(const Products& sums, float damping, const Limits& limits, int n, const FlowRow& out) {
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
     float *us = out.u, *vs = out.v, *angles = out.angle, *contrasts = out.contrast;
     const Limits least = limits;
@@ -79,7 +80,7 @@ void finish_row(const Products& sums, float damping, const Limits& limits, int n
         const float square = step.u * step.u + step.v * step.v;
         const bool kept =
             (angle >= least.angle) & (contrast >= least.contrast) & (square <= least.step * least.step);
-        const float u = u_before[x] + step.u, v = v_before[x] + step.v;
+        const float u = us[x] + step.u, v = vs[x] + step.v;
         us[x] = kept ? u : kNoFlow;
         vs[x] = kept ? v : kNoFlow;
         angles[x] = angle;
@@ -87,28 +88,30 @@ void finish_row(const Products& sums, float damping, const Limits& limits, int n
     }
 }
 
-/// The row of the area nearest to y, with a margin on both sides that repeats its ends.
-void flow_row(const Floats& plane, int y, int margin, std::vector<float>& out) {
-    const float* row = &plane(std::clamp<Eigen::Index>(y, 0, plane.rows() - 1), 0);
-    std::copy_n(row, plane.cols(), std::fill_n(out.begin(), margin, row[0]));
-    std::fill_n(out.end() - margin, margin, row[plane.cols() - 1]);
+/// Row y of the guess, its first or last beyond it, with a margin on both sides that repeats its ends.
+void guess_row(FlowGuess& guess, int y, int margin, float* u, float* v) {
+    const int rows = guess.area().y1 - guess.area().y0, cols = guess.area().x1 - guess.area().x0;
+    guess.row(std::clamp(y, 0, rows - 1), u + margin, v + margin);
+    for (float* row : {u, v}) {
+        std::fill_n(row, margin, row[margin]);
+        std::fill_n(row + margin + cols, margin, row[margin + cols - 1]);
+    }
 }
 
-/// Calls done(y, products) for each row y of the flow's area. It may write that row of the flow: none is read later that is written.
+/// Calls done(y, products) for each row y of the guess's area: the constraints of `before`, warped by the guess, and `now`.
 template <typename Done>
-void measure(const FloatImage& before, const FloatImage& now, double sigma, int pool, const FlowField& flow,
+void measure(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
              const Done& done) {
-    const auto [x0, y0, x1, y1] = flow.area;
+    const auto [x0, y0, x1, y1] = guess.area();
     const int width = x1 - x0;
     ConstraintRows constraints(sigma, width + 2 * pool);
     PooledRows pooled(pool, width);
     const int radius = constraints.radius(), margin = radius + pool, length = width + 2 * margin;
     std::vector<float> u(static_cast<std::size_t>(length)), v(u), warped(u), here(u);
     for (int y = -margin; y < y1 - y0 + margin; ++y) {
-        flow_row(flow.u, y, margin, u);
-        flow_row(flow.v, y, margin, v);
-        warped_row(before, y0 + y, x0 - margin, u.data(), v.data(), length, warped.data());
-        image_row(now, y0 + y, x0 - margin, length, here.data());
+        guess_row(guess, y, margin, u.data(), v.data());
+        before.warped_row(y0 + y, x0 - margin, u.data(), v.data(), length, warped.data());
+        frame_row(now, y0 + y, x0 - margin, length, here.data());
         constraints.push(y + pool, warped.data(), here.data());
         if (y < radius - pool) continue;
         pooled.push(y - radius, constraints.row(y - radius + pool));
@@ -116,11 +119,26 @@ void measure(const FloatImage& before, const FloatImage& now, double sigma, int 
     }
 }
 
-std::vector<FloatImage> image_pyramid(const ImageView& frame, int levels) {
-    std::vector<FloatImage> images;
-    images.emplace_back(frame);
-    while (static_cast<int>(images.size()) < levels) images.push_back(halved(images.back()));
-    return images;
+/// The guess at the first level, from the coarser ones.
+FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, double sigma,
+                       const FlowPyramid& pyramid, const Region& area) {
+    const auto before = smaller_levels(previous, pyramid.levels),
+               now = smaller_levels(current, pyramid.levels);
+    std::vector<Region> areas{area};
+    for (const auto& image : now) areas.push_back(halved(areas.back(), image.rows, image.cols));
+    const float damping = rounding_noise(sigma);
+    FlowGuess guess(areas.back());
+    for (std::size_t i = now.size(); i > 0; --i) {
+        const Eigen::Index rows = areas[i].y1 - areas[i].y0, cols = areas[i].x1 - areas[i].x0;
+        FlowField flow{areas[i], Floats(rows, cols), Floats(rows, cols)};
+        measure(QuadImage(before[i - 1].view()), now[i - 1].view(), sigma, pyramid.pool, guess,
+                [&](int y, const Products& sums) {
+                    guess.row(y, &flow.u(y, 0), &flow.v(y, 0));
+                    add_steps(sums, damping, static_cast<int>(cols), &flow.u(y, 0), &flow.v(y, 0));
+                });
+        guess = FlowGuess(flow, areas[i - 1]);
+    }
+    return guess;
 }
 
 }  // namespace
@@ -132,27 +150,18 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     require_sigma(sigma);
     require_pyramid(pyramid);
     require_minima(minima);
-    std::vector<Region> areas{region_or_all(region, current)};
-    FlowPlanes result(areas[0].y1 - areas[0].y0, areas[0].x1 - areas[0].x0);
+    const Region area = region_or_all(region, current);
+    FlowPlanes result(area.y1 - area.y0, area.x1 - area.x0);
     if (result.planes.size() == 0) return result;
-    const auto before = image_pyramid(previous, pyramid.levels), now = image_pyramid(current, pyramid.levels);
-    for (std::size_t i = 1; i < now.size(); ++i)
-        areas.push_back(halved(areas.back(), now[i].rows(), now[i].cols()));
-
-    const float damping = rounding_noise(sigma);
-    FlowField flow(areas.back());
-    for (std::size_t i = now.size() - 1; i > 0; --i) {
-        measure(before[i], now[i], sigma, pyramid.pool, flow, [&](int y, const Products& sums) {
-            add_steps(sums, damping, static_cast<int>(flow.u.cols()), &flow.u(y, 0), &flow.v(y, 0));
-        });
-        flow = doubled(flow, areas[i - 1]);
-    }
     const Limits limits{static_cast<float>(minima.angle),
                         std::max(static_cast<float>(minima.contrast), kRoundingContrast),
                         static_cast<float>(pyramid.max_step)};
-    measure(before[0], now[0], sigma, pyramid.pool, flow, [&](int y, const Products& sums) {
-        finish_row(sums, damping, limits, static_cast<int>(flow.u.cols()), &flow.u(y, 0), &flow.v(y, 0),
-                   result.row(y));
+    const float damping = rounding_noise(sigma);
+    FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, area);
+    measure(QuadImage(previous), current, sigma, pyramid.pool, guess, [&](int y, const Products& sums) {
+        const FlowRow row = result.row(y);
+        guess.row(y, row.u, row.v);
+        finish_row(sums, damping, limits, area.x1 - area.x0, row);
     });
     return result;
 }

@@ -10,16 +10,21 @@ from tricue.reference.checks import refuse
 
 Floats = NDArray[np.float64]
 
-REACH = 3  # sigmas on each side
+REACH = 3.5  # sigmas on each side, up to the outer edge of the last pixel
+
+
+def reach(sigma: float) -> int:
+    """How many pixels on each side count."""
+    return math.ceil(REACH * sigma - 0.5)
 
 
 def gaussian_taps(sigma: float, order: int) -> Floats:
-    """(2 r + 1,) weights of the derivative of an order, 0 to 2, r = ceil(3 sigma), to be correlated with.
+    """(2 r + 1,) weights of the derivative of an order, 0 to 2, to be correlated with.
 
-    Scaled so that of what is sampled exactly they make no error: order 0 sums to 1, order 1 gives 1 on the ramp x,
-    order 2 gives 0 on a constant and 2 on the parabola x^2.
+    Scaled so that of what is sampled exactly they make no error: order 0 sums to 1, order 1 gives 1 on the
+    ramp x, order 2 gives 0 on a constant and 2 on the parabola x^2.
     """
-    radius = math.ceil(REACH * sigma)
+    radius = reach(sigma)
     x = np.arange(-radius, radius + 1, dtype=np.float64)
     bell = np.exp(-(x**2) / (2 * sigma**2))
     bell /= bell.sum()
@@ -32,7 +37,7 @@ def gaussian_taps(sigma: float, order: int) -> Floats:
 
 
 def correlate(image: Floats, across: Floats, down: Floats) -> Floats:
-    """(H, W) correlated with one set of taps along x and one along y; beyond the edge its pixels go on."""
+    """Give (H, W) correlated with taps along x and taps along y; beyond the edge its pixels go on."""
     for taps, axis in ((across, 1), (down, 0)):
         radius = len(taps) // 2
         padded = np.pad(image, [(radius, radius) if axis == a else (0, 0) for a in (0, 1)], mode="edge")

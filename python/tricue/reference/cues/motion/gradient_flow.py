@@ -23,7 +23,9 @@ def gradient_flow(
     min_contrast: float,
     region: Rectangle | None = None,
 ) -> tuple[Plane, Plane, Plane, Plane]:
-    """u, v, angle, contrast (h, w) of the region: equations (1)-(6), g and h the derivatives of a Gaussian."""
+    """u, v, angle, contrast (h, w) of the region: equations (1)-(6), the filters
+    the derivatives of a Gaussian.
+    """
     require_frames(previous, current, region)
     require_sigma(sigma)
     require_reliabilities(min_angle, min_contrast)
@@ -34,7 +36,7 @@ def gradient_flow(
     return u, v, angle, contrast
 
 
-def constraints(before: Floats, now: Floats, sigma: float) -> tuple[Floats, ...]:
+def constraints(before: Floats, now: Floats, sigma: float) -> tuple[Floats, Floats, Floats, Floats, Floats]:
     """(g*f)_x, (g*f)_y = (h*f)_x, (h*f)_y of the mean of both frames, and (g*f)_t, (h*f)_t: equation (4)."""
     bell, slope, curve = (gaussian_taps(sigma, order) for order in (0, 1, 2))
     mean, change = (before + now) / 2, now - before
@@ -45,13 +47,14 @@ def constraints(before: Floats, now: Floats, sigma: float) -> tuple[Floats, ...]
 def solve(
     g_x: Floats, g_y: Floats, h_y: Floats, g_t: Floats, h_t: Floats, min_angle: float, min_contrast: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Cramer's rule on (4), its right side with the minus that (3) asks for; NaN where (5) or (6) is too small."""
+    """Cramer's rule on (4), its right side with the minus of (3); NaN where (5) or (6) is too small."""
     h_x = g_y
     cross = g_x * h_y - g_y * h_x  # G x H
-    norms = np.sqrt((g_x**2 + g_y**2) * (h_x**2 + h_y**2))  # |G| |H|
-    angle = np.divide(abs(cross), norms, out=np.zeros_like(norms), where=norms > 0)
-    contrast = g_x**2 + g_y**2 + h_x**2 + h_y**2
-    kept = (contrast >= ROUNDING) & (cross != 0) & (angle >= min_angle) & (contrast >= min_contrast)
+    g, h = g_x**2 + g_y**2, h_x**2 + h_y**2  # |G|^2, |H|^2
+    clear = (g >= ROUNDING) & (h >= ROUNDING)
+    angle = np.divide(abs(cross), np.sqrt(g * h), out=np.zeros_like(g), where=clear)
+    contrast = g + h
+    kept = (angle > 0) & (angle >= min_angle) & (contrast >= min_contrast)
     u, v = (np.full(cross.shape, np.nan) for _ in range(2))
     np.divide(g_y * h_t - h_y * g_t, cross, out=u, where=kept)
     np.divide(h_x * g_t - g_x * h_t, cross, out=v, where=kept)

@@ -17,7 +17,7 @@ from tricue.reference.cues.motion.gradient_flow import (
     require_frames,
     require_reliabilities,
 )
-from tricue.reference.gaussian import REACH, correlate, require_sigma
+from tricue.reference.gaussian import correlate, reach, require_sigma
 
 Ints = NDArray[np.int64]
 
@@ -70,11 +70,11 @@ def measure(
 ) -> tuple[Floats, Floats, Floats]:
     """Give the step (2, h, w) from a flow to a better one, and both reliabilities, of an area.
 
-    Least squares on the two constraints (4) of each pixel of a window, `before` warped towards `now`. Beyond the
-    area the flow of its edge goes on, beyond a frame its pixels.
+    Least squares on the two constraints (4) of each pixel of a window, `before` warped towards `now`. Beyond
+    the area the flow of its edge goes on, beyond a frame its pixels.
     """
     x0, y0, x1, y1 = area
-    margin = math.ceil(REACH * sigma) + pool
+    margin = reach(sigma) + pool
     y, x = np.arange(y0 - margin, y1 + margin), np.arange(x0 - margin, x1 + margin)
     around = flow[:, y.clip(y0, y1 - 1)[:, None] - y0, x.clip(x0, x1 - 1) - x0]
     inner = now[y.clip(0, now.shape[0] - 1)[:, None], x.clip(0, now.shape[1] - 1)]
@@ -105,13 +105,15 @@ def measure(
 
 
 def rounding_noise(sigma: float) -> float:
-    """The contrast (6) of frames of nothing but rounding, variance 1/12 each: by the integral of the filters squared."""
+    """Give the contrast (6) of the mean of two frames of nothing but rounding, variance 1/12 each: by the
+    integral of the filters squared.
+    """
     return 1 / (48 * math.pi * sigma**6)
 
 
 def halved(image: Floats) -> Floats:
-    """Every second pixel, from the first on, of the image smoothed by 1, 4, 6, 4, 1."""
-    return correlate(image, BINOMIAL, BINOMIAL)[::2, ::2]
+    """Every second pixel, from the first on, of the image smoothed by 1, 4, 6, 4, 1 and rounded."""
+    return np.asarray(np.floor(correlate(image, BINOMIAL, BINOMIAL)[::2, ::2] + 0.5))
 
 
 def halved_area(area: Rectangle, image: Floats) -> Rectangle:
