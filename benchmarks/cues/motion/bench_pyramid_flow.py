@@ -49,9 +49,9 @@ CONTENDERS = {
 @pytest.mark.benchmark(group="pyramid_flow, 160x120")
 @pytest.mark.parametrize("flow", CONTENDERS.values(), ids=list(CONTENDERS))
 def bench_pyramid_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
-    """Half of the pixels are found within 0.1 px by all, and the kernels agree."""
+    """Half of the pixels are found within 0.2 px by all, and the kernels agree."""
     u, v = benchmark(flow, *frames)
     assert np.isfinite(u).mean() > 0.9
-    assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)) < 0.1
+    assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)) < 0.2
     if flow is CONTENDERS["native"]:
         assert np.nanmax(abs(u - CONTENDERS["reference"](*frames)[0])) < 1e-3

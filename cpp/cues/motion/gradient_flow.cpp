@@ -11,9 +11,12 @@
 namespace tricue {
 namespace {
 
+constexpr double kLongest = 2.221441469079183;  // pi / sqrt(2) sigmas: see the header
+
 /// Cramer's rule on (4).
 TRICUE_MULTIVERSION
-void solve_row(const Constraints& row, float min_angle, float min_contrast, int n, const FlowRow& out) {
+void solve_row(const Constraints& row, float min_angle, float min_contrast, float longest, int n,
+               const FlowRow& out) {
     const float *g_xs = row.g_x, *g_ys = row.g_y, *h_ys = row.h_y;
     const float *g_ts = row.g_t, *h_ts = row.h_t;
     float *us = out.u, *vs = out.v;
@@ -30,8 +33,9 @@ void solve_row(const Constraints& row, float min_angle, float min_contrast, int 
         const bool clear = (g >= kRoundingContrast) & (h >= kRoundingContrast);
         const float angle = clear ? bounded : 0.0F;
         const float contrast = g + h;
-        const bool kept = (angle > 0) & (angle >= min_angle) & (contrast >= min_contrast);
         const float u = (g_y * h_t - h_y * g_t) / cross, v = (h_x * g_t - g_x * h_t) / cross;
+        const bool kept = (angle > 0) & (angle >= min_angle) & (contrast >= min_contrast) &
+                          (u * u + v * v <= longest * longest);
         us[x] = kept ? u : kNoFlow;
         vs[x] = kept ? v : kNoFlow;
         angles[x] = angle;
@@ -53,6 +57,7 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
 
     const auto min_angle = static_cast<float>(minima.angle);
     const auto min_contrast = static_cast<float>(minima.contrast);
+    const auto longest = static_cast<float>(kLongest * sigma);
     ConstraintRows constraints(sigma, width);
     const int radius = constraints.radius(), length = width + 2 * radius;
     std::vector<float> before(static_cast<std::size_t>(length)), now(before.size());
@@ -62,7 +67,7 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
         constraints.push(y, before.data(), now.data());
         const int done = y - radius;
         if (done < 0) continue;
-        solve_row(constraints.row(done), min_angle, min_contrast, width, flow.row(done));
+        solve_row(constraints.row(done), min_angle, min_contrast, longest, width, flow.row(done));
     }
     return flow;
 }

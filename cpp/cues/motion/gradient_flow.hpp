@@ -17,7 +17,9 @@ namespace tricue {
 /// w = 2 pi / length it gives 2 tan(w u / 2) / w, too much the longer the motion is. pyramid_flow finds long ones.
 ///
 /// angle is (5), |sin| of the angle between the lines that the constraints are in the u-v plane, 0 where |G|^2 or |H|^2 is
-/// under 1e-6, which is rounding; contrast is (6). u and v are NaN where angle is 0, or angle or contrast under its minimum.
+/// under 1e-6, which is rounding; contrast is (6). u and v are NaN where angle is 0, angle or contrast is under its minimum,
+/// or the flow is longer than pi / sqrt(2) sigma = 2.2 sigma: that is half of the wave that second derivatives of the Gaussian pass
+/// best, w = sqrt(2) / sigma, and of half a wave nobody can tell which way it went.
 ///
 /// Filters are sampled and cut off at 3.5 sigma (gaussian_rows.hpp); beyond a frame's edge its pixels go on, so that flow nearer to
 /// it is less exact.

@@ -73,7 +73,7 @@ def test_finds_a_known_motion(kernels: Kernels, scene: Scene, length: float, ang
 
 
 def test_finds_a_turn_and_zoom(kernels: Kernels, scene: Scene) -> None:
-    """Of a frame that turns by 2 degrees and grows by 3 % each pixel of the current frame has its own motion."""
+    """Where a frame turns by 2 degrees and grows by 3 % each pixel has its own motion."""
     x, y = grid()
     across, down = x - 60, y - 45
     turn = np.exp(2j * np.pi / 180) * 1.03

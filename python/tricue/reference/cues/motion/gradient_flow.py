@@ -12,6 +12,7 @@ Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 Rectangle = tuple[int, int, int, int]
 
+LONGEST = np.pi / np.sqrt(2)  # sigmas: half of the wave that a Gaussian's second derivatives pass best
 ROUNDING = 1e-6  # a contrast that 32-bit sums of gray levels leave where there is none
 
 
@@ -30,7 +31,7 @@ def gradient_flow(
     require_sigma(sigma)
     require_reliabilities(min_angle, min_contrast)
     before, now = previous.astype(np.float64), current.astype(np.float64)
-    planes = solve(*constraints(before, now, sigma), min_angle, min_contrast)
+    planes = solve(*constraints(before, now, sigma), min_angle, min_contrast, LONGEST * sigma)
     x0, y0, x1, y1 = region or (0, 0, current.shape[1], current.shape[0])
     u, v, angle, contrast = (np.ascontiguousarray(plane[y0:y1, x0:x1], np.float32) for plane in planes)
     return u, v, angle, contrast
@@ -45,7 +46,14 @@ def constraints(before: Floats, now: Floats, sigma: float) -> tuple[Floats, Floa
 
 
 def solve(
-    g_x: Floats, g_y: Floats, h_y: Floats, g_t: Floats, h_t: Floats, min_angle: float, min_contrast: float
+    g_x: Floats,
+    g_y: Floats,
+    h_y: Floats,
+    g_t: Floats,
+    h_t: Floats,
+    min_angle: float,
+    min_contrast: float,
+    longest: float,
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Cramer's rule on (4), its right side with the minus of (3); NaN where (5) or (6) is too small."""
     h_x = g_y
@@ -58,7 +66,8 @@ def solve(
     u, v = (np.full(cross.shape, np.nan) for _ in range(2))
     np.divide(g_y * h_t - h_y * g_t, cross, out=u, where=kept)
     np.divide(h_x * g_t - g_x * h_t, cross, out=v, where=kept)
-    return u, v, angle, contrast
+    u[np.hypot(u, v) > longest] = np.nan
+    return u, np.where(np.isnan(u), np.nan, v), angle, contrast
 
 
 def require_frames(previous: Image, current: Image, region: Rectangle | None) -> None:
