@@ -3,9 +3,10 @@
 
 Errors are average endpoint errors in pixels, all methods' over the same pixels: of those with a true flow the
 half that the reliabilities of ours rank first, by angle^2 contrast. The root of that is about the smaller
-singular value of equation (4), so its inverse bounds the flow's error; on made frames errors of one level fall
-nearly with these powers (``fit``). Where ours gives no flow it ranks last. Times are the fastest of some
-rounds in turn, on one thread; Lucas-Kanade's is that for the half. "kept" are those that reach a tracker's minima.
+singular value of equation (4), so its inverse bounds the flow's error; on made frames errors of one level
+fall nearly with these powers (``fit``). Where ours gives no flow it ranks last. Times are the fastest of some
+rounds in turn, on one thread; Lucas-Kanade's is that for the half. "kept" are those that reach a tracker's
+minima.
 """
 
 import argparse
@@ -30,6 +31,7 @@ Dense = Callable[[Image, Image], Floats]
 
 SIGMA, PYRAMID_SIGMA, LEVELS = 2.0, 1.0, 3
 MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # for the density: what a tracker keeps
+CLEAR = 0.3
 SHIFTS = (0.5, 1, 2, 3, 4, 6)  # px
 PEERS = ("Farneback", "DIS ultrafast", "DIS medium", "Lucas-Kanade")
 COLUMNS = ("frames", "flow", "kept %", "AEE", *PEERS, "of DIS", "ms", *(f"ms {peer}" for peer in PEERS))
@@ -61,7 +63,7 @@ class Result(NamedTuple):
 
 
 class Ours(NamedTuple):
-    """One of our flows: u, v, angle, contrast of two frames; the sign of u and v in the first one's pixels."""
+    """One of our flows: u, v, angle, contrast of two frames; the sign of u, v in the first one's pixels."""
 
     kernel: Callable[[Image, Image], tuple[Floats, Floats, Floats, Floats]]
     sign: int
@@ -181,12 +183,16 @@ def table(cases: Iterable[Frames], rounds: int = 10) -> str:
 
 
 def fit(cases: Iterable[Frames], sigma: float = SIGMA) -> tuple[float, float]:
-    """Exponents of angle and contrast in one level's error, by least squares on their logarithms."""
+    """Exponents of angle and contrast in one level's error, by least squares on their logarithms.
+
+    Only where the angle is CLEAR: where it is small the worst flow is too long to be given, and its error
+    missing.
+    """
     rows = []
     for frames in cases:
         found = one_level(sigma).find(frames)
         error = np.linalg.norm(found.flow - frames.truth, axis=2)
-        used = np.isfinite(error) & (error > 0) & (found.angle > 0)
+        used = np.isfinite(error) & (error > 0) & (found.angle > CLEAR)
         rows.append(np.log(np.stack([error[used], found.angle[used], found.contrast[used]])))
     error, angle, contrast = np.concatenate(rows, axis=1)
     terms = np.stack([angle, contrast, np.ones_like(angle)], axis=1)
