@@ -9,6 +9,7 @@ void define_depth(pybind11::module_& m);
 void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
 void define_kalman(pybind11::module_& m);
+void define_motion(pybind11::module_& m);
 void define_skin(pybind11::module_& m);
 void define_stereo(pybind11::module_& m);
 }  // namespace tricue::bindings
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_depth(m);
     tricue::bindings::define_depth_objects(m);
     tricue::bindings::define_stereo(m);
+    tricue::bindings::define_motion(m);
     tricue::bindings::define_fuse(m);
     tricue::bindings::define_kalman(m);
     tricue::bindings::define_bayes(m);

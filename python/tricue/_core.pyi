@@ -238,6 +238,23 @@ def floor_plane(
     (6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three pixels, row * cols + col.
     """
 
+def gradient_flow(
+    previous: numpy.typing.NDArray[numpy.uint8],
+    current: numpy.typing.NDArray[numpy.uint8],
+    sigma: float,
+    min_angle: float,
+    min_contrast: float,
+    region: tuple[int, int, int, int] | None = None,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+]:
+    """
+    Flow u, v, pixels a frame, NaN where a reliability is under its minimum, and the reliabilities angle, 0 to 1, and contrast, (h, w) each, of the region (x0, y0, x1, y1) of two gray frames (H, W), or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, along x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.
+    """
+
 def height_above(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -341,6 +358,26 @@ def propose(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); floor(share N) of them have their first K numbers from N(mean, root root^T) instead; all clamped to [lower, upper].
+    """
+
+def pyramid_flow(
+    previous: numpy.typing.NDArray[numpy.uint8],
+    current: numpy.typing.NDArray[numpy.uint8],
+    sigma: float,
+    levels: int,
+    min_angle: float,
+    min_contrast: float,
+    region: tuple[int, int, int, int] | None = None,
+    pool: int = 3,
+    max_step: float = 0.4,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+]:
+    """
+    As gradient_flow, (h, w) each, for longer motions: from coarse to fine over 2 to 8 levels, previous warped towards current, constraints pooled over 2 pool + 1 pixels square. The flow of what is at the pixel in current, NaN also where the last level's step is longer than max_step pixels; angle and contrast are those of the window.
     """
 
 def rank_contrast(
@@ -714,6 +751,20 @@ class Kernels(Protocol):
         up: numpy.typing.NDArray[numpy.float64],
         least_cosine: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def gradient_flow(
+        self,
+        previous: numpy.typing.NDArray[numpy.uint8],
+        current: numpy.typing.NDArray[numpy.uint8],
+        sigma: float,
+        min_angle: float,
+        min_contrast: float,
+        region: tuple[int, int, int, int] | None = None,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ]: ...
     def height_above(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -790,6 +841,23 @@ class Kernels(Protocol):
         lower: numpy.typing.NDArray[numpy.float64],
         upper: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def pyramid_flow(
+        self,
+        previous: numpy.typing.NDArray[numpy.uint8],
+        current: numpy.typing.NDArray[numpy.uint8],
+        sigma: float,
+        levels: int,
+        min_angle: float,
+        min_contrast: float,
+        region: tuple[int, int, int, int] | None = None,
+        pool: int = 3,
+        max_step: float = 0.4,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ]: ...
     def rank_contrast(
         self,
         image: numpy.typing.NDArray[numpy.uint8],

@@ -43,6 +43,8 @@ from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.motion.gradient_flow import gradient_flow
+from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
@@ -82,6 +84,7 @@ __all__ = [
     "ellipse_search",
     "fill_gaps",
     "floor_plane",
+    "gradient_flow",
     "height_above",
     "histogram_mean",
     "joint_histogram",
@@ -91,6 +94,7 @@ __all__ = [
     "measure_objects",
     "plane_support",
     "propose",
+    "pyramid_flow",
     "rank_contrast",
     "rank_distance",
     "rank_sections",

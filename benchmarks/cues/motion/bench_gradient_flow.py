@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""Flow of one level: native, reference, a script on cv2.sepFilter2D, and cv2's fastest dense flow."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import _core, reference
+from tricue.reference.gaussian import gaussian_taps
+
+Image = NDArray[np.uint8]
+Flow = tuple[NDArray[np.float32], NDArray[np.float32]]
+
+SIGMA, ANGLE, CONTRAST = 2.0, 0.3, 0.5
+
+
+def ours(kernel: Callable[..., Any]) -> Callable[[Image, Image], Flow]:
+    """u and v of a kernel."""
+    return lambda previous, current: kernel(previous, current, SIGMA, ANGLE, CONTRAST)[:2]
+
+
+def script(previous: Image, current: Image) -> Flow:
+    """Do it as one would without the kernel."""
+    bell, slope, curve = (gaussian_taps(SIGMA, order) for order in (0, 1, 2))
+    before, now = previous.astype(np.float32), current.astype(np.float32)
+    mean, change = (before + now) / 2, now - before
+
+    def filtered(image: NDArray[np.float32], across: Any, down: Any) -> Any:
+        return cv2.sepFilter2D(image, cv2.CV_32F, across, down, borderType=cv2.BORDER_REPLICATE)
+
+    xx, xy, yy = filtered(mean, curve, bell), filtered(mean, slope, slope), filtered(mean, bell, curve)
+    xt, yt = filtered(change, slope, bell), filtered(change, bell, slope)
+    cross, first, second = xx * yy - xy * xy, xx * xx + xy * xy, xy * xy + yy * yy
+    u, v = (xy * yt - yy * xt) / cross, (xy * xt - xx * yt) / cross
+    kept = (abs(cross) >= ANGLE * np.sqrt(first * second)) & (first + second >= CONTRAST)
+    kept &= np.hypot(u, v) <= np.pi / np.sqrt(2) * SIGMA
+    return np.where(kept, u, np.float32(np.nan)), np.where(kept, v, np.float32(np.nan))
+
+
+def dis() -> Callable[[Image, Image], Flow]:
+    """cv2's dense inverse search, ultrafast; it keeps its memory from call to call."""
+    search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)
+
+    def calc(previous: Image, current: Image) -> Flow:
+        flow = np.asarray(search.calc(previous, current, None), np.float32)  # type: ignore[call-overload]
+        return flow[..., 0], flow[..., 1]
+
+    return calc
+
+
+CONTENDERS = {
+    "native": ours(_core.gradient_flow),
+    "reference": ours(reference.gradient_flow),
+    "peer": script,
+    "dis": dis(),
+}
+
+
+@pytest.mark.benchmark(group="gradient_flow, 160x120")
+@pytest.mark.parametrize("flow", CONTENDERS.values(), ids=list(CONTENDERS))
+def bench_gradient_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
+    """Half of the pixels that the kernel keeps all find within 0.2 px, and the first three alike."""
+    u, v = benchmark(flow, *frames)
+    theirs = CONTENDERS["reference"](*frames)
+    kept = np.isfinite(theirs[0])
+    assert kept.mean() > 0.5
+    assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)[kept]) < 0.2
+    if flow is not CONTENDERS["dis"]:
+        assert np.isfinite(u[kept]).mean() > 0.999
+        assert np.nanmax(abs(u - theirs[0])) < 0.02

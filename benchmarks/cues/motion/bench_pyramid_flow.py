@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""Flow from coarse to fine: native, reference and cv2's dense flow, the fastest and Farneback's."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Image = NDArray[np.uint8]
+Flow = tuple[NDArray[np.float32], NDArray[np.float32]]
+
+SIGMA, LEVELS, ANGLE, CONTRAST = 1.0, 3, 0.05, 0.5
+
+
+def ours(kernel: Callable[..., Any]) -> Callable[[Image, Image], Flow]:
+    """u and v of a kernel."""
+    return lambda previous, current: kernel(previous, current, SIGMA, LEVELS, ANGLE, CONTRAST)[:2]
+
+
+def dis() -> Callable[[Image, Image], Flow]:
+    """cv2's dense inverse search, ultrafast; it keeps its memory from call to call."""
+    search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)
+
+    def calc(previous: Image, current: Image) -> Flow:
+        flow = np.asarray(search.calc(previous, current, None), np.float32)  # type: ignore[call-overload]
+        return flow[..., 0], flow[..., 1]
+
+    return calc
+
+
+def farneback(previous: Image, current: Image) -> Flow:
+    """cv2's polynomial expansion."""
+    flow = cv2.calcOpticalFlowFarneback(previous, current, None, 0.5, 3, 15, 3, 5, 1.2, 0)  # type: ignore[call-overload]
+    return flow[..., 0], flow[..., 1]
+
+
+CONTENDERS = {
+    "native": ours(_core.pyramid_flow),
+    "reference": ours(reference.pyramid_flow),
+    "peer": farneback,
+    "dis": dis(),
+}
+
+
+@pytest.mark.benchmark(group="pyramid_flow, 160x120")
+@pytest.mark.parametrize("flow", CONTENDERS.values(), ids=list(CONTENDERS))
+def bench_pyramid_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
+    """Half of the pixels are found within 0.2 px by all, and the kernels agree."""
+    u, v = benchmark(flow, *frames)
+    assert np.isfinite(u).mean() > 0.9
+    assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)) < 0.2
+    if flow is CONTENDERS["native"]:
+        assert np.nanmax(abs(u - CONTENDERS["reference"](*frames)[0])) < 1e-3

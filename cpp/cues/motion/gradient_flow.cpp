@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "cues/motion/gradient_flow.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "flow_constraints.hpp"
+#include "frame_rows.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr double kLongest = 2.221441469079183;  // pi / sqrt(2) sigmas: see the header
+
+/// Cramer's rule on (4).
+TRICUE_MULTIVERSION
+void solve_row(const Constraints& row, float min_angle, float min_contrast, float longest, int n,
+               const FlowRow& out) {
+    const float *g_xs = row.g_x, *g_ys = row.g_y, *h_ys = row.h_y;
+    const float *g_ts = row.g_t, *h_ts = row.h_t;
+    float *us = out.u, *vs = out.v;
+    float *angles = out.angle, *contrasts = out.contrast;
+#pragma GCC ivdep  // rows of eight arrays: more than the compiler would compare before the loop
+    for (int x = 0; x < n; ++x) {
+        const float g_x = g_xs[x], g_y = g_ys[x], h_x = g_y, h_y = h_ys[x];
+        const float g_t = g_ts[x], h_t = h_ts[x];
+        const float cross = g_x * h_y - g_y * h_x;  // G x H
+        const float g = g_x * g_x + g_y * g_y, h = h_x * h_x + h_y * h_y;
+        const float norms = std::sqrt(g * h);
+        const float sine = std::fabs(cross) / (norms > kRoundingContrast ? norms : kRoundingContrast);
+        const float bounded = sine < 1 ? sine : 1.0F;
+        const bool clear = (g >= kRoundingContrast) & (h >= kRoundingContrast);
+        const float angle = clear ? bounded : 0.0F;
+        const float contrast = g + h;
+        const float u = (g_y * h_t - h_y * g_t) / cross, v = (h_x * g_t - g_x * h_t) / cross;
+        const bool kept = (angle > 0) & (angle >= min_angle) & (contrast >= min_contrast) &
+                          (u * u + v * v <= longest * longest);
+        us[x] = kept ? u : kNoFlow;
+        vs[x] = kept ? v : kNoFlow;
+        angles[x] = angle;
+        contrasts[x] = contrast;
+    }
+}
+
+}  // namespace
+
+FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, double sigma,
+                         const FlowMinima& minima, const std::optional<Region>& region) {
+    require_frames(previous, current, region);
+    require_sigma(sigma);
+    require_minima(minima);
+    const auto [x0, y0, x1, y1] = region_or_all(region, current);
+    const int width = x1 - x0;
+    FlowPlanes flow(y1 - y0, width);
+    if (flow.planes.size() == 0) return flow;
+
+    const auto min_angle = static_cast<float>(minima.angle);
+    const auto min_contrast = static_cast<float>(minima.contrast);
+    const auto longest = static_cast<float>(kLongest * sigma);
+    ConstraintRows constraints(sigma, width);
+    const int radius = constraints.radius(), length = width + 2 * radius;
+    std::vector<float> before(static_cast<std::size_t>(length)), now(before.size());
+    for (int y = -radius; y < y1 - y0 + radius; ++y) {
+        frame_row(previous, y0 + y, x0 - radius, length, before.data());
+        frame_row(current, y0 + y, x0 - radius, length, now.data());
+        constraints.push(y, before.data(), now.data());
+        const int done = y - radius;
+        if (done < 0) continue;
+        solve_row(constraints.row(done), min_angle, min_contrast, longest, width, flow.row(done));
+    }
+    return flow;
+}
+
+}  // namespace tricue

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "cues/motion/pyramid_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "check.hpp"
+#include "flow_constraints.hpp"
+#include "flow_field.hpp"
+#include "frame_rows.hpp"
+#include "gray_pyramid.hpp"
+#include "pooled_rows.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr float kLongestStep = 2;  // pixels along x and y, at a level that isn't the last
+constexpr float kSmallest = std::numeric_limits<float>::min();
+
+/// What is kept at the last level.
+struct Limits {
+    float angle, contrast, step;
+};
+
+void require_pyramid(const FlowPyramid& pyramid) {
+    if (pyramid.levels < 2 || pyramid.levels > 8) refuse("levels", "2 to 8", pyramid.levels);
+    if (pyramid.pool < 0 || pyramid.pool > 16) refuse("pool", "0 to 16 pixels", pyramid.pool);
+    if (!(pyramid.max_step > 0)) refuse("max_step", "a number above 0", pyramid.max_step);
+}
+
+/// The contrast (6) of the mean of two frames of nothing but rounding, variance 1/12 each: by the integral of the filters squared.
+float rounding_noise(double sigma) {
+    constexpr double kPi = 3.14159265358979323846;
+    return static_cast<float>(1 / (48 * kPi * std::pow(sigma, 6)));
+}
+
+/// Solutions (u, v) of the damped normal equations.
+struct Step {
+    float u, v, determinant;  ///< the determinant without damping
+};
+
+[[gnu::always_inline]] inline void solve(float xx, float xy, float yy, float xt, float yt, float damping,
+                                         Step& step) {
+    const float product = xx * yy - xy * xy, determinant = product > 0 ? product : 0.0F;
+    const float share = 1 / (determinant + damping * (xx + yy + damping));
+    step.u = (xy * yt - (yy + damping) * xt) * share;
+    step.v = (xy * xt - (xx + damping) * yt) * share;
+    step.determinant = determinant;
+}
+
+TRICUE_MULTIVERSION
+void add_steps(const Products& sums, float damping, int n, float* us, float* vs) {
+    const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
+#pragma GCC ivdep  // no row is another
+    for (int x = 0; x < n; ++x) {
+        Step step;
+        solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
+        const float u = step.u < kLongestStep ? step.u : kLongestStep;
+        const float v = step.v < kLongestStep ? step.v : kLongestStep;
+        us[x] += u > -kLongestStep ? u : -kLongestStep;
+        vs[x] += v > -kLongestStep ? v : -kLongestStep;
+    }
+}
+
+/// u and v hold the flow that the step is from.
+TRICUE_MULTIVERSION
+void finish_row(const Products& sums, float damping, const Limits& limits, int n, const FlowRow& out) {
+    const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
+    float *us = out.u, *vs = out.v, *angles = out.angle, *contrasts = out.contrast;
+    const Limits least = limits;
+#pragma GCC ivdep  // no row is another
+    for (int x = 0; x < n; ++x) {
+        Step step;
+        solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
+        const float contrast = xx[x] + yy[x], size = contrast > kSmallest ? contrast : kSmallest;
+        const float sine = 2 * std::sqrt(step.determinant) / size, angle = sine < 1 ? sine : 1.0F;
+        const float square = step.u * step.u + step.v * step.v;
+        const bool kept =
+            (angle >= least.angle) & (contrast >= least.contrast) & (square <= least.step * least.step);
+        const float u = us[x] + step.u, v = vs[x] + step.v;
+        us[x] = kept ? u : kNoFlow;
+        vs[x] = kept ? v : kNoFlow;
+        angles[x] = angle;
+        contrasts[x] = contrast;
+    }
+}
+
+/// Row y of the guess, its first or last beyond it, with a margin on both sides that repeats its ends.
+void guess_row(FlowGuess& guess, int y, int margin, float* u, float* v) {
+    const int rows = guess.area().y1 - guess.area().y0, cols = guess.area().x1 - guess.area().x0;
+    guess.row(std::clamp(y, 0, rows - 1), u + margin, v + margin);
+    for (float* row : {u, v}) {
+        std::fill_n(row, margin, row[margin]);
+        std::fill_n(row + margin + cols, margin, row[margin + cols - 1]);
+    }
+}
+
+/// Calls done(y, products) for each row y of the guess's area: the constraints of `before`, warped by the guess, and `now`.
+template <typename Done>
+void measure(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
+             const Done& done) {
+    const auto [x0, y0, x1, y1] = guess.area();
+    const int width = x1 - x0;
+    ConstraintRows constraints(sigma, width + 2 * pool);
+    PooledRows pooled(pool, width);
+    const int radius = constraints.radius(), margin = radius + pool, length = width + 2 * margin;
+    std::vector<float> u(static_cast<std::size_t>(length)), v(u), warped(u), here(u);
+    for (int y = -margin; y < y1 - y0 + margin; ++y) {
+        guess_row(guess, y, margin, u.data(), v.data());
+        before.warped_row(y0 + y, x0 - margin, u.data(), v.data(), length, warped.data());
+        frame_row(now, y0 + y, x0 - margin, length, here.data());
+        constraints.push(y + pool, warped.data(), here.data());
+        if (y < radius - pool) continue;
+        pooled.push(y - radius, constraints.row(y - radius + pool));
+        if (y >= margin) done(y - margin, pooled.row(y - margin));
+    }
+}
+
+/// The guess at the first level, from the coarser ones.
+FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, double sigma,
+                       const FlowPyramid& pyramid, const Region& area) {
+    const auto before = smaller_levels(previous, pyramid.levels),
+               now = smaller_levels(current, pyramid.levels);
+    std::vector<Region> areas{area};
+    for (const auto& image : now) areas.push_back(halved(areas.back(), image.rows, image.cols));
+    const float damping = rounding_noise(sigma);
+    FlowGuess guess(areas.back());
+    for (std::size_t i = now.size(); i > 0; --i) {
+        const Eigen::Index rows = areas[i].y1 - areas[i].y0, cols = areas[i].x1 - areas[i].x0;
+        FlowField flow{areas[i], Floats(rows, cols), Floats(rows, cols)};
+        measure(QuadImage(before[i - 1].view()), now[i - 1].view(), sigma, pyramid.pool, guess,
+                [&](int y, const Products& sums) {
+                    guess.row(y, &flow.u(y, 0), &flow.v(y, 0));
+                    add_steps(sums, damping, static_cast<int>(cols), &flow.u(y, 0), &flow.v(y, 0));
+                });
+        guess = FlowGuess(flow, areas[i - 1]);
+    }
+    return guess;
+}
+
+}  // namespace
+
+FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, double sigma,
+                        const FlowPyramid& pyramid, const FlowMinima& minima,
+                        const std::optional<Region>& region) {
+    require_frames(previous, current, region);
+    require_sigma(sigma);
+    require_pyramid(pyramid);
+    require_minima(minima);
+    const Region area = region_or_all(region, current);
+    FlowPlanes result(area.y1 - area.y0, area.x1 - area.x0);
+    if (result.planes.size() == 0) return result;
+    const Limits limits{static_cast<float>(minima.angle),
+                        std::max(static_cast<float>(minima.contrast), kRoundingContrast),
+                        static_cast<float>(pyramid.max_step)};
+    const float damping = rounding_noise(sigma);
+    FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, area);
+    measure(QuadImage(previous), current, sigma, pyramid.pool, guess, [&](int y, const Products& sums) {
+        const FlowRow row = result.row(y);
+        guess.row(y, row.u, row.v);
+        finish_row(sums, damping, limits, area.x1 - area.x0, row);
+    });
+    return result;
+}
+
+}  // namespace tricue

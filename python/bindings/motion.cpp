@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "cues/motion/gradient_flow.hpp"
+#include "cues/motion/pyramid_flow.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+using Bytes = Array<std::uint8_t>;
+using Rectangle = std::optional<std::tuple<int, int, int, int>>;
+using Planes = std::tuple<Array<float>, Array<float>, Array<float>, Array<float>>;
+
+std::optional<Region> part(const Rectangle& rectangle) {
+    if (!rectangle) return {};
+    const auto [x0, y0, x1, y1] = *rectangle;
+    return Region{x0, y0, x1, y1};
+}
+
+std::ptrdiff_t work(const ImageView& frame, const std::optional<Region>& region) {
+    if (!region) return std::ptrdiff_t{frame.rows} * frame.cols;
+    return (std::ptrdiff_t{region->x1} - region->x0) * (std::ptrdiff_t{region->y1} - region->y0);
+}
+
+/// The four as arrays of their own on the same memory.
+Planes give_planes(FlowPlanes&& flow) {
+    const auto rows = static_cast<py::ssize_t>(flow.rows),
+               cols = static_cast<py::ssize_t>(flow.planes.cols());
+    const auto all = give(std::move(flow.planes), {4, rows, cols});
+    const auto plane = [&](int i) { return Array<float>(all[py::int_(i)]); };
+    return {plane(0), plane(1), plane(2), plane(3)};
+}
+
+Planes gradient_flow_arrays(const Bytes& previous, const Bytes& current, double sigma, double min_angle,
+                            double min_contrast, const Rectangle& rectangle) {
+    const auto before = gray_image(previous, "previous"), now = gray_image(current, "current");
+    const auto region = part(rectangle);
+    return give_planes(unlocked(work(now, region), [&] {
+        return gradient_flow(before, now, sigma, {min_angle, min_contrast}, region);
+    }));
+}
+
+Planes pyramid_flow_arrays(const Bytes& previous, const Bytes& current, double sigma, int levels,
+                           double min_angle, double min_contrast, const Rectangle& rectangle, int pool,
+                           double max_step) {
+    const auto before = gray_image(previous, "previous"), now = gray_image(current, "current");
+    const auto region = part(rectangle);
+    return give_planes(unlocked(work(now, region), [&] {
+        return pyramid_flow(before, now, sigma, {levels, pool, max_step}, {min_angle, min_contrast}, region);
+    }));
+}
+
+}  // namespace
+
+void define_motion(py::module_& m) {
+    m.def(
+        "gradient_flow", gradient_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
+        py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
+        "Flow u, v, pixels a frame, NaN where a reliability is under its minimum, and the reliabilities "
+        "angle, 0 to 1, and contrast, (h, w) each, of the region (x0, y0, x1, y1) of two gray frames (H, W), "
+        "or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, "
+        "along "
+        "x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.");
+    m.def(
+        "pyramid_flow", pyramid_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
+        py::arg("levels"), py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
+        py::arg("pool") = 3, py::arg("max_step") = 0.4,
+        "As gradient_flow, (h, w) each, for longer motions: from coarse to fine over 2 to 8 levels, previous "
+        "warped towards current, constraints pooled over 2 pool + 1 pixels square. The flow of what is at "
+        "the "
+        "pixel in current, NaN also where the last level's step is longer than max_step pixels; angle and "
+        "contrast are those of the window.");
+}
+
+}  // namespace tricue::bindings

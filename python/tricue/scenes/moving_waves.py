@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""Two frames of a texture whose motion is known exactly at every pixel."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Image = NDArray[np.uint8]
+Floats = NDArray[np.float32]
+
+WAVES = 60
+SHAPE = (120, 160)
+
+
+def moving_waves(
+    degrees: float,
+    growth: float,
+    shift: float,
+    rng: np.random.Generator,
+    noise: float,
+    shape: tuple[int, int] = SHAPE,
+) -> tuple[Image, Image, Floats]:
+    """Previous and current frame (H, W), and the true flow (H, W, 2), pixels, of the previous one's pixels.
+
+    Waves of 4 to 40 px, amplitudes that fall as those of real surfaces, contrast that fades from full to a
+    sixth over the frame; between the frames all turns about the centre, grows, and shifts so many pixels in a
+    random direction. Each frame gets noise of its own, of a deviation in gray levels, and is rounded.
+    """
+    height, width = shape
+    y, x = np.mgrid[:height, :width].astype(float)
+    position = x - width / 2 + 1j * (y - height / 2)
+    turn = growth * np.exp(1j * np.deg2rad(degrees))
+    away = shift * np.exp(2j * np.pi * rng.random())
+    flow = position * turn + away - position
+
+    length = 4 * 10 ** rng.random(WAVES)
+    wave, phase = 2 * np.pi / length * np.exp(2j * np.pi * rng.random(WAVES)), 2 * np.pi * rng.random(WAVES)
+    weight = length**0.5 / np.sqrt(length.sum() / 2)
+
+    def render(at: NDArray[np.complex128]) -> Image:
+        waves = sum(
+            a * np.sin((k.conjugate() * at).real + p) for a, k, p in zip(weight, wave, phase, strict=True)
+        )
+        fade = 7 / 12 + 5 / 12 * np.sin(at.real / 17 + 1) * np.sin(at.imag / 13)
+        levels = 128 + 40 * fade * waves + rng.normal(0, noise, shape)
+        return np.asarray(levels.round().clip(0, 255), np.uint8)
+
+    truth = np.dstack([flow.real, flow.imag]).astype(np.float32)
+    return render(position), render((position - away) / turn), truth
