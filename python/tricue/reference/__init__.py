@@ -4,6 +4,7 @@ compute.
 """
 
 from tricue.reference.camera.back_project import back_project
+from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
@@ -43,6 +44,7 @@ from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
@@ -74,6 +76,7 @@ __all__ = [
     "ellipse_search",
     "fill_gaps",
     "floor_plane",
+    "gradient_disparity",
     "height_above",
     "histogram_mean",
     "joint_histogram",
@@ -88,6 +91,7 @@ __all__ = [
     "rank_sections",
     "rectangle_histogram",
     "rectangle_prior",
+    "rectify_verged",
     "resample",
     "reweight",
     "sad_disparity",
