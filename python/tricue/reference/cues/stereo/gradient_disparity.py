@@ -67,7 +67,9 @@ def gradient_disparity(
     found = measure(one, other, known, radius)
 
     kept = found.seen & (found.reliability >= min_reliability)
-    kept &= (found.residual <= max_residual) & (abs(found.step) <= max_step)
+    kept &= abs(found.step) <= max_step
+    if radius > 0:  # one equation leaves nothing
+        kept &= found.residual <= max_residual
     d = np.where(kept, found.disparity + found.step, np.nan)
     return cut(d, (x0, y0, x1, y1), np.nan), cut(found.reliability, (x0, y0, x1, y1), 0)
 
@@ -120,7 +122,7 @@ def warped(image: Floats, x: Floats) -> Floats:
     column = np.floor(x).astype(np.int64)
     after = np.minimum(column + 1, image.shape[1] - 1)
     share, row = x - column, np.arange(len(image))[:, None]
-    return image[row, column] * (1 - share) + image[row, after] * share
+    return np.asarray(image[row, column] * (1 - share) + image[row, after] * share)
 
 
 def pooled(values: Floats, radius: int) -> Floats:
@@ -128,7 +130,7 @@ def pooled(values: Floats, radius: int) -> Floats:
     side = 2 * radius + 1
     padded, (rows, columns) = np.pad(values, radius), values.shape
     shifts = [padded[k : k + rows, i : i + columns] for k in range(side) for i in range(side)]
-    return np.asarray(sum(shifts) / side**2, np.float64)
+    return np.asarray(np.mean(shifts, axis=0), np.float64)
 
 
 def measure(left: Floats, right: Floats, known: Floats, radius: int) -> Reading:

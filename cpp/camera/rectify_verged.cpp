@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "camera/rectify_verged.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "check.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kUnit = 2048;  // parts of a pixel that weights are rounded to
+constexpr double kHalfTurn = 3.14159265358979323846;
+
+void require_arguments(const ImageView& right, const VergedCamera& camera, double shift) {
+    if (right.rows < 1 || right.cols < 1) refuse("right", "at least one pixel", "none");
+    if (!(std::abs(camera.angle) < kHalfTurn / 2))
+        refuse("angle", "radians between -pi/2 and pi/2", camera.angle);
+    if (!(camera.focal > 0.0 && std::isfinite(camera.focal)))
+        refuse("focal", "a finite number above 0", camera.focal);
+    if (!std::isfinite(camera.cx)) refuse("center", "finite numbers", camera.cx);
+    if (!std::isfinite(camera.cy)) refuse("center", "finite numbers", camera.cy);
+    if (!std::isfinite(shift)) refuse("shift", "a finite number", shift);
+}
+
+/// Where the pixels of each column come from.
+struct Columns {
+    std::vector<double> stretch;  ///< y_R / y; NaN where the turned camera sees nothing
+    std::vector<int> first;       ///< bytes into a row
+    std::vector<int> next;        ///< bytes to the pixel on the right
+    std::vector<int> across;      ///< its weight
+};
+
+Columns find_columns(const ImageView& right, const VergedCamera& camera, double shift, bool rows_only) {
+    const auto n = static_cast<std::size_t>(right.cols);
+    const double turn_cos = std::cos(camera.angle), turn_sin = std::sin(camera.angle), f = camera.focal;
+    Columns columns{std::vector<double>(n, std::numeric_limits<double>::quiet_NaN()), std::vector<int>(n),
+                    std::vector<int>(n), std::vector<int>(n)};
+    for (std::size_t i = 0; i < n; ++i) {
+        const double x = static_cast<double>(i) - shift - camera.cx, ahead = f * turn_cos - x * turn_sin;
+        if (!rows_only && !(ahead > 0.0)) continue;
+        const double stretch = rows_only ? turn_cos + x * turn_sin / f : f / ahead;
+        const double at = camera.cx + (rows_only ? x : (x * turn_cos + f * turn_sin) * stretch);
+        if (!(at >= 0.0 && at <= right.cols - 1)) continue;
+        const int whole = static_cast<int>(at);
+        columns.stretch[i] = stretch;
+        columns.first[i] = whole * right.channels;
+        columns.next[i] = whole + 1 < right.cols ? right.channels : 0;
+        columns.across[i] = static_cast<int>((at - whole) * kUnit + 0.5);
+    }
+    return columns;
+}
+
+/// Where the pixels of one row come from: rows of the image, -1 for none, and the weights of the rows after them.
+TRICUE_MULTIVERSION
+void find_rows(const double* __restrict stretch, double y, double cy, int rows, int n, int* __restrict row,
+               int* __restrict down) {
+    const double last = rows - 1;
+    for (int i = 0; i < n; ++i) {
+        const double at = cy + y * stretch[i];
+        const bool inside = (at >= 0.0) & (at <= last);
+        const double safe = inside ? at : 0.0;
+        const int whole = static_cast<int>(safe);
+        row[i] = inside ? whole : -1;
+        down[i] = static_cast<int>((safe - whole) * kUnit + 0.5);
+    }
+}
+
+}  // namespace
+
+ImageBytes rectify_verged(const ImageView& right, const VergedCamera& camera, double shift, bool rows_only) {
+    require_arguments(right, camera, shift);
+    const Columns columns = find_columns(right, camera, shift, rows_only);
+    const auto n = static_cast<std::size_t>(right.cols);
+    ImageBytes turned = ImageBytes::Zero(Eigen::Index{right.rows} * right.cols * right.channels);
+    std::vector<int> row(n), down(n);
+    std::uint8_t* out = turned.data();
+    for (int y = 0; y < right.rows; ++y) {
+        find_rows(columns.stretch.data(), y - camera.cy, camera.cy, right.rows, right.cols, row.data(),
+                  down.data());
+        for (std::size_t i = 0; i < n; ++i, out += right.channels) {
+            if (row[i] < 0) continue;
+            const int across = columns.across[i], next = columns.next[i];
+            const std::uint8_t* upper = right.row(row[i]) + columns.first[i];
+            const std::uint8_t* lower = row[i] + 1 < right.rows ? upper + right.stride : upper;
+            for (int c = 0; c < right.channels; ++c) {
+                const int above = upper[c] * (kUnit - across) + upper[c + next] * across;
+                const int below = lower[c] * (kUnit - across) + lower[c + next] * across;
+                const int sum = above * (kUnit - down[i]) + below * down[i];
+                out[c] = static_cast<std::uint8_t>((sum + kUnit * kUnit / 2) / (kUnit * kUnit));
+            }
+        }
+    }
+    return turned;
+}
+
+}  // namespace tricue
