@@ -12,7 +12,7 @@
 namespace tricue {
 namespace {
 
-constexpr int kUnit = 2048;  // parts of a pixel that weights are rounded to
+constexpr unsigned kUnit = 2048;  // parts of a pixel that weights are rounded to
 constexpr double kHalfTurn = 3.14159265358979323846;
 
 void require_arguments(const ImageView& right, const VergedCamera& camera, double shift) {
@@ -69,30 +69,41 @@ void find_rows(const double* __restrict stretch, double y, double cy, int rows, 
     }
 }
 
+template <int Channels>
+void blend_row(const ImageView& image, const Columns& columns, const int* row, const int* down,
+               std::uint8_t* out) {
+    for (std::size_t i = 0; i < columns.first.size(); ++i, out += Channels) {
+        if (row[i] < 0) continue;
+        const auto across = static_cast<unsigned>(columns.across[i]);
+        const auto under = static_cast<unsigned>(down[i]);
+        const std::uint8_t* upper = image.row(row[i]) + columns.first[i];
+        const std::uint8_t* lower = row[i] + 1 < image.rows ? upper + image.stride : upper;
+        const std::uint8_t *upper_next = upper + columns.next[i], *lower_next = lower + columns.next[i];
+        for (int c = 0; c < Channels; ++c) {
+            const unsigned above = upper[c] * (kUnit - across) + upper_next[c] * across;
+            const unsigned below = lower[c] * (kUnit - across) + lower_next[c] * across;
+            const unsigned sum = above * (kUnit - under) + below * under;
+            out[c] = static_cast<std::uint8_t>((sum + kUnit * kUnit / 2) / (kUnit * kUnit));
+        }
+    }
+}
+
 }  // namespace
 
 ImageBytes rectify_verged(const ImageView& right, const VergedCamera& camera, double shift, bool rows_only) {
     require_arguments(right, camera, shift);
     const Columns columns = find_columns(right, camera, shift, rows_only);
-    const auto n = static_cast<std::size_t>(right.cols);
-    ImageBytes turned = ImageBytes::Zero(Eigen::Index{right.rows} * right.cols * right.channels);
-    std::vector<int> row(n), down(n);
-    std::uint8_t* out = turned.data();
+    const Eigen::Index bytes = Eigen::Index{right.cols} * right.channels;
+    ImageBytes turned = ImageBytes::Zero(right.rows * bytes);
+    std::vector<int> row(columns.first.size()), down(row.size());
     for (int y = 0; y < right.rows; ++y) {
         find_rows(columns.stretch.data(), y - camera.cy, camera.cy, right.rows, right.cols, row.data(),
                   down.data());
-        for (std::size_t i = 0; i < n; ++i, out += right.channels) {
-            if (row[i] < 0) continue;
-            const int across = columns.across[i], next = columns.next[i];
-            const std::uint8_t* upper = right.row(row[i]) + columns.first[i];
-            const std::uint8_t* lower = row[i] + 1 < right.rows ? upper + right.stride : upper;
-            for (int c = 0; c < right.channels; ++c) {
-                const int above = upper[c] * (kUnit - across) + upper[c + next] * across;
-                const int below = lower[c] * (kUnit - across) + lower[c + next] * across;
-                const int sum = above * (kUnit - down[i]) + below * down[i];
-                out[c] = static_cast<std::uint8_t>((sum + kUnit * kUnit / 2) / (kUnit * kUnit));
-            }
-        }
+        std::uint8_t* out = turned.data() + y * bytes;
+        if (right.channels == 1)
+            blend_row<1>(right, columns, row.data(), down.data(), out);
+        else
+            blend_row<3>(right, columns, row.data(), down.data(), out);
     }
     return turned;
 }
