@@ -27,6 +27,7 @@ template <typename Pixel>
     if (reach == 2) return sum_even<2>(rows, weights, n, out);
     if (reach == 3) return sum_even<3>(rows, weights, n, out);
     if (reach == 4) return sum_even<4>(rows, weights, n, out);
+    if (reach == 5) return sum_even<5>(rows, weights, n, out);
     sum_even<0>(rows, weights, n, out);
     for (int k = 1; k <= reach; ++k)
         for (int x = 0; x < n; ++x) out[x] += weights[k] * static_cast<float>(rows[-k][x] + rows[k][x]);
@@ -58,6 +59,7 @@ void slope_across(const float* __restrict in, const float* __restrict weights, i
     if (reach == 2) return sum_odd<2>(in, weights, n, out);
     if (reach == 3) return sum_odd<3>(in, weights, n, out);
     if (reach == 4) return sum_odd<4>(in, weights, n, out);
+    if (reach == 5) return sum_odd<5>(in, weights, n, out);
     for (int x = 0; x < n; ++x) out[x] = weights[1] * (in[x + 1] - in[x - 1]);
     for (int k = 2; k <= reach; ++k)
         for (int x = 0; x < n; ++x) out[x] += weights[k] * (in[x + k] - in[x - k]);

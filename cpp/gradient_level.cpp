@@ -7,15 +7,10 @@
 #include <memory>
 
 #include "simd.hpp"
+#include "window_mean.hpp"
 
 namespace tricue {
 namespace {
-
-#if defined(__GNUC__) && !defined(__clang__)
-#define TRICUE_INDEPENDENT _Pragma("GCC ivdep")
-#else
-#define TRICUE_INDEPENDENT
-#endif
 
 constexpr int kLine = 16;  // floats in a cache line
 constexpr int kTaps = 4;   // of f_R: the columns that x - d lies between, and one more on each side
@@ -76,58 +71,6 @@ void multiply_all(const Equations& row, int n, const Products& out) {
         to.tt[x] = t * t;
         to.power[x] = seen * (left * left + right * right);
         to.reliability[x] = seen * (left_slope * left_slope + right_slope * right_slope);
-    }
-}
-
-constexpr int kWidest = 15;
-
-template <int Count>
-[[gnu::always_inline]] inline void sum_down(const float* const* rows, int n, float* __restrict out) {
-    TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
-        float sum = rows[0][x];
-        for (int k = 1; k < Count; ++k) sum += rows[k][x];
-        out[x] = sum;
-    }
-}
-
-template <int Count>
-[[gnu::always_inline]] inline void sum_across(const float* __restrict in, float share, int n,
-                                              float* __restrict out) {
-    for (int x = 0; x < n; ++x) {
-        float sum = in[x];
-        for (int k = 1; k < Count; ++k) sum += in[x + k];
-        out[x] = share * sum;
-    }
-}
-
-template <int Count>
-[[gnu::always_inline]] inline void mean_of(const float* const* rows, int n, float* __restrict column,
-                                           float* __restrict mean) {
-    sum_down<Count>(rows, n + Count - 1, column);
-    sum_across<Count>(column, 1.0F / static_cast<float>(Count * Count), n, mean);
-}
-
-/// The means of `count` x `count` windows, an odd number up to kWidest, of as many rows of n + count - 1.
-TRICUE_MULTIVERSION
-void mean_rows(const float* const* rows, int count, int n, float* __restrict column, float* __restrict mean) {
-    switch (count) {
-        case 1:
-            return mean_of<1>(rows, n, column, mean);
-        case 3:
-            return mean_of<3>(rows, n, column, mean);
-        case 5:
-            return mean_of<5>(rows, n, column, mean);
-        case 7:
-            return mean_of<7>(rows, n, column, mean);
-        case 9:
-            return mean_of<9>(rows, n, column, mean);
-        case 11:
-            return mean_of<11>(rows, n, column, mean);
-        case 13:
-            return mean_of<13>(rows, n, column, mean);
-        default:
-            return mean_of<kWidest>(rows, n, column, mean);
     }
 }
 
@@ -206,7 +149,7 @@ void GradientLevel::add(int y) {
 
 WindowMeans GradientLevel::means(float* reliability) {
     const int side = 2 * radius_ + 1;
-    std::array<const float*, kWidest> rows;
+    std::array<const float*, kWidestWindow> rows;
     std::array<const float*, kMeans> found{};
     for (std::size_t mean = 0; mean < count_; ++mean) {
         for (int k = 0; k < side; ++k) rows[static_cast<std::size_t>(k)] = slot(mean, latest_ - side + 1 + k);
