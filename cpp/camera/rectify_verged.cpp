@@ -12,7 +12,7 @@
 namespace tricue {
 namespace {
 
-constexpr unsigned kUnit = 2048;  // parts of a pixel that weights are rounded to
+constexpr int kUnit = 2048;  // parts of a pixel that places are rounded to
 constexpr double kHalfTurn = 3.14159265358979323846;
 
 void require_arguments(const ImageView& right, const VergedCamera& camera, double shift) {
@@ -44,12 +44,13 @@ Columns find_columns(const ImageView& right, const VergedCamera& camera, double 
         if (!rows_only && !(ahead > 0.0)) continue;
         const double stretch = rows_only ? turn_cos + x * turn_sin / f : f / ahead;
         const double at = camera.cx + (rows_only ? x : (x * turn_cos + f * turn_sin) * stretch);
-        if (!(at >= 0.0 && at <= right.cols - 1)) continue;
-        const int whole = static_cast<int>(at);
+        const double fixed = at * kUnit + 0.5;
+        if (!(fixed >= 0.0 && fixed < (right.cols - 1.0) * kUnit + 1.0)) continue;
+        const int place = static_cast<int>(fixed), whole = place / kUnit;
         columns.stretch[i] = stretch;
         columns.first[i] = whole * right.channels;
         columns.next[i] = whole + 1 < right.cols ? right.channels : 0;
-        columns.across[i] = static_cast<int>((at - whole) * kUnit + 0.5);
+        columns.across[i] = place % kUnit;
     }
     return columns;
 }
@@ -58,20 +59,20 @@ Columns find_columns(const ImageView& right, const VergedCamera& camera, double 
 TRICUE_MULTIVERSION
 void find_rows(const double* __restrict stretch, double y, double cy, int rows, int n, int* __restrict row,
                int* __restrict down) {
-    const double last = rows - 1;
+    const double end = (rows - 1.0) * kUnit + 1.0;
     for (int i = 0; i < n; ++i) {
-        const double at = cy + y * stretch[i];
-        const bool inside = (at >= 0.0) & (at <= last);
-        const double safe = inside ? at : 0.0;
-        const int whole = static_cast<int>(safe);
-        row[i] = inside ? whole : -1;
-        down[i] = static_cast<int>((safe - whole) * kUnit + 0.5);
+        const double fixed = (cy + y * stretch[i]) * kUnit + 0.5;
+        const bool inside = (fixed >= 0.0) & (fixed < end);
+        const int place = static_cast<int>(inside ? fixed : 0.0);
+        row[i] = inside ? place / kUnit : -1;
+        down[i] = place % kUnit;
     }
 }
 
 template <int Channels>
 void blend_row(const ImageView& image, const Columns& columns, const int* row, const int* down,
                std::uint8_t* out) {
+    constexpr unsigned kWhole = kUnit;
     for (std::size_t i = 0; i < columns.first.size(); ++i, out += Channels) {
         if (row[i] < 0) continue;
         const auto across = static_cast<unsigned>(columns.across[i]);
@@ -80,10 +81,10 @@ void blend_row(const ImageView& image, const Columns& columns, const int* row, c
         const std::uint8_t* lower = row[i] + 1 < image.rows ? upper + image.stride : upper;
         const std::uint8_t *upper_next = upper + columns.next[i], *lower_next = lower + columns.next[i];
         for (int c = 0; c < Channels; ++c) {
-            const unsigned above = upper[c] * (kUnit - across) + upper_next[c] * across;
-            const unsigned below = lower[c] * (kUnit - across) + lower_next[c] * across;
-            const unsigned sum = above * (kUnit - under) + below * under;
-            out[c] = static_cast<std::uint8_t>((sum + kUnit * kUnit / 2) / (kUnit * kUnit));
+            const unsigned above = upper[c] * (kWhole - across) + upper_next[c] * across;
+            const unsigned below = lower[c] * (kWhole - across) + lower_next[c] * across;
+            const unsigned sum = above * (kWhole - under) + below * under;
+            out[c] = static_cast<std::uint8_t>((sum + kWhole * kWhole / 2) / (kWhole * kWhole));
         }
     }
 }

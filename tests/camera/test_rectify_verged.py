@@ -61,10 +61,16 @@ def sample(image: Image, places: Floats) -> Floats:
 )
 @pytest.mark.parametrize("shape", [(1, 1), (1, 7), (40, 53), (31, 8, 3), (6, 1, 3)], ids=str)
 def test_twin_sees_the_same(angle: float, changes: dict[str, Any], shape: tuple[int, ...]) -> None:
-    """Native and twin give the same pixels, gray and color, whatever the angle."""
+    """Native and twin give the same pixels, gray and color, whatever the angle; where their sines differ in
+    the last bit, a place may be rounded the other way, which is less than a gray level.
+    """
     image = np.random.default_rng(1).integers(0, 256, shape).astype(np.uint8)
     found = _core.rectify_verged(image, angle, 60.0, **changes)
-    assert_array_equal(found, reference.rectify_verged(image, angle, 60.0, **changes), strict=True)
+    expected = reference.rectify_verged(image, angle, 60.0, **changes)
+    assert found.dtype == expected.dtype == np.uint8
+    assert found.shape == expected.shape == image.shape
+    assert abs(found.astype(int) - expected).max() <= 1
+    assert (found != expected).sum() <= 1 + found.size // 1000
 
 
 def test_rows_may_be_padded() -> None:
@@ -142,8 +148,10 @@ def test_disparity_stands_for_depth(kernels: Kernels, shift: float) -> None:
 def test_nothing_turned(kernels: Kernels) -> None:
     """Angle 0 leaves the image, with rows_only and without."""
     image = np.rint(clouds(5, (40, 50))).clip(0, 255).astype(np.uint8)
-    for rows_only in (False, True):
-        assert_array_equal(kernels.rectify_verged(image, 0.0, FOCAL, rows_only=rows_only), image)
+    for center in (None, (17.3, 20.7), (-1 / 3, 1e3 / 7)):
+        for rows_only in (False, True):
+            found = kernels.rectify_verged(image, 0.0, FOCAL, center, rows_only=rows_only)
+            assert_array_equal(found, image)
 
 
 def test_shift_moves_the_picture(kernels: Kernels) -> None:

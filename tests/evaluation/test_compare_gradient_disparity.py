@@ -73,8 +73,8 @@ def test_folder_without_pairs_is_refused(tmp_path, capsys):
 
 @pytest.mark.parametrize("name", compare_disparity.PAIRS)
 def test_reaches_its_numbers_on_real_pairs(data, name):
-    """On each Middlebury pair: median error at most 0.3 px at a density of 30 % or more, and at most 3 % of far
-    pixels, read or not, are taken for near ones.
+    """On each Middlebury pair: median error at most 0.3 px at a density of 30 % or more, and at most 3 % of
+    far pixels, read or not, are taken for near ones.
     """
     result = compare.measure(compare_disparity.load(data / "disparity", name), compare.three_levels, 1)
     assert result.median <= 0.3

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The right image of a verged pair, rectified (Okada, Shirai, Miura 1996, section 3.1, equation (8))."""
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,7 +9,7 @@ from tricue.reference.checks import refuse
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 
-UNIT = 2048  # parts of a pixel that bilinear weights are rounded to
+UNIT = 2048  # parts of a pixel that places are rounded to
 
 
 def rectify_verged(
@@ -34,7 +32,7 @@ def rectify_verged(
     x = np.arange(columns) - shift - cx
     y = np.arange(rows)[:, None] - cy
     if rows_only:
-        source_x, stretch = x, math.cos(angle) + x * math.sin(angle) / focal  # (8), in parentheses
+        source_x, stretch = x, np.cos(angle) + x * np.sin(angle) / focal  # (8), in parentheses
     else:
         source_x, stretch = turned(x, angle, focal)
     return bilinear(right, cx + source_x, cy + y * stretch)
@@ -45,20 +43,18 @@ def turned(x: Floats, angle: float, focal: float) -> tuple[Floats, Floats]:
 
     A ray (x, y, f) of the parallel camera is (x cos a + f sin a, y, f cos a - x sin a) in the turned one.
     """
-    ahead = focal * math.cos(angle) - x * math.sin(angle)
+    ahead = focal * np.cos(angle) - x * np.sin(angle)
     ahead = np.where(ahead > 0, ahead, np.nan)
     stretch = focal / ahead
-    return (x * math.cos(angle) + focal * math.sin(angle)) * stretch, stretch
+    return (x * np.cos(angle) + focal * np.sin(angle)) * stretch, stretch
 
 
 def bilinear(image: Image, x: Floats, y: Floats) -> Image:
     """The image at columns x (W,) and rows y (H, W), rounded half up; black where they aren't in it."""
     rows, columns = image.shape[:2]
-    x = np.broadcast_to(x, y.shape)
-    inside = (x >= 0) & (x <= columns - 1) & (y >= 0) & (y <= rows - 1)
-    x, y = np.where(inside, x, 0), np.where(inside, y, 0)
-    i, j = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-    across, down = (np.floor((p - np.floor(p)) * UNIT + 0.5).astype(np.int64) for p in (x, y))
+    x, y = np.floor(np.broadcast_to(x, y.shape) * UNIT + 0.5), np.floor(y * UNIT + 0.5)
+    inside = (x >= 0) & (x <= (columns - 1) * UNIT) & (y >= 0) & (y <= (rows - 1) * UNIT)
+    (i, across), (j, down) = (divmod(np.where(inside, p, 0).astype(np.int64), UNIT) for p in (x, y))
     if image.ndim == 3:
         across, down, inside = across[..., None], down[..., None], inside[..., None]
     i1, j1 = np.minimum(i + 1, columns - 1), np.minimum(j + 1, rows - 1)
@@ -72,10 +68,10 @@ def bilinear(image: Image, x: Floats, y: Floats) -> Image:
 def _require(right: Image, angle: float, focal: float, center: tuple[float, float], shift: float) -> None:
     if right.size == 0:
         refuse("right", "at least one pixel", "none")
-    if not abs(angle) < math.pi / 2:
+    if not abs(angle) < np.pi / 2:
         refuse("angle", "radians between -pi/2 and pi/2", float(angle))
-    if not 0 < focal < math.inf:
+    if not 0 < focal < np.inf:
         refuse("focal", "a finite number above 0", float(focal))
     for name, value in (("center", center[0]), ("center", center[1]), ("shift", shift)):
-        if not math.isfinite(value):
+        if not np.isfinite(value):
             refuse(name, "finite numbers" if name == "center" else "a finite number", float(value))

@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Disparity by the gradient method round a predicted one (Okada, Shirai, Miura 1996, section 3)."""
 
-import math
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,21 +9,12 @@ from tricue.reference.checks import refuse
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
+Mask = NDArray[np.bool_]
 Rectangle = tuple[int, int, int, int]
 
 STEP = 1.5  # the most that a coarse level adds, in its own pixels
 RIDGE = 0.01  # (gray levels / px^2)^2 a pixel: less contrast than this leaves the prediction as it is
 TINY = 1e-6  # gray levels^2 / px^2: no power at all is no residual
-
-
-class Reading(NamedTuple):
-    """What one level measures, each (H, W)."""
-
-    disparity: Floats  # before the step, px
-    step: Floats  # that the equations ask for, px
-    reliability: Floats  # (9)
-    residual: Floats  # what the step leaves of the difference, as a share of both images' power
-    seen: NDArray[np.bool_]  # whether x - disparity lies in the right image
 
 
 def gradient_disparity(
@@ -61,22 +49,21 @@ def gradient_disparity(
     known = np.full(pyramid[-1][0].shape, disparity / 2 ** (levels - 1))
     for level in range(levels - 1, 0, -1):
         one, other = (brightness(image, sigma) for image in pyramid[level])
-        found = measure(one, other, known, radius)
-        known = doubled(known + np.clip(found.step, -STEP, STEP), pyramid[level - 1][0].shape)
+        step, *_ = measure(one, other, known, radius)
+        known = doubled(known + np.clip(step, -STEP, STEP), pyramid[level - 1][0].shape)
     one, other = (brightness(image, sigma) for image in pyramid[0])
-    found = measure(one, other, known, radius)
+    step, reliability, residual, seen = measure(one, other, known, radius)
 
-    kept = found.seen & (found.reliability >= min_reliability)
-    kept &= abs(found.step) <= max_step
+    kept = seen & (reliability >= min_reliability) & (abs(step) <= max_step)
     if radius > 0:  # one equation leaves nothing
-        kept &= found.residual <= max_residual
-    d = np.where(kept, found.disparity + found.step, np.nan)
-    return cut(d, (x0, y0, x1, y1), np.nan), cut(found.reliability, (x0, y0, x1, y1), 0)
+        kept &= residual <= max_residual
+    d = np.where(kept, known + step, np.nan)
+    return cut(d, (x0, y0, x1, y1), np.nan), cut(reliability, (x0, y0, x1, y1), 0)
 
 
 def brightness(image: Floats, sigma: float) -> Floats:
     """The f of (7): the x-derivative of the image, smoothed by a Gaussian."""
-    reach = math.ceil(2.5 * sigma)
+    reach = int(np.ceil(2.5 * sigma))
     offsets = np.arange(-reach, reach + 1)
     bell = np.exp(-(offsets**2) / (2 * sigma**2))
     smooth = bell / bell.sum()
@@ -133,8 +120,10 @@ def pooled(values: Floats, radius: int) -> Floats:
     return np.asarray(np.mean(shifts, axis=0), np.float64)
 
 
-def measure(left: Floats, right: Floats, known: Floats, radius: int) -> Reading:
-    """Equation (7) with the right image shifted by the known disparities, over a window by least squares.
+def measure(left: Floats, right: Floats, known: Floats, radius: int) -> tuple[Floats, Floats, Floats, Mask]:
+    """Equation (7) with the right image shifted by the known disparities, over a window by least squares: the
+    step that it asks for, px; the reliability (9); what the step leaves of the difference, as a share of both
+    images' power; and whether x - known lies in the right image.
 
     Each pixel asks for slope (d - known) = right - left, the slope being the mean of both images'; the d of
     a window is the one that leaves the least squares. So a window whose pixels were shifted differently still
@@ -155,7 +144,7 @@ def measure(left: Floats, right: Floats, known: Floats, radius: int) -> Reading:
     d = known + step
     residual = (c - 2 * d * b + d**2 * a) / (power + TINY)
     reliability = pooled(np.where(seen, right_slope**2 + left_slope**2, 0), radius)  # (9)
-    return Reading(known, step, reliability, residual, seen)
+    return step, reliability, residual, seen
 
 
 def cut(values: Floats, region: Rectangle, outside: float) -> Singles:
