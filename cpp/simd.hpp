@@ -32,3 +32,11 @@
 #else
 #define TRICUE_VERSION(target_)
 #endif
+
+/// Put before a loop that writes to nothing that it reads elsewhere in it: GCC, which doesn't believe __restrict of pointers that
+/// come in a struct or an array, then vectorises it.
+#if defined(__GNUC__) && !defined(__clang__)
+#define TRICUE_INDEPENDENT _Pragma("GCC ivdep")
+#else
+#define TRICUE_INDEPENDENT
+#endif

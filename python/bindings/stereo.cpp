@@ -2,9 +2,12 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "arrays.hpp"
 #include "camera/back_project.hpp"
+#include "camera/rectify_verged.hpp"
+#include "cues/stereo/gradient_disparity.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 
 namespace tricue::bindings {
@@ -47,6 +50,37 @@ std::tuple<Array<double>, Array<double>> back_project_arrays(const Array<double>
     return {give(std::move(result.points)), give(std::move(result.covariances), {count, 3, 3})};
 }
 
+using Point = std::tuple<double, double>;
+
+std::tuple<Array<float>, Array<float>> gradient_disparity_arrays(const Bytes& left, const Bytes& right,
+                                                                 double disparity, int levels, double sigma,
+                                                                 int radius, double min_reliability,
+                                                                 double max_residual, double max_step,
+                                                                 const std::optional<Rectangle>& region) {
+    const auto view = gray_image(left, "left"), other = gray_image(right, "right");
+    const auto [x0, y0, x1, y1] = region.value_or(Rectangle{0, 0, view.cols, view.rows});
+    const Region part{x0, y0, x1, y1};
+    const GradientMatching matching{levels, sigma, radius, min_reliability, max_residual, max_step};
+    const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0);
+    auto found = unlocked(work, [&] { return gradient_disparity(view, other, disparity, matching, part); });
+    const std::vector<py::ssize_t> shape{2, found.rows() / 2, found.cols()};
+    const py::object both = give(std::move(found), shape);
+    return {both[py::int_(0)], both[py::int_(1)]};
+}
+
+Bytes rectify_verged_arrays(const Bytes& right, double angle, double focal,
+                            const std::optional<Point>& center, double shift, bool rows_only) {
+    const bool color = py::isinstance<py::array>(right) && py::cast<py::array>(right).ndim() == 3;
+    const auto view = color ? color_image(right, "right") : gray_image(right, "right");
+    const auto [cx, cy] = center.value_or(Point{(view.cols - 1) / 2.0, (view.rows - 1) / 2.0});
+    const VergedCamera camera{angle, focal, cx, cy};
+    auto turned = unlocked(std::ptrdiff_t{view.rows} * view.cols,
+                           [&] { return rectify_verged(view, camera, shift, rows_only); });
+    std::vector<py::ssize_t> shape{view.rows, view.cols};
+    if (color) shape.push_back(3);
+    return give(std::move(turned), shape);
+}
+
 }  // namespace
 
 void define_stereo(py::module_& m) {
@@ -65,6 +99,21 @@ void define_stereo(py::module_& m) {
         "rectified "
         "rig camera (4,): fx, fy, cx, cy, and baseline in metres; variances (3,) of u, v, d, or S (N, 3, 3). "
         "NaN where u, v, d aren't finite or d isn't above 0.");
+    m.def("gradient_disparity", gradient_disparity_arrays, py::arg("left"), py::arg("right"),
+          py::arg("disparity"), py::arg("levels") = 3, py::arg("sigma") = 1.0, py::arg("radius") = 2,
+          py::arg("min_reliability") = 0.3, py::arg("max_residual") = 0.2, py::arg("max_step") = 1.0,
+          py::arg("region") = py::none(),
+          "Disparities and reliabilities (9), each (h, w), of the region (x0, y0, x1, y1) of the left of two "
+          "rectified gray images (H, W), by default the whole: measured round a predicted disparity by the "
+          "gradient method (7), coarse to fine; pixels, x_right = x_left - d, NaN where rejected or not "
+          "seen. levels = 1, radius = 0 is the paper's method.");
+    m.def("rectify_verged", rectify_verged_arrays, py::arg("right"), py::arg("angle"), py::arg("focal"),
+          py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
+          "The right image, gray (H, W) or BGR (H, W, 3), of a camera turned inwards by an angle, radians "
+          "about "
+          "y, as one parallel to the left camera sees it: equation (8), and the columns with it. focal and "
+          "center, the image's middle by default, in pixels; disparities are f b / z - shift. Black where "
+          "the camera saw nothing.");
 }
 
 }  // namespace tricue::bindings

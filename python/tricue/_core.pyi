@@ -253,6 +253,20 @@ def gradient_flow(
 ]:
     """
     Flow u, v, pixels a frame, NaN where a reliability is under its minimum, and the reliabilities angle, 0 to 1, and contrast, (h, w) each, of the region (x0, y0, x1, y1) of two gray frames (H, W), or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, along x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.
+def gradient_disparity(
+    left: numpy.typing.NDArray[numpy.uint8],
+    right: numpy.typing.NDArray[numpy.uint8],
+    disparity: float,
+    levels: int = 3,
+    sigma: float = 1.0,
+    radius: int = 2,
+    min_reliability: float = 0.3,
+    max_residual: float = 0.2,
+    max_step: float = 1.0,
+    region: tuple[int, int, int, int] | None = None,
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Disparities and reliabilities (9), each (h, w), of the region (x0, y0, x1, y1) of the left of two rectified gray images (H, W), by default the whole: measured round a predicted disparity by the gradient method (7), coarse to fine; pixels, x_right = x_left - d, NaN where rejected or not seen. levels = 1, radius = 0 is the paper's method.
     """
 
 def height_above(
@@ -427,6 +441,18 @@ def rectangle_prior(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     (N,) log-likelihood of rectangles (N, D), width and height last, by their usual size (2,), spread being the deviation of its logarithm, and by a measured state (D,), which costs at most most.
+    """
+
+def rectify_verged(
+    right: numpy.typing.NDArray[numpy.uint8],
+    angle: float,
+    focal: float,
+    center: tuple[float, float] | None = None,
+    shift: float = 0.0,
+    rows_only: bool = False,
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The right image, gray (H, W) or BGR (H, W, 3), of a camera turned inwards by an angle, radians about y, as one parallel to the left camera sees it: equation (8), and the columns with it. focal and center, the image's middle by default, in pixels; disparities are f b / z - shift. Black where the camera saw nothing.
     """
 
 def resample(
@@ -765,6 +791,19 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
+    def gradient_disparity(
+        self,
+        left: numpy.typing.NDArray[numpy.uint8],
+        right: numpy.typing.NDArray[numpy.uint8],
+        disparity: float,
+        levels: int = 3,
+        sigma: float = 1.0,
+        radius: int = 2,
+        min_reliability: float = 0.3,
+        max_residual: float = 0.2,
+        max_step: float = 1.0,
+        region: tuple[int, int, int, int] | None = None,
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]: ...
     def height_above(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -890,6 +929,15 @@ class Kernels(Protocol):
         deviation: numpy.typing.NDArray[numpy.float64],
         most: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def rectify_verged(
+        self,
+        right: numpy.typing.NDArray[numpy.uint8],
+        angle: float,
+        focal: float,
+        center: tuple[float, float] | None = None,
+        shift: float = 0.0,
+        rows_only: bool = False,
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def resample(
         self, weights: numpy.typing.NDArray[numpy.float64], offset: float
     ) -> numpy.typing.NDArray[numpy.int64]: ...

@@ -91,7 +91,7 @@ def measure(
             pair.left, right, region, False, 0, pair.disparities - 1, window, uniqueness
         )
 
-    seconds = _fastest((theirs, ours), rounds)
+    seconds = fastest((theirs, ours), rounds)
     fixed = theirs()[:, pair.disparities - 1 :].astype(np.float32) / FRACTION
     found = (np.where(fixed < 0, np.float32(np.nan), fixed), np.asarray(ours(), np.float32))
     truth = pair.truth[:, pair.disparities - 1 :]
@@ -150,7 +150,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _fastest(calls: Sequence[Callable[[], object]], rounds: int) -> list[float]:
+def fastest(calls: Sequence[Callable[[], object]], rounds: int) -> list[float]:
     """Seconds of the fastest of some rounds, in which the calls take turns."""
     best = [np.inf] * len(calls)
     for _ in range(max(1, rounds)):

@@ -4,6 +4,7 @@ compute.
 """
 
 from tricue.reference.camera.back_project import back_project
+from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
@@ -45,6 +46,7 @@ from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
+from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
@@ -85,6 +87,7 @@ __all__ = [
     "fill_gaps",
     "floor_plane",
     "gradient_flow",
+    "gradient_disparity",
     "height_above",
     "histogram_mean",
     "joint_histogram",
@@ -100,6 +103,7 @@ __all__ = [
     "rank_sections",
     "rectangle_histogram",
     "rectangle_prior",
+    "rectify_verged",
     "resample",
     "reweight",
     "sad_disparity",

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "cues/stereo/gradient_disparity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "gradient_level.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kMaxSide = 16384;
+constexpr double kStep = 1.5;    // the most that a coarse level adds, in its own pixels
+constexpr float kRidge = 0.01F;  // (gray levels / px²)²: with less contrast d0 stays
+constexpr float kTiny = 1e-6F;   // (gray levels / px)²: no power at all leaves no residual
+/// Pixels that are measured at once: what the coarser levels keep of them fits in the cache.
+constexpr int kBand = 65536;
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+void require_between(double value, double least, double most, const char* name, const char* range) {
+    if (!(value >= least && value <= most)) refuse(name, range, value);
+}
+
+void require_arguments(const ImageView& left, const ImageView& right, double predicted,
+                       const GradientMatching& matching, const Region& region) {
+    const auto size = [](const ImageView& image) {
+        return "(" + std::to_string(image.rows) + ", " + std::to_string(image.cols) + ")";
+    };
+    if (left.rows < 1 || left.cols < 1) refuse("left", "at least one pixel", "none");
+    if (size(left) != size(right)) refuse("right", "the left image's shape " + size(left), size(right));
+    require_between(matching.levels, 1, 6, "levels", "1 to 6");
+    require_between(matching.radius, 0, 7, "radius", "0 to 7");
+    const auto in_range = [](int begin, int end) {
+        return begin < end && std::int64_t{end} - begin <= kMaxSide;
+    };
+    if (!in_range(region.x0, region.x1) || !in_range(region.y0, region.y1))
+        refuse("region", "x0 < x1 and y0 < y1, at most 16384 apart",
+               "(" + std::to_string(region.x0) + ", " + std::to_string(region.y0) + ", " +
+                   std::to_string(region.x1) + ", " + std::to_string(region.y1) + ")");
+    require_between(predicted, -kMaxSide, kMaxSide, "disparity", "-16384 to 16384");
+    require_between(matching.sigma, 0.5, 6.0, "sigma", "0.5 to 6");
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const char* positive = "a number that isn't negative";
+    require_between(matching.min_reliability, 0.0, kAny, "min_reliability", positive);
+    require_between(matching.max_residual, 0.0, kAny, "max_residual", positive);
+    require_between(matching.max_step, 0.0, kAny, "max_step", positive);
+}
+
+/// The steps of a coarse level's pixels, added.
+TRICUE_MULTIVERSION
+void step_on(const WindowMeans& means, const float* __restrict offset, int n, float* __restrict next) {
+    constexpr auto kMost = static_cast<float>(kStep);
+    const float* __restrict ss = means.ss;
+    const float* __restrict st = means.st;
+    for (int x = 0; x < n; ++x) {
+        const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge);
+        next[x] = offset[x] + std::min(std::max(step, -kMost), kMost);
+    }
+}
+
+struct Limits {
+    float base, min_reliability, max_residual, max_step;
+};
+
+TRICUE_MULTIVERSION
+void settle(const WindowMeans& means, const float* __restrict offset, const float* __restrict seen,
+            const Limits& limits, int n, float* __restrict disparity) {
+    const float* __restrict ss = means.ss;
+    const float* __restrict st = means.st;
+    const float* __restrict tt = means.tt;
+    const float* __restrict power = means.power;
+    const float* __restrict reliability = means.reliability;
+    const Limits most = limits;
+    for (int x = 0; x < n; ++x) {
+        const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge), d = offset[x] + step;
+        const float left_over = tt[x] - 2.0F * d * st[x] + d * d * ss[x];
+        const bool kept = (seen[x] != 0.0F) & (reliability[x] >= most.min_reliability) &
+                          (left_over <= most.max_residual * (power[x] + kTiny)) &
+                          (std::abs(step) <= most.max_step);
+        disparity[x] = kept ? most.base + d : kNone;
+    }
+}
+
+struct Level {
+    LevelParts parts;
+    int base;
+    double predicted;
+    GrayPlane left, right;  ///< not of the finest, which reads the images
+};
+
+Region joined(const Region& one, const Region& other) {
+    return {std::min(one.x0, other.x0), std::min(one.y0, other.y0), std::max(one.x1, other.x1),
+            std::max(one.y1, other.y1)};
+}
+
+/// What each level has to measure, the finest first.
+std::vector<Level> plan(const Region& seen, int rows, int cols, double predicted, int reach,
+                        const GradientMatching& matching) {
+    std::vector<Level> levels;
+    Region wanted = seen;
+    double uncertainty = 0.0;  // what all coarser levels add, in pixels of this one
+    for (int k = 1; k < matching.levels; ++k) uncertainty += std::ldexp(kStep, k);
+    for (int k = 0; k < matching.levels; ++k) {
+        const LevelParts parts =
+            level_parts(wanted, rows, cols, matching.radius, reach, predicted, uncertainty);
+        levels.push_back({parts, static_cast<int>(std::floor(predicted + 0.5)), predicted, {}, {}});
+        const Region& under = parts.pooled;
+        wanted = {under.x0 / 2, under.y0 / 2, (under.x1 + 1) / 2, (under.y1 + 1) / 2};
+        rows = (rows + 1) / 2;
+        cols = (cols + 1) / 2;
+        predicted /= 2.0;
+        uncertainty = std::max(uncertainty / 2.0 - kStep, 0.0);
+    }
+    return levels;
+}
+
+GrayLevel level_of(const ImageView& image, std::size_t k, const GrayPlane& plane) {
+    return k == 0 ? GrayLevel{&image, nullptr} : GrayLevel{nullptr, &plane};
+}
+
+/// One image's pyramid; the parts that filters read grow by what the next coarser level is made of.
+void build(const ImageView& image, std::vector<Level>& levels, Region LevelParts::* part,
+           GrayPlane Level::* plane) {
+    std::vector<Region> parts;
+    for (const Level& level : levels) parts.push_back(level.parts.*part);
+    const auto size = [](int full, std::size_t k) { return ((full - 1) >> k) + 1; };
+    for (std::size_t k = levels.size() - 1; k > 0; --k)
+        parts[k - 1] =
+            joined(parts[k - 1], halved_from(parts[k], size(image.rows, k - 1), size(image.cols, k - 1)));
+    for (std::size_t k = 1; k < levels.size(); ++k)
+        levels[k].*plane = halved(level_of(image, k - 1, levels[k - 1].*plane), parts[k]);
+}
+
+KnownDisparity known_of(const Level& level, const Level* coarser, const GrayPlane& found) {
+    if (coarser == nullptr) return {level.base, static_cast<float>(level.predicted - level.base), nullptr};
+    return {level.base, static_cast<float>(2 * coarser->base - level.base), &found};
+}
+
+Limits limits_of(const GradientMatching& matching, int base) {
+    const float any = std::numeric_limits<float>::infinity();
+    const float most_left = matching.radius > 0 ? static_cast<float>(matching.max_residual) : any;
+    return {static_cast<float>(base), static_cast<float>(matching.min_reliability), most_left,
+            static_cast<float>(matching.max_step)};
+}
+
+/// Measures `seen`, a part of the left image, not empty; disparity(y) and reliability(y) are where its rows go.
+template <typename Disparity, typename Reliability>
+void measure(const ImageView& left, const ImageView& right, double predicted,
+             const GradientMatching& matching, const Region& seen, const Disparity& disparity,
+             const Reliability& reliability) {
+    const GaussianSlope filter(matching.sigma);
+    auto levels = plan(seen, left.rows, left.cols, predicted, filter.reach, matching);
+    build(left, levels, &LevelParts::left, &Level::left);
+    build(right, levels, &LevelParts::right, &Level::right);
+    GrayPlane found;
+    for (std::size_t k = levels.size(); k-- > 0;) {
+        const Level& level = levels[k];
+        const Region& wanted = level.parts.wanted;
+        const int n = wanted.x1 - wanted.x0;
+        const Level* coarser = k + 1 < levels.size() ? &levels[k + 1] : nullptr;
+        GradientLevel rows(level_of(left, k, level.left), level_of(right, k, level.right), level.parts,
+                           filter, matching.radius, known_of(level, coarser, found), k == 0);
+        if (k > 0) {
+            GrayPlane next(wanted, level.left.rows(), level.left.cols());
+            rows.run([](int) -> float* { return nullptr; },
+                     [&](int y, const WindowMeans& means, const ShiftRow& known) {
+                         step_on(means, known.offset(), n, next.row(y) + wanted.x0);
+                     });
+            found = std::move(next);
+            continue;
+        }
+        const Limits limits = limits_of(matching, level.base);
+        rows.run(reliability, [&](int y, const WindowMeans& means, const ShiftRow& known) {
+            settle(means, known.offset(), known.seen(), limits, n, disparity(y));
+        });
+    }
+}
+
+}  // namespace
+
+Floats gradient_disparity(const ImageView& left, const ImageView& right, double predicted,
+                          const GradientMatching& matching, const Region& region) {
+    require_arguments(left, right, predicted, matching, region);
+    const int height = region.y1 - region.y0, width = region.x1 - region.x0;
+    Floats result(2 * height, width);
+    const Region seen = region.clipped(left);
+    if (seen.x1 - seen.x0 < width || seen.y1 - seen.y0 < height) {
+        result.topRows(height) = kNone;
+        result.bottomRows(height) = 0.0F;
+    }
+    if (seen.x0 >= seen.x1 || seen.y0 >= seen.y1) return result;
+    const int j = seen.x0 - region.x0;
+    const auto disparity = [&](int y) { return &result(y - region.y0, j); };
+    const auto reliability = [&](int y) { return &result(height + y - region.y0, j); };
+    const int band = std::max(kBand / width, 32);
+    for (int y = seen.y0; y < seen.y1; y += band)
+        measure(left, right, predicted, matching, {seen.x0, y, seen.x1, std::min(y + band, seen.y1)},
+                disparity, reliability);
+    return result;
+}
+
+}  // namespace tricue
