@@ -9,7 +9,7 @@ NumPy and OpenCV.
 from tricue.scenes.clutter import face_over_clutter
 from tricue.scenes.heads import KINDS, head
 from tricue.scenes.light import light_change
-from tricue.scenes.overtaking import OVERTAKINGS, overtaking
+from tricue.scenes.overtakings import OVERTAKINGS, overtaking
 from tricue.scenes.people import crossing, walker
 from tricue.scenes.photographs import BACKGROUNDS
 from tricue.scenes.scene import Bystander, DepthScene, Events, Scene, StereoScene, WalkScene

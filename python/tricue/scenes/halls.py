@@ -14,7 +14,7 @@ from tricue.scenes.stereo_camera import Board, Canvas, Eye
 THINGS = 16
 CLEAR = 0.9  # metres that things stay behind who walks farthest away
 SIDE = 7.0  # metres to the walls at the sides
-CEILING = 3.2  # metres above the floor
+TOP, REACH = 5.0, 3.2  # metres above the floor: of the walls, and of what hangs on them
 FLOOR = np.array([2.0, 3.4, 4.2, 5.4, 7.2, 11.0])  # metres, z of the floor's strips
 
 
@@ -55,17 +55,17 @@ def furnish(floor: float, farthest: float, angles: tuple[float, float], rng: np.
 
 
 def _walls(depth: float, floor: float, rng: np.random.Generator) -> list[Board]:
-    """Behind and at both sides, up to a man's reach above the images."""
+    """Behind and at both sides, higher than the images reach."""
     kind = str(rng.choice([textures.PLAIN, textures.BLOTCHES, textures.WOOD]))
     color = 0.5 * textures.any_color(rng) + rng.uniform(50, 100)
-    top, high = floor - CEILING, np.array([0, CEILING, 0])
+    top, high = floor - TOP, np.array([0, TOP, 0])
     walls = [
         (np.array([-SIDE, top, depth]), np.array([2 * SIDE, 0, 0])),
         (np.array([-SIDE, top, 0]), np.array([0, 0, depth])),
         (np.array([SIDE, top, depth]), np.array([0, 0, -depth])),
     ]
     return [
-        Board(corner, along, high, textures.pyramid(textures.surface(kind, (320, 1280), color, rng)))
+        Board(corner, along, high, textures.pyramid(textures.surface(kind, (512, 1280), color, rng)))
         for corner, along in walls
     ]
 
@@ -92,7 +92,7 @@ def _thing(angle: float, depth: float, floor: float, rng: np.random.Generator) -
     """A cupboard on the floor, or something on a wall or a stand; it faces the cameras, more or less."""
     half = rng.uniform([0.25, 0.3], [0.7, 1.0])
     stands = rng.random() < 0.6
-    y = floor - half[1] if stands else floor - rng.uniform(half[1] + 0.2, CEILING - half[1])
+    y = floor - half[1] if stands else floor - rng.uniform(half[1] + 0.2, REACH - half[1])
     center = np.array([math.sin(angle) * depth, y, math.cos(angle) * depth])
     kind = str(rng.choice([textures.WOOD, textures.STRIPES, textures.BLOTCHES, textures.THINGS]))
     texture = board_texture(kind, 2 * half, textures.any_color(rng), rng)

@@ -34,28 +34,46 @@ class Plan(NamedTuple):
     passed: float  # the frame in which the target passes who stands
     apart: float  # metres that who stands is farther away than the target then; below 0 nearer
     drift: float  # by which share the target's depth changes over the story
+    taller: float  # the overtaker's height over the target's, metres over metres
     contrast: tuple[float, float, float]  # of each one's clothes
 
 
-PLAIN = Plan(-1, 43.0, 0.5, 0.75, 70.0, 5.0, 1.75, 0.85, 36.0, 70.0, 0.4, 0.0, (0.25, 0.25, 0.25))
+PLAIN = Plan(
+    sense=-1,
+    field=43.0,
+    pan=0.6,
+    speed=0.85,
+    tall=70.0,
+    disparity=5.0,
+    nearer=1.75,
+    faster=0.95,
+    met=34.0,
+    passed=74.0,
+    apart=0.32,
+    drift=0.0,
+    taller=1.02,
+    contrast=(0.25, 0.25, 0.25),
+)
 
 
 def varied(rng: np.random.Generator) -> Plan:
     """A random plan."""
     pan = rng.uniform(0.0, 0.9)
+    low, high, sign = (0.28, 0.34, 1) if rng.random() < 0.5 else (0.40, 0.46, -1)
     return Plan(
         sense=int(rng.choice([-1, 1])),
         field=rng.uniform(41, 46),
         pan=pan,
-        speed=float(np.clip(rng.uniform(1.25, 1.8) - pan, 0.5, 1.05)),
-        tall=rng.uniform(62, 76),
-        disparity=rng.uniform(4.6, 5.5),
+        speed=float(np.clip(rng.uniform(1.35, 1.8) - pan, 0.6, 1.2)),
+        tall=rng.uniform(62, 75),
+        disparity=rng.uniform(4.6, 5.4),
         nearer=rng.uniform(1.7, 1.85),
-        faster=rng.uniform(0.8, 0.9),
-        met=rng.uniform(35, 38),
-        passed=rng.uniform(68, 73),
-        apart=float(rng.choice([-1, 1]) * rng.uniform(0.36, 0.42)),
+        faster=rng.uniform(0.88, 1.02),
+        met=rng.uniform(33, 36),
+        passed=rng.uniform(72, 76),
+        apart=sign * rng.uniform(low, high),
         drift=rng.uniform(-0.06, 0.06),
+        taller=rng.uniform(0.98, 1.06),
         contrast=(rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3)),
     )
 

@@ -11,21 +11,20 @@ from tricue.scenes.body import Array, Balls, Person, Pose, about_y, balls
 from tricue.scenes.stereo_camera import Solid
 from tricue.scenes.textures import Looks, Picture
 
-TROUSERS, SHIRT, SLEEVE, LEG, BARE, HEAD, BAG = range(7)
-# What tricue.scenes.body's parts wear, in their order, and then a coat's skirt and a rucksack.
-WORN = [TROUSERS, *[SHIRT] * 3, BARE, HEAD, *[*[LEG] * 3, SLEEVE, SLEEVE, BARE] * 2, SHIRT, BAG]
+TROUSERS, SHIRT, SLEEVE, LEG, BARE, HEAD = range(6)
+# What tricue.scenes.body's parts wear, in their order, and then a coat's upper and lower half.
+WORN = [TROUSERS, *[SHIRT] * 3, BARE, HEAD, *[*[LEG] * 3, SLEEVE, SLEEVE, BARE] * 2, SHIRT, SHIRT]
 TRUNK, LIMB = (192, 256), 96  # texels: rows and columns on the trunk, columns on a limb
 CLOTHS = (textures.PLAIN, textures.WOOD, textures.STRIPES, textures.BLOTCHES)
-# Shares of the height: centre above the floor and before the middle, semi-axes along x, y, z.
-COAT = ((0.48, 0.0, 0.115, 0.25, 0.115), (0.70, -0.10, 0.10, 0.15, 0.075))
-SWING = 0.33  # radians, of the legs to each side at least; who walks slowly takes as long steps, but fewer
+COAT = ((0.62, 0.11, 0.22, 0.10), (0.42, 0.115, 0.24, 0.14))  # as in tricue.scenes.body.TRUNK
+SWING = 0.25  # radians, of the legs to each side at least; who walks slowly takes as long steps, but fewer
 
 
 class Outfit(NamedTuple):
     """How somebody looks: a texture, as a pyramid, for each kind of part."""
 
     maps: list[list[Picture]]
-    coat: bool  # whether there is a coat down to the knees and a rucksack
+    coat: bool  # whether there is a coat down to the knees
 
     @classmethod
     def draw(cls, contrast: float, coat: bool, rng: np.random.Generator) -> "Outfit":
@@ -37,9 +36,8 @@ class Outfit(NamedTuple):
             cloth(kind, color, contrast, rng) for kind, color in ((upper, shirt), (lower, trousers))
         )
         bare = textures.skin((TRUNK[0], LIMB), looks.skin, rng)
-        bag = cloth(str(rng.choice(CLOTHS)), textures.any_color(rng) * 0.8 + 20, contrast, rng)
         sleeve, leg = (np.ascontiguousarray(map_[:, :LIMB]) for map_ in (above, below))
-        maps = [below, above, sleeve, leg, bare, textures.head(looks, rng), bag]
+        maps = [below, above, sleeve, leg, bare, textures.head(looks, rng)]
         return cls([textures.pyramid(map_) for map_ in maps], coat)
 
 
@@ -100,8 +98,8 @@ def _dress(body: Balls, person: Person, outfit: Outfit) -> Balls:
     """The body, and the coat where one is worn."""
     if not outfit.coat:
         return body
-    up, ahead, *half = np.array(COAT).T * person.height
+    up, *half = np.array(COAT).T * person.height
     wide = np.array([person.build, 1.0, person.build])
-    centers = np.stack([np.zeros(len(up)), -up, ahead], axis=1)
+    centers = np.outer(-up, [0.0, 1.0, 0.0])
     roots = np.stack([np.diag(axes * wide) for axes in np.transpose(half)])
     return Balls(np.append(body.centers, centers, axis=0), np.append(body.roots, roots, axis=0))

@@ -93,6 +93,8 @@ class Eye(NamedTuple):
         """Lay a rectangle into the canvas where it is nearer."""
         camera = self.intrinsics
         place = self._place(board)
+        if any(part.start == part.stop for part in place):
+            return
         x, y = self._rays(*place)
         normal = np.cross(board.along, board.down)
         from_eye = board.corner - [self.offset, 0, 0]
@@ -107,8 +109,9 @@ class Eye(NamedTuple):
             return
         # A tilted board's texture is as coarse as its median ray needs; the finest detail beyond may alias.
         texels = board.texture[0].shape[1] / float(np.linalg.norm(board.along)) / camera.fx
+        away = float(np.median(z[seen])) if len(board.texture) > 1 else 1.0
         u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
-        color = look_up(board.texture, u, v, texels * float(np.median(z[seen])))
+        color = look_up(board.texture, u, v, texels * away)
         canvas.lay(color, z, seen, place)
 
     def draw_solids(self, canvas: Canvas, solids: Sequence[Solid], lamp: Lamp) -> list[Part | None]:

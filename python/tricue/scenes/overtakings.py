@@ -116,7 +116,7 @@ class _Stage(NamedTuple):
 def _people(plan: Plan, camera: str, frames: int, rng: np.random.Generator) -> tuple[list[Pedestrian], Ways]:
     """The target, who overtakes, and who stands."""
     target = Person.draw(rng)
-    overtaker = Person.draw(rng, shortest=max(target.height, 1.7))._replace(build=rng.uniform(1.1, 1.2))
+    overtaker = Person(plan.taller * target.height, rng.uniform(1.05, 1.15))
     standing = Person.draw(rng)._replace(build=rng.uniform(0.9, 1.0))
     outfits = [Outfit.draw(contrast, coat, rng) for contrast, coat in zip(plan.contrast, COATS, strict=True)]
     ways = overtaking_moves.lay(plan, target, camera, frames, rng)
