@@ -15,6 +15,7 @@ THINGS = 16
 CLEAR = 0.9  # metres that things stay behind who walks farthest away
 SIDE = 7.0  # metres to the walls at the sides
 TOP, REACH = 5.0, 3.2  # metres above the floor: of the walls, and of what hangs on them
+LAP = 0.01  # metres that boards reach over each other, so that no ray passes between them
 FLOOR = np.array([2.0, 3.4, 4.2, 5.4, 7.2, 11.0])  # metres, z of the floor's strips
 
 
@@ -58,9 +59,9 @@ def _walls(depth: float, floor: float, rng: np.random.Generator) -> list[Board]:
     """Behind and at both sides, higher than the images reach."""
     kind = str(rng.choice([textures.PLAIN, textures.BLOTCHES, textures.WOOD]))
     color = 0.5 * textures.any_color(rng) + rng.uniform(50, 100)
-    top, high = floor - TOP, np.array([0, TOP, 0])
+    top, high = floor - TOP, np.array([0, TOP + LAP, 0])
     walls = [
-        (np.array([-SIDE, top, depth]), np.array([2 * SIDE, 0, 0])),
+        (np.array([-SIDE - LAP, top, depth]), np.array([2 * (SIDE + LAP), 0, 0])),
         (np.array([-SIDE, top, 0]), np.array([0, 0, depth])),
         (np.array([SIDE, top, depth]), np.array([0, 0, -depth])),
     ]
@@ -79,9 +80,9 @@ def _floor(depth: float, floor: float, rng: np.random.Generator) -> list[Board]:
     rows = np.rint((edges - edges[0]) / (edges[-1] - edges[0]) * len(texture)).astype(int)
     return [
         Board(
-            np.array([-SIDE, floor, start]),
-            np.array([2 * SIDE, 0, 0]),
-            np.array([0, 0, stop - start]),
+            np.array([-SIDE - LAP, floor, start]),
+            np.array([2 * (SIDE + LAP), 0, 0]),
+            np.array([0, 0, stop - start + LAP]),
             textures.pyramid(np.ascontiguousarray(texture[first:last])),
         )
         for start, stop, first, last in zip(edges[:-1], edges[1:], rows[:-1], rows[1:], strict=True)

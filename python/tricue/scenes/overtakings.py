@@ -63,19 +63,20 @@ def overtaking(
     hall = halls.furnish(ways.pan.height, float(farthest), ways.pan.reach, rng)
     truth = Truth(ways.pan, hall, people)
     stage = _Stage.build(truth, ways.depths, CAMERAS[camera], rng)
-    targets = [truth.target(index) for index in range(frames)]
-    visible = np.array([target.visible for target in targets])
+    sights = [truth.sight(index) for index in range(frames)]
+    visible = np.array([sight.visible for sight in sights])
     film = _film_depth if depth else _film_stereo
     return WalkScene(
         name=f"overtaking, {kind}, {camera}, seed {seed}",
         frames=tuple(film(stage, frames, noise, rng)),
-        boxes=tuple(target.box for target in targets),
-        visible_boxes=tuple(target.visible_box for target in targets),
-        positions=np.stack([target.position for target in targets]),
+        boxes=tuple(sight.target.box for sight in sights),
+        visible_boxes=tuple(sight.visible_box for sight in sights),
+        positions=np.stack([sight.target.position for sight in sights]),
         visible=visible,
-        masks=tuple(target.mask for target in targets),
+        masks=tuple(sight.mask for sight in sights),
         flow=Lazy(frames, truth.flow),
         disparity=Lazy(frames, truth.disparity),
+        others=tuple(sight.others for sight in sights),
         rig=ways.pan.rig,
         events=_events(visible, round(plan.passed)),
     )
@@ -115,8 +116,8 @@ class _Stage(NamedTuple):
 
 def _people(plan: Plan, camera: str, frames: int, rng: np.random.Generator) -> tuple[list[Pedestrian], Ways]:
     """The target, who overtakes, and who stands."""
-    target = Person.draw(rng)
-    overtaker = Person(plan.taller * target.height, rng.uniform(1.05, 1.15))
+    target = Person.draw(rng)._replace(build=rng.uniform(1.08, 1.2))
+    overtaker = Person(plan.taller * target.height, rng.uniform(1.1, 1.2))
     standing = Person.draw(rng)._replace(build=rng.uniform(0.9, 1.0))
     outfits = [Outfit.draw(contrast, coat, rng) for contrast, coat in zip(plan.contrast, COATS, strict=True)]
     ways = overtaking_moves.lay(plan, target, camera, frames, rng)
@@ -131,7 +132,7 @@ def _people(plan: Plan, camera: str, frames: int, rng: np.random.Generator) -> t
 
 
 def _film_stereo(stage: _Stage, frames: int, noise: float, rng: np.random.Generator) -> Iterator[Frame]:
-    gains = rng.uniform(0.95, 1.05, 2)
+    gains = 1.0, rng.uniform(0.95, 1.05)
     for index in range(frames):
         left, right = (
             photograph(stage.picture(eye, index), np.full(3, gain), noise, rng)

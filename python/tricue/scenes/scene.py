@@ -125,6 +125,8 @@ class WalkScene:
     the frame before; NaN in the first."""
     disparity: Sequence[NDArray[np.float32]]
     """(H, W) each, made on demand: pixels, x_left - x_right."""
+    others: tuple[tuple[Bystander, Bystander], ...]
+    """Who overtakes and who stands in each frame; they may be outside the image."""
     rig: StereoRig
     """The pair; with depth instead of a right image the right camera is only thought of."""
     events: Events

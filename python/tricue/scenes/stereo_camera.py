@@ -150,16 +150,23 @@ class Eye(NamedTuple):
         return look_up(solid.texture, u, v + np.float32(0.5), texels)
 
     def _place(self, board: Board) -> tuple[slice, slice]:
-        """The grid's rows and columns that a rectangle may cover: all, where a corner isn't in front."""
+        """The grid's rows and columns that a rectangle may cover, maybe none."""
         camera = self.intrinsics
         sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([board.along, board.down])
         corners = board.corner - [self.offset, 0, 0] + sides
-        if corners[:, 2].min() <= NEAREST:
+        size = np.array([camera.width, camera.height])
+        # Beside one of the pyramid's four planes: f x + c z = u z, with the image's first or last u.
+        x, z = (
+            corners[:, :2] * [camera.fx, camera.fy] + corners[:, 2:] * [camera.cx, camera.cy],
+            corners[:, 2:],
+        )
+        if (x < 0).all(axis=0).any() or (x > (size - 1) * z).all(axis=0).any():
+            return slice(0, 0), slice(0, 0)
+        if z.min() <= NEAREST:
             return slice(0, camera.height), slice(0, camera.width)
-        at, size = camera.project(corners), (camera.width, camera.height)
-        left, top = np.ceil(at.min(axis=0)).clip(0, size).astype(int).tolist()
-        right, bottom = (np.floor(at.max(axis=0)) + 1).clip(0, size).astype(int).tolist()
-        return slice(top, max(top, bottom)), slice(left, max(left, right))
+        left, top = np.ceil((x / z).min(axis=0)).clip(0, size).astype(int).tolist()
+        right, bottom = (np.floor((x / z).max(axis=0)) + 1).clip(0, size).astype(int).tolist()
+        return slice(top, bottom), slice(left, right)
 
     def _places(self, solids: Sequence[Solid]) -> list[tuple[slice, slice] | None]:
         """The grid's rows and columns that each ellipsoid may cover; None for none, or beside the camera.

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
+from tricue.scenes import zbuffer
 from tricue.scenes.body import Array, Balls, Ellipsoids
 from tricue.scenes.depth_camera import Mask, View
 from tricue.scenes.halls import Hall
 from tricue.scenes.pan import Pan
 from tricue.scenes.pedestrians import Pedestrian
+from tricue.scenes.scene import Bystander
 from tricue.scenes.stereo_camera import Eye
 
 T = TypeVar("T")
@@ -41,14 +43,14 @@ class Lazy(Sequence[T], Generic[T]):
         return map(self._make, range(self._count))
 
 
-class Target(NamedTuple):
-    """The target in one frame."""
+class Sight(NamedTuple):
+    """The people in one frame, as the left camera sees them."""
 
-    box: Box
-    visible_box: Box | None
-    position: Array
-    visible: float
-    mask: Mask
+    target: Bystander
+    others: tuple[Bystander, Bystander]
+    mask: Mask  # (H, W), the target's visible pixels
+    visible_box: Box | None  # round the mask
+    visible: float  # share of the target's pixels that are in the mask
 
 
 class Truth(NamedTuple):
@@ -58,20 +60,19 @@ class Truth(NamedTuple):
     hall: Hall
     people: list[Pedestrian]
 
-    def target(self, index: int) -> Target:
-        """Box, mask and place of the target in a frame."""
-        depth = np.full(self._shape, np.inf)
-        first, *others = (self._parts(index, person).ellipsoids for person in self.people)
-        for other in others:
-            self._lay(other, depth)
-        window = self._view.cast(first)
-        place, part = window.inside(*self._shape[::-1])
-        mask = np.zeros(self._shape, bool)
-        mask[place] = np.isfinite(part) & (part <= depth[place])
-        alone = np.isfinite(part).sum()
-        position = self._view.points(window).mean(axis=0)
-        visible = float(mask.sum() / alone) if alone else 0.0
-        return Target(self._view.box(first), _round(mask), position, visible, mask)
+    def sight(self, index: int) -> Sight:
+        """Where the people are in a frame, and what is seen of the target."""
+        bodies = [self._parts(index, person).ellipsoids for person in self.people]
+        windows = [self._view.cast(body) for body in bodies]
+        target, overtaker, standing = (
+            Bystander(self._view.box(body), self._view.points(window).mean(axis=0))
+            for body, window in zip(bodies, windows, strict=True)
+        )
+        nearest = np.full(self._shape, np.inf)
+        for window in windows:
+            zbuffer.lay(window, nearest)
+        mask, visible = zbuffer.seen(windows[0], nearest)
+        return Sight(target, (overtaker, standing), mask, zbuffer.box_round(mask), visible)
 
     def depth(self, index: int) -> Array:
         """What is at each pixel's centre, (H, W) metres along z."""
@@ -109,16 +110,10 @@ class Truth(NamedTuple):
         for person in self.people:
             for part in zip(*self._parts(index, person).ellipsoids, strict=True):
                 number += 1
-                place, nearer = self._lay(Ellipsoids(*(array[None] for array in part)), depth)
+                window = self._view.cast(Ellipsoids(*(array[None] for array in part)))
+                place, nearer = zbuffer.lay(window, depth)
                 owner[place][nearer] = number
         return depth, owner
-
-    def _lay(self, bodies: Ellipsoids, depth: Array) -> tuple[tuple[slice, slice], Mask]:
-        """Put ellipsoids into a z-buffer (H, W); returns where they are nearest."""
-        place, part = self._view.cast(bodies).inside(*self._shape[::-1])
-        nearer: Mask = part < depth[place]
-        np.minimum(depth[place], part, out=depth[place])
-        return place, nearer
 
     def _parts(self, index: int, person: Pedestrian) -> Balls:
         return person.parts[index].moved(self.pan.to_camera(index), np.zeros(3))
@@ -130,11 +125,3 @@ class Truth(NamedTuple):
     @property
     def _shape(self) -> tuple[int, int]:
         return self.pan.rig.intrinsics.height, self.pan.rig.intrinsics.width
-
-
-def _round(mask: Mask) -> Box | None:
-    """The smallest box round a mask's pixels; None where there is none."""
-    rows, columns = np.nonzero(mask)
-    if len(rows) == 0:
-        return None
-    return Box(float(columns.min()), float(rows.min()), float(np.ptp(columns) + 1), float(np.ptp(rows) + 1))
