@@ -12,11 +12,11 @@ from tricue.scenes.rooms import board_texture, upright
 from tricue.scenes.stereo_camera import Board, Canvas, Eye
 
 THINGS = 16
-CLEAR = 0.9  # metres that things stay behind who walks farthest away
+CLEAR = 1.4  # metres that things stay behind who walks farthest away
 SIDE = 7.0  # metres to the walls at the sides
 TOP, REACH = 5.0, 3.2  # metres above the floor: of the walls, and of what hangs on them
 LAP = 0.01  # metres that boards reach over each other, so that no ray passes between them
-FLOOR = np.array([2.0, 3.4, 4.2, 5.4, 7.2, 11.0])  # metres, z of the floor's strips
+FLOOR = np.array([3.0, 4.8, 5.8, 7.0, 8.6, 11.0])  # metres, z of the floor's strips
 
 
 class Hall(NamedTuple):
@@ -42,7 +42,7 @@ def furnish(floor: float, farthest: float, angles: tuple[float, float], rng: np.
 
     farthest: metres from the cameras up to which people walk; angles: what the cameras see, radians.
     """
-    wall = farthest + rng.uniform(2.0, 4.0)
+    wall = farthest + rng.uniform(3.5, 6.0)
     boards = [*_walls(wall, floor, rng), *_floor(wall, floor, rng)]
     low, high = (float(np.clip(angle, -1.0, 1.0)) for angle in angles)
     for place in rng.permutation(THINGS).tolist():

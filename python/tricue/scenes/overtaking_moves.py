@@ -40,7 +40,7 @@ class Plan(NamedTuple):
 
 PLAIN = Plan(
     sense=-1,
-    field=43.0,
+    field=32.0,
     pan=0.6,
     speed=0.85,
     tall=74.0,
@@ -62,7 +62,7 @@ def varied(rng: np.random.Generator) -> Plan:
     low, high, sign = (0.28, 0.34, 1) if rng.random() < 0.5 else (0.40, 0.46, -1)
     return Plan(
         sense=int(rng.choice([-1, 1])),
-        field=rng.uniform(41, 46),
+        field=rng.uniform(31, 35),
         pan=pan,
         speed=float(np.clip(rng.uniform(1.35, 1.8) - pan, 0.6, 1.2)),
         tall=rng.uniform(66, 78),

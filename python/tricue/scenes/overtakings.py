@@ -25,7 +25,7 @@ from tricue.scenes.walk_truth import Lazy, Truth
 OVERTAKINGS = ("plain", "varied")
 CAMERAS = {"160x120": 3, "640x480": 2}  # rays a pixel along each axis
 LONGEST = 2 * STORY  # frames; the camera turns out of the hall later
-MISSING, FARTHEST = 0.02, 12.0  # share of the pixels without a depth; metres that the depth camera sees
+MISSING, FARTHEST = 0.02, 16.0  # share of the pixels without a depth; metres that the depth camera sees
 COATS = False, True, False  # who overtakes hides the target's legs with one
 
 
@@ -52,7 +52,7 @@ def overtaking(
         the same.
 
     The pair pans after the target with constant velocity. The target and who stands have nearly the same
-    depth, some 0.4 m apart, which are 0.4 pixels of disparity in a width of 160. There is no motion blur and
+    depth: 0.3 to 0.45 m apart, some 0.3 pixels of disparity in a width of 160. There is no motion blur and
     no shadow cast.
     """
     rng = np.random.default_rng(seed)
