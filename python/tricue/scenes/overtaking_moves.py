@@ -59,7 +59,7 @@ PLAIN = Plan(
 def varied(rng: np.random.Generator) -> Plan:
     """A random plan."""
     pan = rng.uniform(0.0, 0.9)
-    low, high, sign = (0.28, 0.34, 1) if rng.random() < 0.5 else (0.40, 0.46, -1)
+    low, high, sign = (0.28, 0.34, 1) if rng.random() < 0.5 else (0.36, 0.42, -1)
     return Plan(
         sense=int(rng.choice([-1, 1])),
         field=rng.uniform(31, 35),

@@ -58,11 +58,8 @@ def overtaking(
     rng = np.random.default_rng(seed)
     _check(frames, camera, kind, noise)
     plan = overtaking_moves.PLAIN if kind == "plain" else overtaking_moves.varied(rng)
-    people, ways = _people(plan, camera, max(frames, STORY), rng)
-    farthest = max(np.hypot(*ways.target.T).max(), np.hypot(*ways.standing))
-    hall = halls.furnish(ways.pan.height, float(farthest), ways.pan.reach, rng)
-    truth = Truth(ways.pan, hall, people)
-    stage = _Stage.build(truth, ways.depths, CAMERAS[camera], rng)
+    truth, depths = _world(plan, camera, max(frames, STORY), rng)
+    stage = _Stage.build(truth, depths, CAMERAS[camera], rng)
     sights = [truth.sight(index) for index in range(frames)]
     visible = np.array([sight.visible for sight in sights])
     film = _film_depth if depth else _film_stereo
@@ -77,7 +74,7 @@ def overtaking(
         flow=Lazy(frames, truth.flow),
         disparity=Lazy(frames, truth.disparity),
         others=tuple(sight.others for sight in sights),
-        rig=ways.pan.rig,
+        rig=truth.pan.rig,
         events=_events(visible, round(plan.passed)),
     )
 
@@ -112,6 +109,16 @@ class _Stage(NamedTuple):
         for person in self.people:
             eye.draw_solids(canvas, person.solids(index, to_camera), lamp)
         return eye.develop(canvas)
+
+
+def _world(
+    plan: Plan, camera: str, frames: int, rng: np.random.Generator
+) -> tuple[Truth, tuple[float, float, float]]:
+    """People on their ways through a hall, and how far away each of them is about, metres."""
+    people, ways = _people(plan, camera, frames, rng)
+    farthest = max(np.hypot(*ways.target.T).max(), np.hypot(*ways.standing))
+    hall = halls.furnish(ways.pan.height, float(farthest), ways.pan.reach, rng)
+    return Truth(ways.pan, hall, people), ways.depths
 
 
 def _people(plan: Plan, camera: str, frames: int, rng: np.random.Generator) -> tuple[list[Pedestrian], Ways]:
