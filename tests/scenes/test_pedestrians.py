@@ -30,7 +30,7 @@ def test_a_coat_hides_the_thighs():
     """Seen from the side a coat is wider than the trunk and ends below the knees; nothing else changes."""
     bare, dressed = walker(), walker(coat=True)
     extra = len(dressed.parts[0].centers) - len(bare.parts[0].centers)
-    assert extra == 2
+    assert extra == 3
     np.testing.assert_array_equal(dressed.parts[3].centers[:-extra], bare.parts[3].centers)
     lowest = (dressed.parts[0].centers[:, 1] + np.linalg.norm(dressed.parts[0].roots[:, 1], axis=1))[-1]
     assert 0.25 < 1.1 - lowest < 0.45

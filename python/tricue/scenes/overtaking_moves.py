@@ -67,13 +67,13 @@ def varied(rng: np.random.Generator) -> Plan:
         speed=float(np.clip(rng.uniform(1.35, 1.8) - pan, 0.6, 1.2)),
         tall=rng.uniform(66, 78),
         disparity=rng.uniform(4.6, 5.4),
-        nearer=rng.uniform(1.7, 1.85),
+        nearer=rng.uniform(1.72, 1.85),
         faster=rng.uniform(0.88, 1.02),
         met=rng.uniform(33, 36),
         passed=rng.uniform(72, 76),
         apart=sign * rng.uniform(low, high),
         drift=rng.uniform(-0.06, 0.06),
-        taller=rng.uniform(0.98, 1.06),
+        taller=rng.uniform(1.0, 1.06),
         contrast=(rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3)),
     )
 

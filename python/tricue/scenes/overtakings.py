@@ -40,8 +40,9 @@ def overtaking(
 ) -> WalkScene:
     """A target walks through a hall, is overtaken by somebody nearer, and passes who stands; 15 frames/s.
 
-    frames: up to 200. The story takes 100: complete occlusion about frames 30 to 42, the standing person at
-        about 70; fewer cut it short, with more everybody walks on and may leave the picture.
+    frames: up to 200. The story takes 100: less than a tenth of the target is visible about frames 24 to 46,
+        nothing or nearly nothing in the middle of them, and it passes who stands at about 74. Fewer cut it
+        short, with more everybody walks on and may leave the picture.
     camera: "160x120" or "640x480" pixels. kind: one of OVERTAKINGS;
         "plain": from right to left, all but looks, room and noise the same in each seed; the target passes
             in front of who stands;

@@ -12,11 +12,15 @@ from tricue.scenes.stereo_camera import Solid
 from tricue.scenes.textures import Looks, Picture
 
 TROUSERS, SHIRT, SLEEVE, LEG, BARE, HEAD = range(6)
-# What tricue.scenes.body's parts wear, in their order, and then a coat's upper and lower half.
-WORN = [TROUSERS, *[SHIRT] * 3, BARE, HEAD, *[*[LEG] * 3, SLEEVE, SLEEVE, BARE] * 2, SHIRT, SHIRT]
+# What tricue.scenes.body's parts wear, in their order, and then a coat's parts.
+WORN = [TROUSERS, *[SHIRT] * 3, BARE, HEAD, *[*[LEG] * 3, SLEEVE, SLEEVE, BARE] * 2, *[SHIRT] * 3]
 TRUNK, LIMB = (192, 256), 96  # texels: rows and columns on the trunk, columns on a limb
 CLOTHS = (textures.PLAIN, textures.WOOD, textures.STRIPES, textures.BLOTCHES)
-COAT = ((0.62, 0.11, 0.22, 0.10), (0.42, 0.115, 0.24, 0.14))  # as in tricue.scenes.body.TRUNK
+COAT = (
+    (0.64, 0.11, 0.20, 0.095),
+    (0.53, 0.115, 0.23, 0.115),
+    (0.41, 0.12, 0.23, 0.137),
+)  # as in tricue.scenes.body.TRUNK
 SWING = 0.25  # radians, of the legs to each side at least; who walks slowly takes as long steps, but fewer
 
 
