@@ -56,8 +56,8 @@ def overtaking(
     depth: 0.3 to 0.45 m apart, some 0.3 pixels of disparity in a width of 160. There is no motion blur and
     no shadow cast.
     """
-    rng = np.random.default_rng(seed)
     _check(frames, camera, kind, noise)
+    rng = np.random.default_rng(seed)
     plan = overtaking_moves.PLAIN if kind == "plain" else overtaking_moves.varied(rng)
     truth, depths = _world(plan, camera, max(frames, STORY), rng)
     stage = _Stage.build(truth, depths, CAMERAS[camera], rng)
