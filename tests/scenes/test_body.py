@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tricue.scenes.body import Person, Pose, body, stand
+from tricue.scenes.body import Person, Pose, about_y, balls, body, stand
 
 persons = st.builds(Person, st.floats(1.55, 1.95), st.floats(0.9, 1.15))
 poses = st.builds(Pose, st.floats(0, 20), st.floats(0, 0.5), st.floats(0, 1), st.floats(0, 1))
@@ -69,3 +69,32 @@ def test_drawn_people_are_adults():
     assert 1.55 <= heights.min() < 1.58
     assert 1.92 < heights.max() <= 1.95
     assert min(Person.draw(rng, shortest=1.8).height for _ in range(100)) >= 1.8
+
+
+@given(persons, poses)
+def test_roots_are_turns_of_the_axes(person, pose):
+    """A root's columns are at right angles and make a right hand: it only turns and stretches a ball."""
+    for root in balls(person, pose).roots:
+        lengths = np.linalg.norm(root, axis=0)
+        turn = root / lengths
+        np.testing.assert_allclose(turn.T @ turn, np.eye(3), atol=1e-9)
+        assert np.linalg.det(turn) > 0
+
+
+@given(persons, st.floats(0, 20), st.floats(0, 0.5))
+def test_a_limbs_poles_are_near_its_joints(person, gait, swing):
+    """A thigh's -y pole is at the hip and its y pole at the knee, where the shank's -y pole is."""
+    centers, roots = balls(person, Pose(gait, swing))
+    for thigh, shank in ((6, 7), (12, 13)):
+        upper, lower = (centers[part] + np.outer([-1, 1], roots[part][:, 1]) for part in (thigh, shank))
+        assert np.linalg.norm(upper[1] - lower[0]) < 0.07 * person.height  # each reaches over the knee
+        assert upper[0, 1] < upper[1, 1] < lower[1, 1]
+
+
+def test_moving_balls_moves_their_ellipsoids():
+    """Ellipsoids of moved balls are the moved ellipsoids."""
+    person, turn, offset = Person(1.7, 1.0), about_y(0.7), np.array([0.3, -0.2, 4.0])
+    moved = balls(person, Pose(1.0, 0.3)).moved(turn, offset).ellipsoids
+    same = body(person, Pose(1.0, 0.3)).moved(turn, offset)
+    np.testing.assert_allclose(moved.centers, same.centers, atol=1e-12)
+    np.testing.assert_allclose(moved.shapes, same.shapes, atol=1e-12)

@@ -74,6 +74,34 @@ def test_a_slanted_boards_depth_is_its_planes():
     np.testing.assert_allclose(z, 2.0 + (x + 3) / 6 * 1.5, rtol=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("corner", "along"),
+    [
+        ((-0.3, -0.2, 1.5), (0.6, 0, 0.2)),  # inside the image
+        ((0.5, -0.4, 1.0), (3.0, 0, 1.0)),  # over its right edge
+        ((-0.6, 0.117, -0.5), (0.0, 0, 4.0)),  # from behind the camera
+        ((-3.0, -0.2, 1.5), (0.6, 0, 0.2)),  # beside the image
+        ((-0.3, -0.2, -1.5), (0.6, 0, 0.2)),  # behind the camera
+    ],
+)
+def test_a_board_is_seen_on_just_those_rays_that_meet_it(corner, along):
+    """In single rays of double precision a board is hit where the canvas has its depth, but for its edge."""
+    eye, _ = Eye.pair(RIG, 1)
+    corner, along, down = (np.array(side, float) for side in (corner, along, (0, 0.5, 0)))
+    canvas = canvas_of(eye)
+    eye.draw_board(canvas, Board(corner, along, down, paper(1.0)))
+    v, u = np.indices(canvas.depth.shape)
+    rays = eye.intrinsics.back_project(u, v, 1.0)
+    a, b, depth = np.moveaxis(
+        np.linalg.solve(np.stack([along, down, corner], axis=1), rays[..., None])[..., 0], -1, 0
+    )
+    # A ray r = a along + b down + c corner meets the plane at r / c.
+    meets = (depth > 0) & (np.abs(a / depth - 0.5) < 0.5) & (np.abs(b / depth - 0.5) < 0.5)
+    assert (np.isfinite(canvas.depth) != meets).sum() <= 2
+    both = np.isfinite(canvas.depth) & meets
+    np.testing.assert_allclose(canvas.depth[both], 1 / depth[both], rtol=1e-5)
+
+
 def test_solids_agree_with_the_depth_cameras_rays():
     """A rotated ellipsoid's depths are those that the depth camera's renderer, in double precision, gives."""
     turn = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]

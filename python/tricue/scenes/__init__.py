@@ -2,26 +2,32 @@
 """Scenes with exact truth.
 
 Those in color are made from photographs of scikit-image (``pip install tricue[demo]``); those in depth, of
-people before a depth camera, and those in stereo, of a head before a pair, need nothing but NumPy and OpenCV.
+people before a depth camera, and those in stereo, of a head or of walkers before a pair, need nothing but
+NumPy and OpenCV.
 """
 
 from tricue.scenes.clutter import face_over_clutter
 from tricue.scenes.heads import KINDS, head
 from tricue.scenes.light import light_change
+from tricue.scenes.overtakings import OVERTAKINGS, overtaking
 from tricue.scenes.people import crossing, walker
 from tricue.scenes.photographs import BACKGROUNDS
-from tricue.scenes.scene import Bystander, DepthScene, Scene, StereoScene
+from tricue.scenes.scene import Bystander, DepthScene, Events, Scene, StereoScene, WalkScene
 
 __all__ = [
     "BACKGROUNDS",
     "KINDS",
+    "OVERTAKINGS",
     "Bystander",
     "DepthScene",
+    "Events",
     "Scene",
     "StereoScene",
+    "WalkScene",
     "crossing",
     "face_over_clutter",
     "head",
     "light_change",
+    "overtaking",
     "walker",
 ]

@@ -62,17 +62,38 @@ class Ellipsoids(NamedTuple):
         return Ellipsoids(self.centers @ rotation.T + offset, rotation @ self.shapes @ rotation.T)
 
 
+class Balls(NamedTuple):
+    """Unit balls stretched and turned into ellipsoids: q goes to root @ q + center, S = root root^T.
+
+    Each q is a point of the body that keeps its place in it, which shapes alone can't say.
+    """
+
+    centers: Array  # (n, 3), metres
+    roots: Array  # (n, 3, 3), metres
+
+    @property
+    def ellipsoids(self) -> Ellipsoids:
+        return Ellipsoids(self.centers, self.roots @ self.roots.transpose(0, 2, 1))
+
+    def moved(self, rotation: Array, offset: Array) -> "Balls":
+        """Each point p moved to rotation @ p + offset."""
+        return Balls(self.centers @ rotation.T + offset, rotation @ self.roots)
+
+
 def body(person: Person, pose: Pose) -> Ellipsoids:
     """The ellipsoids of a person in a pose, in the body frame; its lowest point touches the floor, y = 0."""
+    return balls(person, pose).ellipsoids
+
+
+def balls(person: Person, pose: Pose) -> Balls:
+    """The same with the place of each point in its ellipsoid; a limb's -y is towards the trunk."""
     lean = 0.6 * pose.crouch + 0.06 * min(pose.swing, 1.0)
     parts = [*_trunk(person.build, lean)]
     for side in (-1.0, 1.0):
         parts += [*_leg(side, person.build, pose), *_arm(side, person.build, lean, pose)]
-    centers, shapes = (np.stack(arrays) for arrays in zip(*parts, strict=True))
-    centers *= person.height
-    shapes *= person.height**2
-    centers[:, 1] -= (centers[:, 1] + np.sqrt(shapes[:, 1, 1])).max()
-    return Ellipsoids(centers, shapes)
+    centers, roots = (np.stack(arrays) * person.height for arrays in zip(*parts, strict=True))
+    centers[:, 1] -= (centers[:, 1] + np.linalg.norm(roots[:, 1], axis=1)).max()
+    return Balls(centers, roots)
 
 
 def stand(person: Person, pose: Pose, x: float, z: float, yaw: float, floor: float) -> Ellipsoids:
@@ -80,11 +101,15 @@ def stand(person: Person, pose: Pose, x: float, z: float, yaw: float, floor: flo
 
     yaw: where the person faces, radians: 0 along z, pi / 2 along x.
     """
-    turn = np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
-    return body(person, pose).moved(turn, np.array([x, floor, z]))
+    return body(person, pose).moved(about_y(yaw), np.array([x, floor, z]))
 
 
-_Part = tuple[Array, Array]  # a centre (3,) and a shape (3, 3), in shares of the height
+def about_y(yaw: float) -> Array:
+    """The rotation that turns z towards x, radians."""
+    return np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
+
+
+_Part = tuple[Array, Array]  # a centre (3,) and a root (3, 3), in shares of the height
 
 
 def _trunk(build: float, lean: float) -> list[_Part]:
@@ -93,8 +118,7 @@ def _trunk(build: float, lean: float) -> list[_Part]:
     for name, (up, *axes) in TRUNK.items():
         wide = 1.0 if name in SLIM else build
         tilt = _tilt(lean if name not in SLIM else 0.3 * lean)
-        shape = np.diag(np.square([axes[0] * wide, axes[1], axes[2] * wide]))
-        parts.append((_on_trunk(0.0, up, lean), tilt @ shape @ tilt.T))
+        parts.append((_on_trunk(0.0, up, lean), tilt * [axes[0] * wide, axes[1], axes[2] * wide]))
     return parts
 
 
@@ -113,7 +137,7 @@ def _leg(side: float, build: float, pose: Pose) -> list[_Part]:
     return [
         _limb(hip, joint, 0.050 * build, 0.10),
         _limb(joint, ankle, 0.033 * build, 0.10),
-        (foot, sole @ np.diag(np.square([0.028, 0.022, 0.076])) @ sole.T),
+        (foot, sole * [0.028, 0.022, 0.076]),
     ]
 
 
@@ -154,5 +178,11 @@ def _limb(start: Array, end: Array, radius: float, over: float) -> _Part:
     """A long ellipsoid between two joints that reaches past each by the share ``over`` of its length."""
     length = float(np.linalg.norm(end - start))
     axis = (end - start) / length
-    half = length * (0.5 + over)
-    return (start + end) / 2, radius**2 * np.eye(3) + (half**2 - radius**2) * np.outer(axis, axis)
+    return (start + end) / 2, _along(axis) * [radius, length * (0.5 + over), radius]
+
+
+def _along(axis: Array) -> Array:
+    """The least rotation that takes y to a unit vector, which isn't -y (Rodrigues' formula)."""
+    x, y, z = axis.tolist()
+    cross = np.array([[0, x, 0], [-x, 0, -z], [0, z, 0]])  # of y and the axis
+    return np.asarray(np.eye(3) + cross + cross @ cross / (1 + y))

@@ -5,12 +5,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
-from tricue.scenes import walks
+from tricue.scenes import walks, zbuffer
 from tricue.scenes.body import Array, Ellipsoids, Person, Pose, stand
 from tricue.scenes.depth_camera import CAMERAS, DepthCamera, View, Window
 from tricue.scenes.scene import Bystander, DepthScene
@@ -184,9 +183,9 @@ def _film(
         sights.append([_sight(view, actor.body(index, view)) for actor in actors])
         depth = background.copy()
         for sight in sights[-1]:
-            place, part = sight.window.inside(view.intrinsics.width, view.intrinsics.height)
-            np.minimum(depth[place], part, out=depth[place])
-        seen.append(_seen(sights[-1][0].window, depth))
+            zbuffer.lay(sight.window, depth)
+        mask, share = zbuffer.seen(sights[-1][0].window, depth)
+        seen.append((zbuffer.box_round(mask), share))
         measured = stage.sensor.measure(depth, rng, missing=flaws.missing, noise=flaws.noise)
         frames.append(Frame(depth=measured, timestamp=index / stage.sensor.rate))
     return DepthScene(
@@ -204,19 +203,6 @@ def _film(
 def _sight(view: View, bodies: Ellipsoids) -> _Sight:
     window = view.cast(bodies)
     return _Sight(view.box(bodies), view.points(window).mean(axis=0), window)
-
-
-def _seen(window: Window, depth: Array) -> tuple[Box | None, float]:
-    """The box of a person's pixels that win the z-buffer (H, W), and their share of those it has alone."""
-    place, part = window.inside(depth.shape[1], depth.shape[0])
-    alone: NDArray[np.bool_] = np.isfinite(part)
-    wins = alone & (part <= depth[place])
-    rows, columns = np.nonzero(wins)
-    if len(rows) == 0:
-        return None, 0.0
-    left, top = columns.min() + place[1].start, rows.min() + place[0].start
-    box = Box(float(left), float(top), float(np.ptp(columns) + 1), float(np.ptp(rows) + 1))
-    return box, float(wins.sum() / alone.sum())
 
 
 def _check(frames: int, camera: str, missing: float, noise: float) -> None:

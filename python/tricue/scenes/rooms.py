@@ -44,8 +44,10 @@ def furnish(
         half = rng.uniform(0.1, 0.5, 2) * min(depth / 3, 1)
         center = np.append(rng.uniform(-1.1, 1.1, 2) * slope, 1.0) * depth
         if is_clear(center, float(np.hypot(*half)), path):
-            texture = _texture(str(rng.choice(textures.SURFACES)), 2 * half, textures.any_color(rng), rng)
-            boards.append(_upright(center, half, rng.uniform(-0.5, 0.5), texture))
+            texture = board_texture(
+                str(rng.choice(textures.SURFACES)), 2 * half, textures.any_color(rng), rng
+            )
+            boards.append(upright(center, half, rng.uniform(-0.5, 0.5), texture))
     if skin is None:
         return Room(boards, [])
     mimics = _mimics(path, wall, skin, rng)
@@ -83,7 +85,7 @@ def _mimics(path: Array, wall: float, skin: NDArray[np.float64], rng: np.random.
         if index == 0:
             kind = str(rng.choice([textures.PLAIN, textures.WOOD]))
             room.boards.append(
-                _upright(center, half, rng.uniform(-0.4, 0.4), _texture(kind, 2 * half, color, rng))
+                upright(center, half, rng.uniform(-0.4, 0.4), board_texture(kind, 2 * half, color, rng))
             )
         else:
             unit = np.diag(1 / np.array([*half, half.mean()]))
@@ -96,7 +98,7 @@ def _wall(depth: float, rng: np.random.Generator) -> Board:
     kind = str(rng.choice([textures.PLAIN, textures.BLOTCHES, textures.WOOD]))
     color = 0.5 * textures.any_color(rng) + rng.uniform(40, 90)
     texture = textures.pyramid(textures.surface(kind, (512, 1024), color, rng))
-    return _upright(np.array([0, 0, depth]), np.array([8.0, 4.5]), rng.uniform(-0.15, 0.15), texture)
+    return upright(np.array([0, 0, depth]), np.array([8.0, 4.5]), rng.uniform(-0.15, 0.15), texture)
 
 
 def _floor(below: float, depth: float, rng: np.random.Generator) -> Board:
@@ -106,14 +108,16 @@ def _floor(below: float, depth: float, rng: np.random.Generator) -> Board:
     return Board(np.array([-depth, below, 0.1]), np.array([size, 0, 0]), np.array([0, 0, size]), texture)
 
 
-def _upright(center: Array, half: Array, yaw: float, texture: list[textures.Picture]) -> Board:
+def upright(center: Array, half: Array, yaw: float, texture: list[textures.Picture]) -> Board:
+    """A board round ``center`` (3,), half its width and height (2,), turned about the vertical by ``yaw``."""
     along = 2 * half[0] * np.array([np.cos(yaw), 0, np.sin(yaw)])
     down = np.array([0, 2 * half[1], 0])
     return Board(center - (along + down) / 2, along, down, texture)
 
 
-def _texture(
+def board_texture(
     kind: str, size: Array, color: NDArray[np.float64], rng: np.random.Generator
 ) -> list[textures.Picture]:
+    """One of textures.SURFACES for a board of this width and height (2,), metres, about a color (3,)."""
     columns, rows = (size * FINEST).astype(int).clip(16, 320).tolist()
     return textures.pyramid(textures.surface(kind, (rows, columns), color, rng))

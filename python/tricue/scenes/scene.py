@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What every scene is: frames and the truth in each."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -82,3 +83,50 @@ class StereoScene:
     changes: tuple[int, ...]
     """The frames in which the light changes abruptly."""
     rig: StereoRig
+
+
+class Events(NamedTuple):
+    """The frames in which the story of an overtaking goes on; None for what comes after the last one."""
+
+    hiding: int | None
+    """The first in which less than 60 % of the target is visible."""
+    hidden: int | None
+    """The first with less than 10 %."""
+    back: int | None
+    """The first with more than 20 % after that."""
+    passing: int | None
+    """The one in which the target passes who stands, both being on the same line of sight."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class WalkScene:
+    """Walkers before a turning stereo pair or color and depth camera, made by this package.
+
+    The same arguments give the same bits. The truth is that of the geometry at the pixels' centres, before
+    noise, in the left (or color) camera's image and frame.
+    """
+
+    name: str
+    frames: tuple[Frame, ...]
+    """Each with ``color``, ``right`` or ``depth`` (H, W), metres, and ``timestamp``, seconds from 0."""
+    boxes: tuple[Box, ...]
+    """Round the target's whole body, pixels, whatever hides it; it may reach over the image's edge."""
+    visible_boxes: tuple[Box | None, ...]
+    """Round the target's pixels that are seen in the image; None where none is."""
+    positions: NDArray[np.float64]
+    """(M, 3) metres in the left camera's frame: the mean of the surface points that the target's pixels see,
+    as if nothing hid it, as in :class:`DepthScene`."""
+    visible: NDArray[np.float64]
+    """(M,) share of the target's pixels that nothing hides, of those it would have alone."""
+    masks: tuple[NDArray[np.bool_], ...]
+    """(H, W) each: the target's visible pixels."""
+    flow: Sequence[NDArray[np.float32]]
+    """(H, W, 2) each, made on demand: pixels along x and y by which the surface at each pixel has moved since
+    the frame before; NaN in the first."""
+    disparity: Sequence[NDArray[np.float32]]
+    """(H, W) each, made on demand: pixels, x_left - x_right."""
+    others: tuple[tuple[Bystander, Bystander], ...]
+    """Who overtakes and who stands in each frame; they may be outside the image."""
+    rig: StereoRig
+    """The pair; with depth instead of a right image the right camera is only thought of."""
+    events: Events

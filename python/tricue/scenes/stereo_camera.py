@@ -92,7 +92,10 @@ class Eye(NamedTuple):
     def draw_board(self, canvas: Canvas, board: Board) -> None:
         """Lay a rectangle into the canvas where it is nearer."""
         camera = self.intrinsics
-        x, y = self._rays(slice(0, camera.height), slice(0, camera.width))
+        place = self._place(board)
+        if any(part.start == part.stop for part in place):
+            return
+        x, y = self._rays(*place)
         normal = np.cross(board.along, board.down)
         from_eye = board.corner - [self.offset, 0, 0]
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -101,14 +104,15 @@ class Eye(NamedTuple):
                 (z * (side[0] * x + side[1] * y + side[2]) - side @ from_eye) / (side @ side)
                 for side in (board.along, board.down)
             )
-        seen = (z > NEAREST) & (z < canvas.depth) & (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5)
+        seen = (z > NEAREST) & (z < canvas.depth[place]) & (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5)
         if not seen.any():
             return
         # A tilted board's texture is as coarse as its median ray needs; the finest detail beyond may alias.
         texels = board.texture[0].shape[1] / float(np.linalg.norm(board.along)) / camera.fx
+        away = float(np.median(z[seen])) if len(board.texture) > 1 else 1.0
         u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
-        color = look_up(board.texture, u, v, texels * float(np.median(z[seen])))
-        canvas.lay(color, z, seen, (slice(None), slice(None)))
+        color = look_up(board.texture, u, v, texels * away)
+        canvas.lay(color, z, seen, place)
 
     def draw_solids(self, canvas: Canvas, solids: Sequence[Solid], lamp: Lamp) -> list[Part | None]:
         """Lay ellipsoids into the canvas where they are nearer; None for those that aren't in the image."""
@@ -144,6 +148,25 @@ class Eye(NamedTuple):
         girth = 2 * math.pi / float(np.linalg.norm(solid.unit[0]))  # metres round the equator, about
         texels = solid.texture[0].shape[1] / girth * float(solid.center[2]) / self.intrinsics.fx
         return look_up(solid.texture, u, v + np.float32(0.5), texels)
+
+    def _place(self, board: Board) -> tuple[slice, slice]:
+        """The grid's rows and columns that a rectangle may cover, maybe none."""
+        camera = self.intrinsics
+        sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([board.along, board.down])
+        corners = board.corner - [self.offset, 0, 0] + sides
+        size = np.array([camera.width, camera.height])
+        # Beside one of the pyramid's four planes: f x + c z = u z, with the image's first or last u.
+        x, z = (
+            corners[:, :2] * [camera.fx, camera.fy] + corners[:, 2:] * [camera.cx, camera.cy],
+            corners[:, 2:],
+        )
+        if (x < 0).all(axis=0).any() or (x > (size - 1) * z).all(axis=0).any():
+            return slice(0, 0), slice(0, 0)
+        if z.min() <= NEAREST:
+            return slice(0, camera.height), slice(0, camera.width)
+        left, top = np.ceil((x / z).min(axis=0)).clip(0, size).astype(int).tolist()
+        right, bottom = (np.floor((x / z).max(axis=0)) + 1).clip(0, size).astype(int).tolist()
+        return slice(top, bottom), slice(left, right)
 
     def _places(self, solids: Sequence[Solid]) -> list[tuple[slice, slice] | None]:
         """The grid's rows and columns that each ellipsoid may cover; None for none, or beside the camera.

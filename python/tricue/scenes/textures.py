@@ -181,12 +181,20 @@ def pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
     return levels
 
 
+def at_detail(levels: Sequence[Picture], texels: float) -> list[Picture]:
+    """The one level for samples that span so many of the finest level's texels, as a pyramid by itself.
+
+    Who looks up in it doesn't change the level while the distance changes, which shows between two frames.
+    """
+    return [levels[min(max(round(math.log2(max(texels, 1.0))), 0), len(levels) - 1)]]
+
+
 def look_up(levels: Sequence[Picture], u: Picture, v: Picture, texels: float) -> Picture:
     """Colors (h, w, 3) at u, v (h, w) in [0, 1] of the texture's width and height, bilinearly.
 
     texels: how many of the finest level's texels a sample spans. u continues over the border.
     """
-    level = levels[min(max(round(math.log2(max(texels, 1.0))), 0), len(levels) - 1)]
+    (level,) = at_detail(levels, texels)
     height, width = level.shape[:2]
     columns, rows = u * np.float32(width) - np.float32(0.5), v * np.float32(height) - np.float32(0.5)
     np.clip(rows, 0, height - 1, out=rows)
