@@ -222,9 +222,11 @@ def test_prior_agrees_with_interpolation(kernels: Kernels) -> None:
         assert_allclose(line, expected, rtol=1e-5, atol=1e-6)
 
 
-@pytest.mark.parametrize("window", [(0, 0, 9, 6), (-5, -5, 20, 20)])
+@pytest.mark.parametrize("window", [(0, 0, 9, 6), (-5, -5, 20, 20), (1e-310, 5e-324, 9, 6)])
 def test_window_as_large_as_the_candidate(kernels: Kernels, window: Any) -> None:
-    """Where the window reaches the candidate region's edge, or over it, nothing falls; outside it is 0."""
+    """Where the window reaches the candidate region's edge, over it, or nearly, nothing falls; outside it is
+    0.
+    """
     expected = np.zeros((7, 11))
     expected[:6, :9] = 1
     assert_allclose(prior(kernels, (7, 11), window, (0, 0, 9, 6)), expected, rtol=4 * EPS32)

@@ -73,10 +73,11 @@ def _ramp(inner: float, inner_end: float, outer: float, outer_end: float, size: 
     """
     center = np.arange(size) + 0.5
     ramp = np.ones(size)
-    if inner > outer:
-        ramp = np.minimum(ramp, (center - outer) / (inner - outer))
-    if inner_end < outer_end:
-        ramp = np.minimum(ramp, (outer_end - center) / (outer_end - inner_end))
+    with np.errstate(over="ignore"):  # of a slope that is nearly a step
+        if inner > outer:
+            ramp = np.minimum(ramp, (center - outer) / (inner - outer))
+        if inner_end < outer_end:
+            ramp = np.minimum(ramp, (outer_end - center) / (outer_end - inner_end))
     return np.maximum(ramp, 0).astype(np.float32)
 
 
