@@ -21,6 +21,7 @@ from tricue.track.track import Status, Track
 if TYPE_CHECKING:
     from tricue.track.color_particle.tracker import ColorParticleTracker
     from tricue.track.depth_particle.tracker import DepthParticleTracker
+    from tricue.track.flow_depth.tracker import FlowDepthTracker
     from tricue.track.stereo_head.tracker import StereoHeadTracker
 
     __version__: str
@@ -29,6 +30,7 @@ __all__ = [
     "Box",
     "ColorParticleTracker",
     "DepthParticleTracker",
+    "FlowDepthTracker",
     "Frame",
     "Intrinsics",
     "Status",
@@ -44,6 +46,7 @@ __all__ = [
 _TRACKERS = {
     "ColorParticleTracker": "color-particle",
     "DepthParticleTracker": "depth-particle",
+    "FlowDepthTracker": "flow-depth",
     "StereoHeadTracker": "stereo-head",
 }
 

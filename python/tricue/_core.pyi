@@ -238,6 +238,22 @@ def floor_plane(
     (6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three pixels, row * cols + col.
     """
 
+def gradient_disparity(
+    left: numpy.typing.NDArray[numpy.uint8],
+    right: numpy.typing.NDArray[numpy.uint8],
+    disparity: float,
+    levels: int = 3,
+    sigma: float = 1.0,
+    radius: int = 2,
+    min_reliability: float = 0.3,
+    max_residual: float = 0.2,
+    max_step: float = 1.0,
+    region: tuple[int, int, int, int] | None = None,
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Disparities and reliabilities (9), each (h, w), of the region (x0, y0, x1, y1) of the left of two rectified gray images (H, W), by default the whole: measured round a predicted disparity by the gradient method (7), coarse to fine; pixels, x_right = x_left - d, NaN where rejected or not seen. levels = 1, radius = 0 is the paper's method.
+    """
+
 def gradient_flow(
     previous: numpy.typing.NDArray[numpy.uint8],
     current: numpy.typing.NDArray[numpy.uint8],
@@ -253,20 +269,6 @@ def gradient_flow(
 ]:
     """
     Flow u, v, pixels a frame, NaN where a reliability is under its minimum, and the reliabilities angle, 0 to 1, and contrast, (h, w) each, of the region (x0, y0, x1, y1) of two gray frames (H, W), or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, along x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.
-def gradient_disparity(
-    left: numpy.typing.NDArray[numpy.uint8],
-    right: numpy.typing.NDArray[numpy.uint8],
-    disparity: float,
-    levels: int = 3,
-    sigma: float = 1.0,
-    radius: int = 2,
-    min_reliability: float = 0.3,
-    max_residual: float = 0.2,
-    max_step: float = 1.0,
-    region: tuple[int, int, int, int] | None = None,
-) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]:
-    """
-    Disparities and reliabilities (9), each (h, w), of the region (x0, y0, x1, y1) of the left of two rectified gray images (H, W), by default the whole: measured round a predicted disparity by the gradient method (7), coarse to fine; pixels, x_right = x_left - d, NaN where rejected or not seen. levels = 1, radius = 0 is the paper's method.
     """
 
 def height_above(
@@ -777,6 +779,19 @@ class Kernels(Protocol):
         up: numpy.typing.NDArray[numpy.float64],
         least_cosine: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def gradient_disparity(
+        self,
+        left: numpy.typing.NDArray[numpy.uint8],
+        right: numpy.typing.NDArray[numpy.uint8],
+        disparity: float,
+        levels: int = 3,
+        sigma: float = 1.0,
+        radius: int = 2,
+        min_reliability: float = 0.3,
+        max_residual: float = 0.2,
+        max_step: float = 1.0,
+        region: tuple[int, int, int, int] | None = None,
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]: ...
     def gradient_flow(
         self,
         previous: numpy.typing.NDArray[numpy.uint8],
@@ -791,19 +806,6 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
-    def gradient_disparity(
-        self,
-        left: numpy.typing.NDArray[numpy.uint8],
-        right: numpy.typing.NDArray[numpy.uint8],
-        disparity: float,
-        levels: int = 3,
-        sigma: float = 1.0,
-        radius: int = 2,
-        min_reliability: float = 0.3,
-        max_residual: float = 0.2,
-        max_step: float = 1.0,
-        region: tuple[int, int, int, int] | None = None,
-    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]: ...
     def height_above(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

@@ -9,6 +9,7 @@ from tricue.track.track import Tracker
 _TRACKERS = {
     "color-particle": "tricue.track.color_particle.tracker:ColorParticleTracker",
     "depth-particle": "tricue.track.depth_particle.tracker:DepthParticleTracker",
+    "flow-depth": "tricue.track.flow_depth.tracker:FlowDepthTracker",
     "stereo-head": "tricue.track.stereo_head.tracker:StereoHeadTracker",
 }
 

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 """What every tracker checks before it touches its state."""
 
+from collections.abc import Sequence
 from numbers import Integral
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.camera.frame import FrameLike, as_frame
+from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.params import Params
 
@@ -91,6 +92,35 @@ def stereo_pair(
     channels.require("color", "right")
     right: Any = channels.right
     return color_image(channels, shape), right, channels.timestamp
+
+
+class Moving(NamedTuple):
+    """A frame with all that the cues need, and the image whose pixels the box counts."""
+
+    frame: Frame
+    image: NDArray[Any]
+
+
+def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None = None) -> Moving:
+    """The frame for flow, disparity or both. ValueError without a channel that they need, for a depth of
+    another shape than the color image's, which it has to be registered to, and for another shape than the
+    first frame's.
+    """
+    channels = as_frame(frame)
+    if "flow" in cues or channels.depth is None:
+        channels.require("color")
+    if "disparity" in cues and channels.depth is None:
+        channels.require("right")
+    image: Any = channels.depth if channels.color is None else channels.color
+    name = "depth" if channels.color is None else "color"
+    if shape is not None and image.shape != shape:
+        hint = "init starts again on another size"
+        raise ValueError(f"frame.{name}: expected the first frame's shape {shape}, got {image.shape}; {hint}")
+    depth: Any = channels.depth
+    if "disparity" in cues and channels.right is None and depth.shape != image.shape[:2]:
+        hint = "it has to be that of the color image's pixels"
+        raise ValueError(f"frame.depth: expected shape {image.shape[:2]}, got {depth.shape}; {hint}")
+    return Moving(channels, image)
 
 
 def elapsed(before: float | None, now: float | None, rate: float) -> float:
