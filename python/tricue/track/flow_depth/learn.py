@@ -11,6 +11,7 @@ from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, moved
 from tricue.track.flow_depth.state import FollowState, Velocity
 
+YOUNG, HALF = 12, 0.5  # frames learnt, before which it is also learnt while less is hidden
 OUTLINE_FREE, USUAL_FREE = 0.05, 0.15  # of the blocks occluded, up to which these are learnt
 FOLLOW = 0.3  # of a step of the target pixels' centre, that a velocity without flow takes
 
@@ -42,7 +43,7 @@ def _learn_usual(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: 
         box, number, _ = k.temporal_window(mine, 0, 0.0)
         if number:
             state.outline = state.outline.learnt(moved(box, *cues.region[:2]), state.blocks)
-    if occluded <= USUAL_FREE:
+    if occluded <= (USUAL_FREE if state.known >= YOUNG else HALF):
         state.learn(judged.number)
 
 

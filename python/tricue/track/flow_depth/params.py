@@ -69,6 +69,9 @@ class FlowDepthParams(Params):
     share: float = parameter(0.25, unit="of a block", source="section 4.4; " + OURS, above=0, high=1)
     votes: int = parameter(3, unit="frames", source="section 4.4; " + OURS, low=1)
     against: int = parameter(4, unit="frames", source="section 4.4; " + OURS, low=1)
+    idle: int = parameter(
+        20, unit="frames", source=OURS, low=1, doc="by disparity alone, until a block isn't the target's"
+    )
     nearer: float = parameter(2.0, unit="places", source=OURS, above=0, doc="of disparity: an occluder")
     similar: float = parameter(0.75, unit="places", source=OURS, above=0, doc="of disparity: the target's")
     thickness: float = parameter(
