@@ -55,7 +55,7 @@ def judge(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Jud
     box, count, pixels = _pixels(k, state, cues, model, p)
     disparity = state.disparity if state.missed or cues.disparity is None else model.peaks[-1]
     seen = _seen(k, state, cues, pixels, disparity, p)
-    nearest = disparity + p.nearer * state.view.scale
+    nearest = disparity + p.nearer * state.view.depth_scale(p)
     hidden = state.blocks.covered(seen, nearest)
     return Judged(model, disparity, pixels, count, moved(box, x, y), seen, nearest, hidden)
 
@@ -77,7 +77,9 @@ def own_places(k: Kernels, state: FollowState, cues: Cues, chosen: Flags) -> Mas
 
 def alike(state: FollowState, cues: Cues, disparity: float, p: FlowDepthParams) -> Mask:
     """(h, w) the places that are about as far away as a disparity."""
-    most = np.float32(max(p.similar * state.view.scale, p.thickness * abs(disparity)))
+    view = state.view
+    thick = p.thickness * abs(disparity) / view.scale
+    most = np.float32(max(p.similar, thick) * view.depth_scale(p))
     near: Flags = np.abs(cues.disparities() - np.float32(disparity)) < most
     return near.view(np.uint8)
 
@@ -92,8 +94,9 @@ def _model(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Mo
         expected += [Expected(each, spread * scale, p.flow_reach * scale) for each in state.velocity]
     visible = np.ones(cues.shape, np.uint8)
     if cues.disparity is not None:
-        expected.append(Expected(state.disparity, p.depth_change * scale, p.depth_reach * scale))
-        nearest = np.float32(state.disparity + p.nearer * scale)
+        deep = state.view.depth_scale(p)
+        expected.append(Expected(state.disparity, p.depth_change * deep, p.depth_reach * deep))
+        nearest = np.float32(state.disparity + p.nearer * deep)
         visible = (~(cues.disparity.values > nearest)).view(np.uint8)
     blocks = state.blocks
     own = own_places(k, state, cues, (blocks.states == TARGET) & (blocks.firm > 0))

@@ -53,6 +53,14 @@ class FlowDepthParams(Params):
     surround: float = parameter(
         0.8, unit="of P(F)", source="0: section 4.3; " + OURS, low=0, high=1, doc="as around the target"
     )
+    sharp: float = parameter(
+        0.3,
+        unit="-",
+        source=OURS,
+        above=0,
+        high=1,
+        doc="of all lengths in disparity, with a depth camera: it errs less than matching does",
+    )
     margin: float = parameter(
         0.25, unit="of the width", source="section 4.1; " + OURS, low=0, high=2, doc="candidate region"
     )
