@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame judged by what is known of the target: its distributions, pixels and blocks, sections 4.1 to 4.4."""
+"""A frame judged by what is known of the target: distributions, pixels and blocks, sections 4.1 to 4.4."""
 
 from typing import NamedTuple
 

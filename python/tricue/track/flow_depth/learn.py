@@ -17,7 +17,7 @@ FOLLOW = 0.3  # of a step of the target pixels' centre, that a velocity without 
 
 
 def accept(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams) -> None:
-    """The target is where its pixels are; what velocity and disparity it has, section 4.2, and which blocks."""
+    """The target is where its pixels are: what velocity and disparity it has, and which blocks."""
     model = judged.model
     if not state.missed:
         measured = (model.peaks[0], model.peaks[1]) if cues.flow else _followed(state, judged.temporal)

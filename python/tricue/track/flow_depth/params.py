@@ -100,6 +100,6 @@ class FlowDepthParams(Params):
     )
     lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="not seen, until LOST")
     rate: float = parameter(15.0, unit="frames/s", source="section 6", above=0, doc="without timestamps")
-    place_noise: float = parameter(1.5, unit="places", source=OURS, above=0, doc="of the window's centre")
+    place_noise: float = parameter(2.5, unit="places", source=OURS, above=0, doc="of the window's centre")
     disparity_noise: float = parameter(0.2, unit="places", source=OURS, above=0)
     agility: float = parameter(2.0, unit="m/s²", source=OURS, above=0, doc="while it isn't seen")
