@@ -107,8 +107,8 @@ class Blocks(NamedTuple):
     def voted(self, seen: Seen, nearest: float, p: FlowDepthParams) -> "Blocks":
         """The states after a frame. nearest: the disparity from which something hides the target.
 
-        A block of the first window also stays, and comes back, by the target's disparity alone; only for a while,
-        for the floor round the feet has it too. One of which hardly anything is read gets no vote against it:
+        A block of the first window also stays, and comes back, by the target's disparity alone; for a while,
+        as the floor round the feet has it too. One of which hardly anything is read gets no vote against it:
         cloth and cardboard without texture.
         """
         found = seen.filled(seen.targets, p.share)
