@@ -45,9 +45,9 @@ def begin(
 
 def _disparity(k: Kernels, view: View, window: Rectangle, target: Box) -> float:
     """In the first window, places."""
-    x0, y0, x1, y1 = window
+    x0, y0, x1, y1 = places_of(window, view.gray.shape)
     across, along = INSIDE
-    inner = grown(window, -across * (x1 - x0), -along * (y1 - y0))
+    inner = grown((x0, y0, x1, y1), -across * (x1 - x0), -along * (y1 - y0))
     disparity = own_disparity(k, view, places_of(inner, view.gray.shape))
     if disparity is None:
         raise ValueError(f"box: expected a target with a disparity, got hardly any in {tuple(target)}")
