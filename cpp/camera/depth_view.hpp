@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
+#include "camera/plane_view.hpp"
 
 namespace tricue {
 
-/// A read-only depth image in metres that somebody else owns: pixels are packed, rows may be padded (`stride` floats apart).
-/// NaN, or anything else that isn't above 0 and finite, is no measurement.
-struct DepthView {
-    const float* data;
-    int rows;
-    int cols;
-    std::ptrdiff_t stride;
-
-    const float* row(int y) const { return data + y * stride; }
-};
+/// A depth image in metres; NaN, or anything else that isn't above 0 and finite, is no measurement.
+using DepthView = PlaneView;
 
 }  // namespace tricue

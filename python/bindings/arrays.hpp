@@ -80,17 +80,25 @@ inline ImageView gray_image(const py::object& object, const char* name) {
             static_cast<int>(array.shape(1)), 1, array.strides(0)};
 }
 
-inline DepthView depth_image(const py::object& object, const char* name) {
-    const auto array = require<float>(object, name, 2, "a float32 depth image (H, W)");
-    constexpr py::ssize_t kSize = sizeof(float);
+/// Pixels packed, rows maybe padded: a view of a part of an image works as the image does.
+template <typename Scalar>
+py::array packed_rows(const py::object& object, const char* name, const char* expected) {
+    auto array = require<Scalar>(object, name, 2, expected);
+    constexpr py::ssize_t kSize = sizeof(Scalar);
     constexpr int kAligned = py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+    // NumPy leaves the stride of an axis of length 1 (and all of them in an empty array) undefined.
     const bool packed = (array.flags() & kAligned) && (array.shape(1) == 1 || array.strides(1) == kSize);
     const bool downward = array.shape(0) == 1 || (array.strides(0) >= 0 && array.strides(0) % kSize == 0);
     if (array.size() > 0 && !(packed && downward))
         throw py::value_error(std::string(name) +
                               ": expected packed pixels; numpy.ascontiguousarray makes them");
+    return array;
+}
+
+inline DepthView depth_image(const py::object& object, const char* name) {
+    const auto array = packed_rows<float>(object, name, "a float32 depth image (H, W)");
     return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), array.strides(0) / kSize};
+            static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
 }
 
 inline ImageView mask_image(const py::object& object, const char* name) {

@@ -75,6 +75,22 @@ def test_the_table_has_a_line_per_tracker(folder, capsys):
     assert rows["still-box"][6] == "-"
 
 
+def test_parameters_come_from_a_file(folder, tmp_path, capsys):
+    """Those of the file are the tracker's, near and far are the rig's; an unknown one is named."""
+    path = tmp_path / "params.toml"
+    path.write_text("resolution = 80\nnear = 3.0\n")
+    assert compare_stereo.main([str(folder / "head"), "--unit", "0.1", "--params", str(path)]) == 0
+    coarse = capsys.readouterr().out.splitlines()[2].split(" | ")
+    assert compare_stereo.main([str(folder / "head"), "--unit", "0.1"]) == 0
+    default = capsys.readouterr().out.splitlines()[2].split(" | ")
+    assert coarse[:2] == default[:2]
+    assert coarse[3:7] != default[3:7]
+    assert float(coarse[4]) > 0.5
+    path.write_text("resolutions = 80\n")
+    with pytest.raises(TypeError, match="resolutions: unknown parameter"):
+        compare_stereo.main([str(folder), "--params", str(path)])
+
+
 def test_a_folder_without_sequences_is_refused(tmp_path, capsys):
     """One line that names the folder."""
     with pytest.raises(SystemExit):
@@ -129,4 +145,6 @@ def test_kitti_targets_are_sequences():
     found = list(stereo_sequences.load(place))
     assert [each.name.split()[-1] for each in found] == ["0", "31"]
     assert all(isinstance(each.rig, StereoRig) and len(each.frames) == len(each.truth) for each in found)
+    assert found[0].frames[3].timestamp == pytest.approx(0.3)
+    assert stereo_sequences.find(place) == [place]
     assert 8 < found[0].disparities[0] < 9.5

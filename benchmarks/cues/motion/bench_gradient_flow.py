@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
+from tricue.evaluation import compare_flow
+from tricue.evaluation.compare_flow import Dense
 from tricue.reference.gaussian import gaussian_taps
 
 Image = NDArray[np.uint8]
@@ -40,12 +42,11 @@ def script(previous: Image, current: Image) -> Flow:
     return np.where(kept, u, np.float32(np.nan)), np.where(kept, v, np.float32(np.nan))
 
 
-def dis() -> Callable[[Image, Image], Flow]:
-    """cv2's dense inverse search, ultrafast; it keeps its memory from call to call."""
-    search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)
+def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
+    """u and v of a dense flow (H, W, 2)."""
 
     def calc(previous: Image, current: Image) -> Flow:
-        flow = np.asarray(search.calc(previous, current, None), np.float32)  # type: ignore[call-overload]
+        flow = dense(previous, current)
         return flow[..., 0], flow[..., 1]
 
     return calc
@@ -55,7 +56,7 @@ CONTENDERS = {
     "native": ours(_core.gradient_flow),
     "reference": ours(reference.gradient_flow),
     "peer": script,
-    "dis": dis(),
+    "dis": planes(compare_flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
+from tricue.evaluation import compare_flow
+from tricue.evaluation.compare_flow import Dense
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]
@@ -21,28 +23,21 @@ def ours(kernel: Callable[..., Any]) -> Callable[[Image, Image], Flow]:
     return lambda previous, current: kernel(previous, current, SIGMA, LEVELS, ANGLE, CONTRAST)[:2]
 
 
-def dis() -> Callable[[Image, Image], Flow]:
-    """cv2's dense inverse search, ultrafast; it keeps its memory from call to call."""
-    search = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)
+def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
+    """u and v of a dense flow (H, W, 2)."""
 
     def calc(previous: Image, current: Image) -> Flow:
-        flow = np.asarray(search.calc(previous, current, None), np.float32)  # type: ignore[call-overload]
+        flow = dense(previous, current)
         return flow[..., 0], flow[..., 1]
 
     return calc
 
 
-def farneback(previous: Image, current: Image) -> Flow:
-    """cv2's polynomial expansion."""
-    flow = cv2.calcOpticalFlowFarneback(previous, current, None, 0.5, 3, 15, 3, 5, 1.2, 0)  # type: ignore[call-overload]
-    return flow[..., 0], flow[..., 1]
-
-
 CONTENDERS = {
     "native": ours(_core.pyramid_flow),
     "reference": ours(reference.pyramid_flow),
-    "peer": farneback,
-    "dis": dis(),
+    "peer": planes(compare_flow.farneback()),
+    "dis": planes(compare_flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 

@@ -60,16 +60,20 @@ void add(const float* __restrict right, const float* __restrict down, float u, f
     }
 }
 
+/// The pixels follow from where in its own pixel the centre is, so that an ellipse moved by whole pixels has the same outline: added
+/// to x itself, places at the border of two pixels would be rounded to one or the other.
 std::vector<Edge> outline(VectorRef ellipse, StatesRef pattern) {
+    const Place origin(ellipse.data());
+    const double x = ellipse[0] - std::floor(ellipse[0]), y = ellipse[1] - std::floor(ellipse[1]);
     std::vector<Edge> edges;
     edges.reserve(static_cast<std::size_t>(pattern.rows()));
     for (Eigen::Index k = 0; k < pattern.rows(); ++k) {
-        const double place[] = {ellipse[0] + ellipse[2] * pattern(k, 0),
-                                ellipse[1] + ellipse[3] * pattern(k, 1)};
+        const double place[] = {x + ellipse[2] * pattern(k, 0), y + ellipse[3] * pattern(k, 1)};
         const double u = pattern(k, 0) / ellipse[2], v = pattern(k, 1) / ellipse[3];
         const double twice = 2.0 * std::sqrt(u * u + v * v);
         const Place pixel(place);
-        edges.push_back({pixel.x, pixel.y, static_cast<float>(u / twice), static_cast<float>(v / twice)});
+        edges.push_back({origin.x + pixel.x, origin.y + pixel.y, static_cast<float>(u / twice),
+                         static_cast<float>(v / twice)});
     }
     return edges;
 }

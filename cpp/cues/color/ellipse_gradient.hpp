@@ -10,8 +10,9 @@ namespace tricue {
 /// How much of an outline lies on edges, at every place of a grid: the mean |n · ∇I| along an ellipse.
 ///
 /// n is the ellipse's unit normal at a place of its outline, ∇I the central difference at the pixel that the place lies in; at the
-/// edge of the image the pixel itself stands for its missing neighbour. Places outside the image are left out of the mean, and
-/// with none inside it is 0. Sums are of float32.
+/// edge of the image the pixel itself stands for its missing neighbour. Places are counted from the pixel that the centre lies in, so
+/// an ellipse moved by whole pixels has the same outline. Those outside the image are left out of the mean, and with none inside it
+/// is 0. Sums are of float32.
 ///
 /// @param grey    (H, W) 8 bit, may be empty
 /// @param ellipse (4,): centre x, y, semi-axes along x (minor) and along y (major), pixels, finite, above 0, at most 4096

@@ -13,7 +13,6 @@ import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from time import perf_counter
 from typing import NamedTuple
 
 import cv2
@@ -21,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue import _core
+from tricue.evaluation.compare_disparity import fastest
 from tricue.evaluation.one_pass import one_thread
 from tricue.evaluation.sequences import data_folder
 from tricue.scenes.moving_waves import moving_waves
@@ -137,7 +137,7 @@ def measure(frames: Frames, ours: Ours, rounds: int = 10) -> Result:
     errors.append(_error(lucas_kanade(frames.previous, frames.current, half), frames.truth, half))
     flows.append(lambda: lucas_kanade(frames.previous, frames.current, half))
     kept = np.isfinite(found.flow[..., 0]) & (found.angle >= MIN_ANGLE) & (found.contrast >= MIN_CONTRAST)
-    return Result(100 * float(kept[known].mean()), tuple(errors), tuple(_fastest(flows, rounds)))
+    return Result(100 * float(kept[known].mean()), tuple(errors), tuple(fastest(flows, rounds)))
 
 
 def farneback() -> Dense:
@@ -221,17 +221,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _error(flow: Floats, truth: Floats, pixels: NDArray[np.bool_]) -> float:
     """Average endpoint error; a pixel without flow counts as 0 flow."""
     return float(np.linalg.norm(np.nan_to_num(flow[pixels]) - truth[pixels], axis=1).mean())
-
-
-def _fastest(calls: Sequence[Callable[[], object]], rounds: int) -> list[float]:
-    """Seconds of the fastest of some rounds, in which the calls take turns."""
-    best = [np.inf] * len(calls)
-    for _ in range(max(1, rounds)):
-        for index, call in enumerate(calls):
-            start = perf_counter()
-            call()
-            best[index] = min(best[index], perf_counter() - start)
-    return best
 
 
 if __name__ == "__main__":

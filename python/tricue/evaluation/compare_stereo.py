@@ -2,12 +2,14 @@
 """Trackers of pairs beside OpenCV's in the left images: ``python -m tricue.evaluation.compare_stereo``.
 
 The distances between which a target is looked for are those where a pair's disparity is a quarter of the
-image's width and 4 pixels. All other parameters are the defaults.
+image's width and 4 pixels. All other parameters are the defaults, or those of a file.
 """
 
 import argparse
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,6 +21,7 @@ from tricue.camera.rig import StereoRig
 from tricue.evaluation import metrics, peers, sequences, stereo_sequences
 from tricue.evaluation.one_pass import Contender, run
 from tricue.evaluation.stereo_sequences import StereoSequence
+from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.track import Status
 
 PEERS = ("CSRT", "KCF", "still-box")
@@ -42,20 +45,20 @@ class Row(NamedTuple):
     """Per second."""
 
 
-def makers() -> dict[str, Maker]:
-    """Tricue's trackers of pairs, and the peers that the installed cv2 has."""
+def makers(params: StereoHeadParams | None = None) -> dict[str, Maker]:
+    """Tricue's trackers of pairs, with ``params`` or the defaults, and the installed cv2's peers."""
     known = peers.available()
-    found: dict[str, Maker] = {"stereo-head": _head}
+    found: dict[str, Maker] = {"stereo-head": partial(_head, params or StereoHeadParams())}
     for name in PEERS:
         if name in known:
             found[name] = lambda rig, make=known[name]: make(0)  # type: ignore[misc]
     return found
 
 
-def _head(rig: StereoRig) -> Contender:
+def _head(params: StereoHeadParams, rig: StereoRig) -> Contender:
     product = rig.intrinsics.fx * rig.baseline
     near, far = product / (WIDEST * rig.intrinsics.width), product / NARROWEST
-    return tricue.StereoHeadTracker(rig=rig, near=near, far=far)
+    return tricue.StereoHeadTracker(rig=rig, **asdict(replace(params, near=near, far=far)))
 
 
 def measure(name: str, make: Maker, sequence: StereoSequence) -> Row:
@@ -92,9 +95,11 @@ def table(rows: Sequence[Row]) -> str:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure and print the table; the exit code."""
     parser = argparse.ArgumentParser(prog="python -m tricue.evaluation.compare_stereo", description=__doc__)
-    parser.add_argument("folder", type=Path, nargs="?", help="of sequences; found through TRICUE_DATA")
+    parser.add_argument("folder", type=Path, nargs="?", help="a sequence or more; found through TRICUE_DATA")
     parser.add_argument("--unit", type=float, default=1.0, help="metres, of OpenCV's calibration files")
+    parser.add_argument("--params", type=Path, help="a file of stereo-head's parameters, TOML")
     options = parser.parse_args(arguments)
+    params = None if options.params is None else StereoHeadParams.from_toml(options.params)
     folder = options.folder or sequences.data_folder() / "stereo"
     folders = stereo_sequences.find(folder)
     if not folders:
@@ -103,7 +108,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         measure(name, make, sequence)
         for found in folders
         for sequence in stereo_sequences.load(found, options.unit)
-        for name, make in makers().items()
+        for name, make in makers(params).items()
     ]
     print(table(rows))
     return 0

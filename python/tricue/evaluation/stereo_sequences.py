@@ -20,6 +20,7 @@ from tricue.camera.sources import Source, open_source
 from tricue.camera.truth import read_truth
 
 RIGHT, CALIBRATION = "groundtruth_right.txt", "calibration.yml"
+KITTI_RATE = 10.0  # frames/s of its cameras (Geiger et al. 2013), which its folders don't tell
 SHORTEST = 10  # frames
 LEAST_SIDE = 20.0  # pixels of a labelled target in its first frame
 Array = NDArray[np.float64]
@@ -36,8 +37,8 @@ class StereoSequence(NamedTuple):
 
 
 def find(root: Path) -> list[Path]:
-    """The folders directly under ``root`` that hold such sequences, by name."""
-    folders = sorted(path for path in root.glob("*") if path.is_dir())
+    """The folders that hold such sequences, by name: ``root`` itself, and those directly under it."""
+    folders = [root, *sorted(path for path in root.glob("*") if path.is_dir())]
     return [folder for folder in folders if (folder / RIGHT).is_file() or _labels(folder) is not None]
 
 
@@ -46,10 +47,10 @@ def load(folder: Path, unit: float = 1.0) -> Iterator[StereoSequence]:
 
     ValueError where the right images, boxes or the calibration aren't there or don't fit.
     """
-    source = open_source(folder)
+    labels = _labels(folder)
+    source = open_source(folder, fps=None if labels is None else KITTI_RATE)
     if "right" not in source.channels:
         raise ValueError(f"{folder}: expected a stereo pair, got {', '.join(source.channels)}")
-    labels = _labels(folder)
     if labels is None:
         yield _pair(source, folder, unit)
     else:

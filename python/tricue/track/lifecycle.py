@@ -109,8 +109,9 @@ def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None 
     channels = as_frame(frame)
     if "flow" in cues or channels.depth is None:
         channels.require("color")
-    if "disparity" in cues and channels.depth is None:
-        channels.require("right")
+    if "disparity" in cues and channels.depth is None and channels.right is None:
+        hint = "cues=('flow',) needs neither"
+        raise ValueError(f"frame: expected the channel right or depth, got color; {hint}")
     image: Any = channels.depth if channels.color is None else channels.color
     name = "depth" if channels.color is None else "color"
     if shape is not None and image.shape != shape:

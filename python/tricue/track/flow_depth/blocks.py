@@ -47,7 +47,8 @@ class Blocks(NamedTuple):
     corners: (N, 4) x0, y0, x1, y1 from the anchor, at first. anchor: (2,) places. size: by which the corners
     have grown. states: (N,) of figure 7. votes, against: (N,) frames, as far as they count. core: (N,) those
     of the first window: it was given, so that depth alone keeps them in it, for arms and legs don't move as
-    the body does. firm: (N,) frames for which a block's readings count after it had target pixels.
+    the body does. firm: (N,) frames for which a block's readings count after it had target pixels. idle: (N,)
+    frames for which it has had the target's disparity and no target pixels.
     """
 
     corners: Floats
@@ -58,6 +59,7 @@ class Blocks(NamedTuple):
     against: Counts
     core: Flags
     firm: Counts
+    idle: Counts
 
     @classmethod
     def of(cls, window: Rectangle, p: FlowDepthParams) -> "Blocks":
@@ -75,7 +77,9 @@ class Blocks(NamedTuple):
         none = np.zeros(len(corners), np.int64)
         core = ((i >= 0) & (i < columns) & (j >= 0) & (j < rows)).ravel()
         anchor = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
-        return cls(corners, anchor, 1.0, np.where(core, TARGET, NOT_TARGET), none, none, core, FIRM * core)
+        return cls(
+            corners, anchor, 1.0, np.where(core, TARGET, NOT_TARGET), none, none, core, FIRM * core, none
+        )
 
     def moved(self, right: float, down: float) -> "Blocks":
         """The grid elsewhere."""
@@ -103,8 +107,9 @@ class Blocks(NamedTuple):
     def voted(self, seen: Seen, nearest: float, p: FlowDepthParams) -> "Blocks":
         """The states after a frame. nearest: the disparity from which something hides the target.
 
-        A block of the first window also stays, and comes back, by the target's disparity alone. One of which
-        hardly anything is read gets no vote against it: cloth and cardboard without texture.
+        A block of the first window also stays, and comes back, by the target's disparity alone; for a while,
+        as the floor round the feet has it too. One of which hardly anything is read gets no vote against it:
+        cloth and cardboard without texture.
         """
         found = seen.filled(seen.targets, p.share)
         alike = seen.filled(seen.alike, p.share)
@@ -112,19 +117,23 @@ class Blocks(NamedTuple):
         here = seen.places > 0
         known = seen.readings >= READ * seen.places
         target, occluded = self.states == TARGET, self.states == OCCLUDED
-        votes = np.where(found | (alike & self.core), self.votes + 1, np.maximum(self.votes - here, 0))
+        idle = np.where(found, 0, self.idle + (alike & ~hidden))
+        core = self.core & (idle < p.idle)
+        votes = np.where(found | (alike & core), self.votes + 1, np.maximum(self.votes - here, 0))
         missing = target & ~found & ~alike & ~hidden & here & known
         against = np.where(missing, self.against + 1, np.where(target & (found | alike), 0, self.against))
         states = self.states.copy()
         states[(states == NOT_TARGET) & (votes >= p.votes)] = TARGET
         states[target & hidden] = OCCLUDED
         states[occluded & ~hidden & (found | (seen.readings > 0))] = TARGET
-        states[target & (against >= p.against)] = NOT_TARGET
+        states[target & ((against >= p.against) | (idle >= p.idle))] = NOT_TARGET
         gone = states == NOT_TARGET
         firm = np.where(found, FIRM, np.where(hidden, self.firm, np.maximum(self.firm - 1, 0)))
         return self._replace(
             states=states,
             votes=np.where(gone & target, 0, np.minimum(votes, p.votes)),
             against=np.where(gone, 0, against),
+            core=core,
             firm=firm,
+            idle=idle,
         )

@@ -53,6 +53,14 @@ class FlowDepthParams(Params):
     surround: float = parameter(
         0.8, unit="of P(F)", source="0: section 4.3; " + OURS, low=0, high=1, doc="as around the target"
     )
+    sharp: float = parameter(
+        0.3,
+        unit="-",
+        source=OURS,
+        above=0,
+        high=1,
+        doc="of all lengths in disparity, with a depth camera: it errs less than matching does",
+    )
     margin: float = parameter(
         0.25, unit="of the width", source="section 4.1; " + OURS, low=0, high=2, doc="candidate region"
     )
@@ -69,6 +77,9 @@ class FlowDepthParams(Params):
     share: float = parameter(0.25, unit="of a block", source="section 4.4; " + OURS, above=0, high=1)
     votes: int = parameter(3, unit="frames", source="section 4.4; " + OURS, low=1)
     against: int = parameter(4, unit="frames", source="section 4.4; " + OURS, low=1)
+    idle: int = parameter(
+        20, unit="frames", source=OURS, low=1, doc="by disparity alone, until a block isn't the target's"
+    )
     nearer: float = parameter(2.0, unit="places", source=OURS, above=0, doc="of disparity: an occluder")
     similar: float = parameter(0.75, unit="places", source=OURS, above=0, doc="of disparity: the target's")
     thickness: float = parameter(
@@ -89,6 +100,6 @@ class FlowDepthParams(Params):
     )
     lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="not seen, until LOST")
     rate: float = parameter(15.0, unit="frames/s", source="section 6", above=0, doc="without timestamps")
-    place_noise: float = parameter(1.5, unit="places", source=OURS, above=0, doc="of the window's centre")
+    place_noise: float = parameter(2.5, unit="places", source=OURS, above=0, doc="of the window's centre")
     disparity_noise: float = parameter(0.2, unit="places", source=OURS, above=0)
     agility: float = parameter(2.0, unit="m/s²", source=OURS, above=0, doc="while it isn't seen")

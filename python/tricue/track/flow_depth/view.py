@@ -61,6 +61,10 @@ class View(NamedTuple):
         """Places here over those of the paper's pictures, of 160 columns."""
         return float(self.gray.shape[1] / 160)
 
+    def depth_scale(self, p: FlowDepthParams) -> float:
+        """The same for lengths in disparity: of a depth camera they are shorter."""
+        return self.scale * (1.0 if self.disparity is None else p.sharp)
+
 
 def view_of(k: Kernels, frame: Frame, lens: Lens, p: FlowDepthParams) -> View:
     """The channels of a checked frame that the cues need, made smaller."""

@@ -10,7 +10,10 @@ from tricue.reference.search_grid import Grid, places, require_grid
 
 
 def ellipse_gradient(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:
-    """(rows, cols): mean |n . grad I| at the places (x + minor u, y + major v) that are inside the image."""
+    """(rows, cols): mean |n . grad I| at the places (x + minor u, y + major v) that are inside the image.
+
+    Measured from the pixel that the centre lies in, as an ellipse moved by whole pixels keeps its outline.
+    """
     require_shape("ellipse", ellipse, (4,))
     require_ellipses("ellipse", ellipse[None], 1.0)
     require_grid(grid)
@@ -26,7 +29,8 @@ def ellipse_gradient(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, patte
     found = np.zeros(grid[:2])
     for place in np.ndindex(*grid[:2]):
         x, y, minor, major = places(ellipse, grid)[place]
-        columns, rows = np.floor(x + minor * pattern[:, 0]), np.floor(y + major * pattern[:, 1])
+        columns = np.floor(x) + np.floor(x - np.floor(x) + minor * pattern[:, 0])
+        rows = np.floor(y) + np.floor(y - np.floor(y) + major * pattern[:, 1])
         inside = (columns >= 0) & (columns < width) & (rows >= 0) & (rows < height)
         if inside.any():
             pixels = rows[inside].astype(int), columns[inside].astype(int)
