@@ -96,7 +96,7 @@ def _model(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Mo
     if cues.disparity is not None:
         deep = state.view.depth_scale(p)
         expected.append(Expected(state.disparity, p.depth_change * deep, p.depth_reach * deep))
-        # Not where the depth is another's: what is nearer, and the background in the first window, move otherwise.
+        # What has another depth, as the background in the first window, moves otherwise.
         off = np.abs(cues.disparity.values - np.float32(state.disparity))
         moving = (~(off > np.float32(p.similar * deep))).view(np.uint8)
     blocks = state.blocks
