@@ -105,7 +105,9 @@ def _around(k: Kernels, reading: Reading, around: Mask, at: Expected, p: FlowDep
     if not (p.surround and total > 0):
         return anything
     histogram = k.weighted_histogram(*reading, whole, *at.range, p.bins, around)
-    smooth = np.convolve(histogram, _bell(p.smoothing), "same")
+    bell = _bell(p.smoothing)
+    first = len(bell) // 2  # not "same": that is as long as the bell where that is the longer one
+    smooth = np.convolve(histogram, bell)[first : first + p.bins]
     return p.surround * smooth / total + (1 - p.surround) * anything
 
 

@@ -103,3 +103,8 @@ class FlowDepthParams(Params):
     place_noise: float = parameter(2.5, unit="places", source=OURS, above=0, doc="of the window's centre")
     disparity_noise: float = parameter(0.2, unit="places", source=OURS, above=0)
     agility: float = parameter(2.0, unit="m/s²", source=OURS, above=0, doc="while it isn't seen")
+
+    def __post_init__(self) -> None:
+        Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
+        if len(self.cues) not in (1, 2) or len(set(self.cues)) < len(self.cues):
+            raise ValueError(f"cues: expected 'flow', 'disparity' or both, got {self.cues}")
