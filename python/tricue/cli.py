@@ -27,12 +27,16 @@ examples:
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
   tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
   tricue track kitti/ --tracker stereo-head --box 560,170,30,60 --set near=5 --set far=40
+  tricue track pair/ --tracker flow-depth --box 60,30,25,74 --calibration stereo.yml --output overlay.mp4
+  tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
+  tricue track video.mp4 --tracker flow-depth --set cues=flow --box 60,30,25,74   without any depth
 """
 _DEMO_EXAMPLES = """\
 examples:
   tricue demo
   tricue demo depth-particle                                  people before a depth camera, in metres
   tricue demo stereo-head                                     a head before a stereo pair, in metres
+  tricue demo flow-depth                                      a walker who is overtaken, before a panning pair
   tricue demo color-particle --kernels reference --output here
 """
 _REPRODUCE_EXAMPLES = """\
@@ -40,6 +44,7 @@ examples:
   tricue reproduce sabeti-fig1
   tricue reproduce sabeti-depth --jobs 2
   tricue reproduce moreno-fig3 --jobs 2
+  tricue reproduce okada-fig8 --jobs 2
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
 
@@ -168,7 +173,9 @@ def _add_demo(verb: argparse.ArgumentParser) -> None:
 
 def _add_reproduce(verb: argparse.ArgumentParser) -> None:
     verb.add_argument(
-        "experiment", metavar="EXPERIMENT", help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3"
+        "experiment",
+        metavar="EXPERIMENT",
+        help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3, okada-fig8",
     )
     verb.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"

@@ -36,10 +36,12 @@ def overlay(
     particles: ArrayLike | None = None,
     truth: Box | None = None,
     note: str = "",
+    ellipse: bool = True,
 ) -> Image:
     """A copy of the image (BGR or grey) with the track in it; a small one is enlarged by a whole number.
 
     particles: (N, 2 or more), their centres x, y in pixels. truth: the true box, drawn thin and white.
+    ellipse: whether the box's own is drawn, too.
     """
     scale = max(1, _READABLE // image.shape[0])
     canvas = _canvas(image, scale, cv2.INTER_CUBIC)
@@ -48,7 +50,8 @@ def overlay(
         _dots(canvas, np.asarray(particles, np.float64), scale, _PARTICLE)
     if truth is not None:
         _rectangle(canvas, truth, scale, _TRUTH, 1)
-    _ellipse(canvas, track.box, scale, color)
+    if ellipse:
+        _ellipse(canvas, track.box, scale, color)
     _rectangle(canvas, track.box, scale, color, 2)
     _words(canvas, track, note)
     return canvas

@@ -41,7 +41,7 @@ def test_table_holds_the_errors_of_the_run(tmp_path):
 @pytest.mark.parametrize("name", reproduce.EXPERIMENTS)
 def test_figure_is_drawn_and_progress_is_told(name, tmp_path, monkeypatch):
     """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""
-    if name == "moreno-fig3":  # whose scenes take seconds each
+    if name in ("moreno-fig3", "okada-fig8"):  # whose scenes take seconds each
         whole = reproduce.EXPERIMENTS[name]
         scenes = {scene: partial(make, frames=8, camera="160x120") for scene, make in whole.scenes.items()}
         monkeypatch.setitem(reproduce.EXPERIMENTS, name, replace(whole, scenes=scenes))

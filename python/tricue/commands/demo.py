@@ -2,7 +2,7 @@
 """``tricue demo``: scenes with known truth, tracked; an error table, an overlay video and a plot.
 
 Here are those in color, a face over clutter; commands.demo_depth has those in depth, commands.demo_stereo
-those of a stereo pair.
+those of a stereo pair, commands.demo_flow_depth those of walkers.
 """
 
 from argparse import Namespace
@@ -20,6 +20,7 @@ from tricue.track.create import create
 
 IN_DEPTH = ("depth-particle",)  # trackers that need depth
 IN_STEREO = ("stereo-head",)  # trackers that need a pair
+OF_WALKERS = ("flow-depth",)  # trackers that need motion and depth
 LOST = 25.0  # pixels off the true centre, where a face counts as lost
 FPS = 15.0
 FLOOR = 0.1  # pixels, of the logarithmic plot
@@ -45,6 +46,10 @@ def demo(options: Namespace) -> int:
         from tricue.commands.demo_stereo import demo_stereo
 
         return demo_stereo(options)
+    if options.tracker in OF_WALKERS:
+        from tricue.commands.demo_flow_depth import demo_flow_depth
+
+        return demo_flow_depth(options)
     return _demo_color(options)
 
 

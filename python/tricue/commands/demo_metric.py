@@ -12,11 +12,11 @@ from tricue.commands.progress import Progress
 from tricue.commands.run import Clock
 from tricue.draw import OverlayWriter
 from tricue.evaluation.depth_curves import HALF, HIDDEN
-from tricue.scenes import DepthScene, StereoScene
+from tricue.scenes import DepthScene, StereoScene, WalkScene
 from tricue.track.track import Status, Track
 
 Floats = NDArray[np.float64]
-S = TypeVar("S", DepthScene, StereoScene)
+S = TypeVar("S", DepthScene, StereoScene, WalkScene)
 
 
 @dataclass(frozen=True)

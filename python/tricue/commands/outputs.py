@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
-from tricue.draw import Image, OverlayWriter, depth_overlay, depth_range, overlay
+from tricue.draw import Image, OverlayWriter, depth_overlay, depth_picture, depth_range, overlay
+from tricue.draw_flow_depth import flow_depth_overlay
 from tricue.draw_stereo import stereo_overlay
 from tricue.track.track import Track
 
@@ -27,7 +28,7 @@ COLUMNS = (
 class Step(NamedTuple):
     """One tracked frame: its number from 0, what was seen, what the tracker said, and its seconds.
 
-    particles, objects: the tracker's own, where it has them.
+    particles, objects, mask, blocks: the tracker's own, where it has them.
     """
 
     number: int
@@ -36,6 +37,8 @@ class Step(NamedTuple):
     seconds: float
     particles: Any = None
     objects: Any = None
+    mask: Any = None
+    blocks: Any = None
 
 
 class Output(AbstractContextManager[Any], Protocol):
@@ -107,7 +110,8 @@ class JsonOutput:
 class VideoOutput:
     """The overlay video: on the depth where the tracker segments it or there is nothing else.
 
-    rig: the stereo pair's, where the tracker knows it; then the disparity is shown.
+    rig: the stereo pair's, where the tracker knows it; then the disparity is shown, or the target's pixels
+    where the tracker has a mask of them.
     """
 
     def __init__(self, path: Path, fps: float, rig: StereoRig | None = None) -> None:
@@ -125,6 +129,12 @@ class VideoOutput:
 
     def _picture(self, step: Step, note: str) -> Image:
         color, depth = step.frame.color, step.frame.depth
+        if step.mask is not None:
+            image = color
+            if image is None:
+                assert depth is not None  # a frame has one of the two
+                image = depth_picture(depth, *self._shades(depth))
+            return flow_depth_overlay(image, step.track, step.mask, step.blocks, note=note)
         if depth is not None and (color is None or step.objects is not None):
             near, far = self._shades(depth)
             return depth_overlay(

@@ -13,6 +13,7 @@ from tricue.camera.frame import Frame
 from tricue.commands.outputs import Step
 from tricue.track.track import Status, Track, Tracker
 
+SHOWN = ("particles", "objects", "mask", "blocks")  # of a tracker, to be drawn
 Start = Callable[[Frame], Box | None]
 """The box to start on, asked of every frame until there is one."""
 
@@ -62,7 +63,7 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
         if started:
             clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
         started = True
-        seen = (getattr(tracker, name, None) for name in ("particles", "objects"))
+        seen = (getattr(tracker, name, None) for name in SHOWN)
         yield Step(index, frame, track, seconds, *seen)
 
 

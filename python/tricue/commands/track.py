@@ -67,10 +67,23 @@ def make_tracker(
     name: str, params_file: Path | None, settings: Sequence[str], seed: int, kernels: str, **camera: Any
 ) -> Tracker:
     """The tracker with parameters of a TOML file, overridden by settings "name=value"."""
+    kind = tracker_class(name).Params
     values: dict[str, Any] = {}
     if params_file is not None:
-        values = dataclasses.asdict(tracker_class(name).Params.from_toml(params_file))
-    return create(name, **{**values, **parse_settings(settings)}, seed=seed, kernels=kernels, **camera)
+        values = dataclasses.asdict(kind.from_toml(params_file))
+    values |= _split(parse_settings(settings), kind)
+    return create(name, **values, seed=seed, kernels=kernels, **camera)
+
+
+def _split(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
+    """The values; text for a parameter that takes a tuple is one of words, such as cues=flow,disparity."""
+    tuples = {field.name for field in dataclasses.fields(kind) if isinstance(field.default, tuple)}
+    return {
+        name: tuple(word.strip() for word in value.split(",") if word.strip())
+        if name in tuples and isinstance(value, str)
+        else value
+        for name, value in values.items()
+    }
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, Any]:

@@ -9,7 +9,13 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from tricue.evaluation import color_experiments, depth_experiments, figures, stereo_experiments
+from tricue.evaluation import (
+    color_experiments,
+    depth_experiments,
+    figures,
+    stereo_experiments,
+    walk_experiments,
+)
 from tricue.evaluation.experiment import C, Case, Experiment, Maker, Models, S
 
 Task = tuple[str, Callable[..., S], int]
@@ -19,6 +25,7 @@ EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     **color_experiments.EXPERIMENTS,
     **depth_experiments.EXPERIMENTS,
     **stereo_experiments.EXPERIMENTS,
+    **walk_experiments.EXPERIMENTS,
 }
 
 
