@@ -147,7 +147,7 @@ def test_cues_are_words(text: str) -> None:
     ("more", "message"),
     [
         (["--set", "cues=color"], "cues: expected one of 'flow', 'disparity', got 'color'"),
-        (["--set", "cues="], "cues: expected one or both of flow, disparity, got ()"),
+        (["--set", "cues="], "cues: expected 'flow', 'disparity' or both, got ()"),
         ([], "right"),  # a left image alone
         (
             ["--set", "cues=flow", "--box", "500,500,9,9"],

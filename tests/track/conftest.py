@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes on which the color and the depth particle tracker and the stereo head tracker are proved."""
+"""Scenes on which the particle trackers, the stereo head tracker and the flow and depth tracker are proved."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -8,15 +8,24 @@ from typing import Protocol
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, ColorParticleTracker, DepthParticleTracker, StereoHeadTracker, Track
+from tricue import (
+    Box,
+    ColorParticleTracker,
+    DepthParticleTracker,
+    FlowDepthTracker,
+    StereoHeadTracker,
+    Track,
+)
 from tricue.camera.frame import FrameLike
 from tricue.scenes import (
     DepthScene,
     Scene,
     StereoScene,
+    WalkScene,
     crossing,
     face_over_clutter,
     head,
+    overtaking,
     photographs,
     walker,
 )
@@ -137,4 +146,24 @@ def cover_up(covered: StereoScene, follow: Follow) -> Callable[..., list[Track]]
     """The tracks of that scene, with a fresh stereo tracker of the given parameters."""
     return lambda **parameters: follow(
         StereoHeadTracker(rig=covered.rig, **parameters), covered.frames, covered.boxes[0]
+    )
+
+
+@pytest.fixture(scope="session")
+def overtakings() -> Callable[..., WalkScene]:
+    """Scenes of a walker who is overtaken, by the arguments of ``overtaking``; each is made once."""
+    return functools.cache(overtaking)
+
+
+@pytest.fixture(scope="session")
+def overtaken(overtakings: Callable[..., WalkScene]) -> WalkScene:
+    """55 frames of a walker whom somebody nearer hides in the second quarter."""
+    return overtakings(0, 55)
+
+
+@pytest.fixture(scope="session")
+def walk_on(overtaken: WalkScene, follow: Follow) -> Callable[..., list[Track]]:
+    """The tracks of that scene, with a fresh flow and depth tracker of the given parameters."""
+    return lambda **parameters: follow(
+        FlowDepthTracker(rig=overtaken.rig, **parameters), overtaken.frames, overtaken.boxes[0]
     )

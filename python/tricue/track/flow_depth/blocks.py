@@ -17,6 +17,7 @@ Counts = NDArray[np.int64]
 NOT_TARGET, TARGET, OCCLUDED = 0, 1, 2  # figure 7
 AROUND = 0.6  # of the window's height, by which the grid is larger on each side: arms and legs go there
 LEAST_SIDE = 3.0  # places
+MOST = 64  # blocks across or along the window: one as thin as boxes may be would have millions
 FIRM = 3  # frames
 READ = 0.2  # of a block's places, that need a disparity to tell what is nearer
 
@@ -69,7 +70,7 @@ class Blocks(NamedTuple):
         x0, y0, x1, y1 = window
         width, height = x1 - x0, y1 - y0
         side = max(p.block * math.sqrt(width * height), LEAST_SIDE)
-        columns, rows = (max(round(length / side), 1) for length in (width, height))
+        columns, rows = (min(max(round(length / side), 1), MOST) for length in (width, height))
         more = math.ceil(AROUND * rows / 2)
         i, j = np.meshgrid(np.arange(-more, columns + more), np.arange(-more, rows + more))
         left, top = i.ravel() * width / columns - width / 2, j.ravel() * height / rows - height / 2

@@ -84,7 +84,12 @@ def _disparity(k: Kernels, now: View, region: Region, expected: float, p: FlowDe
 
 
 def own_disparity(k: Kernels, now: View, region: Region) -> float | None:
-    """The disparity, places, that most of a region has; None where hardly anything has any."""
+    """The disparity, places, that most of a region has; None where hardly anything has any, and in an empty
+    region.
+    """
+    x0, y0, x1, y1 = region
+    if x0 >= x1 or y0 >= y1:
+        return None
     found = _searched(k, now, region)
     found = found[np.isfinite(found)]
     if found.size < LEAST:

@@ -92,15 +92,16 @@ def _model(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Mo
     if cues.flow is not None:
         spread = p.flow_change if state.settled else p.flow_reach
         expected += [Expected(each, spread * scale, p.flow_reach * scale) for each in state.velocity]
-    visible = np.ones(cues.shape, np.uint8)
+    moving = np.ones(cues.shape, np.uint8)
     if cues.disparity is not None:
         deep = state.view.depth_scale(p)
         expected.append(Expected(state.disparity, p.depth_change * deep, p.depth_reach * deep))
-        nearest = np.float32(state.disparity + p.nearer * deep)
-        visible = (~(cues.disparity.values > nearest)).view(np.uint8)
+        # What has another depth, as the background in the first window, moves otherwise.
+        off = np.abs(cues.disparity.values - np.float32(state.disparity))
+        moving = (~(off > np.float32(p.similar * deep))).view(np.uint8)
     blocks = state.blocks
     own = own_places(k, state, cues, (blocks.states == TARGET) & (blocks.firm > 0))
-    return estimate(k, cues, expected, moved(state.temporal, -x, -y), Places(own, visible), state.model, p)
+    return estimate(k, cues, expected, moved(state.temporal, -x, -y), Places(own, moving), state.model, p)
 
 
 def _pixels(

@@ -50,11 +50,11 @@ class Model(NamedTuple):
 
 class Places(NamedTuple):
     """Where histograms are made, (h, w) each: own, the places of the target's blocks, what is round them
-    isn't the target; visible, those that nothing nearer takes: flow counts only there.
+    isn't the target; moving, those whose depth is the target's or isn't known: flow counts only there.
     """
 
     own: Mask
-    visible: Mask
+    moving: Mask
 
 
 def estimate(
@@ -73,7 +73,7 @@ def estimate(
     densities, alternatives, peaks = [], [], []
     for i, (reading, at) in enumerate(zip(cues.readings, expected, strict=True)):
         of_flow = cues.flow is not None and i < len(cues.flow)
-        mine = places.own & places.visible if of_flow else places.own
+        mine = places.own & places.moving if of_flow else places.own
         histogram = k.weighted_histogram(*reading, window, *at.range, p.bins, mine)
         width = 2 * at.reach / p.bins
         density, peak = k.target_distribution(histogram, p.smoothing, p.ripple, p.bins / 2, at.spread / width)
@@ -105,7 +105,9 @@ def _around(k: Kernels, reading: Reading, around: Mask, at: Expected, p: FlowDep
     if not (p.surround and total > 0):
         return anything
     histogram = k.weighted_histogram(*reading, whole, *at.range, p.bins, around)
-    smooth = np.convolve(histogram, _bell(p.smoothing), "same")
+    bell = _bell(p.smoothing)
+    first = len(bell) // 2  # not "same": that is as long as the bell where that is the longer one
+    smooth = np.convolve(histogram, bell)[first : first + p.bins]
     return p.surround * smooth / total + (1 - p.surround) * anything
 
 

@@ -106,5 +106,5 @@ class FlowDepthParams(Params):
 
     def __post_init__(self) -> None:
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
-        if len(set(self.cues)) != len(self.cues) or not self.cues:
-            raise ValueError(f"cues: expected one or both of flow, disparity, got {self.cues}")
+        if len(self.cues) not in (1, 2) or len(set(self.cues)) < len(self.cues):
+            raise ValueError(f"cues: expected 'flow', 'disparity' or both, got {self.cues}")

@@ -91,7 +91,12 @@ def view_of(k: Kernels, frame: Frame, lens: Lens, p: FlowDepthParams) -> View:
 
 
 def _gray(image: Image) -> Image:
-    return image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY).astype(np.uint8, copy=False)
+    """A copy, as the next frame's flow needs it, when the caller may have put that one into this one's
+    array.
+    """
+    if image.ndim == 2:
+        return image.copy()
+    return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY).astype(np.uint8, copy=False)
 
 
 def _smaller(image: Image, step: int) -> Image:
@@ -103,10 +108,10 @@ def _smaller(image: Image, step: int) -> Image:
 
 
 def _disparity(depth: Plane, lens: Lens, step: int) -> Plane:
-    """Of the middle pixel of each place; that of a pair of the usual baseline, in places."""
+    """Of the middle pixel of each place, in places: as a pair of the lens would measure it."""
     height, width = (size // step for size in depth.shape)
     middle = depth[step // 2 :: step, step // 2 :: step][:height, :width]
-    with np.errstate(divide="ignore"):
-        found = np.float32(lens.product / step) / middle
+    with np.errstate(divide="ignore", over="ignore"):
+        found = np.float32(lens.product / step) / middle - np.float32(lens.shift / step)
     found[~np.isfinite(found)] = np.nan
     return np.ascontiguousarray(found)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Gradient flow from coarse to fine (Okada, Shirai and Miura 1996, section 2, on an image pyramid)."""
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -108,7 +106,7 @@ def rounding_noise(sigma: float) -> float:
     """Give the contrast (6) of the mean of two frames of nothing but rounding, variance 1/12 each: by the
     integral of the filters squared.
     """
-    return 1 / (48 * math.pi * sigma**6)
+    return 1 / (48 * np.pi * sigma**6)
 
 
 def halved(image: Floats) -> Floats:
