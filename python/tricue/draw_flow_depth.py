@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.draw import STATUS_COLORS, Color, Image, overlay
-from tricue.track.track import Track
+from tricue.track.track import Status, Track
 
 Blocks = tuple[tuple[Box, ...], tuple[Box, ...]]
 
 TINT = 0.45  # of a target pixel's color
 LARGER = 4  # times, of the pictures of figure 8
 _BLACK, _WHITE = (0, 0, 0), (255, 255, 255)
-_BLOCK, _HIDDEN = (235, 235, 235), (0, 160, 250)
+_WINDOW, _HIDDEN = (255, 200, 80), STATUS_COLORS[Status.OCCLUDED]
 _FAR = 30000  # pixels: what OpenCV's integers can hold
 
 
@@ -34,7 +34,7 @@ def flow_depth_overlay(
     tinted in the color of its status.
 
     mask: (H, W) above 0 at the target's pixels. blocks: those of the target, thin, and the occluded ones,
-    crossed; round them all is the window of section 4.5, grey. ValueError for a mask of another size.
+    crossed; round them all is the window of section 4.5, blue. ValueError for a mask of another size.
     """
     if mask.shape != image.shape[:2]:
         raise ValueError(f"mask: expected the image's shape {image.shape[:2]}, got {mask.shape}")
@@ -44,7 +44,7 @@ def flow_depth_overlay(
     targets, occluded = blocks
     _draw_blocks(canvas, targets, scale, color, crossed=False)
     _draw_blocks(canvas, occluded, scale, _HIDDEN, crossed=True)
-    _draw_window(canvas, (*targets, *occluded), scale, _BLOCK, 1)
+    _draw_window(canvas, (*targets, *occluded), scale, _WINDOW, 1)
     return canvas
 
 

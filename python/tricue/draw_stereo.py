@@ -81,14 +81,14 @@ def disparity_round(frame: Frame, track: Track, rig: StereoRig) -> Patch | None:
 
 
 def _surround(box: Box, width: int, height: int) -> tuple[int, int, int, int] | None:
-    """Left, top, width and height of a target's surround, whole pixels of an image; None outside."""
+    """x0, y0, x1, y1 of a target's surround, whole pixels of an image; None outside."""
     x, y, minor, major = box.ellipse
     part = Box.from_ellipse(x, y, AROUND * minor, AROUND * major).clip(width, height)
     if part.area <= 0:
         return None
     left, top = math.floor(part.x), math.floor(part.y)
     right, bottom = (math.ceil(end) for end in part.xyxy[2:])
-    return left, top, right - left, bottom - top
+    return left, top, right, bottom
 
 
 def _reach(expected: float) -> float:

@@ -73,6 +73,10 @@ def test_the_table_has_a_line_per_tracker(folder, capsys):
     assert float(ours[4]) > 0.7
     assert float(ours[6].removesuffix(" px")) < 1
     assert rows["still-box"][6] == "-"
+    for name in ("flow-depth", "flow-depth, disparity alone"):
+        assert float(rows[name][4]) > 0.5
+        assert float(rows[name][6].removesuffix(" px")) < 1
+    assert rows["flow-depth, flow alone"][6] == "-"
 
 
 def test_parameters_come_from_a_file(folder, tmp_path, capsys):

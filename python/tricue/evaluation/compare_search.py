@@ -66,16 +66,23 @@ def table(trackers: Mapping[str, Maker], found: Sequence[sequences.Sequence]) ->
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m tricue.evaluation.compare_search")
+    return report("compare_search", NAMES, makers(), arguments)
+
+
+def report(
+    name: str, usual: Sequence[str], trackers: Mapping[str, Maker], arguments: Sequence[str] | None
+) -> int:
+    """Parse the arguments of a module of this package, and print its trackers' table; the exit code."""
+    parser = argparse.ArgumentParser(prog=f"python -m tricue.evaluation.{name}")
     parser.add_argument("folder", type=Path, nargs="?", help="of sequences; found through TRICUE_DATA")
-    parser.add_argument("--sequences", default=",".join(NAMES), help="default %(default)s")
+    parser.add_argument("--sequences", default=",".join(usual), help="default %(default)s")
     options = parser.parse_args(arguments)
     folder = options.folder or sequences.data_folder() / "color"
     folders = {path.name: path for path in sequences.find(folder)}
     names = options.sequences.split(",")
-    if missing := [name for name in names if name not in folders]:
+    if missing := [each for each in names if each not in folders]:
         parser.error(f"--sequences: expected some with true boxes under {folder}, got {missing[0]!r}")
-    print(table(makers(), [sequences.load(folders[name]) for name in names]))
+    print(table(trackers, [sequences.load(folders[each]) for each in names]))
     return 0
 
 

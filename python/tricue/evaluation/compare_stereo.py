@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Trackers of pairs beside OpenCV's in the left images: ``python -m tricue.evaluation.compare_stereo``.
 
-The distances between which a target is looked for are those where a pair's disparity is a quarter of the
-image's width and 4 pixels. All other parameters are the defaults, or those of a file.
+The distances between which the stereo head tracker looks for a target are those where a pair's disparity is
+a quarter of the image's width and 4 pixels. All other parameters are the defaults, or its of a file.
 """
 
 import argparse
@@ -46,9 +46,16 @@ class Row(NamedTuple):
 
 
 def makers(params: StereoHeadParams | None = None) -> dict[str, Maker]:
-    """Tricue's trackers of pairs, with ``params`` or the defaults, and the installed cv2's peers."""
+    """Tricue's trackers of pairs, the head's with ``params`` or the defaults, flow-depth also by one cue, and
+    the installed cv2's peers.
+    """
     known = peers.available()
-    found: dict[str, Maker] = {"stereo-head": partial(_head, params or StereoHeadParams())}
+    found: dict[str, Maker] = {
+        "stereo-head": partial(_head, params or StereoHeadParams()),
+        "flow-depth": partial(_walker, ("flow", "disparity")),
+        "flow-depth, flow alone": partial(_walker, ("flow",)),
+        "flow-depth, disparity alone": partial(_walker, ("disparity",)),
+    }
     for name in PEERS:
         if name in known:
             found[name] = lambda rig, make=known[name]: make(0)  # type: ignore[misc]
@@ -59,6 +66,10 @@ def _head(params: StereoHeadParams, rig: StereoRig) -> Contender:
     product = rig.intrinsics.fx * rig.baseline
     near, far = product / (WIDEST * rig.intrinsics.width), product / NARROWEST
     return tricue.StereoHeadTracker(rig=rig, **asdict(replace(params, near=near, far=far)))
+
+
+def _walker(cues: tuple[str, ...], rig: StereoRig) -> Contender:
+    return tricue.FlowDepthTracker(rig=rig, cues=cues)
 
 
 def measure(name: str, make: Maker, sequence: StereoSequence) -> Row:

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""The flow and depth tracker, one update a pair: native, reference, and cv2's trackers on the left image."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+import tricue
+from tricue.camera.frame import Frame
+from tricue.evaluation import metrics, peers
+from tricue.scenes import WalkScene, overtaking
+
+SIZES = ("160x120", "640x480")
+OURS: dict[str, dict[str, Any]] = {
+    "native": {},
+    "flow alone": {"cues": ("flow",)},
+    "disparity alone": {"cues": ("disparity",)},
+    "reference": {"kernels": "reference"},
+}
+PEERS = {name: make for name, make in peers.available().items() if name in ("KCF", "CSRT", "MedianFlow")}
+FRAMES = {"reference": 5}  # of those that take long
+USUAL = 60
+
+
+@cache
+def scene(size: str) -> WalkScene:
+    """A walker who is overtaken, hidden and seen again; made before any clock starts."""
+    return overtaking(seed=0, frames=USUAL, camera=size)
+
+
+def seen(size: str, name: str) -> list[Frame]:
+    """What the tracker gets to see; cv2's look at the left image alone."""
+    return list(scene(size).frames[: FRAMES.get(name, USUAL)])
+
+
+def maker(size: str, name: str) -> Callable[[], Any]:
+    """How to make the tracker."""
+    if name in PEERS:
+        return lambda: PEERS[name](0)
+    return lambda: tricue.create("flow-depth", rig=scene(size).rig, **OURS[name])
+
+
+@pytest.mark.parametrize("name", [*OURS, *PEERS])
+@pytest.mark.parametrize("size", SIZES)
+def bench_flow_depth(benchmark: Any, size: str, name: str) -> None:
+    """A round is a pair; init is left out. Both sets of kernels give one track, within 1e-3 px."""
+    benchmark.group = f"flow-depth, {size}, one update"
+    boxes = []
+    tracker = maker(size, name)()
+    tracker.init(seen(size, name)[0], scene(size).boxes[0])
+    feed = iter(seen(size, name)[1:])
+    benchmark.pedantic(
+        lambda frame: boxes.append(tracker.update(frame).box),
+        setup=lambda: ((next(feed),), {}),
+        rounds=len(seen(size, name)) - 1,
+    )
+    truth = np.array(scene(size).boxes[1 : 1 + len(boxes)])
+    benchmark.extra_info["overlap above 0.5"] = float(np.mean(metrics.overlaps(np.array(boxes), truth) > 0.5))
+    if name == "reference":
+        assert np.abs(np.array(boxes) - native_track(size)[: len(boxes)]).max() < 1e-3
+
+
+def native_track(size: str) -> Any:
+    """The native track's boxes after the first frame."""
+    tracker = maker(size, "native")()
+    tracker.init(seen(size, "native")[0], scene(size).boxes[0])
+    return np.array([tracker.update(frame).box for frame in seen(size, "native")[1:]])

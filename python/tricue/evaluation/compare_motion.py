@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""Flow alone beside MedianFlow, without any depth: ``python -m tricue.evaluation.compare_motion [FOLDER]``.
+
+The flow and depth tracker with ``cues=("flow",)``; the table, with seven starts, is compare_search's.
+"""
+
+import sys
+from collections.abc import Sequence
+
+import tricue
+from tricue.evaluation import compare_search, peers
+from tricue.evaluation.comparison import Maker
+
+NAMES = ("Crossing", "Couple")
+PEERS = ("MedianFlow", "MOSSE", "KCF", "CSRT", "still-box")
+
+
+def makers() -> dict[str, Maker]:
+    """Flow alone, and the peers that the installed cv2 has."""
+    known = peers.available()
+    return {
+        "flow-depth, flow alone": lambda seed: tricue.FlowDepthTracker(cues=("flow",)),
+        **{name: known[name] for name in PEERS if name in known},
+    }
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the table; the exit code."""
+    return compare_search.report("compare_motion", NAMES, makers(), arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
