@@ -41,6 +41,7 @@ def block(state: int, core: bool = True) -> Blocks:
         against=none,
         core=np.array([core]),
         firm=np.array([FIRM if state == TARGET else 0]),
+        idle=np.array([0]),
     )
 
 
