@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes on which the particle trackers, the stereo head tracker and the flow and depth tracker are proved."""
+"""Scenes on which the particle, the stereo head and the flow and depth trackers are proved."""
 
 import functools
 from collections.abc import Callable, Sequence

@@ -27,3 +27,18 @@ def test_the_stereo_tracker_by_its_name() -> None:
     assert tracker.params == tricue.StereoHeadTracker.Params(fuse=False)
     with pytest.raises(TypeError, match=r"^rig: expected tricue.StereoRig, got Intrinsics"):
         tricue.create("stereo-head", rig=rig.intrinsics)
+
+
+def test_the_flow_and_depth_tracker_by_its_name() -> None:
+    """It proves that "flow-depth" makes a FlowDepthTracker, with its rig or camera, seed, kernels and
+    parameters.
+    """
+    rig = tricue.StereoRig(tricue.Intrinsics.from_fov(160, 120, 55), 0.12)
+    tracker = tricue.create("flow-depth", rig=rig, seed=3, kernels="reference", cues=("flow",))
+    assert isinstance(tracker, tricue.FlowDepthTracker)
+    assert (tracker.rig, tracker.seed, tracker.kernels) == (rig, 3, "reference")
+    assert tracker.params == tricue.FlowDepthTracker.Params(cues=("flow",))
+    camera = tricue.create("flow-depth", intrinsics=rig.intrinsics)
+    assert (camera.intrinsics, camera.rig) == (rig.intrinsics, None)  # type: ignore[attr-defined]
+    with pytest.raises(TypeError, match=r"^intrinsics: expected without rig"):
+        tricue.create("flow-depth", rig=rig, intrinsics=rig.intrinsics)

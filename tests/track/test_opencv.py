@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 import tricue
-from tricue.scenes import head
+from tricue.scenes import WalkScene, head
 from tricue.track.track import Tracker
 
 BRIGHT = np.full((20, 30, 3), 200, np.uint8)
@@ -56,3 +58,18 @@ def test_stereo_pairs_pass_through() -> None:
         assert tracker.update(frame) == (True, plain.update(frame).box.as_int())
     with pytest.raises(ValueError, match="expected the channel right"):
         tracker.update(scene.frames[0].color)  # type: ignore[arg-type]
+
+
+def test_color_alone_is_enough_for_flow(overtakings: Callable[..., WalkScene]) -> None:
+    """It proves that a loop written for OpenCV can follow a walker by flow alone from bare images, and by
+    both cues from frames.
+    """
+    scene = overtakings(0, 55)
+    for cues in (("flow",), ("flow", "disparity")):
+        frames = [frame.color if len(cues) == 1 else frame for frame in scene.frames[:9]]
+        tracker = tricue.as_opencv(tricue.create("flow-depth", cues=cues))
+        plain = tricue.create("flow-depth", cues=cues)
+        tracker.init(frames[0], scene.boxes[0])  # type: ignore[arg-type]
+        plain.init(frames[0], scene.boxes[0])  # type: ignore[arg-type]
+        for frame in frames[1:]:
+            assert tracker.update(frame) == (True, plain.update(frame).box.as_int())  # type: ignore[arg-type]

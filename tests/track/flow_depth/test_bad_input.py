@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the flow and depth tracker makes of input that isn't what it expects: a named error or a sane track."""
+"""What the flow and depth tracker makes of input that it doesn't expect: a named error or a sane track."""
 
 import copy
 from collections.abc import Callable, Iterable

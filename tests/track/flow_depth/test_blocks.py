@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That blocks change their states as in figure 7, move and grow with the target, and are what its window is."""
+"""That blocks change their states as in figure 7, move and grow with the target, and make its window."""
 
 import math
 
@@ -41,6 +41,7 @@ def block(state: int, core: bool = True) -> Blocks:
         against=none,
         core=np.array([core]),
         firm=np.array([FIRM if state == TARGET else 0]),
+        idle=np.array([0]),
     )
 
 

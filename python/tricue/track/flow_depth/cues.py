@@ -14,7 +14,7 @@ from tricue.track.flow_depth.view import Plane, View
 LEAST = 12  # places with a disparity
 SOLID = 0.25  # of them, that have the same
 TOGETHER = 1.0  # places: the same
-WIDEST = 0.3  # of the columns, as disparity; negative ones, of verged pairs, up to an eighth of that
+WIDEST = 0.3  # of the columns, as disparity of parallel cameras; negative ones up to an eighth of that
 WINDOW, UNIQUENESS = 7, 10  # of the block matching that finds the first disparity
 POOL = 2  # places, radius in which the pyramid's constraints are pooled
 
@@ -106,4 +106,5 @@ def _searched(k: Kernels, now: View, region: Region) -> Plane:
         return now.disparity[y0:y1, x0:x1]
     assert now.right is not None
     last = max(int(WIDEST * now.gray.shape[1]), 1)
-    return k.sad_disparity(now.gray, now.right, region, False, -last // 8, last, WINDOW, UNIQUENESS)
+    first, last = (bound - round(now.shift) for bound in (-last // 8, last))
+    return k.sad_disparity(now.gray, now.right, region, False, first, last, WINDOW, UNIQUENESS)

@@ -78,7 +78,7 @@ def own_places(k: Kernels, state: FollowState, cues: Cues, chosen: Flags) -> Mas
 def alike(state: FollowState, cues: Cues, disparity: float, p: FlowDepthParams) -> Mask:
     """(h, w) the places that are about as far away as a disparity."""
     view = state.view
-    thick = p.thickness * abs(disparity) / view.scale
+    thick = p.thickness * abs(disparity + state.shift) / view.scale
     most = np.float32(max(p.similar, thick) * view.depth_scale(p))
     near: Flags = np.abs(cues.disparities() - np.float32(disparity)) < most
     return near.view(np.uint8)

@@ -13,6 +13,7 @@ from tricue.track.flow_depth.state import FollowState, Velocity
 
 YOUNG, HALF = 12, 0.5  # frames learnt, before which it is also learnt while less is hidden
 OUTLINE_FREE, USUAL_FREE = 0.05, 0.15  # of the blocks occluded, up to which these are learnt
+LEAST = 1.0  # places of disparity, from which the target's size is known from it
 FOLLOW = 0.3  # of a step of the target pixels' centre, that a velocity without flow takes
 
 
@@ -27,10 +28,17 @@ def accept(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDe
     state.model, state.temporal = model, judged.temporal
     state.missed, state.covered = 0.0, False
     state.score = min(judged.number / max(state.usual, 1.0), 1.0)
-    size = state.disparity / state.first if state.first > 0 < state.disparity else 1.0
-    state.blocks = state.blocks._replace(size=size).voted(judged.seen, judged.nearest, p)
+    state.blocks = state.blocks._replace(size=_size(state)).voted(judged.seen, judged.nearest, p)
     state.window = state.blocks.window or state.window
     _learn_usual(k, state, cues, judged, p)
+
+
+def _size(state: FollowState) -> float:
+    """By which the target has grown: as the disparity of parallel cameras. It stays where that is so small, or
+    no disparity at all, that its noise would be most of the ratio.
+    """
+    now, first = state.disparity + state.shift, state.first + state.shift
+    return now / first if min(now, first) >= LEAST else state.blocks.size
 
 
 def _learn_usual(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams) -> None:

@@ -41,9 +41,9 @@ class FlowDepthParams(Params):
         0.05, unit="of the peak", source=OURS, low=0, below=1, doc="what rises less is no minimum's end"
     )
     flow_reach: float = parameter(
-        3.0, unit="places", source=OURS, above=0, doc="of histograms, round the velocity"
+        3.0, unit="places", source=OURS, low=0.01, doc="of histograms, round the velocity"
     )
-    depth_reach: float = parameter(6.0, unit="places", source=OURS, above=0, doc="and round the disparity")
+    depth_reach: float = parameter(6.0, unit="places", source=OURS, low=0.01, doc="and round the disparity")
     flow_change: float = parameter(
         0.3, unit="places", source="section 4.1; " + OURS, above=0, doc="of the velocity in a frame"
     )
@@ -51,7 +51,7 @@ class FlowDepthParams(Params):
         0.5, unit="places", source=OURS, above=0, doc="of the disparity in a frame"
     )
     surround: float = parameter(
-        0.8, unit="of P(F)", source="0: section 4.3; " + OURS, low=0, high=1, doc="as around the target"
+        0.8, unit="of P(F)", source="0: section 4.3; " + OURS, low=0, below=1, doc="as around the target"
     )
     sharp: float = parameter(
         0.3,

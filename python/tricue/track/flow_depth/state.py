@@ -47,6 +47,11 @@ class FollowState:
     missed: float = 0.0  # seconds for which it was not seen
 
     @property
+    def shift(self) -> float:
+        """By which a verged pair's disparities are smaller than those of parallel cameras."""
+        return self.lens.shift / self.view.step
+
+    @property
     def settled(self) -> bool:
         """Whether the usual velocity is known."""
         return self.known > SETTLED

@@ -82,8 +82,7 @@ class FlowDepthTracker:
         target = lifecycle.box_in(as_box(box), checked.image)
         lens = self._lens(checked.image.shape, checked.frame)
         view = view_of(self._k, checked.frame, lens, self.params)
-        self._state = begin(self._k, checked, view, lens, target, self.params)
-        return self._track(self._state)
+        return self._keep(begin(self._k, checked, view, lens, target, self.params))
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -98,13 +97,13 @@ class FlowDepthTracker:
         state = replace(_ahead(before), timestamp=checked.frame.timestamp)
         region = places_of(candidate(state, self.params), view.gray.shape)
         if min(region[2] - region[0], region[3] - region[1]) < SMALLEST:
+            state.pixels = np.zeros_like(state.pixels)
             self._miss(state, seconds)
         else:
             cues = measure(self._k, before.view, view, region, before.disparity, self.params)
             self._follow(state, cues, seconds)
         state.view = view
-        self._state = state
-        return self._track(state)
+        return self._keep(state)
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
@@ -144,6 +143,12 @@ class FlowDepthTracker:
         camera = lifecycle.camera_for(self.intrinsics, shape)
         return Lens.of(StereoRig(camera, lifecycle.USUAL_BASELINE), 0.0)
 
+    def _keep(self, state: FollowState) -> Track:
+        """The track of a state, which is kept only if there is one."""
+        track = self._track(state)
+        self._state = state
+        return track
+
     def _track(self, state: FollowState) -> Track:
         """The box is the mean of the blocks' window, which is up to a block too large, and of the pixels'
         outline, which is too small.
@@ -153,7 +158,8 @@ class FlowDepthTracker:
         x0, y0, x1, y1 = (step * (a + b) / 2 for a, b in zip(state.window, outline, strict=True))
         box = Box.from_xyxy(x0, y0, x1, y1)
         status = state.status(self.params)
-        if "disparity" not in self.params.cues or (self.rig is None and self.intrinsics is None):
+        calibrated = self.rig is not None or (self.intrinsics is not None and state.view.right is None)
+        if "disparity" not in self.params.cues or not calibrated:
             return Track(box, state.score, status)
         return Track(box, state.score, status, *located(self._k, box, state, self.params))
 

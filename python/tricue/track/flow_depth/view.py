@@ -48,13 +48,15 @@ class Lens(NamedTuple):
 
 class View(NamedTuple):
     """A place is ``step`` x ``step`` pixels. gray, right: (h, w) of the places, right None without.
-    disparity: (h, w) places, of a depth image, NaN where it has none; None without.
+    disparity: (h, w) places, of a depth image, NaN where it has none; None without. shift: by which
+    disparities are smaller than those of parallel cameras, places.
     """
 
     gray: Image
     right: Image | None
     disparity: Plane | None
     step: int
+    shift: float = 0.0
 
     @property
     def scale(self) -> float:
@@ -81,13 +83,13 @@ def view_of(k: Kernels, frame: Frame, lens: Lens, p: FlowDepthParams) -> View:
         return View(gray, None, None, step)
     if frame.right is None:
         assert frame.depth is not None
-        return View(gray, None, _disparity(frame.depth, lens, step), step)
+        return View(gray, None, _disparity(frame.depth, lens, step), step, lens.shift / step)
     right = _gray(frame.right)
     if lens.angle:
         camera = lens.camera
         center = float(camera[2]), float(camera[3])
         right = k.rectify_verged(right, lens.angle, float(camera[0]), center, lens.shift)
-    return View(gray, _smaller(right, step), None, step)
+    return View(gray, _smaller(right, step), None, step, lens.shift / step)
 
 
 def _gray(image: Image) -> Image:
@@ -95,7 +97,7 @@ def _gray(image: Image) -> Image:
     array.
     """
     if image.ndim == 2:
-        return image.copy()
+        return np.array(image)
     return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY).astype(np.uint8, copy=False)
 
 

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+"""That positions and covariances are those of the box's middle and the disparity, and honest."""
+
+import numpy as np
+import pytest
+from tricue import FlowDepthTracker, Frame, Status
+
+ARRAYS = {"pair": {}, "depth camera": {"depth": True}}
+
+
+@pytest.fixture(scope="session", params=ARRAYS)
+def followed(request, overtakings, follow):
+    """A scene's first frames, in which the target is seen, and its tracks."""
+    scene = overtakings(0, 55, **ARRAYS[request.param])
+    return scene, follow(FlowDepthTracker(rig=scene.rig), scene.frames[:16], scene.boxes[0])
+
+
+def test_positions_are_where_boxes_are(followed):
+    """A position projects into the middle of its box, to rounding."""
+    scene, tracks = followed
+    for track in tracks:
+        center = scene.rig.intrinsics.project(track.position) + 0.5
+        np.testing.assert_allclose(center, track.box.center, rtol=0, atol=1e-9)
+
+
+def test_covariances_are_one(followed):
+    """A covariance is symmetric and positive definite in every frame, and longest along the line of sight."""
+    for track in followed[1]:
+        np.testing.assert_array_equal(track.covariance, track.covariance.T)
+        values, vectors = np.linalg.eigh(track.covariance)
+        assert values[0] > 0
+        assert abs(vectors[:, -1] @ track.position) > 0.98 * np.linalg.norm(track.position)
+
+
+def test_covariances_are_honest(followed):
+    """The mean normalised error squared, 3 for a perfect one, is between 1 and 6: errors last for some
+    frames, and a few of them tell no more than the order of magnitude.
+    """
+    scene, tracks = followed
+    offs = np.array([track.position for track in tracks]) - scene.positions[: len(tracks)]
+    surprises = [
+        off @ np.linalg.solve(track.covariance, off) for track, off in zip(tracks, offs, strict=True)
+    ]
+    assert 1 < np.mean(surprises) < 6
+
+
+def test_noises_are_the_parameters(followed):
+    """Twice the noise of place and disparity is twice the standard deviation, with the same position."""
+    scene, _ = followed
+    usual, noisy = (
+        FlowDepthTracker(rig=scene.rig, place_noise=1.5 * more, disparity_noise=0.2 * more).init(
+            scene.frames[0], scene.boxes[0]
+        )
+        for more in (1, 2)
+    )
+    np.testing.assert_array_equal(usual.position, noisy.position)
+    np.testing.assert_allclose(noisy.covariance, 4 * usual.covariance, rtol=1e-9)
+
+
+def test_who_is_not_seen_gets_less_sure(followed):
+    """After t seconds without the target its covariance has the square of agility t² / 2 more in every
+    direction; while it is seen agility changes nothing.
+    """
+    scene, _ = followed
+    trackers = [FlowDepthTracker(rig=scene.rig, agility=agility) for agility in (1.0, 2.0)]
+    for tracker in trackers:
+        tracker.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:12]:
+        slow, fast = (tracker.update(frame) for tracker in trackers)
+        assert slow == fast
+    first = scene.frames[11]
+    blind = {"right": first.right * 0} if first.depth is None else {"depth": first.depth * np.nan}
+    for i in range(1, 9):
+        frame = Frame(first.color * 0, timestamp=first.timestamp + i / 15, **blind)
+        slow, fast = (tracker.update(frame) for tracker in trackers)
+        assert slow.score == 0
+        drift = ((i / 15) ** 2 / 2) ** 2
+        np.testing.assert_allclose(fast.covariance - slow.covariance, 3 * drift * np.eye(3), atol=1e-9)
+
+
+@pytest.mark.parametrize("cues", [("flow", "disparity"), ("disparity",), ("flow",)])
+def test_without_calibration_there_is_none(cues, followed):
+    """Without rig or camera, and by flow alone, tracks have a box but neither position nor covariance."""
+    scene, _ = followed
+    for rig in (None, scene.rig):
+        tracker = FlowDepthTracker(rig=rig, cues=cues)
+        tracks = [tracker.init(scene.frames[0], scene.boxes[0]), tracker.update(scene.frames[1])]
+        for track in tracks:
+            assert (track.position is None) == (rig is None or "disparity" not in cues)
+            assert (track.covariance is None) == (track.position is None)
+
+
+def test_a_camera_alone_does_not_calibrate_a_pair(overtakings):
+    """With ``intrinsics`` a pair has no baseline and so no position; a depth camera has one, the same as with
+    a rig.
+    """
+    pair, sensor = overtakings(0, 55), overtakings(0, 55, depth=True)
+    camera = pair.rig.intrinsics
+    assert FlowDepthTracker(intrinsics=camera).init(pair.frames[0], pair.boxes[0]).position is None
+    found, expected = (
+        FlowDepthTracker(**each).init(sensor.frames[0], sensor.boxes[0])
+        for each in ({"intrinsics": camera}, {"rig": sensor.rig})
+    )
+    np.testing.assert_allclose(found.position, expected.position, rtol=1e-6)
+
+
+def test_the_rig_is_believed(overtakings):
+    """With twice the baseline everything in a pair is twice as far, in every direction."""
+    scene = overtakings(0, 55)
+    rigs = scene.rig, type(scene.rig)(scene.rig.intrinsics, 2 * scene.rig.baseline)
+    usual, twice = (FlowDepthTracker(rig=rig).init(scene.frames[0], scene.boxes[0]) for rig in rigs)
+    np.testing.assert_allclose(twice.position, 2 * usual.position, rtol=1e-12)
+    assert twice.box == usual.box
+    assert twice.status is Status.TRACKED

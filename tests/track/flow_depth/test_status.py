@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""That the status says what is the matter: TRACKED, OCCLUDED behind something nearer, LOST in the end."""
+
+import numpy as np
+import pytest
+from tricue import FlowDepthTracker, Frame, Status, Track
+from tricue.scenes import WalkScene
+
+T, O, L = Status.TRACKED, Status.OCCLUDED, Status.LOST  # noqa: E741
+SEEN = 14  # frames in which the target is seen
+
+
+def without_anything(scene: WalkScene, step: float, **parameters) -> list[Track]:
+    """The tracks of 40 black frames after the first ones, every so many seconds."""
+    tracker = FlowDepthTracker(rig=scene.rig, **parameters)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:SEEN]:
+        tracker.update(frame)
+    black = np.zeros_like(frame.color)
+    seconds = (frame.timestamp + step * (i + 1) for i in range(40))
+    return [tracker.update(Frame(black, right=black, timestamp=each)) for each in seconds]
+
+
+@pytest.mark.parametrize(("unsure", "step"), [(0.4, 1 / 15), (0.4, 1 / 30), (1.0, 1 / 15)])
+def test_what_nothing_hides_is_lost_soon(unsure, step, overtaken: WalkScene):
+    """A target that isn't seen, though nothing hides it, coasts as TRACKED at score 0 for ``unsure`` seconds
+    by the timestamps, and is LOST then.
+    """
+    tracks = without_anything(overtaken, step, unsure=unsure)
+    lost = next(i for i, track in enumerate(tracks) if track.status is L)
+    assert (lost + 1) * step == pytest.approx(unsure, abs=1.01 * step)
+    assert [track.status for track in tracks] == lost * [T] + (40 - lost) * [L]
+    assert {track.score for track in tracks} == {0}
+
+
+@pytest.mark.parametrize("lost_after", [1.0, 3.0])
+def test_what_something_hides_is_lost_late(lost_after, overtakings):
+    """A target behind something nearer, that fills the picture, is OCCLUDED at once, for ``lost_after``
+    seconds, and LOST then.
+    """
+    scene = overtakings(0, 55, depth=True)
+    tracker = FlowDepthTracker(rig=scene.rig, lost_after=lost_after)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    for frame in scene.frames[1:SEEN]:
+        tracker.update(frame)
+    near = np.full_like(frame.depth, 2.0)
+    seconds = (frame.timestamp + (i + 1) / 15 for i in range(60))
+    tracks = [tracker.update(Frame(frame.color, depth=near, timestamp=each)) for each in seconds]
+    statuses = [track.status for track in tracks]
+    lost = statuses.index(L)
+    assert (lost + 1) / 15 == pytest.approx(lost_after, abs=1.01 / 15)
+    assert statuses == lost * [O] + (60 - lost) * [L]
+    assert {track.score for track in tracks} == {0}
+
+
+def test_without_timestamps_the_rate_tells(overtaken: WalkScene):
+    """Without timestamps a frame takes 1 / rate seconds."""
+    for rate in (5.0, 15.0):
+        tracker = FlowDepthTracker(rig=overtaken.rig, rate=rate)
+        bare = [Frame(frame.color, right=frame.right) for frame in overtaken.frames[:SEEN]]
+        tracker.init(bare[0], overtaken.boxes[0])
+        for frame in bare[1:]:
+            tracker.update(frame)
+        black = np.zeros_like(bare[0].color)
+        statuses = [tracker.update(Frame(black, right=black)).status for _ in range(12)]
+        assert (statuses.index(L) + 1) / rate == pytest.approx(0.4, abs=1.01 / rate)
+
+
+def test_scores_say_what_is_seen(walk_on):
+    """The score is in [0, 1], above 0.5 while all of the target is seen, and 0 while it isn't TRACKED."""
+    tracks = walk_on()
+    assert all(0 <= track.score <= 1 for track in tracks)
+    assert all(track.score == 0 for track in tracks if track.status is not T)
+    assert np.median([track.score for track in tracks[5:SEEN]]) > 0.5
