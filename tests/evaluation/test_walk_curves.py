@@ -26,6 +26,7 @@ def curve(occluded=range(26, 47), **changes):
         "visible": VISIBLE,
         "statuses": tuple(Status.OCCLUDED if at in occluded else Status.TRACKED for at in range(FRAMES)),
         "events": EVENTS,
+        "between": np.where(TIME < 54, np.nan, 1.0),
         "shots": {},
     }
     return WalkCurve(**(known | changes))
@@ -80,22 +81,44 @@ def test_frames_in_which_the_target_is_hidden_dont_count():
 
 
 def test_overtaking_and_pass_are_told_apart():
-    """One that is lost in the overtaking isn't one that fails on the pass."""
-    first = curve(overlaps=np.where(TIME < 30, 1.0, 0.0))
-    second = curve(overlaps=np.where(TIME < 78, 1.0, 0.0))
-    assert (first.holds(first.between), first.holds(first.after)) == (False, False)
-    assert (second.holds(second.between), second.holds(second.after)) == (True, False)
-    np.testing.assert_array_equal(np.flatnonzero(second.between), np.arange(54, 64))
-    np.testing.assert_array_equal(np.flatnonzero(second.after), np.arange(84, 100))
-    row = cells(first, second, curve())
-    assert (row["after the overtaking"], row["after the pass"]) == ("67%", "33%")
-    assert (row["overtaking held"], row["then the pass"]) == ("2", "1")
+    """Shares count in 1 to 19, before the overtaking, 54 to 67, after it, and from 84 on."""
+    row = cells(
+        curve(overlaps=np.where((TIME > 0) & (TIME < 20), 1.0, 0.0)),
+        curve(overlaps=np.where((TIME < 54) | (TIME > 67), 0.0, 1.0)),
+        curve(overlaps=np.where(TIME < 84, 0.0, 1.0)),
+        curve(overlaps=np.where(TIME < 92, 0.0, 1.0)),
+    )
+    assert (row["before the overtaking"], row["after it"], row["after the pass"]) == ("25%", "25%", "38%")
+
+
+def test_pass_is_told_by_itself():
+    """A run that starts after the overtaking has its own shares, before the pass and after it."""
+    row = cells(curve(overlaps=np.zeros(FRAMES), between=np.where(TIME < 54, np.nan, TIME < 80)))
+    assert (row["started after it: before the pass"], row["then after it"]) == ("100%", "0%")
+    assert (row["after it"], row["after the pass"]) == ("0%", "0%")
+
+
+def test_second_start_is_on_a_clear_target():
+    """After the overtaking, from the first frame with nine tenths visible; in none where it isn't over."""
+    visible = np.where(TIME < 58, 0.89, 0.9)
+    assert walk_curves.start_between(EVENTS, visible) == 58
+    assert walk_curves.start_between(Events(20, 24, None, None), visible) is None
+    assert walk_curves.start_between(EVENTS, np.full(FRAMES, 0.5)) is None
 
 
 def test_short_scene_has_gaps():
     """What the scene is too short for is "-", and no position has no error."""
     row = cells(curve(events=Events(20, None, None, None), errors=np.full(FRAMES, np.nan)))
-    for name in ("after the pass", "occlusion said", "taken up", "both", "error m", "% of distance"):
+    for name in (
+        "after it",
+        "after the pass",
+        "then after it",
+        "occlusion said",
+        "taken up",
+        "both",
+        "error m",
+        "% of distance",
+    ):
         assert row[name] == "-"
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tricue import Box, Status, Track
-from tricue.evaluation import walk_experiments, walk_figures
+from tricue.evaluation import walk_curves, walk_experiments, walk_figures
 from tricue.evaluation.experiment import Case
 from tricue.scenes import OVERTAKINGS, Events, overtaking
 
@@ -50,6 +50,7 @@ def test_errors_are_those_of_the_positions(scene):
     np.testing.assert_allclose(curve.overlaps, 1.0)
     np.testing.assert_allclose(curve.distances, np.linalg.norm(scene.positions, axis=1))
     assert curve.held == 1
+    assert np.isnan(curve.between).all()
 
 
 def test_shots_are_of_their_frames(scene):
@@ -93,3 +94,6 @@ def test_both_cues_follow_through_the_occlusion():
     assert curve.held >= 0.95
     assert curve.said
     assert curve.retaken
+    start = walk_curves.start_between(curve.events, curve.visible)
+    assert np.isnan(curve.between[: start + 1]).all()
+    assert (curve.between[start + 1 :] > 0.5).mean() > 0.8

@@ -24,14 +24,19 @@ LATE = 4  # frames after less than a tenth is visible, until OCCLUDED is said
 EARLY, SOON = 4, 8  # frames before and after a fifth is visible again, when TRACKED is said again
 LASTING = 5  # frames on end
 BLIND = 0.3  # share of the frames in which nothing is visible, that may be TRACKED
-APART = 10  # frames before and after the pass in which one is before the other
+NEAR, APART = 6, 10  # frames before and after the pass in which one is before the other
+CLEAR = 0.9  # visible share, from which a target is started on
 
 COLUMNS = (
     *("scene", "cues", "IoU > 0.5: mean", "least"),
-    *("after the overtaking", "after the pass", "overtaking held", "then the pass"),
+    *("before the overtaking", "after it", "after the pass"),
+    *("started after it: before the pass", "then after it"),
     *("occlusion said", "taken up", "both", "error m", "% of distance", "runs"),
 )
 CSV_COLUMNS = ("model", "scene", "seed", "frame", "error_m", "iou", "visible", "status")
+
+
+PASS = "before_pass", "after_pass"  # parts of a curve
 
 
 class Shot(NamedTuple):
@@ -59,6 +64,9 @@ class WalkCurve:
     """(M,) share of the target that nothing hides."""
     statuses: tuple[Status, ...]
     events: Events
+    between: Floats
+    """(M,) overlaps of another run that starts on the true box once the target is clear of who overtakes;
+    NaN up to then, everywhere where the scene ends sooner."""
     shots: dict[int, Shot]
     """Of some frames, by their number."""
 
@@ -73,22 +81,23 @@ class WalkCurve:
         return _share_of(self.overlaps > HELD, self.seen)
 
     @property
-    def between(self) -> Flags:
+    def before_overtaking(self) -> Flags:
+        """(M,) frames before less than 60 % are visible, without the first one, whose box is given."""
+        return self._frames(1, self.events.hiding)
+
+    @property
+    def before_pass(self) -> Flags:
         """(M,) frames after the overtaking, with time to take the target up, and before the pass."""
         back, passing = self.events.back, self.events.passing
         return self._frames(
-            None if back is None else back + SOON, None if passing is None else passing - APART
+            None if back is None else back + SOON, None if passing is None else passing - NEAR
         )
 
     @property
-    def after(self) -> Flags:
+    def after_pass(self) -> Flags:
         """(M,) frames after the pass."""
         passing = self.events.passing
         return self._frames(None if passing is None else passing + APART, len(self.overlaps))
-
-    def holds(self, frames: Flags) -> bool | None:
-        """Whether the box is on the target in most of some frames; None of none."""
-        return bool((self.overlaps[frames] > HELD).mean() > 0.5) if frames.any() else None
 
     @property
     def said(self) -> bool | None:
@@ -120,6 +129,13 @@ class WalkCurve:
         return np.asarray((index >= (first or 0)) & (index < (last or 0)) & known)
 
 
+def start_between(events: Events, visible: Floats) -> int | None:
+    """The frame after the overtaking in which the target is clear; None where the scene ends before."""
+    clear = np.flatnonzero(visible >= CLEAR)
+    later = clear[clear > events.back] if events.back is not None else clear[:0]
+    return int(later[0]) if later.size else None
+
+
 def summarize(curves: Sequence[WalkCurve]) -> str:
     """Markdown, a line per scene and set of cues: COLUMNS."""
     lines = [f"| {' | '.join(COLUMNS)} |", "| --- " * len(COLUMNS) + "|"]
@@ -145,17 +161,14 @@ def write_csv(path: Path, curves: Iterable[WalkCurve]) -> None:
 
 def _numbers(runs: Sequence[WalkCurve]) -> list[str]:
     held = [run.held for run in runs]
-    overtaken = [run for run in runs if run.holds(run.between)]
     answers = [(run.said, run.retaken) for run in runs if run.said is not None and run.retaken is not None]
     errors = np.concatenate([run.errors[run.seen] for run in runs])
     shares = np.concatenate([(run.errors / run.distances)[run.seen] for run in runs])
     return [
         f"{np.mean(held):.1%}",
         f"{min(held):.0%}",
-        _percent([_share_of(run.overlaps > HELD, run.between) for run in runs if run.between.any()]),
-        _percent([_share_of(run.overlaps > HELD, run.after) for run in runs if run.after.any()]),
-        f"{len(overtaken)}",
-        f"{sum(bool(run.holds(run.after)) for run in overtaken)}",
+        *(_percent(_held(runs, "overlaps", part)) for part in ("before_overtaking", *PASS)),
+        *(_percent(_held(runs, "between", part)) for part in PASS),
         _percent([said for said, _ in answers]),
         _percent([retaken for _, retaken in answers]),
         _percent([said and retaken for said, retaken in answers]),
@@ -163,6 +176,13 @@ def _numbers(runs: Sequence[WalkCurve]) -> list[str]:
         _median(100 * shares, "{:.1f}"),
         f"{len(runs)}",
     ]
+
+
+def _held(runs: Sequence[WalkCurve], overlaps: str, part: str) -> list[float]:
+    """Of each run that has it, the share of a part's frames in which the box is on the target."""
+    pairs = [(getattr(run, overlaps), getattr(run, part)) for run in runs]
+    known = [(values, frames & ~np.isnan(values)) for values, frames in pairs]
+    return [_share_of(values > HELD, frames) for values, frames in known if frames.any()]
 
 
 def _share_of(answers: Flags, frames: Flags) -> float:

@@ -52,16 +52,28 @@ def measure(case: Case, make: Maker, scene: WalkScene) -> WalkCurve:
     moments = walk_figures.moments(scene) if case.seed == SHOWN else ()
     watcher = Watcher(make(seed=case.seed, **camera), moments)
     result = run(watcher, scene.frames, scene.boxes[0])
+    truth = np.array(scene.boxes)
     return WalkCurve(
         *case,
         errors=np.linalg.norm(result.positions - scene.positions, axis=1),
         distances=np.linalg.norm(scene.positions, axis=1),
-        overlaps=metrics.overlaps(result.boxes, np.array(scene.boxes)),
+        overlaps=metrics.overlaps(result.boxes, truth),
         visible=scene.visible,
         statuses=result.statuses,
         events=scene.events,
+        between=_between(partial(make, seed=case.seed, **camera), scene),
         shots=watcher.shots,
     )
+
+
+def _between(make: Callable[[], Contender], scene: WalkScene) -> walk_curves.Floats:
+    """(M,) overlaps of a tracker that starts after the overtaking, so that the pass is seen by itself."""
+    overlaps = np.full(len(scene.frames), np.nan)
+    start = walk_curves.start_between(scene.events, scene.visible)
+    if start is not None and start < len(scene.frames) - 1:
+        result = run(make(), scene.frames[start:], scene.boxes[start])
+        overlaps[start + 1 :] = metrics.overlaps(result.boxes[1:], np.array(scene.boxes[start + 1 :]))
+    return overlaps
 
 
 def _cues(*cues: str) -> Maker:
