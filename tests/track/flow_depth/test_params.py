@@ -46,6 +46,8 @@ REFUSED: dict[str, tuple[Any, ...]] = {
     "nearer": (0, -1),
     "similar": (0, -1),
     "thickness": (-0.1, 1),
+    "sharp": (0, 1.1),
+    "idle": (0, -1),
     "covered": (0, 1.1),
     "few": (0, 1.1),
     "again": (0, 1.1),

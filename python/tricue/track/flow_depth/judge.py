@@ -20,6 +20,7 @@ Mask = NDArray[np.uint8]
 MARGIN = 4.0  # places, at least, to each side of the window
 LARGER = 0.1  # of the margin, for each frame that it was not seen
 LONGEST = 20  # of them
+CHANGE, REACH = 0.03, 0.3  # of the disparity, in a frame, and as far as histograms reach at least
 PART = 0.2  # of the largest region of target pixels, that others must have
 FEWEST = 8  # target pixels
 BACK = 0.1  # of the blocks, more of which may be hidden when it comes back than when it goes
@@ -55,7 +56,9 @@ def judge(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Jud
     box, count, pixels = _pixels(k, state, cues, model, p)
     disparity = state.disparity if state.missed or cues.disparity is None else model.peaks[-1]
     seen = _seen(k, state, cues, pixels, disparity, p)
-    nearest = disparity + p.nearer * state.view.depth_scale(p)
+    nearest = disparity + max(
+        p.nearer * state.view.depth_scale(p), p.thickness * abs(disparity + state.shift)
+    )
     hidden = state.blocks.covered(seen, nearest)
     return Judged(model, disparity, pixels, count, moved(box, x, y), seen, nearest, hidden)
 
@@ -95,7 +98,9 @@ def _model(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Mo
     moving = np.ones(cues.shape, np.uint8)
     if cues.disparity is not None:
         deep = state.view.depth_scale(p)
-        expected.append(Expected(state.disparity, p.depth_change * deep, p.depth_reach * deep))
+        most = abs(state.disparity + state.shift)
+        change = max(p.depth_change * deep, CHANGE * most)
+        expected.append(Expected(state.disparity, change, max(p.depth_reach * deep, REACH * most)))
         # What has another depth, as the background in the first window, moves otherwise.
         off = np.abs(cues.disparity.values - np.float32(state.disparity))
         moving = (~(off > np.float32(p.similar * deep))).view(np.uint8)

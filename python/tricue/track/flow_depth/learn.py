@@ -34,8 +34,8 @@ def accept(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDe
 
 
 def _size(state: FollowState) -> float:
-    """By which the target has grown: as the disparity of parallel cameras. It stays where that is so small, or
-    no disparity at all, that its noise would be most of the ratio.
+    """By which the target has grown: as the disparity of parallel cameras. It stays where that is so
+    small, or none at all, that its noise would be most of the ratio.
     """
     now, first = state.disparity + state.shift, state.first + state.shift
     return now / first if min(now, first) >= LEAST else state.blocks.size
