@@ -89,11 +89,18 @@ def test_moments_are_in_the_scene(scene):
 
 
 def test_both_cues_follow_through_the_occlusion():
-    """With the default the target of a plain scene is held, called hidden and taken up again in time."""
-    curve = walk_experiments.measure(CASE, EXPERIMENT.models[walk_figures.BOTH], overtaking(0))
-    assert curve.held >= 0.95
-    assert curve.said
-    assert curve.retaken
-    start = walk_curves.start_between(curve.events, curve.visible)
-    assert np.isnan(curve.between[: start + 1]).all()
-    assert (curve.between[start + 1 :] > 0.5).mean() > 0.8
+    """With the default the targets of three plain scenes are held, called hidden and taken up again in time.
+
+    Twenty of them are in docs/experiments.md; in one alone, overlaps may lie just under a half for a while,
+    as they do in the first with cv2 5, whose scenes differ by a gray level here and there.
+    """
+    model = EXPERIMENT.models[walk_figures.BOTH]
+    curves = [walk_experiments.measure(CASE, model, overtaking(seed)) for seed in range(3)]
+    assert np.mean([curve.held for curve in curves]) >= 0.9
+    for curve in curves:
+        assert curve.held >= 0.8
+        assert curve.said
+        assert curve.retaken
+        start = walk_curves.start_between(curve.events, curve.visible)
+        assert np.isnan(curve.between[: start + 1]).all()
+        assert (curve.between[start + 1 :] > 0.5).mean() > 0.8
