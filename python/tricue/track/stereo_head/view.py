@@ -59,11 +59,11 @@ def _coherent(found: NDArray[np.float32], middle: float, reach: float) -> Image:
     """Where disparities are about the middle one; where none was found, as in hair of one color, what most of
     those round it are.
     """
-    near = np.abs(found - np.float32(middle)) <= np.float32(reach)
-    known = found == found  # not NaN
-    votes = near.astype(np.int16) * 2 - known
-    most = cv2.boxFilter(votes, -1, (AROUND, AROUND), normalize=False, borderType=cv2.BORDER_CONSTANT) > 0
-    return np.asarray(np.where(known, near, most)).view(np.uint8)
+    off = np.abs(found - np.float32(middle))
+    near, beyond = off <= np.float32(reach), off > np.float32(reach)  # neither, where none was found
+    votes = (near.view(np.int8) - beyond.view(np.int8)).astype(np.int16)
+    around = cv2.boxFilter(votes, -1, (AROUND, AROUND), normalize=False, borderType=cv2.BORDER_CONSTANT)
+    return np.asarray(near | ((around > 0) > beyond)).view(np.uint8)
 
 
 def light_of(left: Image) -> Floats:
