@@ -5,9 +5,10 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 SANITIZED := build/sanitized
+VOT := build/vot
 SOURCES := pyproject.toml CMakeLists.txt README.md $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test setup bench lint format stubs sanitize clean
+.PHONY: demo test setup bench lint format stubs sanitize vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -47,6 +48,13 @@ sanitize: $(VENV)/dev
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
 	    $(BIN)/python -m pytest --capture=sys tests/camera tests/cues tests/fuse \
 	    tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+
+# The VOT toolkit, beside which our trackers and numbers are tested, in an environment of its own: it brings another OpenCV.
+vot: $(VOT)/bin/vot
+
+$(VOT)/bin/vot: | $(BIN)/python
+	$(PYTHON) -m venv $(VOT)
+	$(VOT)/bin/python -m pip --disable-pip-version-check install --quiet vot-toolkit==0.7.4 vot-trax==4.0.2 attributee==0.1.9
 
 clean:
 	rm -rf $(VENV) build dist

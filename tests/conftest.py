@@ -39,6 +39,15 @@ def data() -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def vot_venv() -> Path:
+    """The environment with the VOT toolkit; TRICUE_VOT names another than make vot's."""
+    folder = Path(os.environ.get("TRICUE_VOT", ROOT / "build" / "vot"))
+    if not (folder / "bin" / "vot").is_file():
+        pytest.skip(f"no VOT toolkit in {folder}; make vot installs it")
+    return folder
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriftParams(Params):
     step: float = parameter(1.0, unit="px", source="made up")
