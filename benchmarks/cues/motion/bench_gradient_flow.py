@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
-from tricue.evaluation import compare_flow
-from tricue.evaluation.compare_flow import Dense
+from tricue.evaluation.cues import flow
+from tricue.evaluation.cues.flow import Dense
 from tricue.reference.gaussian import gaussian_taps
 
 Image = NDArray[np.uint8]
@@ -56,7 +56,7 @@ CONTENDERS = {
     "native": ours(_core.gradient_flow),
     "reference": ours(reference.gradient_flow),
     "peer": script,
-    "dis": planes(compare_flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
+    "dis": planes(flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
-from tricue.evaluation import compare_flow
-from tricue.evaluation.compare_flow import Dense
+from tricue.evaluation.cues import flow
+from tricue.evaluation.cues.flow import Dense
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]
@@ -36,8 +36,8 @@ def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
 CONTENDERS = {
     "native": ours(_core.pyramid_flow),
     "reference": ours(reference.pyramid_flow),
-    "peer": planes(compare_flow.farneback()),
-    "dis": planes(compare_flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
+    "peer": planes(flow.farneback()),
+    "dis": planes(flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 

@@ -54,7 +54,7 @@ def demo(options: Namespace) -> int:
 
 
 def _demo_color(options: Namespace) -> int:
-    from tricue.evaluation import figures
+    from tricue.evaluation.papers import figures
     from tricue.scenes import BACKGROUNDS, face_over_clutter
 
     figures.require()

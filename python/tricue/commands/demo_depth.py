@@ -28,7 +28,7 @@ SCENES: Mapping[str, Callable[..., DepthScene]] = {
 
 def demo_depth(options: Namespace) -> int:
     """Run the verb, print the table and write the files; the exit code."""
-    from tricue.evaluation import figures
+    from tricue.evaluation.papers import figures
 
     figures.require()
     video = OverlayWriter(options.output / f"{options.tracker}.mp4", FPS)
@@ -78,7 +78,7 @@ def _table(results: Mapping[str, Result[DepthScene]]) -> str:
 
 def _plot(figure: Any, results: Mapping[str, Result[DepthScene]]) -> None:
     """A row a scene: the path from above, beside it the error over the frames."""
-    from tricue.evaluation.depth_figures import shade_hidden
+    from tricue.evaluation.papers.depth_figures import shade_hidden
     from tricue.evaluation.paths import draw_path
 
     figure.set_size_inches(11, 4.2 * len(results))

@@ -35,7 +35,7 @@ ENTRIES: Mapping[str, Entry] = {
 
 def demo_flow_depth(options: Namespace) -> int:
     """Run the verb, print the table and write the files; the exit code."""
-    from tricue.evaluation import figures
+    from tricue.evaluation.papers import figures
 
     figures.require()
     video = OverlayWriter(options.output / f"{options.tracker}.mp4", FPS)
@@ -83,7 +83,7 @@ def _table(results: Mapping[str, Result[WalkScene]]) -> str:
 
 def _plot(figure: Any, results: Mapping[str, Result[WalkScene]]) -> None:
     """A row a scene: the path from above where there is a position, beside it the overlap over the frames."""
-    from tricue.evaluation.depth_figures import shade_hidden
+    from tricue.evaluation.papers.depth_figures import shade_hidden
     from tricue.evaluation.paths import draw_path
 
     figure.set_size_inches(11, 3.6 * len(results))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tricue.commands.progress import Progress
 from tricue.commands.run import Clock
 from tricue.draw import OverlayWriter
-from tricue.evaluation.depth_curves import HALF, HIDDEN
+from tricue.evaluation.papers.depth_curves import HALF, HIDDEN
 from tricue.scenes import DepthScene, StereoScene, WalkScene
 from tricue.track.track import Status, Track
 

@@ -32,7 +32,7 @@ SCENES: Mapping[str, Callable[..., StereoScene]] = {
 
 def demo_stereo(options: Namespace) -> int:
     """Run the verb, print the table and write the files; the exit code."""
-    from tricue.evaluation import figures
+    from tricue.evaluation.papers import figures
 
     figures.require()
     video = OverlayWriter(options.output / f"{options.tracker}.mp4", FPS)
@@ -75,7 +75,7 @@ def _table(results: Mapping[str, Result[StereoScene]]) -> str:
 
 def _plot(figure: Any, results: Mapping[str, Result[StereoScene]]) -> None:
     """A row a scene: the path from above, beside it the error over the frames."""
-    from tricue.evaluation.depth_figures import shade_hidden
+    from tricue.evaluation.papers.depth_figures import shade_hidden
     from tricue.evaluation.paths import draw_path
 
     figure.set_size_inches(11, 4.2 * len(results))

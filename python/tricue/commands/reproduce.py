@@ -8,7 +8,7 @@ from tricue.commands.progress import Progress
 
 def reproduce(options: Namespace) -> int:
     """Run the verb and print the summary; the exit code."""
-    from tricue.evaluation.reproduce import run
+    from tricue.evaluation.papers.reproduce import run
 
     with Progress() as progress:
 

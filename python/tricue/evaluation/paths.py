@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.rig import Intrinsics
-from tricue.evaluation.figures import COLORS, STYLE, require
+from tricue.evaluation.papers.figures import COLORS, STYLE, require
 from tricue.track.track import Status, Track
 
 STATUS_COLORS = {Status.TRACKED: COLORS[2], Status.OCCLUDED: COLORS[4], Status.LOST: COLORS[1]}

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""The cues alone, beside OpenCV's, on recorded data."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""The papers' experiments: scenes, error curves, figures."""
