@@ -34,10 +34,10 @@ def test_half_is_what_is_ranked_first():
     """Half of the known pixels, by angle^2 contrast, those without flow last."""
     angle = np.array([[1, 0.5, 1, 1, 0.1, 1]], np.float32)
     contrast = np.array([[1, 9, 100, 3, 50, 99]], np.float32)
-    flow = np.zeros((1, 6, 2), np.float32)
-    flow[0, 5] = np.nan
+    found = np.zeros((1, 6, 2), np.float32)
+    found[0, 5] = np.nan
     known = np.array([[True, True, False, True, True, True]])
-    half = flow.reliable_half(Found(flow, angle, contrast), known)
+    half = flow.reliable_half(Found(found, angle, contrast), known)
     np.testing.assert_array_equal(half, [[False, True, False, True, False, False]])
 
 
