@@ -99,9 +99,10 @@ def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: Ar
     overlap = overlaps(boxes, truth)
     score = _values(scores, "scores", len(overlap)).copy()
     gone = _flags(absent, "absent", len(overlap))
-    overlap[gone] = np.isnan(np.asarray(boxes, dtype=np.float64)).any(axis=1)[gone]
+    known = gone | ~np.isnan(overlap)
+    no_box = np.isnan(np.asarray(boxes, dtype=np.float64)).any(axis=1)
+    overlap = np.where(gone, no_box.astype(np.float64), overlap)
     overlap[:1], score[:1] = 0.0, 0.0
-    known = gone | ~np.isnan(np.asarray(truth, dtype=np.float64)).any(axis=1)
     return Frames(overlap[known], score[known], ~gone[known])
 
 
