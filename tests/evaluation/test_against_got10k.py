@@ -49,10 +49,13 @@ def result_of(kind, truth, rng):
         found += rng.integers(-9, 10, found.shape)
     elif kind == "off":
         found[FRAMES // 2 :, 0] = -500
-    elif kind in ("overlap", "decimal"):  # n / 20 of the true box: overlaps on the thresholds
+    elif kind == "overlap":  # n / 20 of the true box: overlaps on the thresholds
         found[:, 2] *= (1 + steps % 20) / 20
     elif kind == "center":  # 3 : 4 : 5, errors of whole pixels, 20 and 50 px among them
         found[:, :2] += np.outer(steps % 11, [3, 4]) * rng.choice([-1, 1], (FRAMES, 2))
+    elif kind == "decimal":  # both, but only nearly on the thresholds, as decimals aren't exact
+        found[:30, 2] *= (1 + steps[:30] % 20) / 20
+        found[30:, :2] += np.outer(steps[30:] % 25, [0.6, 0.8])
     elif kind == "missing":
         found[rng.random(FRAMES) < 0.3] = np.nan
     return found
