@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+from dataclasses import astuple
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -61,12 +63,51 @@ def test_precision_counts_frames_up_to_20_pixels():
     assert result.mean_error == pytest.approx((0 + 20 + 20.5 + 20) / 4)
 
 
+def test_normalized_error_is_in_sizes_of_the_true_box():
+    """Half a width aside and a whole height down is sqrt(1/4 + 1) whatever the size of either box."""
+    true = np.array([[10, 20, 40, 30], [-5, 7, 3, 8]], dtype=float)
+    found = true + true[:, [2, 3, 2, 3]] * [0.5, 1.0, 0.0, 0.0]
+    np.testing.assert_allclose(metrics.normalized_center_errors(found, true), np.sqrt(1.25), rtol=1e-14)
+    grown = found + found[:, [2, 3, 2, 3]] * [-0.5, -0.5, 1.0, 1.0]
+    np.testing.assert_allclose(metrics.normalized_center_errors(grown, true), np.sqrt(1.25), rtol=1e-14)
+    np.testing.assert_array_equal(
+        metrics.normalized_center_errors([NO_BOX, [0, 0, 1, 1]], [[0, 0, 1, 1], NO_BOX]), [np.inf, np.nan]
+    )
+
+
+def test_normalized_precision_has_its_closed_form():
+    """Errors on the thresholds count as reached: a perfect result has 1, one a quarter off 26/51, one half
+    off 1/51, and one beyond 0.
+    """
+    true = [[0, 0, 100, 100]]
+    for shift, expected in ((0, 1), (25, 26 / 51), (50, 1 / 51), (51, 0)):
+        assert metrics.score([[shift, 0, 100, 100]], true).norm_precision == pytest.approx(expected)
+
+
+def test_thresholds_are_otbs_and_trackingnets():
+    """21 overlaps to 1, 51 errors to 50 px, 51 of them to half the box's size."""
+    np.testing.assert_allclose(metrics.OVERLAP_THRESHOLDS * 20, range(21), atol=1e-12)
+    np.testing.assert_array_equal(metrics.PRECISION_THRESHOLDS, range(51))
+    np.testing.assert_allclose(metrics.NORM_PRECISION_THRESHOLDS * 100, range(51), atol=1e-12)
+
+
+def test_position_error_is_what_the_truth_allows():
+    """Three known coordinates give the distance, the depth alone its difference, no depth nothing; and there
+    is no error without a position from the tracker.
+    """
+    nan = np.nan
+    found = [[1, 2, 3], [1, 2, 3], [1, 2, 3], [nan] * 3, [1, 2, 3], [1, 2, 3]]
+    true = [[1, 6, 6], [nan, nan, 1], [nan] * 3, [1, 2, 3], [5, nan, 4], [1, 2, nan]]
+    np.testing.assert_allclose(metrics.position_errors(found, true), [5, 2, nan, nan, 1, nan])
+
+
 def test_frames_without_truth_are_left_out():
     """A NaN row of the truth changes no summary, whatever the tracker said there."""
     found, true = [[0, 0, 8, 8], [1, 0, 8, 8]], [[0, 0, 8, 8], [0, 0, 8, 8]]
     with_gap = metrics.score([*found, [500, 500, 1, 1]], [*true, NO_BOX])
     assert with_gap == metrics.score(found, true)
-    assert np.isnan(metrics.score([[0, 0, 1, 1]], [NO_BOX]).auc)
+    assert np.isnan(astuple(metrics.score([[0, 0, 1, 1]], [NO_BOX]))).all()
+    assert np.isnan(astuple(metrics.score(np.empty((0, 4)), np.empty((0, 4))))).all()
 
 
 def test_missing_box_is_a_miss():
@@ -90,3 +131,17 @@ def test_bad_boxes_are_named(found, true, words):
     """Every malformed argument is refused by name."""
     with pytest.raises(ValueError, match=words):
         metrics.score(found, true)
+
+
+@pytest.mark.parametrize(
+    ("found", "true", "words"),
+    [
+        ([[0, 0]], [[0, 0, 0]], "found: expected an array of shape"),
+        ([[0, 0, 0]], [0, 0, 0], "true: expected an array of shape"),
+        ([[0, 0, 0]], [[0, 0, 0]] * 2, "found: expected as many rows as true"),
+    ],
+)
+def test_bad_positions_are_named(found, true, words):
+    """Every malformed position is refused by name."""
+    with pytest.raises(ValueError, match=words):
+        metrics.position_errors(found, true)

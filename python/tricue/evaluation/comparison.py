@@ -26,6 +26,7 @@ class Row:
     seed: int
     auc: float
     precision: float
+    norm_precision: float
     success: float
     mean_error: float
     iou: float

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Overlap and center error against true boxes, summarized as in OTB (Wu, Lim, Yang 2013).
+"""Overlap and errors against the truth, summarized as in OTB and TrackingNet.
+
+That is Wu, Lim and Yang 2013, and for the normalized precision Mueller et al. 2018.
 
 Boxes are (M, 4) arrays (x, y, width, height) in pixels, a row per frame. A row of NaN in the truth says that
 the frame has no truth, and such frames are left out of every summary; a row of NaN in the result says that
-the tracker gave no box, and counts as a miss.
+the tracker gave no box, and counts as a miss. Curves and thresholds are those of got10k's toolkit to the last
+bit, so that frames that lie on a threshold fall on the same side.
 """
 
 from collections.abc import Callable
@@ -14,17 +17,24 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-OVERLAP_THRESHOLDS: Array = np.arange(21) / 20.0  # OTB's: 0, 0.05, ..., 1
+OVERLAP_THRESHOLDS: Array = np.linspace(0.0, 1.0, 21)
+"""OTB's: 0, 0.05, ..., 1."""
+PRECISION_THRESHOLDS: Array = np.arange(51.0)
+"""OTB's: 0, 1, ..., 50 px."""
+NORM_PRECISION_THRESHOLDS: Array = np.arange(51) / 100.0
+"""TrackingNet's: 0, 0.01, ..., 0.5 of the true box's size."""
 
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """One result in four numbers: shares in [0, 1], and an error in pixels; NaN where no frame has truth."""
+    """One result in five numbers: shares in [0, 1], and an error in pixels; NaN where no frame has truth."""
 
     auc: float
     """Area under the success curve, the mean over OVERLAP_THRESHOLDS."""
     precision: float
     """Share of frames whose center error is at most 20 px."""
+    norm_precision: float
+    """Area under the normalized precision curve, the mean over NORM_PRECISION_THRESHOLDS."""
     success: float
     """Share of frames whose overlap is above 0.5."""
     mean_error: float
@@ -38,38 +48,71 @@ def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
     high = np.minimum(found[:, :2] + found[:, 2:], true[:, :2] + true[:, 2:])
     common = np.prod(np.maximum(high - low, 0.0), axis=1)
     union = np.prod(found[:, 2:], axis=1) + np.prod(true[:, 2:], axis=1) - common
-    return _missing(common / union, found, true, 0.0)
+    return _missing(np.minimum(common / union, 1.0), found, true, 0.0)
 
 
 def center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
     """Distance between the centers, row by row, (M,), pixels; inf for a missing box, NaN without truth."""
     found, true = _pairs(boxes, truth)
-    offset = (found[:, :2] + found[:, 2:] / 2) - (true[:, :2] + true[:, 2:] / 2)
-    return _missing(np.hypot(offset[:, 0], offset[:, 1]), found, true, np.inf)
+    return _missing(_lengths(_centers(found) - _centers(true)), found, true, np.inf)
+
+
+def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
+    """As center_errors, the offset along x over the true width and along y over the true height, no unit.
+
+    P_norm of Mueller et al. 2018 (eq. 2).
+    """
+    found, true = _pairs(boxes, truth)
+    return _missing(_lengths((_centers(found) - _centers(true)) / true[:, 2:]), found, true, np.inf)
+
+
+def position_errors(found: ArrayLike, true: ArrayLike) -> Array:
+    """Distance between positions in the camera frame, row by row, (M,), metres; both arguments are (M, 3).
+
+    The error along z alone where of the truth only the depth is known, x or y being NaN. NaN where the truth
+    has no depth, and where the tracker gave no position.
+    """
+    said, known = _positions(found, "found"), _positions(true, "true")
+    if said.shape != known.shape:
+        raise ValueError(f"found: expected as many rows as true ({len(known)}), got {len(said)}")
+    offset = said - known
+    return np.where(np.isnan(known[:, :2]).any(axis=1), np.abs(offset[:, 2]), _lengths(offset))
 
 
 def success_curve(overlap: ArrayLike, thresholds: ArrayLike = OVERLAP_THRESHOLDS) -> Array:
-    """Share of the frames with truth whose overlap is above each threshold."""
+    """Share of the frames with truth whose overlap is above each threshold; NaN if no frame has truth."""
     return _share(
         np.asarray(overlap, dtype=np.float64), lambda known: known > np.asarray(thresholds)[:, None]
     )
 
 
-def precision_curve(error: ArrayLike, thresholds: ArrayLike) -> Array:
-    """Share of the frames with truth whose center error is at most each threshold (pixels)."""
+def precision_curve(error: ArrayLike, thresholds: ArrayLike = PRECISION_THRESHOLDS) -> Array:
+    """Share of the frames with truth whose error is at most each threshold; NaN if no frame has truth."""
     return _share(np.asarray(error, dtype=np.float64), lambda known: known <= np.asarray(thresholds)[:, None])
 
 
 def score(boxes: ArrayLike, truth: ArrayLike) -> Score:
     """Summarize a result: both arguments (M, 4)."""
     overlap, error = overlaps(boxes, truth), center_errors(boxes, truth)
-    known = error[~np.isnan(error)]
+    normalized, known = normalized_center_errors(boxes, truth), error[~np.isnan(error)]
     return Score(
         auc=float(success_curve(overlap).mean()),
         precision=float(precision_curve(error, [20.0])[0]),
+        norm_precision=float(precision_curve(normalized, NORM_PRECISION_THRESHOLDS).mean()),
         success=float(success_curve(overlap, [0.5])[0]),
         mean_error=float(known.mean()) if known.size else float("nan"),
     )
+
+
+def _centers(boxes: Array) -> Array:
+    """The (M, 2) centers of boxes of whole pixels: half a pixel off the corners' middle, as in OTB's code."""
+    center: Array = boxes[:, :2] + (boxes[:, 2:] - 1) / 2
+    return center
+
+
+def _lengths(vectors: Array) -> Array:
+    length: Array = np.sqrt(np.sum(np.power(vectors, 2), axis=1))
+    return length
 
 
 def _share(values: Array, holds: Callable[[Array], NDArray[np.bool_]]) -> Array:
@@ -98,4 +141,11 @@ def _boxes(value: ArrayLike, name: str) -> Array:
     bad = np.any(array[:, 2:] <= 0, axis=1) | np.any(np.isinf(array), axis=1)
     if bad.any():
         raise ValueError(f"{name}: expected finite boxes with width and height above 0, got {array[bad][0]}")
+    return array
+
+
+def _positions(value: ArrayLike, name: str) -> Array:
+    array = np.asarray(value, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name}: expected an array of shape (M, 3), got {array.shape}")
     return array

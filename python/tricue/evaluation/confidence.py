@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""Whether a tracker knows how well it does: does its score fall where the overlap falls?
+
+A frame counts as lost where the overlap with the truth is below LOST_OVERLAP, or the target is absent. Frames
+whose truth is unknown (overlap NaN, not absent) are left out of everything.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+LOST_OVERLAP = 0.1
+"""Below it a box shows something else than the target."""
+
+
+class SaidOk(NamedTuple):
+    """How often a tracker said that it sees the target while it had lost it; NaN where no frame counts."""
+
+    of_lost: float
+    """Share of the lost frames."""
+    of_all: float
+    """The same frames, as a share of all whose truth is known."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Reliability:
+    """What overlap a score stands for: B bins of equal width over the scores [0, 1]."""
+
+    edges: Array
+    """(B + 1,) rising from 0 to 1; a score on an inner edge counts above it."""
+    counts: NDArray[np.int64]
+    """(B,) frames in each bin."""
+    scores: Array
+    """(B,) mean score in each bin, NaN where it is empty."""
+    overlaps: Array
+    """(B,) mean overlap in each bin, NaN where it is empty."""
+
+
+def lost(overlaps: ArrayLike, absent: ArrayLike | None = None, threshold: float = LOST_OVERLAP) -> Flags:
+    """Which frames have an overlap below the threshold or no target: (M,) bool from (M,) and (M,) bool."""
+    overlap = np.asarray(overlaps, dtype=np.float64)
+    below: Flags = overlap < threshold
+    return below if absent is None else below | _flags(absent, "absent", overlap.shape)
+
+
+def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = None) -> float:
+    """The chance that a frame on the target scores above a lost one, ties counted half, in [0, 1].
+
+    The area under the ROC curve of "lost" by falling score, by the rank sum of Mann and Whitney (1947). 0.5
+    says nothing, 1 that one threshold on the score tells all. NaN unless there are frames of both kinds.
+    """
+    overlap, score, gone = _frames(overlaps, scores, absent)
+    bad = lost(overlap, gone)
+    good = int((~bad).sum())
+    if good in (0, bad.size):
+        return float("nan")
+    wins = _ranks(score)[~bad].sum() - good * (good + 1) / 2
+    return float(wins / (good * (bad.size - good)))
+
+
+def said_ok_while_lost(
+    overlaps: ArrayLike, said_present: ArrayLike, absent: ArrayLike | None = None
+) -> SaidOk:
+    """How often status was TRACKED, (M,) bool, in lost frames."""
+    overlap = np.asarray(overlaps, dtype=np.float64)
+    said = _flags(said_present, "said_present", overlap.shape)
+    bad = lost(overlap, absent)
+    known = bad | ~np.isnan(overlap)
+    return SaidOk(_share(said[bad]), _share((said & bad)[known]))
+
+
+def reliability(
+    overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = None, bins: int = 10
+) -> Reliability:
+    """Mean overlap by score, for a reliability diagram; in absent frames the overlap is 0."""
+    if bins < 1:
+        raise ValueError(f"bins: expected 1 or more, got {bins}")
+    overlap, score, gone = _frames(overlaps, scores, absent)
+    overlap[gone] = 0.0
+    edges = np.linspace(0.0, 1.0, bins + 1)
+    places = np.searchsorted(edges[1:-1], score, side="right")
+    counts = np.bincount(places, minlength=bins)
+    share = np.where(counts > 0, counts, np.nan)
+    return Reliability(
+        edges,
+        counts,
+        np.bincount(places, score, bins) / share,
+        np.bincount(places, overlap, bins) / share,
+    )
+
+
+def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) -> tuple[Array, Array, Flags]:
+    """Overlaps, scores and absence of the frames whose truth is known."""
+    overlap, score = np.asarray(overlaps, dtype=np.float64), np.asarray(scores, dtype=np.float64)
+    if overlap.ndim != 1:
+        raise ValueError(f"overlaps: expected an array of shape (M,), got {overlap.shape}")
+    if score.shape != overlap.shape:
+        raise ValueError(f"scores: expected an array of shape {overlap.shape}, got {score.shape}")
+    if not np.all((score >= 0) & (score <= 1)):
+        raise ValueError("scores: expected numbers in [0, 1]")
+    gone = np.zeros(overlap.shape, bool) if absent is None else _flags(absent, "absent", overlap.shape)
+    known = gone | ~np.isnan(overlap)
+    return overlap[known], score[known], gone[known]
+
+
+def _ranks(values: Array) -> Array:
+    """Ranks from 1 on, equal values sharing their mean rank."""
+    _, places, counts = np.unique(values, return_inverse=True, return_counts=True)
+    last = np.cumsum(counts)
+    ranks: Array = (last - (counts - 1) / 2)[places]
+    return ranks
+
+
+def _share(flags: Flags) -> float:
+    return float(flags.mean()) if flags.size else float("nan")
+
+
+def _flags(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Flags:
+    array = np.asarray(value)
+    if array.dtype != np.bool_ or array.shape != shape:
+        raise ValueError(f"{name}: expected bool of shape {shape}, got {array.dtype} of shape {array.shape}")
+    return array

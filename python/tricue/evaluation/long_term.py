@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""Targets that leave and come back: the rates of OxUvA, and precision, recall and F of VOT long-term.
+
+OxUvA (Valmadre et al. 2018) judges what a tracker decides, present or absent. VOT long-term (Lukezic et al.
+2018) judges its confidence: a box counts as given where the score reaches a threshold, and the best threshold
+says what the tracker is worth.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tricue.evaluation.metrics import overlaps
+
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+SEEN_OVERLAP = 0.5
+"""From this overlap on OxUvA takes the target as found (section 4)."""
+RESOLUTION = 100
+"""Thresholds of the VOT toolkit."""
+
+
+class Rates(NamedTuple):
+    """Shares in [0, 1]; NaN where there are no such frames."""
+
+    true_positive: float
+    """Of the visible frames: said to be present, with an overlap of at least SEEN_OVERLAP."""
+    true_negative: float
+    """Of the absent frames: said to be absent."""
+
+    @property
+    def geometric_mean(self) -> float:
+        """Of both, OxUvA's one number for a tracker that decides."""
+        return float(np.sqrt(self.true_positive * self.true_negative))
+
+
+class Frames(NamedTuple):
+    """A sequence as the VOT toolkit counts it: arrays of one length, a frame each."""
+
+    overlaps: Array
+    scores: Array
+    visible: Flags
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PrecisionRecall:
+    """A point per threshold, thresholds falling from inf to -inf: arrays of one length, values in [0, 1]."""
+
+    thresholds: Array
+    precision: Array
+    """Mean overlap of the frames with a score of at least the threshold; 1 where there are none."""
+    recall: Array
+    """Sum of those overlaps over the number of visible frames."""
+
+    @property
+    def f(self) -> Array:
+        """Harmonic mean of precision and recall at each threshold, 0 where both are 0."""
+        total = self.precision + self.recall
+        return 2 * self.precision * self.recall / np.where(total > 0, total, 1.0)
+
+    @property
+    def best(self) -> "Best":
+        """The threshold with the highest F, the highest threshold of equals."""
+        index = int(np.argmax(self.f))
+        return Best(*(float(each[index]) for each in (self.precision, self.recall, self.f, self.thresholds)))
+
+
+class Best(NamedTuple):
+    """What VOT long-term reports of a tracker."""
+
+    precision: float
+    recall: float
+    f: float
+    threshold: float
+
+
+def rates(boxes: ArrayLike, truth: ArrayLike, said_present: ArrayLike, absent: ArrayLike) -> Rates:
+    """OxUvA's rates of a result: boxes and truth are (M, 4), both flags (M,) bool.
+
+    Frames without a true box count as negatives where ``absent`` holds, and are left out elsewhere.
+    """
+    overlap = overlaps(boxes, truth)
+    said, gone = _flags(said_present, "said_present", len(overlap)), _flags(absent, "absent", len(overlap))
+    known = ~gone & ~np.isnan(overlap)
+    return Rates(_share((said & (overlap >= SEEN_OVERLAP))[known]), _share(~said[gone]))
+
+
+def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: ArrayLike) -> Frames:
+    """A result with all that the VOT toolkit adds: boxes and truth are (M, 4), scores and absent (M,).
+
+    The first frame, in which the tracker is started, has overlap 0 and score 0 but counts as visible. In an
+    absent frame a box has overlap 0, and no box overlap 1, as "two empty regions are identical". Frames whose
+    truth is unknown are left out; the toolkit's format can't tell them from absent ones.
+    """
+    overlap = overlaps(boxes, truth)
+    score = _values(scores, "scores", len(overlap)).copy()
+    gone = _flags(absent, "absent", len(overlap))
+    known = gone | ~np.isnan(overlap)
+    no_box = np.isnan(np.asarray(boxes, dtype=np.float64)).any(axis=1)
+    overlap = np.where(gone, no_box.astype(np.float64), overlap)
+    overlap[:1], score[:1] = 0.0, 0.0
+    return Frames(overlap[known], score[known], ~gone[known])
+
+
+def precision_recall(sequences: Sequence[Frames], resolution: int = RESOLUTION) -> PrecisionRecall:
+    """The tracker's curve: one set of thresholds for all sequences, and the mean of the sequences' curves.
+
+    ValueError for a sequence without a visible frame, whose recall isn't defined.
+    """
+    if not sequences:
+        raise ValueError("sequences: expected one or more, got none")
+    limits = thresholds(np.concatenate([each.scores for each in sequences]), resolution)
+    curves = [_curve(*each, limits, index) for index, each in enumerate(sequences)]
+    precision, recall = np.mean(curves, axis=0)
+    return PrecisionRecall(limits, precision, recall)
+
+
+def thresholds(scores: ArrayLike, resolution: int = RESOLUTION) -> Array:
+    """Thresholds from inf to -inf that cut the sorted scores into equal shares, ``resolution`` at most.
+
+    The toolkit's ``determine_thresholds``: NaN scores are left out, and few scores are all taken.
+    """
+    if resolution < 3:
+        raise ValueError(f"resolution: expected 3 or more, got {resolution}")
+    values = np.asarray(scores, dtype=np.float64)
+    falling = np.sort(values[~np.isnan(values)])[::-1]
+    inner = resolution - 2
+    if falling.size > inner:
+        margin = falling.size // inner
+        falling = falling[np.round(np.linspace(margin, falling.size - margin, inner)).astype(int)]
+    return np.concatenate([[np.inf], falling, [-np.inf]])
+
+
+def _curve(overlap: Array, scores: Array, visible: Flags, limits: Array, index: int) -> tuple[Array, Array]:
+    """Precision and recall of one sequence at each threshold (Lukezic et al. 2018, eq. 1 and 2)."""
+    if not visible.any():
+        raise ValueError(f"sequences: expected visible frames in each, got none in sequences[{index}]")
+    given = scores >= limits[:, None]
+    count, total = given.sum(axis=1), given @ overlap
+    return np.where(count > 0, total / np.maximum(count, 1), 1.0), total / visible.sum()
+
+
+def _share(flags: Flags) -> float:
+    return float(flags.mean()) if flags.size else float("nan")
+
+
+def _flags(value: ArrayLike, name: str, count: int) -> Flags:
+    array = np.asarray(value)
+    if array.dtype != np.bool_ or array.shape != (count,):
+        raise ValueError(
+            f"{name}: expected bool of shape ({count},), got {array.dtype} of shape {array.shape}"
+        )
+    return array
+
+
+def _values(value: ArrayLike, name: str, count: int) -> Array:
+    array = np.asarray(value, dtype=np.float64)
+    if array.shape != (count,):
+        raise ValueError(f"{name}: expected an array of shape ({count},), got {array.shape}")
+    return array
