@@ -138,6 +138,8 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
         eager.detect_thresh = 0.1
         makers["KCF"] = kcf.create
         makers["KCF-0.1"] = lambda: kcf.create(eager)
+    if mil := getattr(cv2, "TrackerMIL", None):
+        makers["MIL"] = mil.create
     for name in ("MOSSE", "MedianFlow"):
         if hasattr(legacy, f"Tracker{name}"):
             makers[name] = getattr(legacy, f"Tracker{name}").create

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: MIT
+"""Who takes part: our trackers, on whatever they can see of a sequence, and the peers of the installed cv2."""
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import cv2
+
+import tricue
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.camera.rig import StereoRig
+from tricue.draw import depth_picture, depth_range
+from tricue.evaluation import peers
+from tricue.evaluation.dataset import Opened
+from tricue.evaluation.one_pass import Contender
+from tricue.track.create import names, tracker_class
+from tricue.track.track import Status, Track
+
+View = Callable[[Frame], Frame]
+"""What a contender sees of a frame."""
+
+WIDEST, NARROWEST = 0.25, 4.0  # disparities of a stereo head's range: of the image's width; pixels
+_SLOWNESS = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
+_STEADY = tuple(name for name in peers.available() if name != "script-pf")  # draw no random numbers
+
+
+@dataclass(frozen=True)
+class Entrant:
+    """A tracker of ours or a peer, by name. settings: parameters that aren't the defaults, for ours."""
+
+    name: str
+    settings: tuple[tuple[str, Any], ...] = ()
+
+    @property
+    def ours(self) -> bool:
+        """Whether it is one of our trackers."""
+        return self.name in names()
+
+    @property
+    def steady(self) -> bool:
+        """Whether its seed changes nothing, so that one run tells all."""
+        return self.name in _STEADY or self.name in ("stereo-head", "flow-depth")
+
+    @property
+    def slowness(self) -> float:
+        """About how long a frame takes beside one of our trackers; only for the order of the work."""
+        return _SLOWNESS.get(self.name, 1.0)
+
+    @property
+    def described(self) -> str:
+        """What else than the images decides a run: parameters and versions, as JSON."""
+        if not self.ours:
+            return json.dumps({"cv2": cv2.__version__})
+        params = tracker_class(self.name).Params(**dict(self.settings))
+        return json.dumps({"tricue": tricue.__version__, **asdict(params)}, default=str)
+
+    def refuses(self, opened: Opened) -> str:
+        """Why it can't run on a sequence, "" where it can."""
+        channels, depth = opened.source.channels, opened.channel == "depth"
+        if self.name == "stereo-head":
+            return "" if "right" in channels else "no stereo pair"
+        if self.name == "depth-particle":
+            return "" if "depth" in channels and (depth or opened.registered) else "no depth"
+        if self.name == "color-particle":
+            return "boxes of the depth image" if depth else ""
+        return ""
+
+    def contender(self, opened: Opened, seed: int) -> "Guarded":
+        """The tracker for a sequence, seeing what it can use; the peers see depth as a picture if the true
+        boxes are in it.
+        """
+        cv2.setRNGSeed(seed)
+        if not self.ours:
+            view = pictured() if opened.channel == "depth" else _color
+            return Guarded(peers.available()[self.name](seed), view)
+        keywords, view = _FITTED[self.name](opened)
+        return Guarded(tricue.create(self.name, seed=seed, **{**keywords, **dict(self.settings)}), view)
+
+
+class Guarded:
+    """A contender that never raises: from its first error on, which is ``trouble``, it finds nothing."""
+
+    def __init__(self, tracker: Contender, view: View) -> None:
+        self.trouble = ""
+        self._tracker, self._view = tracker, view
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        """The tracker's, or a track without a box."""
+        return self._tried(lambda: self._tracker.init(self._view(frame), box))
+
+    def update(self, frame: Frame) -> Track:
+        """The tracker's, or a track without a box."""
+        return self._tried(lambda: self._tracker.update(self._view(frame)))
+
+    def _tried(self, call: Callable[[], Track]) -> Track:
+        if not self.trouble:
+            try:
+                return call()
+            except (ValueError, RuntimeError, cv2.error) as error:
+                self.trouble = " ".join(str(error).split()) or type(error).__name__
+        return Track(Box(*[float("nan")] * 4), 0.0, Status.LOST)
+
+
+def pictured() -> View:
+    """Depth as a picture in the color channel, near to far in the first frame's range."""
+    shades: list[tuple[float, float]] = []
+
+    def view(frame: Frame) -> Frame:
+        frame.require("depth")
+        assert frame.depth is not None
+        if not shades:
+            shades.append(depth_range(frame.depth) or (0.0, 1.0))
+        return Frame(depth_picture(frame.depth, *shades[0]), timestamp=frame.timestamp)
+
+    return view
+
+
+def entrants(chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]) -> list[Entrant]:
+    """Those of the given names, by default all; settings: parameters by our trackers' names.
+
+    ValueError for an unknown name lists the known ones.
+    """
+    known = [*names(), *peers.available()]
+    for name in [*(chosen or ()), *settings]:
+        if name not in known:
+            raise ValueError(f"--trackers: expected some of {', '.join(known)}, got {name!r}")
+    found = [Entrant(name, tuple(settings.get(name, {}).items())) for name in chosen or known]
+    for each in found:
+        _check(each)
+    return found
+
+
+def _check(entrant: Entrant) -> None:
+    """Errors of parameters come before the first run."""
+    if entrant.ours:
+        tracker_class(entrant.name).Params(**dict(entrant.settings))
+    elif entrant.settings:
+        raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {entrant.name}")
+
+
+Fitted = tuple[dict[str, Any], View]  # keywords for the tracker, and what it sees
+
+
+def _color_particle(opened: Opened) -> Fitted:
+    return {}, _color
+
+
+def _depth_particle(opened: Opened) -> Fitted:
+    return {"intrinsics": opened.intrinsics}, _depth
+
+
+def _stereo_head(opened: Opened) -> Fitted:
+    rig = opened.rig
+    return ({} if rig is None else {"rig": rig, **_range(rig)}), _pair
+
+
+def _flow_depth(opened: Opened) -> Fitted:
+    """Both cues where there is a pair, or depth that belongs to the color; else the one that there is."""
+    channels = opened.source.channels
+    if "right" in channels:
+        return {"rig": opened.rig}, _pair
+    if opened.channel == "depth":
+        return {"intrinsics": opened.intrinsics, "cues": ("disparity",)}, _depth
+    if "depth" in channels and opened.registered:
+        return {"intrinsics": opened.intrinsics}, _whole
+    return {"cues": ("flow",)}, _color
+
+
+def _range(rig: StereoRig) -> dict[str, float]:
+    """Between which distances a target is looked for: where a pair's disparity is WIDEST and NARROWEST."""
+    product = rig.intrinsics.fx * rig.baseline
+    return {"near": product / (WIDEST * rig.intrinsics.width), "far": product / NARROWEST}
+
+
+_FITTED: dict[str, Callable[[Opened], Fitted]] = {
+    "color-particle": _color_particle,
+    "depth-particle": _depth_particle,
+    "stereo-head": _stereo_head,
+    "flow-depth": _flow_depth,
+}
+
+
+def _whole(frame: Frame) -> Frame:
+    return frame
+
+
+def _color(frame: Frame) -> Frame:
+    return Frame(frame.color, timestamp=frame.timestamp)
+
+
+def _depth(frame: Frame) -> Frame:
+    return Frame(depth=frame.depth, timestamp=frame.timestamp)
+
+
+def _pair(frame: Frame) -> Frame:
+    return Frame(frame.color, right=frame.right, timestamp=frame.timestamp)

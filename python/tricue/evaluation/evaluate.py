@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""Trackers over a data set: what is to be run, what of it was run before, and what came of it.
+
+An evaluation is its folder of finished runs. It can be stopped at any time; the same call goes on with the
+runs that are missing, and ends with the same numbers.
+"""
+
+from collections.abc import Callable, Mapping
+from contextlib import closing
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tricue.evaluation.dataset import Opened, Reading, find_entries
+from tricue.evaluation.entrants import Entrant, entrants
+from tricue.evaluation.record import Record
+from tricue.evaluation.remaining import Remaining
+from tricue.evaluation.rows import Judged, Row, Speed, judged, row_of, speed_of
+from tricue.evaluation.schedule import Perform, completed
+from tricue.evaluation.store import Store
+from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
+
+RUNS = "runs"  # the folder of finished runs in an evaluation's
+
+
+@dataclass(frozen=True)
+class Options:
+    """What is run. trackers: names of ours and of the peers, None for all. settings: parameters that aren't
+    the defaults, by our trackers' names. seeds: runs of those that draw random numbers. restarts: whether
+    each is also run with restarts. reading: how the data set's files are read.
+    """
+
+    trackers: tuple[str, ...] | None = None
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    seeds: int = 1
+    restarts: bool = True
+    reading: Reading = Reading()
+
+
+class Result(NamedTuple):
+    """A run in one pass: its record, and its numbers."""
+
+    task: Task
+    record: Record
+    judged: Judged
+    row: Row
+    speed: Speed
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """All that is known at the end. left_out: why an entrant didn't run on a sequence, by both names. failed:
+    the errors of the sequences that couldn't be read, by the tasks' names.
+    """
+
+    options: Options
+    opened: tuple[Opened, ...]
+    entrants: tuple[Entrant, ...]
+    results: tuple[Result, ...]
+    left_out: Mapping[tuple[str, str], str]
+    failed: Mapping[str, str]
+
+    @property
+    def groups(self) -> tuple[str, ...]:
+        """The groups of sequences on which trackers can be compared, in the order of the sequences."""
+        return tuple(dict.fromkeys(each.group for each in self.opened))
+
+    def of(self, group: str, tracker: str) -> list[Result]:
+        """The results of one tracker on the sequences of a group."""
+        return [each for each in self.results if (each.row.group, each.row.tracker) == (group, tracker)]
+
+
+class Told(NamedTuple):
+    """How far it is, told after each run: of how many runs how many are done, and the last."""
+
+    done: int
+    total: int
+    last: Task | None
+    seconds_left: float | None
+
+
+def evaluate(
+    root: Path,
+    folder: Path,
+    options: Options = Options(),
+    *,
+    jobs: int = 1,
+    scheduler: str | None = None,
+    tell: Callable[["Told"], None] = lambda told: None,
+    work: Perform = perform,
+) -> Evaluation:
+    """Run all that is missing in ``folder`` of the data set at ``root``, and judge all of it.
+
+    jobs, scheduler: as :func:`schedule.completed` takes them. tell: hears of the progress. ValueError or
+    OSError for a data set or options that can't be used.
+    """
+    plan = _Plan(root, options)
+    store = Store(folder / RUNS)
+    records = {task: record for task in plan.tasks if (record := store.load(task, plan.fingerprint(task)))}
+    missing = sorted((task for task in plan.tasks if task not in records), key=plan.weight, reverse=True)
+    failed: dict[str, str] = {}
+    remaining = Remaining(plan.weight, missing)
+    tell(Told(len(records), len(plan.tasks), None, None))
+    with closing(completed(missing, work, jobs, scheduler)) as results:
+        for index, record, error in results:
+            task = missing[index]
+            if record is None:
+                failed[task.name] = error
+            else:
+                store.save(task, plan.fingerprint(task), record)
+                records[task] = record
+            done = len(records) + len(failed)
+            tell(Told(done, len(plan.tasks), task, remaining.after(task)))
+    return plan.judge(records, failed)
+
+
+class _Plan:
+    """The tasks of an evaluation, and the sequences that they run on."""
+
+    def __init__(self, root: Path, options: Options) -> None:
+        self.options = options
+        self.entrants = tuple(entrants(options.trackers, options.settings))
+        self.opened = {entry.name: entry.open() for entry in find_entries(root, options.reading)}
+        self.left_out: dict[tuple[str, str], str] = {}
+        self._digests = {name: opened.digest for name, opened in self.opened.items()}
+        self.tasks = [task for opened in self.opened.values() for task in self._tasks(opened)]
+
+    def _tasks(self, opened: Opened) -> list[Task]:
+        kinds = (ONE_PASS, RESTARTS) if self.options.restarts else (ONE_PASS,)
+        tasks = []
+        for entrant in self.entrants:
+            if why := entrant.refuses(opened):
+                self.left_out[entrant.name, opened.entry.name] = why
+                continue
+            seeds = range(1 if entrant.steady else self.options.seeds)
+            tasks += [Task(entrant, opened.entry, seed, kind) for kind in kinds for seed in seeds]
+        return tasks
+
+    def fingerprint(self, task: Task) -> str:
+        return task.fingerprint(self._digests[task.entry.name])
+
+    def weight(self, task: Task) -> float:
+        """How long a task may take, beside others: long ones begin first, so that none is left over."""
+        source = self.opened[task.entry.name].source
+        return float(source.length or len(source.truth)) * task.entrant.slowness
+
+    def judge(self, records: Mapping[Task, Record], failed: Mapping[str, str]) -> Evaluation:
+        results = []
+        for task in self.tasks:
+            if task.kind == ONE_PASS and (record := records.get(task)):
+                again = records.get(Task(task.entrant, task.entry, task.seed, RESTARTS))
+                opened, name = self.opened[task.entry.name], task.entrant.name
+                row = row_of(opened, name, task.seed, record, again)
+                speed = speed_of(opened, name, task.seed, record.run)
+                results.append(Result(task, record, judged(record, opened), row, speed))
+        opened_all = tuple(self.opened.values())
+        return Evaluation(self.options, opened_all, self.entrants, tuple(results), self.left_out, failed)

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""Robustness by restarts: a tracker that has lost its target is started again, and the restarts are counted.
+
+The supervised experiment of VOT (Kristan et al. 2016, "A novel performance evaluation methodology for single-
+target trackers"): a failure is a frame without any overlap; the next start is some frames later.
+"""
+
+from collections.abc import Callable, Iterable
+from itertools import chain, repeat
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.evaluation import metrics
+from tricue.evaluation.one_pass import Contender, Log, one_thread
+from tricue.evaluation.record import Record
+
+SKIPPED = 5  # frames from a failure to the next start
+BURN_IN = 10  # frames after a start that don't count for accuracy, as the start's box helps them
+_UNKNOWN = np.full(4, np.nan)
+
+
+class Robustness(NamedTuple):
+    """failures: how often the target was lost. frames: in which it could have been lost. accuracy: the mean
+    overlap without the frames after a start, NaN if there are none left.
+    """
+
+    failures: int
+    frames: int
+    accuracy: float
+
+
+def run(make: Callable[[], Contender], frames: Iterable[Frame], truth: NDArray[np.float64]) -> Record:
+    """Track with restarts; truth is (M, 4), NaN in frames in which nothing starts or fails, as in all frames
+    beyond M. Boxes are NaN where no tracker runs.
+    """
+    log, starts, resume = Log(), [], 0
+    tracker: Contender | None = None
+    with one_thread():
+        for frame, true in zip(frames, chain(truth, repeat(_UNKNOWN)), strict=False):
+            index, known = len(log.tracks), not np.isnan(true).any()
+            if tracker is not None:
+                track = log.update(tracker, frame)
+                if known and not metrics.overlaps([track.box], [true])[0] > 0:
+                    tracker, resume = None, index + SKIPPED
+            elif known and index >= resume:
+                tracker = make()
+                log.init(tracker, frame, Box(*true.tolist()))
+                starts.append(index)
+            else:
+                log.skip()
+    return Record(log.run, tuple(starts))
+
+
+def robustness(record: Record, overlaps: NDArray[np.float64]) -> Robustness:
+    """Of a run with restarts, from its overlaps with the truth, (M,), NaN where that isn't known."""
+    frames = np.arange(len(overlaps))
+    last = np.searchsorted(record.starts, frames, side="right") - 1
+    since = frames - np.array([*record.starts, -1])[last]
+    judged = ~np.isnan(overlaps) & (since > 0) & ~_idle(record, overlaps)
+    failed = judged & (overlaps == 0)
+    steady = judged & ~failed & (since >= BURN_IN)
+    accuracy = float(overlaps[steady].mean()) if steady.any() else float("nan")
+    return Robustness(int(failed.sum()), int(judged.sum()), accuracy)
+
+
+def _idle(record: Record, overlaps: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """The frames from a failure to the next start."""
+    idle = np.ones(len(overlaps), dtype=np.bool_)
+    ends = [*record.starts[1:], len(overlaps)]
+    for start, end in zip(record.starts, ends, strict=True):
+        failures = np.flatnonzero(overlaps[start + 1 : end] == 0)
+        idle[start : start + 2 + int(failures[0]) if failures.size else end] = False
+    return idle

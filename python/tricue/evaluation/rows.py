@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""Runs in numbers: a row a run, and their means over seeds and sequences."""
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.evaluation import confidence, long_term, metrics, restarts
+from tricue.evaluation.dataset import Opened
+from tricue.evaluation.one_pass import Run
+from tricue.evaluation.record import Record
+from tricue.track.track import Status
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Judged:
+    """A run against the truth, over the N frames from its start on: arrays of that length."""
+
+    boxes: Array
+    truth: Array
+    absent: NDArray[np.bool_]
+    overlaps: Array
+    scores: Array
+    tracked: NDArray[np.bool_]
+    position_errors: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One tracker on one sequence from one seed. Shares are in [0, 1]; NaN where nothing tells a number."""
+
+    group: str
+    sequence: str
+    tracker: str
+    seed: int
+    frames: int
+    auc: float
+    precision: float
+    norm_precision: float
+    success: float
+    iou: float
+    """Mean overlap."""
+    tracked: float
+    """Share of the frames with status TRACKED, right or wrong."""
+    true_positive: float
+    true_negative: float
+    f_score: float
+    """VOT long-term's, of this sequence alone."""
+    auroc: float
+    """That a frame on the target scores above one with an overlap under 0.1."""
+    ok_while_lost: float
+    """Share of the frames that are TRACKED with an overlap under 0.1, or no target."""
+    position_error: float
+    """Median, metres."""
+    failures: float
+    """Of the run with restarts; NaN without one."""
+    accuracy: float
+    """Mean overlap of the run with restarts."""
+    trouble: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Speed:
+    """How long the updates of a run took; decoding isn't in it."""
+
+    sequence: str
+    tracker: str
+    seed: int
+    fps: float
+    p50_ms: float
+    p99_ms: float
+
+
+def judged(record: Record, opened: Opened) -> Judged:
+    """The frames of a run with one start, from that on."""
+    run, frames = record.run, len(record.run.scores)
+    since = slice(record.starts[0], frames)
+    boxes = bounded(run.boxes, opened)[since]
+    truth, absent = opened.truth(frames)[since], opened.absent(frames)[since]
+    return Judged(
+        boxes,
+        truth,
+        absent,
+        metrics.overlaps(boxes, truth),
+        run.scores[since],
+        np.array([status is Status.TRACKED for status in run.statuses])[since],
+        metrics.position_errors(run.positions[since], opened.positions(frames)[since]),
+    )
+
+
+def bounded(boxes: Array, opened: Opened) -> Array:
+    """The boxes, or their parts inside the image where the truth has only these; NaN where nothing is."""
+    if not opened.bounded:
+        return boxes
+    inside = boxes.copy()
+    for index in np.flatnonzero(~np.isnan(boxes).any(axis=1)):
+        inside[index] = Box(*boxes[index].tolist()).clip(*opened.size)
+    inside[~(inside[:, 2:] > 0).all(axis=1)] = np.nan
+    return inside
+
+
+def row_of(opened: Opened, tracker: str, seed: int, record: Record, restarted: Record | None) -> Row:
+    """The numbers of a run in one pass, and of the one with restarts if there is one."""
+    run = judged(record, opened)
+    score = metrics.score(run.boxes, run.truth)
+    rates = long_term.rates(run.boxes, run.truth, run.tracked, run.absent)
+    fails = _robustness(restarted, opened)
+    return Row(
+        opened.group,
+        opened.entry.name,
+        tracker,
+        seed,
+        len(run.scores),
+        score.auc,
+        score.precision,
+        score.norm_precision,
+        score.success,
+        _mean(run.overlaps),
+        float(run.tracked.mean()),
+        rates.true_positive,
+        rates.true_negative,
+        best_f([run]),
+        confidence.auroc(run.overlaps, run.scores, run.absent),
+        confidence.said_ok_while_lost(run.overlaps, run.tracked, run.absent).of_all,
+        _median(run.position_errors),
+        float("nan") if fails is None else float(fails.failures),
+        float("nan") if fails is None else fails.accuracy,
+        record.trouble,
+    )
+
+
+def best_f(runs: Sequence[Judged]) -> float:
+    """VOT long-term's F of several sequences; NaN without any visible frame after the first."""
+    frames = [long_term.vot_frames(run.boxes, run.truth, run.scores, run.absent) for run in runs]
+    known = [each for each in frames if each.visible.any()]
+    return long_term.precision_recall(known).best.f if known else float("nan")
+
+
+def pooled_auroc(runs: Sequence[Judged]) -> float:
+    """Over the frames of several runs: whether one threshold on the score holds for all of them."""
+    overlaps, scores, absent = (
+        np.concatenate([getattr(run, name) for run in runs]) for name in ("overlaps", "scores", "absent")
+    )
+    return confidence.auroc(overlaps, scores, absent)
+
+
+def speed_of(opened: Opened, tracker: str, seed: int, run: Run) -> Speed:
+    """The times of a run."""
+    p50, p99 = np.percentile(run.seconds * 1e3, [50, 99])
+    return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99))
+
+
+def mean_row(rows: Sequence[Row]) -> dict[str, float]:
+    """The means of the rows' numbers by name, each over the rows that have it."""
+    names = [field.name for field in dataclasses.fields(Row) if field.type in (float, "float")]
+    return {name: _mean(np.array([getattr(row, name) for row in rows])) for name in names}
+
+
+def over_sequences(rows: Iterable[Row]) -> dict[str, float]:
+    """Means over sequences of the means over seeds, so that every sequence counts once."""
+    by_sequence: dict[str, list[Row]] = {}
+    for row in rows:
+        by_sequence.setdefault(row.sequence, []).append(row)
+    means = [mean_row(each) for each in by_sequence.values()]
+    return {name: _mean(np.array([mean[name] for mean in means])) for name in means[0]}
+
+
+def _robustness(record: Record | None, opened: Opened) -> restarts.Robustness | None:
+    if record is None:
+        return None
+    boxes = bounded(record.run.boxes, opened)
+    overlaps = metrics.overlaps(boxes, opened.truth(len(boxes)))
+    return restarts.robustness(record, overlaps)
+
+
+def _mean(values: Array) -> float:
+    known = values[~np.isnan(values)]
+    return float(known.mean()) if known.size else float("nan")
+
+
+def _median(values: Array) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if known.size else float("nan")

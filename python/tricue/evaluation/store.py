@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""A folder of finished runs, one file each: written as they come, found again by an evaluation that goes on."""
+
+import json
+import os
+import re
+from pathlib import Path
+
+from tricue.evaluation.record import Record
+from tricue.evaluation.tasks import Task
+
+
+class Store:
+    """Records by their tasks. A file whose fingerprint isn't the task's is of something else: it counts as
+    absent, and is written over.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def path(self, task: Task) -> Path:
+        """Where a task's record is or will be."""
+        parts = [re.sub(r'[\\\\:*?"<>|]', "_", part) for part in task.name.split("/")]
+        return self.folder.joinpath(*parts).with_suffix(".json")
+
+    def load(self, task: Task, fingerprint: str) -> Record | None:
+        """The task's record; None where there is none, or only one that is cut off or of something else."""
+        try:
+            text = self.path(task).read_text(encoding="utf-8")
+            return Record.from_json(text) if json.loads(text).get("fingerprint") == fingerprint else None
+        except (OSError, ValueError, AttributeError):
+            return None
+
+    def save(self, task: Task, fingerprint: str, record: Record) -> None:
+        """Write the record's file, at once or not at all."""
+        path = self.path(task)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        about = {
+            "fingerprint": fingerprint,
+            "tracker": task.entrant.name,
+            "sequence": task.entry.name,
+            "seed": task.seed,
+            "kind": task.kind,
+            "settings": dict(task.entrant.settings),
+        }
+        unfinished = path.with_suffix(f".{os.getpid()}.part")
+        unfinished.write_text(record.to_json(about) + "\n", encoding="utf-8")
+        unfinished.replace(path)

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""An evaluation as tables: a line a run, a line a tracker; CSV, JSON, Markdown.
+
+What the runs say is apart from how long they took: the first is the same whenever and wherever it is run.
+"""
+
+import csv
+import json
+import math
+import os
+import platform
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+
+import tricue
+from tricue.evaluation.evaluate import Evaluation, Result
+from tricue.evaluation.rows import best_f, over_sequences, pooled_auroc
+
+Line = dict[str, Any]
+
+ROWS, SUMMARY, SPEEDS, JSON = "rows.csv", "summary.csv", "speeds.csv", "evaluation.json"
+_SHOWN = {
+    "auc": "AUC",
+    "precision": "P20",
+    "norm_precision": "norm. P",
+    "success": "IoU > 0.5",
+    "iou": "mean IoU",
+    "tracked": "TRACKED",
+    "ok_while_lost": "wrongly TRACKED",
+    "auroc": "AUROC",
+    "f_score": "F",
+    "true_positive": "TPR",
+    "true_negative": "TNR",
+    "failures": "failures",
+    "accuracy": "accuracy",
+    "position_error": "position error, m",
+}
+"""Columns of the printed table; one without any number is left out."""
+
+
+def summary(evaluation: Evaluation) -> list[Line]:
+    """A line per group of sequences and tracker that ran on any of them: means over the sequences, each of
+    which is the mean over seeds. F and AUROC are over all frames of the group.
+    """
+    lines = []
+    for group, tracker, results in _compared(evaluation):
+        runs = [each.judged for each in results]
+        means = over_sequences(each.row for each in results)
+        means |= {"f_score": best_f(runs), "auroc": pooled_auroc(runs)}
+        sequences = len({each.row.sequence for each in results})
+        lines.append(
+            {"group": group, "tracker": tracker, "sequences": sequences, "runs": len(runs), **means}
+        )
+    return lines
+
+
+def speeds(evaluation: Evaluation) -> list[Line]:
+    """The same lines with medians over the runs: updates a second, and percentiles of an update's time."""
+    lines = []
+    for group, tracker, results in _compared(evaluation):
+        times = [(each.speed.fps, each.speed.p50_ms, each.speed.p99_ms) for each in results]
+        fps, p50, p99 = np.median(times, axis=0).tolist()
+        lines.append({"group": group, "tracker": tracker, "fps": fps, "p50_ms": p50, "p99_ms": p99})
+    return lines
+
+
+def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
+    """Write the CSV files and the JSON file into a folder; their paths."""
+    rows = [asdict(each.row) for each in evaluation.results]
+    times = [asdict(each.speed) for each in evaluation.results]
+    everything = {
+        **about,
+        "summary": summary(evaluation),
+        "speed": speeds(evaluation),
+        "rows": rows,
+        "speeds": times,
+        "left_out": [
+            {"tracker": tracker, "sequence": sequence, "why": why}
+            for (tracker, sequence), why in evaluation.left_out.items()
+        ],
+        "failed": [{"run": name, "error": error} for name, error in evaluation.failed.items()],
+    }
+    folder.mkdir(parents=True, exist_ok=True)
+    _write_csv(folder / ROWS, rows)
+    _write_csv(folder / SUMMARY, everything["summary"])
+    _write_csv(folder / SPEEDS, times)
+    text = json.dumps(_finite(everything), indent=1, allow_nan=False)
+    (folder / JSON).write_text(text + "\n", encoding="utf-8")
+    return [folder / name for name in (ROWS, SUMMARY, SPEEDS, JSON)]
+
+
+def markdown(evaluation: Evaluation) -> str:
+    """The summary as a table per group of sequences, with the frames per second."""
+    lines, fast = summary(evaluation), {(line["group"], line["tracker"]): line for line in speeds(evaluation)}
+    return "\n\n".join(
+        _group_table(group, [line for line in lines if line["group"] == group], fast)
+        for group in evaluation.groups
+    )
+
+
+def settings(evaluation: Evaluation, **how: Any) -> Line:
+    """What was run, by what, and where. how: whatever else is to be told."""
+    options = evaluation.options
+    return {
+        "tricue": tricue.__version__,
+        "opencv": cv2.__version__,
+        "numpy": np.__version__,
+        "python": platform.python_version(),
+        "machine": f"{platform.system()} {platform.machine()}, {processor()}, {os.cpu_count()} cores",
+        "seeds": options.seeds,
+        "restarts": options.restarts,
+        "reading": asdict(options.reading),
+        "parameters": {
+            each.name: json.loads(each.described) for each in evaluation.entrants if each.ours
+        },
+        "changed": {name: dict(values) for name, values in options.settings.items()},
+        **how,
+    }
+
+
+def processor() -> str:
+    """The processor's name, as far as the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+        return next(line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or "an unknown processor"
+
+
+def _compared(evaluation: Evaluation) -> Iterator[tuple[str, str, list[Result]]]:
+    for group in evaluation.groups:
+        for entrant in evaluation.entrants:
+            if results := evaluation.of(group, entrant.name):
+                yield group, entrant.name, results
+
+
+def _group_table(group: str, lines: Sequence[Line], fast: Mapping[tuple[str, str], Line]) -> str:
+    shown = [name for name in _SHOWN if any(not math.isnan(line[name]) for line in lines)]
+    heads = [f"{group}: tracker", "sequences", *(_SHOWN[name] for name in shown), "frames/s", "p99, ms"]
+    rows = [heads, ["---"] * len(heads)]
+    for line in lines:
+        speed = fast[group, line["tracker"]]
+        numbers = ["-" if math.isnan(line[name]) else f"{line[name]:.2f}" for name in shown]
+        times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"]
+        rows.append([line["tracker"], str(line["sequences"]), *numbers, *times])
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return "\n".join(
+        f"| {' | '.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))} |" for row in rows
+    )
+
+
+def _write_csv(path: Path, lines: Sequence[Line]) -> None:
+    """Numbers in full, so that equal runs give equal files; empty where there is none."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(lines[0]) if lines else [], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: _told(value) for name, value in line.items()} for line in lines)
+
+
+def _told(value: Any) -> Any:
+    return "" if isinstance(value, float) and math.isnan(value) else value
+
+
+def _finite(value: Any) -> Any:
+    """JSON knows neither NaN nor infinity."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {str(name): _finite(each) for name, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(each) for each in value]
+    return value
