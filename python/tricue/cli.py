@@ -47,6 +47,12 @@ examples:
   tricue reproduce okada-fig8 --jobs 2
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
+_VOT_EXAMPLES = """\
+examples:
+  tricue vot-workspace vot --trackers color-particle --sequences data/
+  tricue vot-workspace vot --trackers color-particle,flow-depth --sequences rgbd/
+  tricue vot-workspace vot --trackers depth-particle          another tracker, into the same workspace
+"""
 
 
 class Parser(argparse.ArgumentParser):
@@ -58,14 +64,14 @@ class Parser(argparse.ArgumentParser):
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; the exit code: 0, 2 for an error (one line on stderr), 130 after Ctrl-C."""
-    _silence_opencv()
+    silence_opencv()
     options = parser().parse_args(arguments)
     try:
         with _warnings_in_a_line(options.verb):
             code: int = options.run(options)
         return code
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
-        print(f"tricue {options.verb}: {_one_line(error)}", file=sys.stderr)
+        print(f"tricue {options.verb}: {one_line(error)}", file=sys.stderr)
         return USAGE
     except KeyboardInterrupt:
         print(f"tricue {options.verb}: interrupted", file=sys.stderr)
@@ -82,6 +88,7 @@ def parser() -> argparse.ArgumentParser:
     _add_reproduce(
         _verb(verbs, "reproduce", "redo an experiment of the papers", _REPRODUCE_EXAMPLES, _reproduce)
     )
+    _add_vot(_verb(verbs, "vot-workspace", "let the VOT toolkit run trackers", _VOT_EXAMPLES, _vot_workspace))
     return top
 
 
@@ -186,6 +193,23 @@ def _add_reproduce(verb: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_vot(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument("folder", type=Path, metavar="FOLDER", help="new, or a workspace to add to")
+    verb.add_argument("--trackers", type=_words, required=True, metavar="NAMES", help="with commas between")
+    verb.add_argument(
+        "--sequences",
+        type=Path,
+        metavar="DATA",
+        help="folder of sequences with true boxes, of any known layout",
+    )
+    verb.add_argument(
+        "--python",
+        default=sys.executable,
+        metavar="PATH",
+        help="the interpreter with tricue[vot], default this one; the toolkit may be in another environment",
+    )
+
+
 def _add_common(verb: argparse.ArgumentParser) -> None:
     verb.add_argument(
         "--kernels", default="native", choices=("native", "reference"), help="default %(default)s"
@@ -209,6 +233,16 @@ def _reproduce(options: argparse.Namespace) -> int:
     from tricue.commands.reproduce import reproduce
 
     return reproduce(options)
+
+
+def _vot_workspace(options: argparse.Namespace) -> int:
+    from tricue.commands.vot_workspace import vot_workspace
+
+    return vot_workspace(options)
+
+
+def _words(text: str) -> list[str]:
+    return [word.strip() for word in text.split(",") if word.strip()]
 
 
 def _box(text: str) -> Box:
@@ -248,13 +282,14 @@ def _warnings_in_a_line(verb: str) -> Iterator[None]:
         yield
 
 
-def _silence_opencv() -> None:
+def silence_opencv() -> None:
     """OpenCV and FFmpeg write to stderr by themselves; what matters of it comes as an exception."""
     os.environ.setdefault("OPENCV_LOG_LEVEL", "SILENT")
     os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
 
 
-def _one_line(error: Exception) -> str:
+def one_line(error: Exception) -> str:
+    """What an error says, in one line, with the file's name in front."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return " ".join(str(error).split()) or type(error).__name__

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue.cli import main
-from tricue.commands.track import make_tracker
 from tricue.scenes import WalkScene, overtaking
 
 FRAMES = 10
@@ -131,16 +130,6 @@ def test_disparity_alone_needs_depth_alone(
     assert main(["track", str(folder / "depth"), *WALKER, *boxed(measured), *more]) == 0
     assert f"{FRAMES} tracked" in capsys.readouterr().out
     assert (tmp_path / "o.mp4").stat().st_size > 0
-
-
-@pytest.mark.parametrize("text", ["flow,disparity", "flow, disparity", "('flow', 'disparity')"])
-def test_cues_are_words(text: str) -> None:
-    """It proves that a parameter of words takes them with commas, or as Python writes them, and one alone."""
-    assert make_tracker("flow-depth", None, [f"cues={text}"], 0, "native").params.cues == (
-        "flow",
-        "disparity",
-    )
-    assert make_tracker("flow-depth", None, ["cues=flow"], 0, "native").params.cues == ("flow",)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.commands.progress import Progress
-from tricue.commands.settings import parse_settings
+from tricue.track.settings import parse_settings
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
@@ -37,7 +37,12 @@ def run(options: Namespace) -> int:
 
         try:
             evaluation = evaluate(
-                Path(options.dataset), folder, chosen, jobs=options.jobs, scheduler=options.scheduler, tell=tell
+                Path(options.dataset),
+                folder,
+                chosen,
+                jobs=options.jobs,
+                scheduler=options.scheduler,
+                tell=tell,
             )
         except KeyboardInterrupt:
             print(f"what is finished is in {folder}; the same command goes on", file=sys.stderr)

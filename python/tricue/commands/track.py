@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """``tricue track INPUT``: follow a target through a video and write down where it is."""
 
-import ast
 import dataclasses
 import math
 from argparse import Namespace
@@ -21,7 +20,7 @@ from tricue.commands.outputs import CsvOutput, JsonOutput, Output, Step, VideoOu
 from tricue.commands.progress import Progress
 from tricue.commands.run import Clock, Start, steps, stoppable
 from tricue.commands.starts import BOX, advice, choose_start
-from tricue.track.create import create, tracker_class
+from tricue.track.settings import make_tracker
 from tricue.track.track import Status, Track, Tracker
 
 INTERRUPTED = 130
@@ -61,45 +60,6 @@ def track(options: Namespace) -> int:
     for note in notes:
         print(note)
     return INTERRUPTED if interrupted else 0
-
-
-def make_tracker(
-    name: str, params_file: Path | None, settings: Sequence[str], seed: int, kernels: str, **camera: Any
-) -> Tracker:
-    """The tracker with parameters of a TOML file, overridden by settings "name=value"."""
-    kind = tracker_class(name).Params
-    values: dict[str, Any] = {}
-    if params_file is not None:
-        values = dataclasses.asdict(kind.from_toml(params_file))
-    values |= _split(parse_settings(settings), kind)
-    return create(name, **values, seed=seed, kernels=kernels, **camera)
-
-
-def _split(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
-    """The values; text for a parameter that takes a tuple is one of words, such as cues=flow,disparity."""
-    tuples = {field.name for field in dataclasses.fields(kind) if isinstance(field.default, tuple)}
-    return {
-        name: tuple(word.strip() for word in value.split(",") if word.strip())
-        if name in tuples and isinstance(value, str)
-        else value
-        for name, value in values.items()
-    }
-
-
-def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
-    """Keywords from strings name=value: numbers, true, false, tuples such as 16,20; the rest as text."""
-    pairs = [setting.partition("=") for setting in settings]
-    for name, equals, _ in pairs:
-        if not (equals and name.isidentifier()):
-            raise ValueError(f"--set: expected name=value, got {name + equals!r}")
-    return {name: _literal(text.strip()) for name, _, text in pairs}
-
-
-def _literal(text: str) -> Any:
-    try:
-        return ast.literal_eval(text.title() if text in ("true", "false") else text)
-    except (ValueError, SyntaxError):
-        return text
 
 
 def _spare_the_input(place: Path | None, outputs: Sequence[Path | None]) -> None:

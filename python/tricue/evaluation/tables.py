@@ -53,9 +53,7 @@ def summary(evaluation: Evaluation) -> list[Line]:
         means = over_sequences(each.row for each in results)
         means |= {"f_score": best_f(runs), "auroc": pooled_auroc(runs)}
         sequences = len({each.row.sequence for each in results})
-        lines.append(
-            {"group": group, "tracker": tracker, "sequences": sequences, "runs": len(runs), **means}
-        )
+        lines.append({"group": group, "tracker": tracker, "sequences": sequences, "runs": len(runs), **means})
     return lines
 
 
@@ -115,9 +113,7 @@ def settings(evaluation: Evaluation, **how: Any) -> Line:
         "seeds": options.seeds,
         "restarts": options.restarts,
         "reading": asdict(options.reading),
-        "parameters": {
-            each.name: json.loads(each.described) for each in evaluation.entrants if each.ours
-        },
+        "parameters": {each.name: json.loads(each.described) for each in evaluation.entrants if each.ours},
         "changed": {name: dict(values) for name, values in options.settings.items()},
         **how,
     }
@@ -150,7 +146,8 @@ def _group_table(group: str, lines: Sequence[Line], fast: Mapping[tuple[str, str
         rows.append([line["tracker"], str(line["sequences"]), *numbers, *times])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return "\n".join(
-        f"| {' | '.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))} |" for row in rows
+        f"| {' | '.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))} |"
+        for row in rows
     )
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Other people's evaluation tools run our trackers: one adapter each, imported by its own name."""
+"""Other people's evaluation tools run our trackers."""
