@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.commands.progress import Progress
-from tricue.track.settings import parse_settings
+from tricue.track.settings import read_settings
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
@@ -52,13 +52,13 @@ def run(options: Namespace) -> int:
 
 def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
     """Parameters by tracker from strings tracker.name=value."""
-    found: dict[str, dict[str, Any]] = {}
+    found: dict[str, list[str]] = {}
     for setting in settings:
         tracker, dot, rest = setting.partition(".")
         if not dot or "=" in tracker:
             raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
-        found.setdefault(tracker, {}).update(parse_settings([rest]))
-    return found
+        found.setdefault(tracker, []).append(rest)
+    return {tracker: read_settings(tracker, None, each) for tracker, each in found.items()}
 
 
 def _report(evaluation: Evaluation, folder: Path, options: Namespace) -> int:

@@ -120,9 +120,23 @@ class Opened:
             return None
         return read_rig(path, self.source.size, self.entry.reading.unit)
 
+    @property
+    def boxes(self) -> NDArray[np.float64]:
+        """(M, 4) the true boxes that are told; M may differ from the number of frames."""
+        known = self.source.truth
+        return np.empty((0, 4)) if known is None else known
+
+    @property
+    def start(self) -> int:
+        """The first frame with a true box, in which trackers start. ValueError where there is none."""
+        known = np.flatnonzero(~np.isnan(self.boxes).any(axis=1))
+        if not known.size:
+            raise ValueError(f"{self.entry.place}: expected a true box in one frame or more, got none")
+        return int(known[0])
+
     def truth(self, frames: int) -> NDArray[np.float64]:
         """(frames, 4) true boxes, NaN where the target is absent or its box unknown."""
-        return _rows(self.source.truth, frames, np.nan)
+        return _rows(self.boxes, frames, np.nan)
 
     def absent(self, frames: int) -> NDArray[np.bool_]:
         """(frames,) whether the target isn't visible, as far as it is known."""
@@ -156,10 +170,9 @@ def find_entries(root: Path, reading: Reading = Reading()) -> list[Entry]:
     entries = []
     for place in find_sequences(root):
         name = _name(root, place)
-        for target in targets(place) if place.is_dir() else ():
-            entries.append(Entry(f"{name}/{target}", place, target, reading))
-        if not (entries and entries[-1].place == place):
-            entries.append(Entry(name, place, None, reading))
+        labelled = targets(place) if place.is_dir() else ()
+        each = [Entry(f"{name}/{target}", place, target, reading) for target in labelled]
+        entries += each or [Entry(name, place, None, reading)]
     if not entries:
         raise ValueError(f"{root}: expected sequences with true boxes, found none")
     return entries

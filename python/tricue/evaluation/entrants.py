@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who takes part: our trackers, on whatever they can see of a sequence, and the peers of the installed cv2."""
+"""Who takes part: our trackers, on whatever they can see of a sequence, and the installed cv2's."""
 
 import json
 from collections.abc import Callable, Mapping, Sequence

@@ -34,7 +34,7 @@ class Options:
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     seeds: int = 1
     restarts: bool = True
-    reading: Reading = Reading()
+    reading: Reading = field(default_factory=Reading)
 
 
 class Result(NamedTuple):
@@ -141,8 +141,9 @@ class _Plan:
 
     def weight(self, task: Task) -> float:
         """How long a task may take, beside others: long ones begin first, so that none is left over."""
-        source = self.opened[task.entry.name].source
-        return float(source.length or len(source.truth)) * task.entrant.slowness
+        opened = self.opened[task.entry.name]
+        source = opened.source
+        return float(source.length or len(opened.boxes)) * task.entrant.slowness
 
     def judge(self, records: Mapping[Task, Record], failed: Mapping[str, str]) -> Evaluation:
         results = []

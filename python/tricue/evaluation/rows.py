@@ -89,7 +89,7 @@ def judged(record: Record, opened: Opened) -> Judged:
         absent,
         metrics.overlaps(boxes, truth),
         run.scores[since],
-        np.array([status is Status.TRACKED for status in run.statuses])[since],
+        np.array([status is Status.TRACKED for status in run.statuses], dtype=np.bool_)[since],
         metrics.position_errors(run.positions[since], opened.positions(frames)[since]),
     )
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Where tasks run: in this process, in several of this machine (joblib), on a Dask cluster. One code path."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from typing import Any, NamedTuple
 
@@ -15,14 +15,14 @@ NEEDED = "needs the extra: pip install 'tricue[{}]'"
 class Finished(NamedTuple):
     """A task that ended: its place in the list, and its record, or the error that kept it from one."""
 
-    index: int
+    place: int
     record: Record | None
     error: str = ""
 
 
 def completed(
     tasks: Sequence[Task], perform: Perform, jobs: int = 1, scheduler: str | None = None
-) -> Iterator[Finished]:
+) -> Generator[Finished, None, None]:
     """The tasks as they end, in whatever order. Closing the iterator gives up those that haven't.
 
     jobs: processes of this machine. scheduler: the address of a Dask scheduler, such as tcp://host:8786,
@@ -42,12 +42,12 @@ def finished(index: int, task: Task, perform: Perform) -> Finished:
         return Finished(index, None, " ".join(str(error).split()) or type(error).__name__)
 
 
-def _here(tasks: Sequence[Task], perform: Perform) -> Iterator[Finished]:
+def _here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
     for index, task in enumerate(tasks):
         yield finished(index, task, perform)
 
 
-def _in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Iterator[Finished]:
+def _in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Generator[Finished, None, None]:
     try:
         from joblib import Parallel, delayed
     except ImportError:
@@ -58,7 +58,7 @@ def _in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Iterato
         yield from results
 
 
-def _on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Iterator[Finished]:
+def _on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:
     try:
         from distributed import Client, as_completed
     except ImportError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A folder of finished runs, one file each: written as they come, found again by an evaluation that goes on."""
+"""A folder of finished runs, a file each: written as they come, found again by an evaluation that goes on."""
 
 import json
 import os

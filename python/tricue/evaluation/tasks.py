@@ -10,8 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-import numpy as np
-
 import tricue
 from tricue.camera.box import Box
 from tricue.evaluation import one_pass, restarts
@@ -53,11 +51,8 @@ def perform(task: Task) -> Record:
 
 def _one_pass(task: Task, opened: Opened) -> Record:
     """From the first frame with a true box, which hand-made truth may have later than the images."""
-    truth = opened.source.truth
-    known = np.flatnonzero(~np.isnan(truth).any(axis=1))
-    tracker = task.entrant.contender(opened, task.seed)
-    start = int(known[0])
-    run = one_pass.run(tracker, opened.source, Box(*truth[start].tolist()), start)
+    tracker, start = task.entrant.contender(opened, task.seed), opened.start
+    run = one_pass.run(tracker, opened.source, Box(*opened.boxes[start].tolist()), start)
     return Record(run, (start,), tracker.trouble)
 
 
@@ -68,7 +63,7 @@ def _restarted(task: Task, opened: Opened) -> Record:
         made.append(task.entrant.contender(opened, task.seed + len(made)))
         return made[-1]
 
-    record = restarts.run(make, opened.source, opened.source.truth)
+    record = restarts.run(make, opened.source, opened.boxes)
     return replace(record, trouble=next((tracker.trouble for tracker in made if tracker.trouble), ""))
 
 
