@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from tricue.commands.progress import Progress
-from tricue.track.settings import read_settings
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
 from tricue.evaluation.report.page import write_report
+from tricue.track.settings import read_settings
 
 FAILED = 1
 
