@@ -55,6 +55,17 @@ examples:
 """
 
 
+_EVALUATE_EXAMPLES = """\
+examples:
+  tricue evaluate sequences/                                  all trackers on all sequences, report in evaluation/
+  tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
+  tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
+  tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
+  tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth images of millimetres, without times
+  tricue evaluate /data/all --scheduler tcp://host:8786       on a Dask cluster, whose workers see the same folder
+"""
+
+
 class Parser(argparse.ArgumentParser):
     """Errors in one line, without the usage in front."""
 
@@ -87,6 +98,9 @@ def parser() -> argparse.ArgumentParser:
     _add_track(_verb(verbs, "track", "track in a video, a folder, a camera", _TRACK_EXAMPLES, _track))
     _add_reproduce(
         _verb(verbs, "reproduce", "redo an experiment of the papers", _REPRODUCE_EXAMPLES, _reproduce)
+    )
+    _add_evaluate(
+        _verb(verbs, "evaluate", "trackers beside OpenCV's over a data set", _EVALUATE_EXAMPLES, _evaluate)
     )
     _add_vot(_verb(verbs, "vot-workspace", "let the VOT toolkit run trackers", _VOT_EXAMPLES, _vot_workspace))
     return top
@@ -210,6 +224,54 @@ def _add_vot(verb: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_evaluate(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument(
+        "dataset", type=Path, metavar="DATASET", help="a sequence with true boxes, or a folder of them"
+    )
+    verb.add_argument(
+        "--trackers", type=_words, metavar="NAMES", help="ours and cv2's, with commas between; all without it"
+    )
+    verb.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="TRACKER.NAME=VALUE",
+        help="a parameter of one of our trackers",
+    )
+    verb.add_argument(
+        "--seeds",
+        type=_count,
+        default=3,
+        metavar="N",
+        help="runs of those that draw random numbers, default %(default)s",
+    )
+    verb.add_argument(
+        "--no-restarts", action="store_true", help="leave out the runs that start again after a failure"
+    )
+    where = verb.add_mutually_exclusive_group()
+    where.add_argument("--jobs", type=_count, default=1, metavar="N", help="processes, default %(default)s")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, tcp://HOST:PORT")
+    verb.add_argument("--fresh", action="store_true", help="run again what was run before")
+    verb.add_argument(
+        "--output", type=Path, default=Path("evaluation"), metavar="FOLDER", help="default %(default)s/"
+    )
+    verb.add_argument(
+        "--depth-scale",
+        type=float,
+        metavar="M",
+        help="metres per unit of depth, where the format doesn't say",
+    )
+    verb.add_argument("--fps", type=float, metavar="N", help="frames a second of images that tell no times")
+    verb.add_argument(
+        "--unit", type=float, metavar="M", help="metres per unit of the board in OpenCV's calibrations"
+    )
+    verb.add_argument(
+        "--truth",
+        choices=("color", "depth"),
+        help="the channel whose pixels the true boxes count, if both are there",
+    )
+
+
 def _add_common(verb: argparse.ArgumentParser) -> None:
     verb.add_argument(
         "--kernels", default="native", choices=("native", "reference"), help="default %(default)s"
@@ -235,10 +297,22 @@ def _reproduce(options: argparse.Namespace) -> int:
     return reproduce(options)
 
 
+def _evaluate(options: argparse.Namespace) -> int:
+    from tricue.commands.evaluate import run
+
+    return run(options)
+
+
 def _vot_workspace(options: argparse.Namespace) -> int:
     from tricue.commands.vot_workspace import vot_workspace
 
     return vot_workspace(options)
+
+
+def _count(text: str) -> int:
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"expected a whole number above 0, got {text!r}")
+    return int(text)
 
 
 def _words(text: str) -> list[str]:

@@ -23,7 +23,7 @@ def run(options: Namespace) -> int:
     """
     folder: Path = options.output
     chosen = Options(
-        trackers=tuple(options.trackers.split(",")) if options.trackers else None,
+        trackers=tuple(options.trackers) if options.trackers else None,
         settings=settings_by_tracker(options.set),
         seeds=options.seeds,
         restarts=not options.no_restarts,
@@ -37,10 +37,11 @@ def run(options: Namespace) -> int:
 
         try:
             evaluation = evaluate(
-                Path(options.dataset),
+                options.dataset,
                 folder,
                 chosen,
                 jobs=options.jobs,
+                fresh=options.fresh,
                 scheduler=options.scheduler,
                 tell=tell,
             )

@@ -86,17 +86,20 @@ def evaluate(
     *,
     jobs: int = 1,
     scheduler: str | None = None,
+    fresh: bool = False,
     tell: Callable[["Told"], None] = lambda told: None,
     work: Perform = perform,
 ) -> Evaluation:
     """Run all that is missing in ``folder`` of the data set at ``root``, and judge all of it.
 
-    jobs, scheduler: as :func:`schedule.completed` takes them. tell: hears of the progress. ValueError or
+    jobs, scheduler: as :func:`schedule.completed` takes them. fresh: whether to run all again. tell: hears of
+    the progress. ValueError or
     OSError for a data set or options that can't be used.
     """
     plan = _Plan(root, options)
     store = Store(folder / RUNS)
-    records = {task: record for task in plan.tasks if (record := store.load(task, plan.fingerprint(task)))}
+    known = ((task, None if fresh else store.load(task, plan.fingerprint(task))) for task in plan.tasks)
+    records = {task: record for task, record in known if record}
     missing = sorted((task for task in plan.tasks if task not in records), key=plan.weight, reverse=True)
     failed: dict[str, str] = {}
     remaining = Remaining(plan.weight, missing)
