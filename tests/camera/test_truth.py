@@ -50,4 +50,4 @@ def test_a_folder_without_truth(tmp_path: Path) -> None:
     (tmp_path / OTB).write_text("\n")
     truth = find_truth(tmp_path)
     assert truth is not None
-    assert truth.shape == (0, 4)
+    assert (truth.boxes.shape, truth.absent.shape, truth.positions) == ((0, 4), (0,), None)

@@ -66,6 +66,18 @@ def kitti_rig(path: Path, *, cameras: tuple[int, int] = (2, 3), size: Size | Non
     return projected_rig(left, right, 1.0, size or _kitti_size(values, cameras[0]), path)
 
 
+def kitti_offset(path: Path, *, camera: int = 2) -> Matrix:
+    """What leads from camera 0's frame, in which KITTI's labels are, to a rectified camera's: (3,) metres.
+
+    Its projection matrix is K [I | offset].
+    """
+    matrix = _kitti_projection(_kitti(path), camera, path)
+    intrinsics = _intrinsics(matrix, (1, 1), path)  # refuses what can't be a camera; the size has no part
+    x, y, z = map(float, matrix[:, 3])
+    (fx, cx), (fy, cy) = (intrinsics.fx, intrinsics.cx), (intrinsics.fy, intrinsics.cy)
+    return np.array([(x - cx * z) / fx, (y - cy * z) / fy, z])
+
+
 def princeton_intrinsics(path: Path, *, size: Size | None = None) -> Intrinsics:
     """The camera matrix K in a frames.mat, which counts pixels from 1, as MATLAB does.
 

@@ -35,8 +35,13 @@ def depth_images(images: Timed, scale: float | None) -> Images:
     return timed_images(images, DepthReader(MILLIMETRES if scale is None else scale, rotated=True))
 
 
-def pair(color: Timed, depth: Timed, scale: float | None) -> dict[str, Stream]:
-    """Each color image, for which a true box stands, with the depth image that is nearest in time."""
+def channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
+    """Each color image, for which a true box stands, with the depth image that is nearest in time; None where
+    it isn't Princeton's.
+    """
+    color, depth = (images_in(folder / channel) for channel in ("rgb", "depth"))
+    if not (color and depth):
+        return None
     times = np.array([time for time, _ in depth])
     nearest = [depth[int(np.argmin(np.abs(times - time)))] for time, _ in color]
     return {"color": timed_images(color), "depth": depth_images(nearest, scale)}

@@ -4,7 +4,7 @@
 import os
 import re
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 DEFAULT_FPS = 30.0
 FASTEST = 1000.0  # frames a second
 _IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
+
+_VIDEOS = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
 
 Image = NDArray[Any]
 Read = Callable[[Path], Image]
@@ -48,6 +50,9 @@ class Stream(Protocol):
 
     def __iter__(self) -> Iterator[tuple[float, Image]]: ...
 
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+        """The images of these rising numbers only; ValueError where there is none."""
+
 
 @dataclass(frozen=True)
 class Images:
@@ -79,8 +84,15 @@ class Images:
         return _size(self.read(self.paths[0]))
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
-        for index, path in enumerate(self.paths):
-            yield index / self.fps if self.times is None else self.times[index], self.read(path)
+        return self.at(range(len(self.paths)))
+
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+        for index in indices:
+            if index >= len(self.paths):
+                raise ValueError(
+                    f"{self.paths[0].parent}: expected {index + 1} images, got {len(self.paths)}"
+                )
+            yield index / self.fps if self.times is None else self.times[index], self.read(self.paths[index])
 
 
 def timed_images(images: Timed, read: Read = read_color) -> Images:
@@ -118,6 +130,31 @@ class Video:
         if index == 0:
             raise ValueError(f"{self.path}: expected a video, this file has no frame that can be decoded")
 
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+        """Those between are read through, for videos can't be trusted to jump to the frame that was meant."""
+        capture, index = self._open(), 0
+        try:
+            for wanted in indices:
+                while index < wanted and capture.grab():
+                    index += 1
+                image = _read(capture) if index == wanted else None
+                if image is None:
+                    raise ValueError(f"{self.path}: expected {wanted + 1} frames, got {index}")
+                yield wanted / self.fps, image
+                index += 1
+        finally:
+            capture.release()
+
+    def count(self) -> int:
+        """The number of frames, by reading through."""
+        capture, count = self._open(), 0
+        try:
+            while capture.grab():
+                count += 1
+        finally:
+            capture.release()
+        return count
+
     def _open(self) -> cv2.VideoCapture:
         capture = cv2.VideoCapture(str(self.path))
         if not capture.isOpened():
@@ -152,16 +189,31 @@ class Camera:
             self.capture.release()
         raise OSError(f"camera {self.number}: it stopped giving frames; was it unplugged?")
 
+    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
+        raise ValueError(
+            f"camera {self.number}: expected a recording, of which frames {indices[0]}, ... can be"
+        )
+
 
 def image_paths(folder: Path) -> list[Path]:
     """The image files of a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
     paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))
-    return sorted(paths, key=lambda path: _natural(path.name))
+    return natural_order(paths)
+
+
+def natural_order(paths: Iterable[Path]) -> list[Path]:
+    """The paths by the numbers in their names: 2.png before 10.png."""
+    return sorted(paths, key=lambda path: [_natural(part) for part in path.parts])
 
 
 def is_image(path: Path) -> bool:
     """Whether the file's name says that it is a picture."""
     return path.suffix.lower() in _IMAGES
+
+
+def is_video(path: Path) -> bool:
+    """Whether the file's name says that it is a video."""
+    return path.suffix.lower() in _VIDEOS
 
 
 def decode(path: Path, flag: int) -> Image:
