@@ -9,7 +9,7 @@ matplotlib = pytest.importorskip("matplotlib", reason="got10k plots: pip install
 matplotlib.use("Agg")
 pytest.importorskip("got10k", reason="the toolkit we are compared with: pip install tricue[got10k]")
 
-FRAMES = 60
+FRAMES = 160
 RESULTS = (
     "perfect",
     "drifting",
@@ -54,8 +54,8 @@ def result_of(kind, truth, rng):
     elif kind == "center":  # 3 : 4 : 5, errors of whole pixels, 20 and 50 px among them
         found[:, :2] += np.outer(steps % 11, [3, 4]) * rng.choice([-1, 1], (FRAMES, 2))
     elif kind == "decimal":  # both, but only nearly on the thresholds, as decimals aren't exact
-        found[:30, 2] *= (1 + steps[:30] % 20) / 20
-        found[30:, :2] += np.outer(steps[30:] % 25, [0.6, 0.8])
+        found[:80, 2] *= (1 + steps[:80] % 20) / 20
+        found[80:, :2] += np.outer(steps[80:] % 21, [0.6, 0.8]) * rng.choice([-1, 1], (80, 2))
     elif kind == "missing":
         found[rng.random(FRAMES) < 0.3] = np.nan
     return found

@@ -48,6 +48,7 @@ def overlaps(boxes: ArrayLike, truth: ArrayLike) -> Array:
     high = np.minimum(found[:, :2] + found[:, 2:], true[:, :2] + true[:, 2:])
     common = np.prod(np.maximum(high - low, 0.0), axis=1)
     union = np.prod(found[:, 2:], axis=1) + np.prod(true[:, 2:], axis=1) - common
+    # got10k adds an epsilon to the union, which is rounded away from 4 square pixels on.
     return _missing(np.minimum(common / union, 1.0), found, true, 0.0)
 
 

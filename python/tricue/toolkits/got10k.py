@@ -11,12 +11,12 @@ It gives images in color alone: what needs depth or a right image says so at its
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL.Image import Image
 
 from tricue.track.track import Tracker
 
 try:
     from got10k.trackers import Tracker as _Got10kTracker
+    from PIL.Image import Image
 except ImportError as error:
     raise ImportError(
         f"tricue.toolkits.got10k: got10k can't be loaded ({error}); install it: pip install 'tricue[got10k]'"
