@@ -57,12 +57,12 @@ examples:
 
 _EVALUATE_EXAMPLES = """\
 examples:
-  tricue evaluate sequences/                                  all trackers on all sequences, report in evaluation/
+  tricue evaluate sequences/                                  all trackers, all sequences; evaluation/report.html
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
-  tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth images of millimetres, without times
-  tricue evaluate /data/all --scheduler tcp://host:8786       on a Dask cluster, whose workers see the same folder
+  tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimetres, no times
+  tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
 
 

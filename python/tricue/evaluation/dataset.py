@@ -5,6 +5,7 @@ An :class:`Entry` is small and can be sent to another process or machine, which 
 """
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -18,7 +19,7 @@ from tricue.camera.intrinsics_files import read_intrinsics, read_rig
 from tricue.camera.layouts import targets
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.sources import Source, open_source
-from tricue.camera.streams import Images
+from tricue.camera.streams import Images, Stream, Video
 
 BOUNDED = ("VOT", "VOT RGB-D", "KITTI tracking")
 """Formats whose true boxes end at the image's edge, so that of a found box only the part inside counts."""
@@ -126,6 +127,10 @@ class Opened:
         known = self.source.truth
         return np.empty((0, 4)) if known is None else known
 
+    def check(self) -> None:
+        """ValueError where trackers can't even start."""
+        _ = self.start
+
     @property
     def start(self) -> int:
         """The first frame with a true box, in which trackers start. ValueError where there is none."""
@@ -140,7 +145,8 @@ class Opened:
 
     def absent(self, frames: int) -> NDArray[np.bool_]:
         """(frames,) whether the target isn't visible, as far as it is known."""
-        return _rows(self.source.absent, frames, False)
+        known = self.source.absent
+        return _rows(np.empty(0, np.bool_) if known is None else known, frames, False)
 
     def positions(self, frames: int) -> NDArray[np.float64]:
         """(frames, 3) true positions, metres, NaN where unknown."""
@@ -154,8 +160,7 @@ class Opened:
         for values in (self.source.truth, self.source.absent, self.source.positions):
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
         for name, stream in self.source.channels.items():
-            paths = stream.paths if isinstance(stream, Images) else [stream.path]
-            found.update(repr((name, [(path.name, path.stat().st_size) for path in paths])).encode())
+            found.update(repr((name, [(path.name, path.stat().st_size) for path in _files(stream)])).encode())
         if self.source.calibration is not None:
             found.update(self.source.calibration.read_bytes())
         return found.hexdigest()
@@ -190,6 +195,13 @@ def _scale(entry: Entry, scale: float | None) -> float | None:
     source = open_source(entry.place, target=entry.target)
     has_depth = "depth" in source.channels or any("depth" in note for note in source.notes)
     return scale if has_depth else None
+
+
+def _files(stream: Stream) -> Sequence[Path]:
+    """A recording's; a camera has none."""
+    if isinstance(stream, Images):
+        return stream.paths
+    return [stream.path] if isinstance(stream, Video) else []
 
 
 def _rows(values: NDArray, frames: int, filler: float | bool) -> NDArray:  # type: ignore[type-arg]

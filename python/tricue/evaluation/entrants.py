@@ -100,7 +100,7 @@ class Guarded:
             try:
                 return call()
             except (ValueError, RuntimeError, cv2.error) as error:
-                self.trouble = " ".join(str(error).split()) or type(error).__name__
+                self.trouble = one_line(error)
         return Track(Box(*[float("nan")] * 4), 0.0, Status.LOST)
 
 

@@ -5,18 +5,18 @@ An evaluation is its folder of finished runs. It can be stopped at any time; the
 runs that are missing, and ends with the same numbers.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tricue.evaluation.dataset import Opened, Reading, find_entries
+from tricue.evaluation.dataset import Entry, Opened, Reading, find_entries
 from tricue.evaluation.entrants import Entrant, entrants
 from tricue.evaluation.record import Record
 from tricue.evaluation.remaining import Remaining
 from tricue.evaluation.rows import Judged, Row, Speed, judged, row_of, speed_of
-from tricue.evaluation.schedule import Perform, completed
+from tricue.evaluation.schedule import Perform, completed, one_line
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
 
@@ -50,7 +50,7 @@ class Result(NamedTuple):
 @dataclass(frozen=True)
 class Evaluation:
     """All that is known at the end. left_out: why an entrant didn't run on a sequence, by both names. failed:
-    the errors of the sequences that couldn't be read, by the tasks' names.
+    the errors of what couldn't be read, by the names of sequences or tasks.
     """
 
     options: Options
@@ -93,17 +93,17 @@ def evaluate(
     """Run all that is missing in ``folder`` of the data set at ``root``, and judge all of it.
 
     jobs, scheduler: as :func:`schedule.completed` takes them. fresh: whether to run all again. tell: hears of
-    the progress. ValueError or
-    OSError for a data set or options that can't be used.
+    the progress. ValueError or OSError for a data set or options that can't be used.
     """
     plan = _Plan(root, options)
     store = Store(folder / RUNS)
     known = ((task, None if fresh else store.load(task, plan.fingerprint(task))) for task in plan.tasks)
     records = {task: record for task, record in known if record}
     missing = sorted((task for task in plan.tasks if task not in records), key=plan.weight, reverse=True)
-    failed: dict[str, str] = {}
+    failed = dict(plan.failed)
     remaining = Remaining(plan.weight, missing)
-    tell(Told(len(records), len(plan.tasks), None, None))
+    done = len(records)
+    tell(Told(done, len(plan.tasks), None, None))
     with closing(completed(missing, work, jobs, scheduler)) as results:
         for index, record, error in results:
             task = missing[index]
@@ -112,7 +112,7 @@ def evaluate(
             else:
                 store.save(task, plan.fingerprint(task), record)
                 records[task] = record
-            done = len(records) + len(failed)
+            done += 1
             tell(Told(done, len(plan.tasks), task, remaining.after(task)))
     return plan.judge(records, failed)
 
@@ -123,10 +123,25 @@ class _Plan:
     def __init__(self, root: Path, options: Options) -> None:
         self.options = options
         self.entrants = tuple(entrants(options.trackers, options.settings))
-        self.opened = {entry.name: entry.open() for entry in find_entries(root, options.reading)}
+        self.failed: dict[str, str] = {}
+        self.opened = dict(self._opened(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
         self.tasks = [task for opened in self.opened.values() for task in self._tasks(opened)]
+
+    def _opened(self, entries: Sequence[Entry]) -> Iterator[tuple[str, Opened]]:
+        """Those that can be read; where none can, the first one's error is raised."""
+        errors: list[Exception] = []
+        for entry in entries:
+            try:
+                opened = entry.open()
+                opened.start  # noqa: B018 (raises where there is none)
+                yield entry.name, opened
+            except (OSError, ValueError) as error:
+                errors.append(error)
+                self.failed[entry.name] = one_line(error)
+        if len(errors) == len(entries):
+            raise errors[0]
 
     def _tasks(self, opened: Opened) -> list[Task]:
         kinds = (ONE_PASS, RESTARTS) if self.options.restarts else (ONE_PASS,)

@@ -98,7 +98,7 @@ def bounded(boxes: Array, opened: Opened) -> Array:
     """The boxes, or their parts inside the image where the truth has only these; NaN where nothing is."""
     if not opened.bounded:
         return boxes
-    inside = boxes.copy()
+    inside: Array = boxes.copy()
     for index in np.flatnonzero(~np.isnan(boxes).any(axis=1)):
         inside[index] = Box(*boxes[index].tolist()).clip(*opened.size)
     inside[~(inside[:, 2:] > 0).all(axis=1)] = np.nan

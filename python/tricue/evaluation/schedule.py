@@ -39,7 +39,12 @@ def finished(index: int, task: Task, perform: Perform) -> Finished:
     try:
         return Finished(index, perform(task))
     except (OSError, ValueError) as error:
-        return Finished(index, None, " ".join(str(error).split()) or type(error).__name__)
+        return Finished(index, None, one_line(error))
+
+
+def one_line(error: BaseException) -> str:
+    """What an error says, without its line breaks."""
+    return " ".join(str(error).split()) or type(error).__name__
 
 
 def _here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
