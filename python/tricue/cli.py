@@ -12,6 +12,7 @@ from typing import NoReturn
 
 import tricue
 from tricue.camera.box import Box, as_box
+from tricue.errors import one_line
 from tricue.track.create import names
 
 USAGE, INTERRUPTED = 2, 130
@@ -57,7 +58,7 @@ examples:
 
 _EVALUATE_EXAMPLES = """\
 examples:
-  tricue evaluate sequences/                                  all trackers, all sequences; evaluation/report.html
+  tricue evaluate sequences/                                  everything; see evaluation/report.html
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300

@@ -13,6 +13,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.draw import depth_picture, depth_range
+from tricue.errors import one_line
 from tricue.evaluation import peers
 from tricue.evaluation.dataset import Opened
 from tricue.evaluation.one_pass import Contender

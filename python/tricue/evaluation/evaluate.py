@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from tricue.errors import one_line
 from tricue.evaluation.dataset import Entry, Opened, Reading, find_entries
 from tricue.evaluation.entrants import Entrant, entrants
 from tricue.evaluation.record import Record
 from tricue.evaluation.remaining import Remaining
 from tricue.evaluation.rows import Judged, Row, Speed, judged, row_of, speed_of
-from tricue.evaluation.schedule import Perform, completed, one_line
+from tricue.evaluation.schedule import Perform, completed
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
 
@@ -131,17 +132,14 @@ class _Plan:
 
     def _opened(self, entries: Sequence[Entry]) -> Iterator[tuple[str, Opened]]:
         """Those that can be read; where none can, the first one's error is raised."""
-        errors: list[Exception] = []
         for entry in entries:
-            try:
-                opened = entry.open()
-                opened.start  # noqa: B018 (raises where there is none)
+            opened = _tried(entry)
+            if isinstance(opened, Opened):
                 yield entry.name, opened
-            except (OSError, ValueError) as error:
-                errors.append(error)
-                self.failed[entry.name] = one_line(error)
-        if len(errors) == len(entries):
-            raise errors[0]
+            else:
+                self.failed[entry.name] = one_line(opened)
+        if len(self.failed) == len(entries):
+            raise ValueError(next(iter(self.failed.values())))
 
     def _tasks(self, opened: Opened) -> list[Task]:
         kinds = (ONE_PASS, RESTARTS) if self.options.restarts else (ONE_PASS,)
@@ -174,3 +172,13 @@ class _Plan:
                 results.append(Result(task, record, judged(record, opened), row, speed))
         opened_all = tuple(self.opened.values())
         return Evaluation(self.options, opened_all, self.entrants, tuple(results), self.left_out, failed)
+
+
+def _tried(entry: Entry) -> Opened | OSError | ValueError:
+    """The entry opened, with a frame to start in, or what is wrong with it."""
+    try:
+        opened = entry.open()
+        opened.check()
+        return opened
+    except (OSError, ValueError) as error:
+        return error

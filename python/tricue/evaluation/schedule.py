@@ -5,6 +5,7 @@ from collections.abc import Callable, Generator, Sequence
 from contextlib import closing
 from typing import Any, NamedTuple
 
+from tricue.errors import one_line
 from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task
 
@@ -40,11 +41,6 @@ def finished(index: int, task: Task, perform: Perform) -> Finished:
         return Finished(index, perform(task))
     except (OSError, ValueError) as error:
         return Finished(index, None, one_line(error))
-
-
-def one_line(error: BaseException) -> str:
-    """What an error says, without its line breaks."""
-    return " ".join(str(error).split()) or type(error).__name__
 
 
 def _here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
