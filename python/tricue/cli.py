@@ -361,10 +361,3 @@ def silence_opencv() -> None:
     """OpenCV and FFmpeg write to stderr by themselves; what matters of it comes as an exception."""
     os.environ.setdefault("OPENCV_LOG_LEVEL", "SILENT")
     os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
-
-
-def one_line(error: Exception) -> str:
-    """What an error says, in one line, with the file's name in front."""
-    if isinstance(error, OSError) and error.strerror:
-        return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
-    return " ".join(str(error).split()) or type(error).__name__

@@ -11,7 +11,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from tricue.cli import USAGE, Parser, one_line, silence_opencv
+from tricue.cli import USAGE, Parser, silence_opencv
+from tricue.errors import one_line
 from tricue.toolkits.trax_server import Contestant, serve
 from tricue.track.create import names
 from tricue.track.settings import read_settings
