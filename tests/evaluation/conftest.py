@@ -20,3 +20,24 @@ def patrol():
         frames.append(Frame(color=image))
         boxes.append(Box(float(x), float(y), 40.0, 40.0))
     return tuple(frames), tuple(boxes)
+
+
+@pytest.fixture(scope="session")
+def folders(patrol, tmp_path_factory):
+    """A data set of three OTB sequences: the patrol, its end played backward, a half of it with a black gap."""
+    root = tmp_path_factory.mktemp("sequences")
+    frames, boxes = patrol
+    dark = [Frame(color=np.zeros_like(frame.color)) for frame in frames]
+    write_otb(root / "there", frames, boxes)
+    write_otb(root / "back", frames[::-1], boxes[::-1])
+    write_otb(root / "gap", (*frames[:6], *dark[6:10], *frames[10:14]), boxes[:14])
+    return root
+
+
+def write_otb(folder, frames, boxes):
+    """A sequence as OTB lays it out: pixels counted from 1."""
+    (folder / "img").mkdir(parents=True)
+    for index, frame in enumerate(frames, 1):
+        cv2.imwrite(str(folder / "img" / f"{index:04d}.png"), frame.color)
+    lines = [f"{box.x + 1:g},{box.y + 1:g},{box.width:g},{box.height:g}\n" for box in boxes]
+    (folder / "groundtruth_rect.txt").write_text("".join(lines))

@@ -56,6 +56,19 @@ def test_opencv_has_one_thread_inside_and_its_own_number_after(patrol):
 
 
 def test_too_few_frames_are_named(patrol):
-    """Less than two frames are refused by name."""
-    with pytest.raises(ValueError, match="frames: expected two or more, got 1"):
+    """Less than one frame after the start is refused by name."""
+    with pytest.raises(ValueError, match="frames: expected 2 or more, got 1"):
         run(Scripted(), patrol[0][:1], patrol[1][0])
+
+
+def test_frames_before_the_start_have_no_box(patrol):
+    """The tracker sees nothing of them, and starts on the box in the start's frame."""
+    frames, boxes = patrol
+    tracker = Scripted()
+    result = run(tracker, iter(frames[:5]), boxes[2], start=2)
+    assert tracker.seen[0] is frames[2]
+    np.testing.assert_array_equal(result.boxes[:3, 0], [np.nan, np.nan, boxes[2].x])
+    assert result.statuses[:2] == (Status.LOST, Status.LOST)
+    assert result.seconds.shape == (2,)
+    with pytest.raises(ValueError, match="frames: expected 7 or more, got 5"):
+        run(tracker, frames[:5], boxes[0], start=5)

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: MIT
+import json
+import shutil
+
+import numpy as np
+import pytest
+from tricue.camera.box import Box
+from tricue.evaluation import metrics, one_pass, tables
+from tricue.evaluation.evaluate import RUNS, Options, evaluate
+from tricue.evaluation.peers import StillBox
+from tricue.evaluation.tasks import ONE_PASS, RESTARTS, perform
+
+FEW = Options(trackers=("color-particle", "meanShift", "still-box"), seeds=2)
+
+
+class Counted:
+    """Performs tasks and remembers them; breaks off in the given one."""
+
+    def __init__(self, stop=None):
+        self.tasks, self.stop = [], stop
+
+    def __call__(self, task):
+        if len(self.tasks) == self.stop:
+            raise KeyboardInterrupt
+        self.tasks.append(task)
+        return perform(task)
+
+
+def table(folder, evaluation):
+    """The bytes of the tables that tell what the runs say."""
+    tables.write(evaluation, folder, {})
+    return [(folder / name).read_bytes() for name in (tables.ROWS, tables.SUMMARY)]
+
+
+@pytest.fixture(scope="module")
+def undisturbed(folders, tmp_path_factory):
+    """The few trackers over the three sequences, and the folder with all of it."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    return folder, evaluate(folders, folder, FEW)
+
+
+def test_every_tracker_sequence_seed_and_kind_is_a_run(undisturbed):
+    """Those that draw random numbers run with each seed, the others once; each also with restarts."""
+    folder, evaluation = undisturbed
+    runs = {(each.row.tracker, each.row.sequence, each.row.seed) for each in evaluation.results}
+    assert len(runs) == 3 * (2 + 1 + 1)
+    files = list((folder / RUNS).rglob("*.json"))
+    assert len(files) == 2 * len(runs)
+    assert {json.loads(path.read_text())["kind"] for path in files} == {ONE_PASS, RESTARTS}
+    assert not evaluation.failed
+
+
+def test_numbers_are_those_of_a_run_by_hand(undisturbed, patrol):
+    """The row of a box that never moves has the scores of that box; its positions are unknown."""
+    frames, boxes = patrol
+    row = next(
+        each.row
+        for each in undisturbed[1].results
+        if (each.row.tracker, each.row.sequence) == ("still-box", "there")
+    )
+    run = one_pass.run(StillBox(), frames, boxes[0])
+    score = metrics.score(run.boxes, np.array(boxes))
+    assert (row.auc, row.precision, row.success) == (score.auc, score.precision, score.success)
+    assert (row.frames, row.tracked, row.group) == (20, 1.0, "color")
+    assert np.isnan(row.position_error)
+    assert np.isnan(row.true_negative)
+
+
+def test_a_tracker_that_follows_is_told_from_one_that_does_not(undisturbed):
+    """The particle filter holds the patrol; the box that stays loses it, and says TRACKED."""
+    lines = {line["tracker"]: line for line in tables.summary(undisturbed[1])}
+    assert lines["color-particle"]["auc"] > 0.8 > 0.5 > lines["still-box"]["auc"]
+    assert lines["still-box"]["auroc"] == 0.5
+    assert lines["color-particle"]["sequences"] == 3
+
+
+def test_an_interrupted_evaluation_goes_on(undisturbed, folders, tmp_path):
+    """Only what is missing runs the second time, and the tables are the same to the last bit."""
+    first, second, third = Counted(stop=5), Counted(), Counted()
+    with pytest.raises(KeyboardInterrupt):
+        evaluate(folders, tmp_path, FEW, work=first)
+    again = evaluate(folders, tmp_path, FEW, work=second)
+    assert len(first.tasks) == 5
+    assert len(second.tasks) == 24 - 5
+    assert not set(first.tasks) & set(second.tasks)
+    assert table(tmp_path, again) == table(*undisturbed)
+    assert table(tmp_path, evaluate(folders, tmp_path, FEW, work=third)) == table(*undisturbed)
+    assert not third.tasks
+
+
+def test_damaged_and_old_files_count_for_nothing(undisturbed, folders, tmp_path):
+    """A file that is cut off, empty, or of other parameters is run again."""
+    shutil.copytree(undisturbed[0] / RUNS, tmp_path / RUNS)
+    paths = sorted((tmp_path / RUNS / ONE_PASS / "color-particle").rglob("*.json"))
+    paths[0].write_text(paths[0].read_text()[:-100])
+    paths[1].write_text("")
+    counted = Counted()
+    assert table(tmp_path, evaluate(folders, tmp_path, FEW, work=counted)) == table(*undisturbed)
+    assert len(counted.tasks) == 2
+    other = Options(FEW.trackers, {"color-particle": {"particles": 50}}, FEW.seeds)
+    evaluate(folders, tmp_path, other, work=(changed := Counted()))
+    assert {task.entrant.name for task in changed.tasks} == {"color-particle"}
+    assert len(changed.tasks) == 3 * 2 * 2
+
+
+def test_changed_sequences_are_run_again(folders, tmp_path):
+    """A corrected true box makes old runs of that sequence worthless, and of no other."""
+    shutil.copytree(folders, tmp_path / "data")
+    options = Options(("still-box",), restarts=False)
+    evaluate(tmp_path / "data", tmp_path / "out", options)
+    path = tmp_path / "data" / "back" / "groundtruth_rect.txt"
+    path.write_text(path.read_text().replace("\n", "\n\n", 0).replace("40,40", "41,40", 1))
+    evaluate(tmp_path / "data", tmp_path / "out", options, work=(counted := Counted()))
+    assert [task.entry.name for task in counted.tasks] == ["back"]
+
+
+def test_fresh_runs_everything(folders, tmp_path):
+    """What was run before doesn't count."""
+    options = Options(("still-box",), restarts=False)
+    evaluate(folders, tmp_path, options)
+    evaluate(folders, tmp_path, options, fresh=True, work=(counted := Counted()))
+    assert len(counted.tasks) == 3
+
+
+def test_two_processes_say_what_one_says(undisturbed, folders, tmp_path):
+    """Bit for bit the same tables by two jobs."""
+    assert table(tmp_path, evaluate(folders, tmp_path, FEW, jobs=2)) == table(*undisturbed)
+
+
+def test_a_broken_sequence_does_not_stop_the_others(folders, tmp_path):
+    """A malformed truth and a cut-off image are told by file; the other sequences have their numbers."""
+    data = tmp_path / "data"
+    shutil.copytree(folders, data)
+    (data / "back" / "groundtruth_rect.txt").write_text("1,2,3,4\noops\n")
+    image = data / "gap" / "img" / "0005.png"
+    image.write_bytes(image.read_bytes()[:300])
+    evaluation = evaluate(data, tmp_path / "out", Options(("still-box",), restarts=False))
+    assert [each.row.sequence for each in evaluation.results] == ["there"]
+    assert set(evaluation.failed) == {"back", "one-pass/still-box/gap/seed-0"}
+    assert "groundtruth_rect.txt, line 2" in evaluation.failed["back"]
+    assert "0005.png" in evaluation.failed["one-pass/still-box/gap/seed-0"]
+
+
+def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monkeypatch):
+    """Its error stands in the row, its boxes count as misses, and the evaluation goes on."""
+
+    def update(self, frame):
+        raise ValueError("frame: not\nthis one")
+
+    monkeypatch.setattr(StillBox, "update", update)
+    evaluation = evaluate(folders, tmp_path, Options(("still-box", "meanShift"), restarts=False))
+    rows = {(each.row.tracker, each.row.sequence): each.row for each in evaluation.results}
+    assert rows["still-box", "there"].trouble == "frame: not this one"
+    assert rows["still-box", "there"].auc == pytest.approx(1 / 20 * 20 / 21, abs=1e-9)
+    assert rows["meanShift", "there"].trouble == ""
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (Options(("color-particel",)), "--trackers: expected some of color-particle, .* got 'color-particel'"),
+        (Options(settings={"color-particle": {"particles": -1}}), "particles"),
+        (Options(settings={"CSRT": {"scales": 2}}), "got one of CSRT"),
+    ],
+)
+def test_wrong_options_are_told_before_anything_runs(folders, tmp_path, options, message):
+    """The error names what is wrong; nothing is written."""
+    with pytest.raises(ValueError, match=message):
+        evaluate(folders, tmp_path, options)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_without_sequences_is_refused(tmp_path):
+    """The error names the folder."""
+    with pytest.raises(ValueError, match="expected sequences with true boxes, found none"):
+        evaluate(tmp_path, tmp_path / "out", FEW)
+
+
+def test_boxes_are_the_trackers_own(undisturbed, patrol):
+    """A run's file holds what the tracker says when it is run by hand with the same seed."""
+    import tricue
+
+    frames, boxes = patrol
+    record = next(
+        each.record
+        for each in undisturbed[1].results
+        if (each.row.tracker, each.row.sequence, each.row.seed) == ("color-particle", "there", 1)
+    )
+    run = one_pass.run(tricue.create("color-particle", seed=1), frames, Box(*boxes[0]))
+    np.testing.assert_array_equal(record.run.boxes, run.boxes)
+    np.testing.assert_array_equal(record.run.scores, run.scores)
