@@ -24,7 +24,7 @@ def patrol():
 
 @pytest.fixture(scope="session")
 def folders(patrol, tmp_path_factory):
-    """A data set of three OTB sequences: the patrol, its end played backward, a half of it with a black gap."""
+    """A data set of three OTB sequences: the patrol, the patrol backward, its begin with a black gap."""
     root = tmp_path_factory.mktemp("sequences")
     frames, boxes = patrol
     dark = [Frame(color=np.zeros_like(frame.color)) for frame in frames]

@@ -158,7 +158,10 @@ def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monke
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (Options(("color-particel",)), "--trackers: expected some of color-particle, .* got 'color-particel'"),
+        (
+            Options(("color-particel",)),
+            "--trackers: expected some of color-particle, .* got 'color-particel'",
+        ),
         (Options(settings={"color-particle": {"particles": -1}}), "particles"),
         (Options(settings={"CSRT": {"scales": 2}}), "got one of CSRT"),
     ],

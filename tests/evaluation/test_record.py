@@ -15,6 +15,7 @@ numbers = st.floats(allow_infinity=False, allow_nan=True, width=64)
 
 @st.composite
 def records(draw):
+    """Records with any numbers in them."""
     count = draw(st.integers(1, 5))
     positions = draw(arrays(np.float64, (count, 3), elements=numbers))
     return Record(
@@ -49,14 +50,18 @@ def test_a_record_is_the_same_again_bit_for_bit(record):
 def test_the_file_explains_itself_and_is_plain_json():
     """What was run stands in it; NaN, which JSON hasn't, is null."""
     nothing = np.full((2, 4), np.nan)
-    run = Run(nothing, np.zeros(2), (Status.LOST,) * 2, nothing[:, :3], np.full((2, 3, 3), np.nan), np.ones(1))
+    run = Run(
+        nothing, np.zeros(2), (Status.LOST,) * 2, nothing[:, :3], np.full((2, 3, 3), np.nan), np.ones(1)
+    )
     values = json.loads(Record(run).to_json({"tracker": "drift"}), parse_constant=pytest.fail)
     assert values["tracker"] == "drift"
     assert values["boxes"] == [None, None]
     assert values["statuses"] == ["lost", "lost"]
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"boxes": 3}', '{"boxes": [[1]], "statuses": ["new"]}'])
+@pytest.mark.parametrize(
+    "text", ["", "{", "[]", "{}", '{"boxes": 3}', '{"boxes": [[1]], "statuses": ["new"]}']
+)
 def test_other_files_are_refused(text):
     """What isn't a record raises ValueError and nothing else."""
     with pytest.raises(ValueError, match=r".+"):

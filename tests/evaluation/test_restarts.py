@@ -26,10 +26,12 @@ class Patient:
 
 
 def still(count):
+    """True boxes of a target that doesn't move."""
     return np.tile([10.0, 10, 20, 20], (count, 1))
 
 
 def judged(record, truth):
+    """The run's robustness."""
     return restarts.robustness(record, metrics.overlaps(record.run.boxes, truth))
 
 
@@ -62,11 +64,8 @@ def test_truth_may_end_before_the_frames():
     """The frames beyond it are tracked, and judge nothing."""
     record = restarts.run(lambda: Patient(30), [FRAME] * 20, still(5))
     assert len(record.run.boxes) == 20
-    assert judged(record, restarts_truth(5, 20)) == (0, 4, pytest.approx(np.nan, nan_ok=True))
-
-
-def restarts_truth(known, count):
-    return np.concatenate([still(known), np.full((count - known, 4), np.nan)])
+    truth = np.concatenate([still(5), np.full((15, 4), np.nan)])
+    assert judged(record, truth) == (0, 4, pytest.approx(np.nan, nan_ok=True))
 
 
 def test_accuracy_leaves_out_the_frames_after_a_start():

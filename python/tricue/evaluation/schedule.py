@@ -71,7 +71,7 @@ def _on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Genera
             for index in indices
         ]
         places = {future.key: index for index, future in enumerate(futures)}
-        for future in as_completed(futures):
+        for future in as_completed(futures, loop=client.loop):
             yield _gathered(future, places[future.key])
             future.release()
 

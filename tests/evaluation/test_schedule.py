@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""Tasks on a Dask cluster of this machine, and in several processes, through losses and errors."""
+
+import os
+import signal
+import time
+from pathlib import Path
+
+import pytest
+from tricue.evaluation import schedule, tables
+from tricue.evaluation.dataset import Entry
+from tricue.evaluation.entrants import Entrant
+from tricue.evaluation.evaluate import Options, evaluate
+from tricue.evaluation.record import Record
+from tricue.evaluation.tasks import Task, perform
+
+FEW = Options(("color-particle", "still-box"), seeds=4)
+
+
+class Victim:
+    """Performs tasks, slowly; the worker that performs the given one for the first time dies of it."""
+
+    def __init__(self, marks: Path, deadly: str) -> None:
+        self.marks, self.deadly = marks, deadly
+
+    def __call__(self, task: Task) -> Record:
+        time.sleep(0.05)
+        if task.name == self.deadly:
+            with (self.marks / "deaths").open("a") as file:
+                file.write("x")
+            if (self.marks / "deaths").stat().st_size == 1:
+                os.kill(os.getpid(), signal.SIGKILL)
+        return perform(task)
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """A scheduler with two worker processes."""
+    distributed = pytest.importorskip("distributed", reason="needs the extra dask")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    ) as found:
+        yield found.scheduler_address
+
+
+def table(folder, evaluation):
+    """The bytes of the tables that tell what the runs say."""
+    tables.write(evaluation, folder, {})
+    return [(folder / name).read_bytes() for name in (tables.ROWS, tables.SUMMARY)]
+
+
+def test_a_cluster_says_what_one_process_says_though_a_worker_dies(cluster, folders, tmp_path):
+    """The tasks of a worker that was killed in the middle run on another; the tables are the same bytes."""
+    alone = table(tmp_path, evaluate(folders, tmp_path / "alone", FEW))
+    victim = Victim(tmp_path, "one-pass/color-particle/there/seed-2")
+    evaluation = evaluate(folders, tmp_path / "many", FEW, scheduler=cluster, work=victim)
+    assert (tmp_path / "deaths").read_text() == "xx"
+    assert table(tmp_path, evaluation) == alone
+    assert not evaluation.failed
+
+
+def test_errors_of_a_sequence_come_back_from_the_cluster(cluster, tmp_path):
+    """A task whose sequence isn't there is told; the others have their records."""
+    (tmp_path / "empty").mkdir()
+    tasks = [Task(Entrant("still-box"), Entry(name, tmp_path / name)) for name in ("gone", "empty")]
+    found = {each.place: each for each in schedule.completed(tasks, perform, scheduler=cluster)}
+    assert all(each.record is None for each in found.values())
+    assert "gone: there is no such file or folder" in found[0].error
+    assert "empty" in found[1].error
+
+
+def test_processes_give_what_is_finished_as_it_comes(tmp_path):
+    """Each task comes back with its place; errors don't stop the others."""
+    tasks = [Task(Entrant("still-box"), Entry(str(number), tmp_path / str(number))) for number in range(5)]
+    for jobs in (1, 2):
+        found = list(schedule.completed(tasks, perform, jobs))
+        assert sorted(each.place for each in found) == list(range(5))
+        assert all("no such file or folder" in each.error for each in found)
+
+
+def test_no_scheduler_is_told_by_its_address():
+    """Nothing listens there: OSError, not a hang."""
+    pytest.importorskip("distributed", reason="needs the extra dask")
+    with pytest.raises(OSError, match=r"127\.0\.0\.1:9"):
+        list(
+            schedule.completed(
+                [Task(Entrant("still-box"), Entry("a", Path("a")))], perform, 1, "tcp://127.0.0.1:9"
+            )
+        )
