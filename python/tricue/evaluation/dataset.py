@@ -17,6 +17,7 @@ from tricue import toml
 from tricue.camera.datasets import find_sequences
 from tricue.camera.intrinsics_files import read_intrinsics, read_rig
 from tricue.camera.layouts import targets
+from tricue.camera.numbers import positive
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.sources import Source, open_source
 from tricue.camera.streams import Images, Stream, Video
@@ -39,6 +40,12 @@ class Reading:
     fps: float | None = None
     unit: float | None = None
     truth: str | None = None
+
+    def __post_init__(self) -> None:
+        units = {"depth_scale": "metres per unit", "fps": "frames a second", "unit": "metres per unit"}
+        for name, unit in units.items():
+            if (value := getattr(self, name)) is not None:
+                positive(value, name, unit)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: MIT
+"""``tricue evaluate`` as a user runs it."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tricue.cli import main
+from tricue.evaluation import tables
+
+COMMAND = (sys.executable, "-m", "tricue", "evaluate")
+
+
+def write_sequence(folder: Path, frames: int, seed: int = 0, size: tuple[int, int] = (80, 60)) -> None:
+    """OTB's layout: a bright textured square that goes round in a circle over noise."""
+    rng = np.random.default_rng(seed)
+    ground = rng.integers(20, 60, (size[1], size[0], 3), dtype=np.uint8)
+    square = cv2.resize(rng.integers(90, 255, (4, 4, 3), dtype=np.uint8), (20, 20)) // [4, 4, 1]
+    (folder / "img").mkdir(parents=True)
+    lines = []
+    for index in range(frames):
+        x, y = 30 + round(20 * np.cos(index / 12)), 20 + round(15 * np.sin(index / 12))
+        image = ground.copy()
+        image[y : y + 20, x : x + 20] = square
+        cv2.imwrite(str(folder / "img" / f"{index + 1:05d}.jpg"), image)
+        lines.append(f"{x + 1},{y + 1},20,20\n")
+    (folder / "groundtruth_rect.txt").write_text("".join(lines))
+
+
+@pytest.fixture(scope="module")
+def dataset(tmp_path_factory):
+    """Four sequences of 40 frames."""
+    root = tmp_path_factory.mktemp("data")
+    for seed, name in enumerate(("one", "two", "three", "four")):
+        write_sequence(root / name, 40, seed)
+    return root
+
+
+def rows(folder: Path) -> list[bytes]:
+    """The bytes of the tables that tell what the runs say."""
+    return [(folder / name).read_bytes() for name in (tables.ROWS, tables.SUMMARY)]
+
+
+def test_tables_and_report_are_written_and_the_table_is_printed(dataset, tmp_path, capsys):
+    """The printed numbers are those of the CSV and the JSON file; a second run runs nothing anew."""
+    arguments = [
+        "evaluate",
+        str(dataset),
+        "--trackers",
+        "color-particle,still-box",
+        "--output",
+        str(tmp_path),
+    ]
+    assert main([*arguments, "--seeds", "2"]) == 0
+    printed = capsys.readouterr().out
+    with (tmp_path / tables.SUMMARY).open() as file:
+        lines = {line["tracker"]: line for line in csv.DictReader(file)}
+    for name, line in lines.items():
+        shown = next(text for text in printed.splitlines() if text.startswith(f"| {name} "))
+        assert shown.split("|")[3].strip() == f"{float(line['auc']):.2f}"
+    values = json.loads((tmp_path / tables.JSON).read_text())
+    assert values["summary"][0]["auc"] == float(lines["color-particle"]["auc"])
+    assert values["parameters"]["color-particle"]["particles"] == 100
+    assert {"tricue", "opencv", "numpy", "machine", "seeds", "dataset"} <= set(values)
+    assert len(values["rows"]) == 4 * (2 + 1)
+    assert str(tmp_path / "report.html") in printed
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").rglob("*.json")}
+    assert main([*arguments, "--seeds", "2"]) == 0
+    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").rglob("*.json")} == before
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_ctrl_c_and_the_same_command_again_give_the_same_tables(dataset, tmp_path, jobs):
+    """Interrupted after some runs: exit code 130, no traceback; then as if nothing had happened."""
+    options = [str(dataset), "--trackers", "color-particle,script-pf", "--seeds", "6", "--no-restarts"]
+    assert main(["evaluate", *options, "--output", str(tmp_path / "whole")]) == 0
+    command = [*COMMAND, *options, "--jobs", jobs, "--output", str(tmp_path / "parts")]
+    child = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    deadline = time.monotonic() + 60
+    while len(list((tmp_path / "parts").rglob("*.json"))) < 5 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    os.killpg(child.pid, signal.SIGINT)  # as a terminal does
+    _, error = child.communicate(timeout=60)
+    finished = len(list((tmp_path / "parts").rglob("*.json")))
+    assert child.returncode == 130
+    assert 5 <= finished < 48
+    assert "the same command goes on" in error
+    assert "Traceback" not in error
+    assert subprocess.run(command, check=False, capture_output=True).returncode == 0
+    assert rows(tmp_path / "parts") == rows(tmp_path / "whole")
+
+
+def test_memory_does_not_grow_with_the_length(tmp_path):
+    """The peak over 4,000 frames is at most 20 MB above that over 100."""
+    peaks = []
+    for frames in (100, 4000):
+        write_sequence(tmp_path / str(frames), frames)
+        code = (
+            "import resource, sys; from tricue.cli import main; main(sys.argv[1:]);"
+            "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+        )
+        arguments = ["evaluate", str(tmp_path / str(frames)), "--trackers", "color-particle,still-box"]
+        arguments += ["--output", str(tmp_path / f"out{frames}")]
+        printed = subprocess.run(
+            [sys.executable, "-c", code, *arguments], check=True, capture_output=True, text=True
+        ).stdout
+        peaks.append(int(printed.split()[-1]) / 1024)
+    assert peaks[1] - peaks[0] < 20
+
+
+def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
+    """--set reaches the tracker that it names; a wrong form is told."""
+    arguments = ["evaluate", str(dataset / "one"), "--trackers", "color-particle", "--output", str(tmp_path)]
+    assert main([*arguments, "--seeds", "1", "--set", "color-particle.particles=40"]) == 0
+    values = json.loads((tmp_path / tables.JSON).read_text())
+    assert values["parameters"]["color-particle"]["particles"] == 40
+    assert values["changed"] == {"color-particle": {"particles": 40}}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--set", "particles=3"], "--set: expected tracker.name=value, got 'particles=3'"),
+        (["--set", "color-particle.particels=3"], "particels"),
+        (["--trackers", "CRST"], "got 'CRST'"),
+        (["--jobs", "0"], "expected a whole number above 0, got '0'"),
+        (["--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"], "not allowed with"),
+        (["--depth-scale", "-1"], "depth_scale"),
+    ],
+)
+def test_wrong_options_are_told_in_one_line(dataset, tmp_path, capsys, arguments, message):
+    """Exit code 2, one line that names what is wrong."""
+    try:
+        code = main(["evaluate", str(dataset), "--output", str(tmp_path), *arguments])
+    except SystemExit as error:
+        code = error.code
+    assert code == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1
+    assert message in lines[0]
+
+
+def test_a_sequence_that_cannot_be_read_is_told_and_the_exit_code_is_1(tmp_path, capsys):
+    """The others have their table."""
+    write_sequence(tmp_path / "data" / "good", 5)
+    write_sequence(tmp_path / "data" / "bad", 5)
+    (tmp_path / "data" / "bad" / "groundtruth_rect.txt").write_text("1,2\n")
+    arguments = ["evaluate", str(tmp_path / "data"), "--trackers", "still-box"]
+    assert main([*arguments, "--output", str(tmp_path / "out")]) == 1
+    captured = capsys.readouterr()
+    assert "bad/groundtruth_rect.txt, line 1" in captured.err
+    assert "| still-box " in captured.out
