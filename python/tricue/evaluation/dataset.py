@@ -73,7 +73,7 @@ class Opened:
     entry: Entry
     source: Source
 
-    @property
+    @cached_property
     def channel(self) -> str:
         """The channel whose pixels the true boxes count."""
         if self.entry.reading.truth is not None:
@@ -107,7 +107,7 @@ class Opened:
         """Whether the true boxes end at the image's edge."""
         return self.source.format in BOUNDED
 
-    @property
+    @cached_property
     def size(self) -> tuple[int, int]:
         """Width and height of the images whose pixels the boxes count."""
         return self.source.channels[self.channel].size

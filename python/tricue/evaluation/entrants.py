@@ -21,7 +21,7 @@ from tricue.track.create import names, tracker_class
 from tricue.track.track import Status, Track
 
 View = Callable[[Frame], Frame]
-"""What a contender sees of a frame."""
+"""What a contender is shown of a frame; made off the clock."""
 
 WIDEST, NARROWEST = 0.25, 4.0  # disparities of a stereo head's range: of the image's width; pixels
 _SLOWNESS = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
@@ -70,31 +70,36 @@ class Entrant:
         return ""
 
     def contender(self, opened: Opened, seed: int) -> "Guarded":
-        """The tracker for a sequence, seeing what it can use; the peers see depth as a picture if the true
-        boxes are in it.
-        """
+        """The tracker for a sequence, with its cameras."""
         cv2.setRNGSeed(seed)
         if not self.ours:
-            view = pictured() if opened.channel == "depth" else _color
-            return Guarded(peers.available()[self.name](seed), view)
-        keywords, view = _FITTED[self.name](opened)
-        return Guarded(tricue.create(self.name, seed=seed, **{**keywords, **dict(self.settings)}), view)
+            return Guarded(peers.available()[self.name](seed))
+        keywords = _FITTED[self.name](opened)[0] | dict(self.settings)
+        return Guarded(tricue.create(self.name, seed=seed, **keywords))
+
+    def view(self, opened: Opened) -> View:
+        """What the tracker is shown: the channels that it can use. The peers see depth as a picture where the
+        true boxes are in it.
+        """
+        if self.ours:
+            return _FITTED[self.name](opened)[1]
+        return pictured() if opened.channel == "depth" else _color
 
 
 class Guarded:
     """A contender that never raises: from its first error on, which is ``trouble``, it finds nothing."""
 
-    def __init__(self, tracker: Contender, view: View) -> None:
+    def __init__(self, tracker: Contender) -> None:
         self.trouble = ""
-        self._tracker, self._view = tracker, view
+        self._tracker = tracker
 
     def init(self, frame: Frame, box: Box) -> Track:
         """The tracker's, or a track without a box."""
-        return self._tried(lambda: self._tracker.init(self._view(frame), box))
+        return self._tried(lambda: self._tracker.init(frame, box))
 
     def update(self, frame: Frame) -> Track:
         """The tracker's, or a track without a box."""
-        return self._tried(lambda: self._tracker.update(self._view(frame)))
+        return self._tried(lambda: self._tracker.update(frame))
 
     def _tried(self, call: Callable[[], Track]) -> Track:
         if not self.trouble:
@@ -142,7 +147,7 @@ def _check(entrant: Entrant) -> None:
         raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {entrant.name}")
 
 
-Fitted = tuple[dict[str, Any], View]  # keywords for the tracker, and what it sees
+Fitted = tuple[dict[str, Any], View]  # keywords for the tracker, and what it is shown
 
 
 def _color_particle(opened: Opened) -> Fitted:

@@ -167,9 +167,10 @@ class _Plan:
             if task.kind == ONE_PASS and (record := records.get(task)):
                 again = records.get(Task(task.entrant, task.entry, task.seed, RESTARTS))
                 opened, name = self.opened[task.entry.name], task.entrant.name
-                row = row_of(opened, name, task.seed, record, again)
+                run = judged(record, opened)
+                row = row_of(opened, name, task.seed, run, again, record.trouble)
                 speed = speed_of(opened, name, task.seed, record.run)
-                results.append(Result(task, record, judged(record, opened), row, speed))
+                results.append(Result(task, record, run, row, speed))
         opened_all = tuple(self.opened.values())
         return Evaluation(self.options, opened_all, self.entrants, tuple(results), self.left_out, failed)
 

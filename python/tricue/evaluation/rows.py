@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.box import Box
 from tricue.evaluation import confidence, long_term, metrics, restarts
 from tricue.evaluation.dataset import Opened
 from tricue.evaluation.one_pass import Run
@@ -98,16 +97,17 @@ def bounded(boxes: Array, opened: Opened) -> Array:
     """The boxes, or their parts inside the image where the truth has only these; NaN where nothing is."""
     if not opened.bounded:
         return boxes
-    inside: Array = boxes.copy()
-    for index in np.flatnonzero(~np.isnan(boxes).any(axis=1)):
-        inside[index] = Box(*boxes[index].tolist()).clip(*opened.size)
+    low = np.clip(boxes[:, :2], 0, opened.size)
+    high = np.clip(boxes[:, :2] + boxes[:, 2:], 0, opened.size)
+    inside: Array = np.concatenate([low, high - low], axis=1)
     inside[~(inside[:, 2:] > 0).all(axis=1)] = np.nan
     return inside
 
 
-def row_of(opened: Opened, tracker: str, seed: int, record: Record, restarted: Record | None) -> Row:
+def row_of(
+    opened: Opened, tracker: str, seed: int, run: Judged, restarted: Record | None, trouble: str = ""
+) -> Row:
     """The numbers of a run in one pass, and of the one with restarts if there is one."""
-    run = judged(record, opened)
     score = metrics.score(run.boxes, run.truth)
     rates = long_term.rates(run.boxes, run.truth, run.tracked, run.absent)
     fails = _robustness(restarted, opened)
@@ -131,7 +131,7 @@ def row_of(opened: Opened, tracker: str, seed: int, record: Record, restarted: R
         _median(run.position_errors),
         float("nan") if fails is None else float(fails.failures),
         float("nan") if fails is None else fails.accuracy,
-        record.trouble,
+        trouble,
     )
 
 

@@ -41,6 +41,7 @@ _SHOWN = {
     "position_error": "position error, m",
 }
 """Columns of the printed table; one without any number is left out."""
+_LONG_TERM = ("f_score", "true_positive")  # say something where targets are absent
 
 
 def summary(evaluation: Evaluation) -> list[Line]:
@@ -137,6 +138,8 @@ def _compared(evaluation: Evaluation) -> Iterator[tuple[str, str, list[Result]]]
 
 def _group_table(group: str, lines: Sequence[Line], fast: Mapping[tuple[str, str], Line]) -> str:
     shown = [name for name in _SHOWN if any(not math.isnan(line[name]) for line in lines)]
+    if "true_negative" not in shown:
+        shown = [name for name in shown if name not in _LONG_TERM]
     heads = [f"{group}: tracker", "sequences", *(_SHOWN[name] for name in shown), "frames/s", "p99, ms"]
     rows = [heads, ["---"] * len(heads)]
     for line in lines:

@@ -52,7 +52,8 @@ def perform(task: Task) -> Record:
 def _one_pass(task: Task, opened: Opened) -> Record:
     """From the first frame with a true box, which hand-made truth may have later than the images."""
     tracker, start = task.entrant.contender(opened, task.seed), opened.start
-    run = one_pass.run(tracker, opened.source, Box(*opened.boxes[start].tolist()), start)
+    frames = map(task.entrant.view(opened), opened.source)
+    run = one_pass.run(tracker, frames, Box(*opened.boxes[start].tolist()), start)
     return Record(run, (start,), tracker.trouble)
 
 
@@ -63,7 +64,7 @@ def _restarted(task: Task, opened: Opened) -> Record:
         made.append(task.entrant.contender(opened, task.seed + len(made)))
         return made[-1]
 
-    record = restarts.run(make, opened.source, opened.boxes)
+    record = restarts.run(make, map(task.entrant.view(opened), opened.source), opened.boxes)
     return replace(record, trouble=next((tracker.trouble for tracker in made if tracker.trouble), ""))
 
 
