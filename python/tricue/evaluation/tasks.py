@@ -18,7 +18,10 @@ from tricue.evaluation.entrants import Entrant, Guarded
 from tricue.evaluation.record import Record
 
 ONE_PASS, RESTARTS = "one-pass", "restarts"
-_DECIDING = ("_core*.so", "_core*.pyd", "camera/**/*.py", "reference/**/*.py", "track/**/*.py")
+_DECIDING = (
+    *("_core*.so", "_core*.pyd", "camera/**/*.py", "reference/**/*.py", "track/**/*.py"),
+    *(f"evaluation/{name}.py" for name in ("entrants", "one_pass", "peers", "restarts")),
+)
 
 
 @dataclass(frozen=True)
