@@ -67,6 +67,16 @@ examples:
 """
 
 
+_INFO_EXAMPLES = """\
+examples:
+  tricue info sequences/David
+  tricue info sequences/                                      a line for each sequence below
+  tricue info depth/ --depth-scale 0.001 --fps 15
+  tricue info left.mp4 --right right.mp4 --calibration stereo.yml
+  tricue info kitti/ --target "Car 31" --json
+"""
+
+
 class Parser(argparse.ArgumentParser):
     """Errors in one line, without the usage in front."""
 
@@ -97,6 +107,7 @@ def parser() -> argparse.ArgumentParser:
     verbs = top.add_subparsers(dest="verb", metavar="VERB", required=True)
     _add_demo(_verb(verbs, "demo", "track a scene with known truth", _DEMO_EXAMPLES, _demo))
     _add_track(_verb(verbs, "track", "track in a video, a folder, a camera", _TRACK_EXAMPLES, _track))
+    _add_info(_verb(verbs, "info", "say what is in a video, a folder, a sequence", _INFO_EXAMPLES, _info))
     _add_reproduce(
         _verb(verbs, "reproduce", "redo an experiment of the papers", _REPRODUCE_EXAMPLES, _reproduce)
     )
@@ -183,6 +194,16 @@ def _add_depth(verb: argparse.ArgumentParser) -> None:
     camera.add_argument(
         "--fov", type=_angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
     )
+
+
+def _add_info(verb: argparse.ArgumentParser) -> None:
+    verb.add_argument("place", metavar="PLACE", help="video file, sequence folder, or folder of sequences")
+    verb.add_argument("--depth-scale", type=float, metavar="M", help="metres per unit of depth")
+    verb.add_argument("--fps", type=float, metavar="N", help="frames a second of images that tell no times")
+    verb.add_argument("--right", metavar="PLACE", help="the right camera's; PLACE is the left one's")
+    verb.add_argument("--target", metavar="NAME", help="one of a folder's several targets")
+    verb.add_argument("--calibration", type=Path, metavar="FILE", help="instead of the one beside the images")
+    verb.add_argument("--json", action="store_true", help="the same as one JSON object")
 
 
 def _add_demo(verb: argparse.ArgumentParser) -> None:
@@ -284,6 +305,12 @@ def _track(options: argparse.Namespace) -> int:
     from tricue.commands.track import track
 
     return track(options)
+
+
+def _info(options: argparse.Namespace) -> int:
+    from tricue.commands.info import info
+
+    return info(options)
 
 
 def _demo(options: argparse.Namespace) -> int:

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.calibration import kitti_offset
-from tricue.camera.streams import Images, Stream, image_paths
+from tricue.camera.files import image_paths
+from tricue.camera.streams import Images, Stream
 from tricue.camera.truth import Truth, truth_of
 
 SIDES = {"image_02": "image_03", "image_2": "image_3"}

@@ -8,7 +8,8 @@ from typing import NamedTuple
 from tricue.camera import kitti, otb, princeton, tum, vot
 from tricue.camera.box_table import find_table, read_table
 from tricue.camera.depth_images import DepthReader, is_depth, known_scale
-from tricue.camera.streams import Images, Stream, Video, image_paths, is_video, natural_order, timed_images
+from tricue.camera.files import image_paths, is_video, natural_order
+from tricue.camera.streams import Images, Stream, Video, timed_images
 from tricue.camera.truth import Truth, check_target, completed, find_ptb_truth, find_truth, otb_targets
 
 COLOR_FOLDERS = ("img", "color", "left", "rgb")  # OTB, VOT, stereo pairs, RGB-D recordings

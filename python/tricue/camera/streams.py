@@ -2,9 +2,8 @@
 """One channel's images in order: from a folder, a video file, or a live camera."""
 
 import os
-import re
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -15,9 +14,7 @@ from numpy.typing import NDArray
 
 DEFAULT_FPS = 30.0
 FASTEST = 1000.0  # frames a second
-_IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
 
-_VIDEOS = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
 
 Image = NDArray[Any]
 Read = Callable[[Path], Image]
@@ -195,27 +192,6 @@ class Camera:
         )
 
 
-def image_paths(folder: Path) -> list[Path]:
-    """The image files of a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
-    paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))
-    return natural_order(paths)
-
-
-def natural_order(paths: Iterable[Path]) -> list[Path]:
-    """The paths by the numbers in their names: 2.png before 10.png."""
-    return sorted(paths, key=lambda path: [_natural(part) for part in path.parts])
-
-
-def is_image(path: Path) -> bool:
-    """Whether the file's name says that it is a picture."""
-    return path.suffix.lower() in _IMAGES
-
-
-def is_video(path: Path) -> bool:
-    """Whether the file's name says that it is a video."""
-    return path.suffix.lower() in _VIDEOS
-
-
 def decode(path: Path, flag: int) -> Image:
     """The picture in a file as cv2.imread gives it; ValueError or FileNotFoundError that names the file."""
     if not path.exists():
@@ -241,10 +217,6 @@ def _cut_off(path: Path) -> bool:
 def sane_rate(fps: float) -> float | None:
     """Frames a second that a file states; None for what can't be meant: 0, NaN, thousands."""
     return fps if 0 < fps <= FASTEST else None
-
-
-def _natural(name: str) -> list[tuple[int, str]]:
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"([0-9]+)", name)]
 
 
 def _read(capture: cv2.VideoCapture) -> Image | None:

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from tricue.camera.depth_images import MILLIMETRES, DepthReader
-from tricue.camera.streams import Images, Stream, image_paths, sane_rate
+from tricue.camera.files import image_paths
+from tricue.camera.streams import Images, Stream, sane_rate
 from tricue.camera.truth import VOT
 
 SEQUENCE = "sequence"

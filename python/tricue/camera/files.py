@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: MIT
+"""Which files are pictures and videos, by their names, and in which order they come."""
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+_IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
+_VIDEOS = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
+
+
+def image_paths(folder: Path) -> list[Path]:
+    """The image files of a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
+    paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))
+    return natural_order(paths)
+
+
+def natural_order(paths: Iterable[Path]) -> list[Path]:
+    """The paths by the numbers in their names: 2.png before 10.png."""
+    return sorted(paths, key=lambda path: [_natural(part) for part in path.parts])
+
+
+def is_image(path: Path) -> bool:
+    """Whether the file's name says that it is a picture."""
+    return path.suffix.lower() in _IMAGES
+
+
+def is_video(path: Path) -> bool:
+    """Whether the file's name says that it is a video."""
+    return path.suffix.lower() in _VIDEOS
+
+
+def _natural(name: str) -> list[tuple[int, str]]:
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"([0-9]+)", name)]
