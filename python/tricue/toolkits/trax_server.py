@@ -168,7 +168,7 @@ def serve(contestant: Contestant) -> None:
             while (request := server.wait()).type != "quit":
                 server.status([_reply(request, session)])
         except trax.TraxException as error:
-            reason = f"the client's messages ended or can't be read: {error}"
+            reason = f"the client's messages can't be read: {error}"
             _quit(server, reason)
             raise ConnectionError(reason) from None
         except Errors as error:
