@@ -210,6 +210,16 @@ def test_messages_out_of_order_are_refused(images: Path) -> None:
     assert done.code == 2
 
 
+@pytest.mark.parametrize("second", ["at once", "later"])
+def test_another_target_is_refused(images: Path, second: str) -> None:
+    """It proves that a client with several targets is told that ours is one, whenever it names them."""
+    start = '@@TRAX:initialize "20,30,30,60"'
+    later = [shown(images, 1, "color"), start] if second == "later" else [start]
+    done = talk([start, *later, shown(images, 2, "color")])
+    assert "expected one target in all" in done.lines[-1]
+    assert done.code == 2
+
+
 @pytest.mark.parametrize(
     ("box", "answer"),
     [

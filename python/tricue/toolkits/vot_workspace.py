@@ -69,8 +69,8 @@ def write_workspace(
     holds something else, for a tracker that VOT can't run, and where no sequence is left.
     """
     _check_folder(folder)
-    section = {name: _section(name, checked_python(python)) for name in trackers}
     needs = {name: channels_of(name) for name in trackers}
+    interpreter = checked_python(python)
     report = Report(_listed(folder))
     for name in report.sequences:
         if reason := _unfit(open_source(folder / SEQUENCES / name), needs):
@@ -83,7 +83,7 @@ def write_workspace(
     (folder / SEQUENCES).mkdir(parents=True, exist_ok=True)
     for file, text in _FILES.items():
         _write_new(folder / file, text)
-    _add_trackers(folder / TRACKERS, section, report)
+    _add_trackers(folder / TRACKERS, {name: _section(name, interpreter) for name in trackers}, report)
     for name, source in fit:
         write_sequence(source, folder / SEQUENCES / name)
         report.added.append(name)
