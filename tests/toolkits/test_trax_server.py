@@ -19,6 +19,7 @@ from tricue.toolkits.trax_server import NOWHERE, Answer, Contestant, Session, bo
 trax = pytest.importorskip("trax")
 
 FRAMES = 5
+SPOKEN = 5.8e-5  # pixels: half of the protocol's fourth decimal, and half a step of float32 below 256
 COMMAND = [sys.executable, "-m", "tricue.trax"]
 STATE = re.compile(r'@@TRAX:state "([-\d.,]+)" "confidence=([\d.e-]+)" *')
 
@@ -132,9 +133,7 @@ def test_answers_are_the_tracker_s(
     assert len(done.states) == FRAMES == sum(line.startswith("@@TRAX:state") for line in done.lines)
     assert all(line.startswith("@@TRAX:") for line in done.lines)
     boxes, confidences = zip(*done.states, strict=True)
-    np.testing.assert_allclose(
-        boxes, [track.box for track in tracks], rtol=0, atol=6e-5
-    )  # float32, 4 decimals
+    np.testing.assert_allclose(boxes, [track.box for track in tracks], rtol=0, atol=SPOKEN)
     np.testing.assert_allclose(confidences, [track.score for track in tracks], rtol=1e-12)
 
 
