@@ -82,14 +82,21 @@ def test_all_trackers_are_in_the_commands() -> None:
         ),
         (["--trackers", "color-particle", "--python", "nowhere/python"], "found none at nowhere/python"),
         (["--trackers", "color-particle", "--sequences", "nowhere"], "nowhere: there is no such folder"),
+        (["--trackers", "color-particle", "--sequences", "."], r"\.: expected folders of sequences"),
         (["--trackers", ","], "argument --trackers: expected names with commas between"),
         ([], "the following arguments are required: --trackers"),
     ],
 )
 def test_errors_are_a_line(
-    more: list[str], message: str, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    more: list[str],
+    message: str,
+    data: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """It proves that each mistake is one line on stderr, exit code 2, and no folder."""
+    monkeypatch.chdir(tmp_path)
     try:
         code = main(["vot-workspace", str(tmp_path / "ws"), "--sequences", str(data), *more])
     except SystemExit as stop:  # argparse's own way out

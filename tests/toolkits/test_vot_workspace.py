@@ -244,7 +244,7 @@ def test_a_workspace_is_whole(tmp_path: Path) -> None:
         ["color-particle", "flow-depth"],
         [vot(tmp_path / "in" / "a b"), princeton(tmp_path / "in" / "c")],
     )
-    assert (report.sequences, report.added, report.notes) == (["a_b", "c"], ["a_b", "c"], [])
+    assert (report.sequences, report.added) == (["a_b", "c"], ["a_b", "c"])
     assert (tmp_path / "ws" / "sequences" / "list.txt").read_text() == "a_b\nc\n"
     assert {path.name for path in (tmp_path / "ws").iterdir()} == {
         "config.yaml",
@@ -296,6 +296,19 @@ def test_what_trackers_cannot_run_on_is_left_out(tmp_path: Path) -> None:
         f"left out {hidden}: it has no true box in its first frame, on which trackers start",
         f"left out {bare}: it has no true box in its first frame, on which trackers start",
     ]
+
+
+def test_another_frame_rate_is_told(tmp_path: Path) -> None:
+    """It proves that who assumes a frame rate is told of a recording's own, nobody else."""
+    slow = vot(tmp_path / "slow")
+    lines = ["fps=3", "channels.color=color/%08d.jpg", "channels.depth=depth/%08d.png"]
+    (slow / "sequence").write_text("\n".join(lines))
+    report = write_workspace(
+        tmp_path / "ws", ["color-particle", "depth-particle"], [slow, vot(tmp_path / "any")]
+    )
+    (note,) = report.notes
+    assert note.startswith("slow has 3 frames/s, depth-particle assumes ")
+    assert note.endswith("env_TRICUE_SET = rate=3 in trackers.ini tells it")
 
 
 def test_a_tracker_that_old_sequences_do_not_serve_is_refused(tmp_path: Path) -> None:
