@@ -344,7 +344,10 @@ def _count(text: str) -> int:
 
 
 def _words(text: str) -> list[str]:
-    return [word.strip() for word in text.split(",") if word.strip()]
+    words = [word.strip() for word in text.split(",") if word.strip()]
+    if not words:
+        raise argparse.ArgumentTypeError(f"expected names with commas between, got {text!r}")
+    return words
 
 
 def _box(text: str) -> Box:

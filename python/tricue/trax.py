@@ -8,6 +8,7 @@ import argparse
 import os
 import shlex
 import sys
+import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -34,11 +35,14 @@ such a file.
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Serve until the client quits; the exit code: 0, 2 after an error, which is one line on stderr."""
+    """Serve until the client quits or goes away; the exit code: 0, or 2 after an error, a line on stderr."""
     silence_opencv()
     options = _parser(os.environ).parse_args(arguments)
     try:
-        serve(_contestant(options, os.environ))
+        contestant = _contestant(options, os.environ)
+        if "TRAX_SOCKET" not in os.environ:
+            _quit_at_the_end()
+        serve(contestant)
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"{PROGRAM}: {one_line(error)}", file=sys.stderr)
         return USAGE
@@ -76,6 +80,25 @@ def _contestant(options: argparse.Namespace, environment: Mapping[str, str]) -> 
     settings = [*shlex.split(environment.get("TRICUE_SET", "")), *options.set]  # the later one wins
     values = read_settings(options.tracker, options.params, settings)
     return Contestant(options.tracker, values, options.seed, options.kernels, options.calibration)
+
+
+def _quit_at_the_end() -> None:
+    """Let the end of standard input be a quit.
+
+    vot-trax 4.0.2 takes it for a broken message, or, between initialize and its frame, reads on for ever and
+    fills the memory. So another thread passes on what comes, and adds the quit of a client that was killed.
+    """
+    source = os.dup(0)
+    readable, writable = os.pipe()
+    os.dup2(readable, 0)
+    os.close(readable)
+
+    def pass_on() -> None:
+        while data := os.read(source, 1 << 16):
+            os.write(writable, data)
+        os.write(writable, b"\n@@TRAX:quit\n")
+
+    threading.Thread(target=pass_on, daemon=True).start()
 
 
 if __name__ == "__main__":

@@ -46,4 +46,6 @@ def _recordings(root: Path | None) -> list[Path]:
         return []
     if not root.is_dir():
         raise FileNotFoundError(f"{root}: there is no such folder")
-    return find(root)
+    if not (found := find(root)):
+        raise ValueError(f"{root}: expected folders of sequences with true boxes in it, found none")
+    return found

@@ -85,10 +85,11 @@ def channels_of(name: str, params: Any = None) -> tuple[str, ...]:
     """The channels of VOT that a tracker needs, with its parameters or those by default; ValueError for one
     that VOT can't run.
     """
+    kind = tracker_class(name)
     if name == "stereo-head":
         raise ValueError(f"{name}: needs the right image of a pair, which VOT's sequences don't have")
     if name == "flow-depth":
-        cues = (tracker_class(name).Params() if params is None else params).cues
+        cues = (kind.Params() if params is None else params).cues
         return tuple(channel for channel, cue in (("color", "flow"), ("depth", "disparity")) if cue in cues)
     return ("depth",) if name == "depth-particle" else ("color",)
 
@@ -168,7 +169,7 @@ def serve(contestant: Contestant) -> None:
             while (request := server.wait()).type != "quit":
                 server.status([_reply(request, session)])
         except trax.TraxException as error:
-            reason = f"the client's messages ended or can't be read: {error}"
+            reason = f"the client's messages can't be read: {error}"
             _quit(server, reason)
             raise ConnectionError(reason) from None
         except Errors as error:
@@ -185,20 +186,16 @@ def _reply(request: Any, session: Session) -> Any:
     images = {channel: READERS[channel](path) for channel, path in paths.items()}
     frame = Frame(images.get("color"), images.get("depth"))
     try:
-        if request.type == "initialize":
-            box, confidence = session.start(frame, _only_box(request.objects))
-        else:
-            box, confidence = session.follow(frame)
+        if len(request.objects or ()) != (request.type == "initialize"):
+            raise ValueError("expected one target in all, this tracker follows one")
+        answer = (
+            session.start(frame, box_round(request.objects[0][0]))
+            if request.objects
+            else session.follow(frame)
+        )
     except Errors as error:
         raise type(error)(f"{' and '.join(map(str, paths.values()))}: {error}") from None
-    return trax.Rectangle.create(*box), {"confidence": confidence}
-
-
-def _only_box(objects: Any) -> Box:
-    """The box round the one object that a tracker of ours follows."""
-    if len(objects) != 1:
-        raise ValueError(f"expected one object, this tracker follows one, got {len(objects)}")
-    return box_round(objects[0][0])
+    return trax.Rectangle.create(*answer.box), {"confidence": answer.confidence}
 
 
 def box_round(region: Any) -> Box:

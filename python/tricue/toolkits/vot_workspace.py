@@ -16,7 +16,9 @@ from pathlib import Path
 from tricue.camera.sources import Source, open_source
 from tricue.toolkits.trax_server import channels_of
 from tricue.toolkits.vot_sequences import vot_channels, write_sequence
+from tricue.track.create import tracker_class
 
+OTHER = 1.5  # times the frame rate that a tracker assumes
 TRACKERS, SEQUENCES, LIST = "trackers.ini", "sequences", "list.txt"
 CONFIG = """\
 registry: [./trackers.ini]
@@ -69,8 +71,8 @@ def write_workspace(
     holds something else, for a tracker that VOT can't run, and where no sequence is left.
     """
     _check_folder(folder)
-    section = {name: _section(name, checked_python(python)) for name in trackers}
     needs = {name: channels_of(name) for name in trackers}
+    interpreter = checked_python(python)
     report = Report(_listed(folder))
     for name in report.sequences:
         if reason := _unfit(open_source(folder / SEQUENCES / name), needs):
@@ -83,7 +85,7 @@ def write_workspace(
     (folder / SEQUENCES).mkdir(parents=True, exist_ok=True)
     for file, text in _FILES.items():
         _write_new(folder / file, text)
-    _add_trackers(folder / TRACKERS, section, report)
+    _add_trackers(folder / TRACKERS, {name: _section(name, interpreter) for name in trackers}, report)
     for name, source in fit:
         write_sequence(source, folder / SEQUENCES / name)
         report.added.append(name)
@@ -165,7 +167,7 @@ def _fit(
             report.notes.append(f"left out {place}: it {reason}")
         else:
             taken.add(name)
-            report.notes += [*source.notes, *filter(None, vot_channels(source)[1:])]
+            report.notes += [*source.notes, *filter(None, vot_channels(source)[1:]), *_rates(source, needs)]
             yield name, source
 
 
@@ -180,6 +182,17 @@ def _unfit(source: Source, needs: dict[str, tuple[str, ...]]) -> str:
                 why = f" ({note})" if note else ""
                 return f"has no {channel}, which {tracker} needs{why}"
     return ""
+
+
+def _rates(source: Source, trackers: Iterable[str]) -> Iterator[str]:
+    """What to set for trackers that assume another frame rate, for the protocol tells them no times."""
+    if not any(stream.timed for stream in source.channels.values()):
+        return
+    for name in trackers:
+        rate = getattr(tracker_class(name).Params(), "rate", None)
+        if rate is not None and not 1 / OTHER < source.fps / rate < OTHER:
+            hint = f"env_TRICUE_SET = rate={source.fps:.3g} in {TRACKERS} tells it"
+            yield f"{source.name} has {source.fps:.3g} frames/s, {name} assumes {rate:g}; {hint}"
 
 
 def _write_new(path: Path, text: str) -> None:
