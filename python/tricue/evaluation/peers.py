@@ -5,6 +5,8 @@ All run in the same loop as tricue's trackers. Where a peer reports failure its 
 status is LOST.
 """
 
+import ctypes
+import os
 from collections.abc import Callable
 from typing import Any
 
@@ -144,6 +146,13 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
         if hasattr(legacy, f"Tracker{name}"):
             makers[name] = getattr(legacy, f"Tracker{name}").create
     return makers
+
+
+def seed(value: int) -> None:
+    """Seed what OpenCV's trackers draw from: its own generator and, for MIL, the C library's ``rand``."""
+    cv2.setRNGSeed(value)
+    if os.name == "posix":
+        ctypes.CDLL(None).srand(value)
 
 
 def available() -> dict[str, Callable[[int], Any]]:
