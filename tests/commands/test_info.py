@@ -221,9 +221,9 @@ def test_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str
 
 def test_the_unit_of_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that --depth-scale is for the sequences that need it, and leaves the others alone."""
-    (color(tmp_path / "color", 2) / "boxes.csv").write_text("1,2,3,4\n")
-    (depth(tmp_path / "depth", 2) / "boxes.csv").write_text("1,2,3,4\n")
-    assert main(["info", str(tmp_path / "depth")]) == 2
+    (color(tmp_path / "a", 2) / "boxes.csv").write_text("1,2,3,4\n")
+    (depth(tmp_path / "b", 2) / "boxes.csv").write_text("1,2,3,4\n")
+    assert main(["info", str(tmp_path / "b")]) == 2
     found = facts(capsys, tmp_path, "--depth-scale", 0.001)["sequences"]
     assert [each["channels"] for each in found] == [["color"], ["depth"]]
 
