@@ -216,3 +216,25 @@ def test_a_seed_gives_the_same_run_whoever_ran_before(tmp_path, name):
     first = perform(task)
     cv2.setRNGSeed(99)
     np.testing.assert_array_equal(first.run.boxes, perform(task).run.boxes)
+
+
+def measured(name, entry):
+    """The row of a tracker on a recorded sequence."""
+    record = perform(Task(Entrant(name), entry))
+    return row_of(entry.open(), name, 0, judged(record, entry.open()), None, record.trouble)
+
+
+def test_ours_follows_real_people(data):
+    """On a recorded sequence the person is followed: mean IoU above 0.6, depth within 10 cm."""
+    row = measured("depth-particle", Entry("queue", data / "rgbd" / "queue-first"))
+    assert row.iou > 0.6
+    assert row.position_error < 0.1
+
+
+def test_a_peer_gets_the_published_score(data):
+    """CSRT follows Crossing as measured elsewhere (AUC 0.70): loop, truth and metric are right."""
+    if "CSRT" not in {entrant.name for entrant in entrants(None, {})}:
+        pytest.skip("this cv2 has no CSRT: opencv-contrib-python-headless has")
+    row = measured("CSRT", Entry("Crossing", data / "color" / "Crossing"))
+    assert row.auc == pytest.approx(0.70, abs=0.03)
+    assert row.precision > 0.99

@@ -16,9 +16,12 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.evaluation.one_pass import Contender
 from tricue.track.track import Status, Track
 
 Image = NDArray[np.uint8]
+Maker = Callable[[int], Contender]
+"""Makes a tracker from a seed."""
 
 
 class StillBox:
@@ -155,10 +158,10 @@ def seed(value: int) -> None:
         ctypes.CDLL(None).srand(value)
 
 
-def available() -> dict[str, Callable[[int], Any]]:
+def available() -> dict[str, Maker]:
     """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
 
-    def opencv(make: Callable[[], Any]) -> Callable[[int], Any]:
+    def opencv(make: Callable[[], Any]) -> Maker:
         return lambda seed: OpenCvTracker(make)
 
     return {
