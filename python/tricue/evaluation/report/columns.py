@@ -22,7 +22,7 @@ class Column(NamedTuple):
         return number(value, self.digits)
 
 
-_COLUMNS = (
+COLUMNS = (
     Column("auc", "AUC", "Area under the success curve: about the mean overlap (IoU) with the true box", 1),
     Column("precision", "P20", "Share of frames whose box's center is at most 20 px off", 1),
     Column("norm_precision", "norm. P", "Precision with offsets measured in the true box's size", 1),
@@ -69,7 +69,7 @@ def shown(lines: Sequence[dict[str, Any]]) -> list[Column]:
     absent = any(not math.isnan(line["true_negative"]) for line in lines)
     return [
         each
-        for each in _COLUMNS
+        for each in COLUMNS
         if (absent or each.key not in _LONG_TERM) and any(not math.isnan(line[each.key]) for line in lines)
     ]
 

@@ -135,8 +135,8 @@ def _how_to_read() -> Html:
             "p",
             "Every tracker starts on the first true box and follows it to the end without help. Arrows"
             " in the tables say which way is better, the best numbers are marked, and a click on a head"
-            " sorts. tricue's trackers have solid lines, the others broken ones; a color means the same tracker"
-            " everywhere. In strips, time runs to the right:",
+            " sorts. tricue's trackers have solid lines, the others broken ones; a color means the same"
+            " tracker everywhere. In strips, time runs to the right:",
         ),
         tag("ul", keys, class_="keys"),
         class_="how",

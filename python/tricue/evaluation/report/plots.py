@@ -120,7 +120,6 @@ def _speed(group: Group, looks: Mapping[str, Look]) -> Html | None:
                 transform=axes.transAxes,
                 ha=label.side,
                 va="center",
-                fontsize=9,
                 fontweight="bold" if mine else "normal",
                 color="#222222",
             )
