@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""The curves of a group of sequences, a tracker each: means over sequences of the means over seeds."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.evaluation import confidence, metrics
+from tricue.evaluation.evaluate import Result
+
+Array = NDArray[np.float64]
+
+
+def success(results: Sequence[Result]) -> Array:
+    """(21,) the share of frames with an overlap above each of metrics.OVERLAP_THRESHOLDS; NaN unknown."""
+    return _mean(results, lambda each: metrics.success_curve(each.judged.overlaps))
+
+
+def precision(results: Sequence[Result]) -> Array:
+    """(51,) the share whose center is at most each of metrics.PRECISION_THRESHOLDS off; NaN unknown."""
+
+    def curve(each: Result) -> Array:
+        return metrics.precision_curve(metrics.center_errors(each.judged.boxes, each.judged.truth))
+
+    return _mean(results, curve)
+
+
+def reliability(results: Sequence[Result]) -> confidence.Reliability:
+    """Over the frames of all the runs."""
+    overlaps, scores, absent = (
+        np.concatenate([getattr(each.judged, name) for each in results])
+        for name in ("overlaps", "scores", "absent")
+    )
+    return confidence.reliability(overlaps, scores, absent)
+
+
+def _mean(results: Sequence[Result], curve: Callable[[Result], Array]) -> Array:
+    by_sequence: dict[str, list[Array]] = {}
+    for each in results:
+        by_sequence.setdefault(each.row.sequence, []).append(curve(each))
+    means = np.array([np.mean(curves, axis=0) for curves in by_sequence.values()])
+    known = means[~np.isnan(means).any(axis=1)]
+    return np.asarray(known.mean(axis=0) if len(known) else np.full(means.shape[1], np.nan))

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+"""Where the names beside the points of a plot go, so that they don't lie on each other."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+_LETTER, _LINE, _POINT = 0.022, 0.062, 0.022  # widths and heights as shares of the axes' width and height
+_STEPS = (0.0, 0.03, -0.03, 0.06, -0.06, 0.09, -0.09, 0.12, -0.12)  # up or down from the point
+
+
+class Label(NamedTuple):
+    """Its end beside the point, in axes' shares from the lower left; side: the end that lies there."""
+
+    x: float
+    y: float
+    side: str
+
+
+class _Area(NamedTuple):
+    left: float
+    right: float
+    low: float
+    high: float
+
+    def meets(self, other: "_Area") -> bool:
+        return min(self.right, other.right) > max(self.left, other.left) and min(self.high, other.high) > max(
+            self.low, other.low
+        )
+
+
+def place(points: Sequence[tuple[float, float]], names: Sequence[str]) -> list[Label]:
+    """A label for each point (x, y), shares of the axes: right or left of it, the first place that is free.
+
+    Where none is, the one to the right stays.
+    """
+    taken = [_Area(x - _POINT, x + _POINT, y - _POINT, y + _POINT) for x, y in points]
+    placed = []
+    for (x, y), name in zip(points, names, strict=True):
+        places = [_label(x, y + step, side) for step in _STEPS for side in ("left", "right")]
+        free = [
+            each for each in places if _fits(area := _area(each, name)) and not any(map(area.meets, taken))
+        ]
+        label = (free or [places[0] if x < 0.7 else places[1]])[0]
+        taken.append(_area(label, name))
+        placed.append(label)
+    return placed
+
+
+def _label(x: float, y: float, side: str) -> Label:
+    return Label(x + 1.4 * _POINT * (1 if side == "left" else -1), y, side)
+
+
+def _area(label: Label, name: str) -> _Area:
+    width = _LETTER * len(name)
+    left = label.x if label.side == "left" else label.x - width
+    return _Area(left, left + width, label.y - _LINE / 2, label.y + _LINE / 2)
+
+
+def _fits(area: _Area) -> bool:
+    return area.left >= 0 and area.right <= 1 and area.low >= 0 and area.high <= 1

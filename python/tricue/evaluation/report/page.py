@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: MIT
+"""The report of an evaluation as one HTML file that loads nothing, from nowhere."""
+
+import base64
+import hashlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tricue.evaluation import tables
+from tricue.evaluation.evaluate import Evaluation
+from tricue.evaluation.report import vector
+from tricue.evaluation.report.looks import Look, looks
+from tricue.evaluation.report.markup import Html, joined, tag
+from tricue.evaluation.report.plots import Group, plots
+from tricue.evaluation.report.sequences import FILMED, Shown, sequences, worst_first
+from tricue.evaluation.report.setup import setup, troubles
+from tricue.evaluation.report.strips import ABSENT, SHADES, SILENT
+from tricue.evaluation.report.summary import summary_table
+
+REPORT = "report.html"
+_TITLES = {
+    "color": "Color video",
+    "rgbd": "Color and depth",
+    "depth": "Depth",
+    "stereo": "Stereo pairs",
+}
+_FILES = {
+    tables.ROWS: "a line a run",
+    tables.SUMMARY: "means",
+    tables.SPEEDS: "times",
+    tables.JSON: "everything",
+}
+
+
+def write_report(evaluation: Evaluation, folder: Path, about: Mapping[str, Any]) -> Path:
+    """Write report.html into a folder, beside the files of tables.write, to which it links; its path.
+
+    about: tables.settings. The same evaluation gives the same bytes. ImportError where matplotlib is missing.
+    """
+    vector.require()
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / REPORT
+    path.write_text(_page(evaluation, about), encoding="utf-8", newline="\n")
+    return path
+
+
+def _page(evaluation: Evaluation, about: Mapping[str, Any]) -> str:
+    name = Path(str(about.get("dataset", "a data set"))).name or str(about["dataset"])
+    head = tag(
+        "head", _metas(), tag("title", f"{name}, tricue evaluation"), tag("style", _asset("style.css"))
+    )
+    groups = [Group.of(evaluation, each, _lines(evaluation)) for each in evaluation.groups]
+    shown = worst_first(evaluation)
+    filmed = {each.opened.entry.name for each in shown[:FILMED]}
+    drawn = looks(evaluation.entrants)
+    sections = [_group(each, evaluation, shown, filmed, drawn) for each in groups]
+    main = tag(
+        "main", _header(evaluation, name, groups), sections, troubles(evaluation), setup(evaluation, about)
+    )
+    return (
+        "<!DOCTYPE html>\n" + tag("html", head, tag("body", main, tag("script", _script())), lang="en") + "\n"
+    )
+
+
+def _metas() -> Html:
+    """The policy lets the browser load nothing, and run nothing but the script that sorts tables."""
+    digest = base64.b64encode(hashlib.sha256(_script().encode()).digest()).decode()
+    policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
+    return joined(
+        tag("meta", charset="utf-8"),
+        tag("meta", http_equiv="Content-Security-Policy", content=policy),
+        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
+    )
+
+
+def _lines(evaluation: Evaluation) -> list[dict[str, Any]]:
+    both = zip(tables.summary(evaluation), tables.speeds(evaluation), strict=True)
+    return [{**line, **speed} for line, speed in both]
+
+
+def _header(evaluation: Evaluation, name: str, groups: Sequence[Group]) -> Html:
+    links = [tag("span", tag("a", file, href=file), f" ({what})") for file, what in _FILES.items()]
+    places = [(each.name, _TITLES.get(each.name, each.name)) for each in groups]
+    wrong = [("troubles", "What didn't run")] if troubles(evaluation) else []
+    nav = [tag("a", title, href=f"#{place}") for place, title in [*places, *wrong, ("setup", "Setup")]]
+    return tag(
+        "header",
+        tag("p", "tricue evaluation", class_="kicker"),
+        tag("h1", name),
+        tag("p", _sentence(evaluation), class_="lead"),
+        tag("nav", nav, aria_label="parts of this page"),
+        tag("p", "The numbers in full: ", [(" ", each) for each in links], class_="files"),
+        _how_to_read(),
+    )
+
+
+def _sentence(evaluation: Evaluation) -> str:
+    ours = [each.name for each in evaluation.entrants if each.ours]
+    peers = [each.name for each in evaluation.entrants if not each.ours]
+    frames = {each.row.sequence: each.row.frames for each in evaluation.results}
+    seeds = evaluation.options.seeds
+    drawn = f"; those that draw random numbers ran from {seeds} seeds" if seeds > 1 else ""
+    beside = f"{', beside ' if ours else ''}{_listed(peers)}" if peers else ""
+    count = len(evaluation.opened)
+    sequences_ = "one sequence" if count == 1 else f"{count} sequences"
+    trackers = f"{len(ours) + len(peers)} trackers" if len(ours) + len(peers) > 1 else "One tracker"
+    return f"{trackers} on {sequences_}, {sum(frames.values()):,} frames: {_listed(ours)}{beside}{drawn}."
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names[:-1]) + (" and " if len(names) > 1 else "") + names[-1] if names else ""
+
+
+def _how_to_read() -> Html:
+    scale = [tag("span", style=f"background:{shade}") for shade in SHADES]
+    keys = [
+        tag(
+            "li",
+            tag("span", "0", scale, "1", class_="scale"),
+            " overlap (IoU) with the true box, the worst of each stretch of time",
+        ),
+        tag("li", tag("span", class_="key", style=f"background:{ABSENT}"), " the target is absent"),
+        tag(
+            "li",
+            tag("span", class_="key", style=f"background:{SILENT}"),
+            " below: the tracker says that it doesn't see the target (not TRACKED)",
+        ),
+        tag("li", tag("span", class_="key truth"), " white and dashed in pictures: the true box"),
+    ]
+    return tag(
+        "section",
+        tag("h2", "How to read this"),
+        tag(
+            "p",
+            "Every tracker starts on the first true box and follows it to the end without help. Arrows"
+            " in the tables say which way is better, the best numbers are marked, and a click on a head"
+            " sorts. tricue's trackers have solid lines, the others broken ones; a color means the same"
+            " tracker everywhere. In strips, time runs to the right:",
+        ),
+        tag("ul", keys, class_="keys"),
+        class_="how",
+    )
+
+
+def _group(
+    group: Group, evaluation: Evaluation, shown: Sequence[Shown], filmed: set[str], drawn: Mapping[str, Look]
+) -> Html:
+    mine = [each for each in shown if each.opened.group == group.name]
+    ours = set(group.ours)
+    count = "one sequence" if len(mine) == 1 else f"{len(mine)} sequences"
+    parts: list[Any] = [tag("h2", _TITLES.get(group.name, group.name), tag("small", count))]
+    if group.lines:
+        parts += [summary_table(group.name, group.lines, len(mine), ours, drawn), plots(group, drawn)]
+    else:
+        parts.append(tag("p", "No run on these sequences finished.", class_="note"))
+    parts += [tag("h3", "Sequences, worst first"), _order(len(shown))]
+    parts.append(sequences(mine, filmed, ours, drawn, evaluation.options.seeds > 1))
+    return tag("section", parts, id=group.name)
+
+
+def _order(total: int) -> Html:
+    """How the list is made."""
+    words = (
+        "By the AUC of tricue's best tracker on each. The pictures show its start and its worst moments, with"
+        " the boxes of tricue's trackers and of the two best others."
+    )
+    few = f" Of the {total} sequences in all the {FILMED} worst have pictures." if total > FILMED else ""
+    return tag("p", words + few, class_="note")
+
+
+def _script() -> Html:
+    return _asset("sort.js")
+
+
+def _asset(name: str) -> Html:
+    return Html(Path(__file__).with_name(name).read_text(encoding="utf-8"))

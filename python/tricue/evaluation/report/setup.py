@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: MIT
+"""What was run, with which parameters, by which versions, where; and what couldn't be run."""
+
+import dataclasses
+import shlex
+from collections.abc import Mapping
+from typing import Any
+
+from tricue.evaluation.evaluate import Evaluation, Options
+from tricue.evaluation.report.markup import Html, joined, scrolled, tag
+from tricue.track.create import tracker_class
+
+_VERSIONS = ("tricue", "opencv", "numpy", "python", "machine")
+_READING = {"depth_scale": "--depth-scale", "fps": "--fps", "unit": "--unit", "truth": "--truth"}
+_MANY = 12  # names told in a sentence; more are folded
+
+
+def troubles(evaluation: Evaluation) -> Html | None:
+    """What was refused, what stopped, and what couldn't be read; None where there was nothing."""
+    refused: dict[tuple[str, str], list[str]] = {}
+    for (tracker, sequence), why in evaluation.left_out.items():
+        refused.setdefault((tracker, why), []).append(sequence)
+    stopped = [each.row for each in evaluation.results if each.row.trouble]
+    lists = [
+        _list(
+            "Not run, as the sequence lacks what the tracker needs",
+            [
+                [tag("b", tracker), f": {why}, {_count(names)}", _names(names)]
+                for (tracker, why), names in refused.items()
+            ],
+        ),
+        _list(
+            "Stopped by an error; from there on the run has no boxes",
+            [
+                [tag("b", row.tracker), f" on {row.sequence}, seed {row.seed}: {row.trouble}"]
+                for row in stopped
+            ],
+        ),
+        _list(
+            "Couldn't be read, and are in no number above",
+            [[tag("b", name), f": {error}"] for name, error in evaluation.failed.items()],
+        ),
+    ]
+    return tag("section", tag("h2", "What didn't run"), lists, id="troubles") if any(lists) else None
+
+
+def setup(evaluation: Evaluation, about: Mapping[str, Any]) -> Html:
+    """Parameters, versions, seeds, machine, reading options, and the command for the same again."""
+    options = evaluation.options
+    reading = ", ".join(
+        f"{name} {value}" for name, value in dataclasses.asdict(options.reading).items() if value is not None
+    )
+    facts = {
+        **{name: about[name] for name in _VERSIONS if name in about},
+        "seeds": f"{options.seeds}, counted from 0; trackers that draw no random numbers ran once",
+        "restarts": "each run also with restarts after failures" if options.restarts else "none",
+        "read with": reading or "what the files tell themselves",
+        "again by": tag("code", command(options, str(about.get("dataset", "DATASET")))),
+    }
+    listed = [(tag("dt", name), tag("dd", value)) for name, value in facts.items()]
+    ours = [
+        _parameters(name, values, about.get("changed", {}).get(name, {}))
+        for name, values in about.get("parameters", {}).items()
+    ]
+    return tag(
+        "section",
+        tag("h2", "Setup"),
+        tag("dl", listed, class_="facts"),
+        tag("h3", "Parameters"),
+        ours,
+        id="setup",
+    )
+
+
+def command(options: Options, dataset: str) -> str:
+    """The command line that runs the same."""
+    words = ["tricue", "evaluate", dataset]
+    if options.trackers:
+        words += ["--trackers", ",".join(options.trackers)]
+    words += ["--seeds", str(options.seeds)]
+    words += [] if options.restarts else ["--no-restarts"]
+    for tracker, values in options.settings.items():
+        for name, value in values.items():
+            words += ["--set", f"{tracker}.{name}={_plain(value)}"]
+    for name, flag in _READING.items():
+        value = getattr(options.reading, name)
+        words += [] if value is None else [flag, str(value)]
+    return shlex.join(words)
+
+
+def _parameters(tracker: str, values: Mapping[str, Any], changed: Mapping[str, Any]) -> Html:
+    fields = {field.name: field for field in dataclasses.fields(tracker_class(tracker).Params)}
+    rows = []
+    for name, value in values.items():
+        if (field := fields.get(name)) is None:
+            continue
+        default = tag("small", f" default {_plain(field.default)}") if name in changed else None
+        cell = tag("td", tag("strong", _plain(value)) if default else _plain(value), default)
+        row = tag("th", name, scope="row"), cell, tag("td", field.metadata.get("unit", ""))
+        rows.append(tag("tr", row, class_="changed" if default else None))
+    head = tag("tr", [tag("th", each, scope="col") for each in ("parameter", "value", "unit")])
+    table = tag("table", tag("thead", head), tag("tbody", rows), class_="parameters")
+    told = f"{len(changed)} changed: {', '.join(changed)}" if changed else "all as by default"
+    return tag(
+        "details", tag("summary", tag("b", tracker), f" {told}"), scrolled(table, f"parameters of {tracker}")
+    )
+
+
+def _list(title: str, items: list[list[Any]]) -> Html | None:
+    return joined(tag("h3", title), tag("ul", [tag("li", item) for item in items])) if items else None
+
+
+def _count(names: list[str]) -> str:
+    return "1 sequence" if len(names) == 1 else f"{len(names)} sequences"
+
+
+def _names(names: list[str]) -> Html:
+    text = ", ".join(names)
+    if len(names) <= _MANY:
+        return tag("span", f" ({text})")
+    return tag("details", tag("summary", "their names"), tag("p", text))
+
+
+def _plain(value: Any) -> str:
+    return ",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value)

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: MIT
+import base64
+import html
+import math
+import re
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tricue.evaluation import tables
+from tricue.evaluation.entrants import Entrant
+from tricue.evaluation.peers import available
+from tricue.evaluation.report import curves, labels, strips
+from tricue.evaluation.report.columns import COLUMNS, best, shown
+from tricue.evaluation.report.looks import looks
+from tricue.evaluation.report.markup import Html, joined, number, tag
+from tricue.evaluation.report.moments import MOST, moments
+from tricue.evaluation.report.plots import Group
+from tricue.evaluation.report.summary import summary_table
+from tricue.evaluation.rows import Judged
+from tricue.track.create import names
+
+NAN = math.nan
+
+
+def run(overlaps, tracked=None, absent=None):
+    """A judged run with these overlaps."""
+    count = len(overlaps)
+    box = np.tile([0.0, 0.0, 4.0, 4.0], (count, 1))
+    gone = np.zeros(count, bool) if absent is None else np.array(absent, bool)
+    said = np.ones(count, bool) if tracked is None else np.array(tracked, bool)
+    return Judged(box, box, gone, np.array(overlaps, float), np.ones(count), said, np.full(count, NAN))
+
+
+@given(st.text(), st.text())
+def test_text_and_attributes_are_escaped(text, value):
+    """Whatever is put into an element leaves it one element, from which a reader gets the same text back."""
+    made = tag("p", text, title=value)
+    inner = re.fullmatch(r'<p title="([^"<>]*)">([^<>]*)</p>', made, re.DOTALL)
+    assert inner
+    assert inner[1] == html.escape(value)
+    assert inner[2] == html.escape(text)
+
+
+def test_html_is_left_as_it_is():
+    """HTML isn't escaped twice, None is nothing, lists are their parts, flags stand alone."""
+    assert tag("p", [Html("<b>"), None, "&"], hidden=True, id=None, class_="a") == (
+        '<p hidden class="a"><b>&amp;</p>'
+    )
+    assert joined(tag("br"), 1) == "<br>1"
+    assert number(NAN) == "\N{EN DASH}"
+    assert number(1234.5678, 2) == "1,234.57"
+
+
+def test_moments_are_the_worst_apart():
+    """The start, and the lowest overlaps, of which those near a lower one are left out."""
+    overlaps = np.full(80, 0.9)
+    overlaps[[20, 21, 40, 60, 75]] = [0.1, 0.0, 0.3, 0.2, 0.25]
+    assert moments(run(overlaps)) == [0, 21, 40, 60, 75]
+
+
+def test_a_long_loss_is_shown_from_its_beginning():
+    """Of equal overlaps the earliest is chosen, then others an eighth of the run apart."""
+    overlaps = np.where(np.arange(160) < 50, 0.8, 0.0)
+    assert moments(run(overlaps)) == [0, 50, 70, 90, 110]
+
+
+def test_false_alarms_are_moments():
+    """A frame without the target counts as worst if the tracker claims to see it, else not at all."""
+    overlaps, absent, tracked = np.full(40, 0.5), np.zeros(40, bool), np.ones(40, bool)
+    absent[[10, 30]], overlaps[[10, 30]] = True, NAN
+    tracked[30] = False
+    chosen = moments(run(overlaps, tracked, absent))
+    assert 10 in chosen
+    assert 30 not in chosen
+
+
+@given(st.lists(st.one_of(st.floats(0, 1), st.just(NAN)), min_size=1, max_size=60))
+def test_moments_are_frames_with_truth(overlaps):
+    """Rising, at most the start and four others, all but the start with a known overlap."""
+    chosen = moments(run(overlaps))
+    assert chosen[0] == 0
+    assert chosen == sorted(set(chosen))
+    assert len(chosen) <= 1 + MOST
+    assert not any(math.isnan(overlaps[index]) for index in chosen[1:])
+
+
+def test_a_strip_shows_overlap_absence_and_status():
+    """Columns have the shade of the overlap, of absence, of nothing known; below stands what was said."""
+    made = strips.strip(run([0.0, 0.5, 1.0, NAN, NAN], [1, 1, 1, 0, 1], [0, 0, 0, 1, 0]), "label")
+    data = re.search(r'src="data:image/png;base64,([^"]+)"', made)
+    picture = cv2.imdecode(np.frombuffer(base64.b64decode(data[1]), np.uint8), cv2.IMREAD_COLOR)[:, :, ::-1]
+    assert picture.shape[1] == 5
+    assert [hexed(color) for color in picture[0]] == [
+        strips.SHADES[0], strips.SHADES[3], strips.SHADES[5], strips.ABSENT, strips.UNKNOWN
+    ]  # fmt: skip
+    assert [hexed(color) for color in picture[-1]] == [strips.SAID] * 3 + [strips.SILENT, strips.SAID]
+
+
+def test_a_long_strip_keeps_short_losses():
+    """One lost frame of thousands is seen: a column has the shade of its worst frame."""
+    overlaps = np.ones(5000)
+    overlaps[2345] = 0
+    made = strips.strip(run(overlaps), "label")
+    data = base64.b64decode(re.search(r'base64,([^"]+)"', made)[1])
+    top = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)[0, :, ::-1]
+    assert len(top) == strips.WIDEST
+    assert [hexed(color) for color in top].count(strips.SHADES[0]) == 1
+
+
+def hexed(color):
+    """A pixel as the page writes colors."""
+    return "#" + bytes(color.tolist()).hex()
+
+
+def test_shades_fall_in_lightness():
+    """Worse is darker, so that strips say the same to those who don't tell red from green."""
+    lab = cv2.cvtColor(np.array([[list(bytes.fromhex(s[1:]))[::-1] for s in strips.SHADES]], np.uint8),
+                       cv2.COLOR_BGR2LAB)[0, :, 0].astype(int)  # fmt: skip
+    assert (np.diff(lab[:4]) > 20).all()
+    assert lab[4:].min() > lab[2]
+
+
+def test_curves_are_those_of_the_summary(evaluation):
+    """The mean of a success curve is the summary's AUC, and the precision curve at 20 px its P20."""
+    lines = tables.summary(evaluation)
+    for line in lines:
+        results = evaluation.of(line["group"], line["tracker"])
+        assert curves.success(results).mean() == pytest.approx(line["auc"], abs=1e-12)
+        assert curves.precision(results)[20] == pytest.approx(line["precision"], abs=1e-12)
+        counted = sum((~np.isnan(each.judged.overlaps) | each.judged.absent).sum() for each in results)
+        assert curves.reliability(results).counts.sum() == counted
+
+
+def test_looks_differ():
+    """Of all our trackers and all peers no two have the same color and dashes; ours are solid."""
+    every = [Entrant(name) for name in (*names(), *available())]
+    found = looks(every)
+    assert len({(look.color, look.dashes) for look in found.values()}) == len(every)
+    assert all((found[each.name].dashes == "") == each.ours for each in every)
+
+
+def test_labels_of_a_crowd_lie_apart():
+    """Six points on nearly the same spot get names inside the axes that overlap neither names nor points."""
+    points = [(0.5, 0.5 + 0.01 * index) for index in range(6)]
+    areas = [labels._area(label, "name") for label in labels.place(points, ["name"] * 6)]
+    assert all(map(labels._fits, areas))
+    assert not any(a.meets(b) for index, a in enumerate(areas) for b in areas[:index])
+    assert not any(a.left < x < a.right and a.low < y < a.high for a in areas for x, y in points)
+
+
+@given(st.lists(st.tuples(st.floats(0, 1), st.floats(0, 1)), max_size=8))
+def test_labels_stay_beside_their_points(points):
+    """Whatever the crowd, a name begins or ends next to its point, and goes to the side where it is inside."""
+    for (x, y), label in zip(points, labels.place(points, ["name"] * len(points)), strict=True):
+        assert abs(label.x - x) < 0.05
+        assert abs(label.y - y) < 0.13
+        area = labels._area(label, "name")
+        assert area.left >= 0
+        assert area.right <= 1
+
+
+def line(tracker, sequences, **values):
+    """A line of the summary; NaN for what isn't given."""
+    keys = [column.key for column in COLUMNS]
+    return {"tracker": tracker, "sequences": sequences, **dict.fromkeys(keys, NAN), **values}
+
+
+def test_only_trackers_that_ran_on_all_can_be_best():
+    """A mean over fewer sequences is told as such, and not marked, however good it is."""
+    lines = [line("a", 3, auc=0.5, failures=2.0), line("b", 3, auc=0.4, failures=1.0), line("c", 1, auc=0.9)]
+    made = summary_table("color", lines, 3, {"a"}, looks([Entrant("a"), Entrant("b"), Entrant("c")]))
+    assert re.findall(r"<strong>([^<]*)</strong>", made) == ["0.500", "1.00"]
+    assert "c (1 of 3)" in made
+    assert made.count('class="badge"') == 1
+
+
+def test_columns_that_say_nothing_are_left_out():
+    """A column needs a number; those of long-term tracking need absent frames."""
+    few = line("a", 1, auc=0.5, f_score=0.6, true_positive=0.7)
+    assert [column.key for column in shown([few])] == ["auc"]
+    heads = [column.key for column in shown([few, line("b", 1, true_negative=0.1)])]
+    assert heads == ["auc", "f_score", "true_positive", "true_negative"]
+
+
+def test_the_best_is_the_highest_or_the_lowest():
+    """By the column's direction, NaN left out."""
+    auc, failures = shown([line("a", 1, auc=0.1, failures=3.0)])
+    lines = [line("a", 1, auc=0.1, failures=3.0), line("b", 1, auc=0.2), line("c", 1, failures=0.0)]
+    assert best(auc, lines) == 0.2
+    assert best(failures, lines) == 0.0
+    assert math.isnan(best(auc, [line("c", 1)]))
+
+
+def test_a_group_knows_its_trackers(evaluation):
+    """Those that ran on it, ours apart."""
+    lines = tables.summary(evaluation)
+    assert Group.of(evaluation, "color", lines).ours == ["color-particle"]
+    assert list(Group.of(evaluation, "depth", lines).results) == ["depth-particle", "meanShift", "still-box"]
