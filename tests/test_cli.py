@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import tricue
 from tricue.cli import main
+from tricue.verbs import VERBS
 
 
 @pytest.fixture
@@ -205,7 +206,7 @@ def test_a_missing_extra_is_named(
     assert not list(tmp_path.glob("demo/*"))
 
 
-@pytest.mark.parametrize("verb", [[], ["track"], ["demo"], ["reproduce"]])
+@pytest.mark.parametrize("verb", [[], *([verb.name] for verb in VERBS)])
 def test_help_shows_examples(verb: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     """It proves that every verb has a help text, with commands to copy."""
     with pytest.raises(SystemExit) as stop:

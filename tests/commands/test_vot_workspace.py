@@ -82,7 +82,7 @@ def test_all_trackers_are_in_the_commands() -> None:
         ),
         (["--trackers", "color-particle", "--python", "nowhere/python"], "found none at nowhere/python"),
         (["--trackers", "color-particle", "--sequences", "nowhere"], "nowhere: there is no such folder"),
-        (["--trackers", "color-particle", "--sequences", "."], r"\.: expected folders of sequences"),
+        (["--trackers", "color-particle", "--sequences", "empty"], "empty: expected folders of sequences"),
         (["--trackers", ","], "argument --trackers: expected names with commas between"),
         ([], "the following arguments are required: --trackers"),
     ],
@@ -97,6 +97,7 @@ def test_errors_are_a_line(
 ) -> None:
     """It proves that each mistake is one line on stderr, exit code 2, and no folder."""
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty").mkdir()
     try:
         code = main(["vot-workspace", str(tmp_path / "ws"), "--sequences", str(data), *more])
     except SystemExit as stop:  # argparse's own way out
