@@ -163,3 +163,11 @@ def test_which_table_is_found(tmp_path: Path) -> None:
     assert find_table(tmp_path) is None
     (tmp_path / TABLE).touch()
     assert find_table(tmp_path, video) == tmp_path / TABLE
+
+
+def test_what_a_tracker_wrote_beside_a_video_is_not_the_truth(tmp_path):
+    """tricue track clip.mp4 --csv clip.csv must not make the next run judge itself by it."""
+    (tmp_path / "clip.csv").write_text("frame,time_s,status,score,x,y,width,height\n0,0,tracked,1,1,2,3,4\n")
+    assert video_table(tmp_path / "clip.mp4") is None
+    (tmp_path / "clip.csv").write_text("frame,status,x,y,width,height\n0,seen,1,2,3,4\n")
+    assert video_table(tmp_path / "clip.mp4") == tmp_path / "clip.csv"

@@ -19,6 +19,7 @@ from tricue.camera.truth import Truth, text_lines, truth_of
 TABLE = "boxes.csv"
 LONGEST = 10_000_000  # frames, a day at 100 a second; a number above isn't meant as a frame's
 _BOX = ("x", "y", "width", "height")
+_TRACK = ("status", "score")  # columns of tricue track --csv
 _METRES = ("x_m", "y_m", "z_m")
 _SHORT = {"w": "width", "h": "height"}
 _PLAIN = {4: _BOX, 5: ("frame", *_BOX)}
@@ -72,13 +73,17 @@ def find_table(folder: Path, video: Path | None = None) -> Path | None:
 
 
 def video_table(video: Path) -> Path | None:
-    """The table beside a video, of its name; None too where its header says that it is about other things."""
+    """The table beside a video, of its name; None too where its header says that it is about other things, or
+    that a tracker wrote it, whose boxes aren't true.
+    """
     path = video.with_suffix(".csv")
     if not path.is_file():
         return None
     with path.open(encoding="utf-8-sig", errors="replace") as file:
         names = _names(_cells(file.readline(10_000)))
-    return path if names is None or {"x", "y"} <= set(names) else None
+    if names is None:
+        return path
+    return path if {"x", "y"} <= set(names) and not set(_TRACK) <= set(names) else None
 
 
 def _rows(path: Path) -> list[_Row]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Items made ahead of their use, on a thread of their own: decoding while a tracker works."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 from queue import SimpleQueue
 from threading import Event, Semaphore, Thread, current_thread
 from typing import Generic, TypeVar
@@ -12,7 +12,7 @@ T = TypeVar("T")
 AHEAD = 8
 
 
-def prefetched(iterable: Iterable[T], ahead: int = AHEAD) -> Iterator[T]:
+def prefetched(iterable: Iterable[T], ahead: int = AHEAD) -> Generator[T, None, None]:
     """The items of ``iterable`` in their order; a background thread makes up to ``ahead`` of them in advance.
 
     An exception of the iterable is raised after the items that came before it. The thread starts with the
@@ -67,7 +67,7 @@ class _Producer(Generic[T]):
         self.room.release()
 
 
-def _consume(producer: _Producer[T]) -> Iterator[T]:
+def _consume(producer: _Producer[T]) -> Generator[T, None, None]:
     # A daemon, for a process that ends with an iterator left open must not wait for it.
     thread = Thread(target=producer.run, name="prefetched", daemon=True)
     thread.start()

@@ -4,6 +4,7 @@
 import sys
 from argparse import Namespace
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
 from tricue.evaluation.report.page import write_report
+from tricue.evaluation.tasks import perform
 from tricue.track.settings import read_settings
 
 FAILED = 1
@@ -44,6 +46,7 @@ def run(options: Namespace) -> int:
                 fresh=options.fresh,
                 scheduler=options.scheduler,
                 tell=tell,
+                work=partial(perform, ahead=options.ahead),
             )
         except KeyboardInterrupt:
             print(f"what is finished is in {folder}; the same command goes on", file=sys.stderr)

@@ -22,6 +22,8 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.sources import Source, open_source
 from tricue.camera.streams import Images, Stream, Video
 
+PAIR = "calibration.yml"
+"""OpenCV's calibration of a pair, looked for beside its images."""
 BOUNDED = ("VOT", "VOT RGB-D", "KITTI tracking")
 """Formats whose true boxes end at the image's edge, so that of a found box only the part inside counts."""
 
@@ -123,10 +125,11 @@ class Opened:
     @property
     def rig(self) -> StereoRig | None:
         """The pair's, where a file beside the images tells it."""
-        path = self.source.calibration
-        if path is None or "right" not in self.source.channels:
+        path = self.source.calibration or self.entry.place / PAIR
+        if "right" not in self.source.channels or not path.is_file():
             return None
-        return read_rig(path, self.source.size, self.entry.reading.unit)
+        unit = self.entry.reading.unit if path.name == PAIR else None
+        return read_rig(path, self.source.size, unit)
 
     @property
     def boxes(self) -> NDArray[np.float64]:
@@ -168,8 +171,9 @@ class Opened:
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())
         for name, stream in self.source.channels.items():
             found.update(repr((name, [(path.name, path.stat().st_size) for path in _files(stream)])).encode())
-        if self.source.calibration is not None:
-            found.update(self.source.calibration.read_bytes())
+        for path in (self.source.calibration, self.entry.place / PAIR):
+            if path is not None and path.is_file():
+                found.update(path.read_bytes())
         return found.hexdigest()
 
 

@@ -45,6 +45,13 @@ def add_options(verb: argparse.ArgumentParser) -> None:
     where = verb.add_mutually_exclusive_group()
     where.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
     where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, tcp://HOST:PORT")
+    verb.add_argument(
+        "--ahead",
+        type=count,
+        default=0,
+        metavar="N",
+        help="frames to read ahead, for slow disks; takes part of another core",
+    )
     verb.add_argument("--fresh", action="store_true", help="run again what was run before")
     verb.add_argument(
         "--output", type=Path, default=Path("evaluation"), metavar="FOLDER", help="default %(default)s/"
