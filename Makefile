@@ -6,6 +6,8 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 SANITIZED := build/sanitized
 VOT := build/vot
+# A process a core; a file's tests stay together, for they share what is slow to make.
+PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md $(shell find cpp python -not -path '*/__pycache__*')
 
 .PHONY: demo test setup bench lint format stubs sanitize vot clean
@@ -14,7 +16,7 @@ demo: $(VENV)/demo
 	$(BIN)/tricue demo
 
 test: $(VENV)/dev
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest $(PARALLEL)
 
 setup: $(VENV)/dev
 
@@ -46,7 +48,7 @@ sanitize: $(VENV)/dev
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
 	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest --capture=sys tests/camera tests/cues tests/fuse \
+	    $(BIN)/python -m pytest --capture=sys $(PARALLEL) tests/camera tests/cues tests/fuse \
 	    tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
 
 # The VOT toolkit, beside which our trackers and numbers are tested, in an environment of its own: it brings another OpenCV.

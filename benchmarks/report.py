@@ -18,7 +18,7 @@ import tricue
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, peers
-from tricue.evaluation.compare_depth import pictures
+from tricue.evaluation.entrants import pictured
 from tricue.evaluation.one_pass import Contender, Run, one_thread, run
 from tricue.scenes import (
     DepthScene,
@@ -196,13 +196,13 @@ def depth_rows() -> Iterator[str]:
 def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
     """The trackers' runs, in turn over the rounds; slow ones sit out the later."""
     make = partial(tricue.create, "depth-particle", intrinsics=scene.intrinsics)
-    pictured = pictures(scene.frames)
+    pictures = list(map(pictured(), scene.frames))
     entries: dict[str, tuple[Make, Any, int]] = {
         "depth-particle": (make, scene.frames, ROUNDS),
         "depth-particle, reference": (partial(make, kernels="reference"), scene.frames[:FEW], 1),
     }
     entries |= {
-        name: (partial(peer, 0), pictured, SLOW)
+        name: (partial(peer, 0), pictures, SLOW)
         for name, peer in peers.available().items()
         if name in ("KCF", "CSRT")
     }

@@ -10,7 +10,7 @@ import pytest
 import tricue
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics, peers
-from tricue.evaluation.compare_depth import pictures
+from tricue.evaluation.entrants import pictured
 from tricue.scenes import DepthScene, walker
 
 SIZES = {"176x144": "tof", "640x480": "rgbd"}
@@ -29,7 +29,7 @@ def scene(size: str) -> DepthScene:
 @cache
 def seen(size: str, name: str) -> list[Frame]:
     """What the tracker gets to see."""
-    frames = list(scene(size).frames) if name in OURS else pictures(scene(size).frames)
+    frames = list(scene(size).frames) if name in OURS else list(map(pictured(), scene(size).frames))
     return frames[: FRAMES.get(name, USUAL)]
 
 

@@ -58,7 +58,8 @@ def __getattr__(name: str) -> Any:
     if name == "__version__":
         from importlib.metadata import version
 
-        return version("tricue")
+        globals()[name] = version("tricue")  # kept, as looking it up reads files
+        return globals()[name]
     raise AttributeError(f"module 'tricue' has no attribute {name!r}")
 
 

@@ -147,17 +147,17 @@ def _line(name: str, text: str) -> str:
 
 def _list(root: Path, places: list[Path], options: Namespace) -> int:
     """A line a sequence; ValueError at the end where some can't be opened."""
-    found = [_short(root, place) for place in places]
+    found = [_short(root, place, options.depth_scale) for place in places]
     _print({"sequences": found}, map(_short_line, found), options.json)
     if bad := sum("error" in each for each in found):
         raise ValueError(f"{root}: {bad} of {len(found)} sequences can't be opened")
     return 0
 
 
-def _short(root: Path, place: Path) -> Facts:
+def _short(root: Path, place: Path, scale: float | None) -> Facts:
     name = place.relative_to(root).as_posix()
     try:
-        source, names = open_source(place), _targets(place)
+        source, names = _opened(place, scale), _targets(place)
     except (OSError, ValueError) as error:
         return {"place": name, "error": str(error)}
     boxes = None if source.truth is None else int(np.isfinite(source.truth).all(axis=1).sum())
@@ -169,6 +169,16 @@ def _short(root: Path, place: Path) -> Facts:
         "boxes": boxes,
         "targets": names,
     }
+
+
+def _opened(place: Path, scale: float | None) -> Source:
+    """The source; the scale is for those alone whose format doesn't say it."""
+    try:
+        return open_source(place)
+    except ValueError:
+        if scale is None:
+            raise
+        return open_source(place, depth_scale=scale)
 
 
 def _short_line(facts: Facts) -> str:

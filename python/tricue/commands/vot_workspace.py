@@ -5,7 +5,7 @@ import shlex
 from argparse import Namespace
 from pathlib import Path
 
-from tricue.evaluation.sequences import find
+from tricue.camera.datasets import find_sequences
 from tricue.toolkits.vot_workspace import TRACKERS, write_workspace
 
 TOOLKIT = "pip install vot-toolkit==0.7.4 vot-trax==4.0.2 attributee==0.1.9"
@@ -46,6 +46,6 @@ def _recordings(root: Path | None) -> list[Path]:
         return []
     if not root.is_dir():
         raise FileNotFoundError(f"{root}: there is no such folder")
-    if not (found := find(root)):
+    if not (found := find_sequences(root)):
         raise ValueError(f"{root}: expected folders of sequences with true boxes in it, found none")
     return found

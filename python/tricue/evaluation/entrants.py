@@ -42,7 +42,7 @@ class Entrant:
 
     @property
     def steady(self) -> bool:
-        """Whether its seed changes nothing, so that one run tells all."""
+        """Whether one run is enough: it draws no random numbers, or, as MIL, none that its users can seed."""
         return self.name in _STEADY or self.name in ("stereo-head", "flow-depth")
 
     @property
@@ -71,7 +71,7 @@ class Entrant:
 
     def contender(self, opened: Opened, seed: int) -> "Guarded":
         """The tracker for a sequence, with its cameras."""
-        cv2.setRNGSeed(seed)
+        peers.seed(seed)
         if not self.ours:
             return Guarded(peers.available()[self.name](seed))
         keywords = _FITTED[self.name](opened)[0] | dict(self.settings)

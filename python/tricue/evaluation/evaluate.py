@@ -127,6 +127,7 @@ class _Plan:
         self.failed: dict[str, str] = {}
         self.opened = dict(self._opened(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
+        self._described = {entrant: entrant.described for entrant in self.entrants}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
         self.tasks = [task for opened in self.opened.values() for task in self._tasks(opened)]
 
@@ -153,7 +154,7 @@ class _Plan:
         return tasks
 
     def fingerprint(self, task: Task) -> str:
-        return task.fingerprint(self._digests[task.entry.name])
+        return task.fingerprint(self._digests[task.entry.name], self._described[task.entrant])
 
     def weight(self, task: Task) -> float:
         """How long a task may take, beside others: long ones begin first, so that none is left over."""

@@ -5,6 +5,8 @@ All run in the same loop as tricue's trackers. Where a peer reports failure its 
 status is LOST.
 """
 
+import ctypes
+import os
 from collections.abc import Callable
 from typing import Any
 
@@ -14,9 +16,12 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.evaluation.one_pass import Contender
 from tricue.track.track import Status, Track
 
 Image = NDArray[np.uint8]
+Maker = Callable[[int], Contender]
+"""Makes a tracker from a seed."""
 
 
 class StillBox:
@@ -146,10 +151,17 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
     return makers
 
 
-def available() -> dict[str, Callable[[int], Any]]:
+def seed(value: int) -> None:
+    """Seed what OpenCV's trackers draw from: its own generator and, for MIL, the C library's ``rand``."""
+    cv2.setRNGSeed(value)
+    if os.name == "posix":
+        ctypes.CDLL(None).srand(value)
+
+
+def available() -> dict[str, Maker]:
     """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
 
-    def opencv(make: Callable[[], Any]) -> Callable[[int], Any]:
+    def opencv(make: Callable[[], Any]) -> Maker:
         return lambda seed: OpenCvTracker(make)
 
     return {

@@ -62,13 +62,13 @@ _ARRAYS: dict[str, tuple[int, ...]] = {
 
 
 def _plain(array: NDArray[np.float64]) -> list[Any]:
-    """Rows; None for one without numbers, and for a number that isn't there."""
+    """A row a frame, flat; None for one without numbers, and for a number that isn't there."""
     if array.ndim == 1:
         return [None if np.isnan(value) else value for value in array.tolist()]
-    return [None if np.isnan(row).all() else _plain(row) for row in array]
+    return [None if np.isnan(row).all() else _plain(row.ravel()) for row in array]
 
 
 def _array(rows: list[Any], shape: tuple[int, ...]) -> NDArray[np.float64]:
-    missing = np.full(shape, np.nan).tolist()
+    missing = [np.nan] * int(np.prod(shape))
     array = np.array([missing if row is None else row for row in rows], dtype=np.float64)
     return array.reshape(len(rows), *shape)

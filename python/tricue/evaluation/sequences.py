@@ -9,12 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
-from tricue.camera.intrinsics_files import read_intrinsics
-from tricue.camera.rig import Intrinsics
-from tricue.camera.sources import Source, open_source
+from tricue.camera.sources import open_source
 from tricue.camera.truth import OTB, VOT
-
-DEPTHS = "position_z_mm.txt"  # a line a frame, the target's median depth in millimetres
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,10 +20,6 @@ class Sequence:
     name: str
     frames: tuple[Frame, ...]
     truth: NDArray[np.float64]
-    depths: NDArray[np.float64]
-    """(M,) true depths of the target, metres; NaN where unknown."""
-    intrinsics: Intrinsics | None = None
-    """The depth camera's, where the sequence has depth and a calibration beside it."""
 
 
 def data_folder() -> Path:
@@ -46,8 +38,7 @@ def load(folder: Path) -> Sequence:
     if source.truth is None or source.first_box is None:
         raise ValueError(f"{folder}: expected a true box in the first frame")
     frames = tuple(source)
-    truth = _for_each(frames, source.truth)
-    return Sequence(source.name, frames, truth, _for_each(frames, _depths(folder)), _intrinsics(source))
+    return Sequence(source.name, frames, _for_each(frames, source.truth))
 
 
 def _for_each(frames: tuple[Frame, ...], values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -56,14 +47,3 @@ def _for_each(frames: tuple[Frame, ...], values: NDArray[np.float64]) -> NDArray
     known = values[: len(frames)]
     rows[: len(known)] = known
     return rows
-
-
-def _depths(folder: Path) -> NDArray[np.float64]:
-    path = folder / DEPTHS
-    return np.loadtxt(path, ndmin=1) / 1000 if path.is_file() else np.empty(0)
-
-
-def _intrinsics(source: Source) -> Intrinsics | None:
-    if source.calibration is None or "depth" not in source.channels:
-        return None
-    return read_intrinsics(source.calibration, source.size, "depth")

@@ -38,9 +38,9 @@ class Task:
         """Unique among the tasks of an evaluation; a relative path."""
         return f"{self.kind}/{self.entrant.name}/{self.entry.name}/seed-{self.seed}"
 
-    def fingerprint(self, digest: str) -> str:
-        """Changes with all that the result depends on; digest: the opened entry's."""
-        parts = (self.name, digest, self.entrant.described, code_digest())
+    def fingerprint(self, digest: str, described: str) -> str:
+        """Changes with all that the result depends on; digest: the opened entry's; described: the entrant."""
+        parts = (self.name, digest, described, code_digest())
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 

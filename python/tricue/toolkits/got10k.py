@@ -4,7 +4,7 @@
     from got10k.experiments import ExperimentOTB
     from tricue.toolkits.got10k import as_got10k
 
-    ExperimentOTB("data/OTB").run(as_got10k(tricue.create("color-particle", seed=0)))
+    ExperimentOTB("data/OTB").run(as_got10k(tricue.create("color-particle", seed=0), "color-particle"))
 
 It gives images in color alone: what needs depth or a right image says so at its first ``init``.
 """

@@ -8,7 +8,7 @@ from tricue.evaluation.cues import motion, search
 def test_flow_alone_needs_no_depth(patrol):
     """On color alone it follows what moves, from all seven starts."""
     frames, boxes = patrol
-    sequence = sequences.Sequence("patrol", frames, np.array(boxes), np.full(len(frames), np.nan))
+    sequence = sequences.Sequence("patrol", frames, np.array(boxes))
     scores, fps = search.measure(motion.makers()["flow-depth, flow alone"], sequence)
     assert len(scores) == 7
     assert scores[0].success > 0.9

@@ -62,7 +62,7 @@ def test_score_is_taken_from_every_start(disc):
     """A box that never moves has, from each start, the score of that start over the whole sequence."""
     frames, boxes = disc
     truth = np.array(boxes)
-    sequence = sequences.Sequence("disc", frames, truth, np.full(20, np.nan))
+    sequence = sequences.Sequence("disc", frames, truth)
     scores, fps = search.measure(lambda seed: peers.StillBox(), sequence)
     still = [np.tile(start, (20, 1)) for start in search.starts(boxes[0])]
     assert scores == [metrics.score(each, truth) for each in still]

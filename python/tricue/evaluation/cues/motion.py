@@ -9,8 +9,8 @@ from collections.abc import Sequence
 
 import tricue
 from tricue.evaluation import peers
-from tricue.evaluation.comparison import Maker
 from tricue.evaluation.cues import search
+from tricue.evaluation.peers import Maker
 
 NAMES = ("Crossing", "Couple")
 PEERS = ("MedianFlow", "MOSSE", "KCF", "CSRT", "still-box")

@@ -14,9 +14,9 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, peers, sequences
-from tricue.evaluation.comparison import Maker
 from tricue.evaluation.cues.color_search import ColorSearch, SearchParams
 from tricue.evaluation.one_pass import run
+from tricue.evaluation.peers import Maker
 
 NAMES = ("David", "Girl")
 PEERS = ("CamShift", "meanShift", "KCF")
