@@ -4,7 +4,7 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-_LETTER, _LINE, _POINT = 0.022, 0.062, 0.022  # widths and heights as shares of the axes' width and height
+_LETTER, _LINE, _POINT = 0.025, 0.062, 0.028  # widths and heights as shares of the axes' width and height
 _STEPS = (0.0, 0.03, -0.03, 0.06, -0.06, 0.09, -0.09, 0.12, -0.12)  # up or down from the point
 
 
