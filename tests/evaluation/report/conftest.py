@@ -94,7 +94,13 @@ class Chromium:
         place = (
             f"import os, sys; os.dup2({theirs}, 3); os.dup2({other}, 4); os.execvp(sys.argv[1], sys.argv[1:])"
         )
-        switches = ["--headless", "--no-sandbox", "--disable-gpu", "--remote-debugging-pipe"]
+        switches = [
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--disable-dev-shm-usage",
+            "--remote-debugging-pipe",
+        ]
         offline = ["--host-resolver-rules=MAP * ~NOTFOUND", f"--user-data-dir={profile}"]
         self._process = subprocess.Popen(
             [sys.executable, "-c", place, program, *switches, *offline],

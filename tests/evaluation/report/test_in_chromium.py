@@ -99,6 +99,27 @@ def test_names_from_outside_are_text(page, hostile):
     assert page.evaluate("document.scripts.length") == 1
 
 
+def test_complaints_would_be_seen(chromium, report, tmp_path):
+    """What the tests above look for is noticed: an error, a script, a foreign image, a broken one, width."""
+    bad = (
+        "<p style='width: 2000px'>wide</p><script>console.error(1)</script>"
+        "<img src='http://localhost:1/a.png' alt=''><img src='data:image/png;base64,AAAA' alt=''>"
+    )
+    place = tmp_path / "bad.html"
+    place.write_text(report.read_text(encoding="utf-8").replace("<main>", f"<main>{bad}"), encoding="utf-8")
+    page = chromium.open(place, PHONE)
+    refused = [each["entry"]["text"] for each in page.events("Log.entryAdded")]
+    assert any("script" in text for text in refused)
+    assert any("a.png" in text for text in refused)
+    assert page.evaluate("document.documentElement.scrollWidth") > PHONE
+    assert page.evaluate("[...document.images].some(each => each.naturalWidth === 0)")
+    page.evaluate("console.error('told')")
+    page.evaluate("setTimeout(() => { throw new Error('late') })")
+    page.evaluate("new Promise(done => setTimeout(done, 50))")
+    assert page.events("Runtime.consoleAPICalled")
+    assert page.events("Runtime.exceptionThrown")
+
+
 def test_a_click_on_a_head_sorts(chromium, report):
     """The best come first, then the worst; where there is no number it stays last."""
     page = chromium.open(report, DESK)

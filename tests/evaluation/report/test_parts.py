@@ -153,7 +153,7 @@ def test_labels_of_a_crowd_lie_apart():
 
 @given(st.lists(st.tuples(st.floats(0, 1), st.floats(0, 1)), max_size=8))
 def test_labels_stay_beside_their_points(points):
-    """Whatever the crowd, a name begins or ends next to its point, and goes where it is inside."""
+    """Whatever the crowd, a name begins or ends next to its point, inside the axes."""
     for (x, y), label in zip(points, labels.place(points, ["name"] * len(points)), strict=True):
         assert abs(label.x - x) < 0.05
         assert abs(label.y - y) < 0.13

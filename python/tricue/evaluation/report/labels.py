@@ -4,7 +4,8 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
-_LETTER, _LINE, _POINT = 0.022, 0.062, 0.022  # widths and heights as shares of the axes' width and height
+# Shares of the axes' width or height; letters as wide as in the widest common fonts.
+_LETTER, _CAPITAL, _LINE, _POINT = 0.020, 0.026, 0.062, 0.028
 _STEPS = (0.0, 0.03, -0.03, 0.06, -0.06, 0.09, -0.09, 0.12, -0.12)  # up or down from the point
 
 
@@ -51,7 +52,7 @@ def _label(x: float, y: float, side: str) -> Label:
 
 
 def _area(label: Label, name: str) -> _Area:
-    width = _LETTER * len(name)
+    width = sum(_CAPITAL if letter.isupper() else _LETTER for letter in name)
     left = label.x if label.side == "left" else label.x - width
     return _Area(left, left + width, label.y - _LINE / 2, label.y + _LINE / 2)
 

@@ -46,7 +46,7 @@ def write_report(evaluation: Evaluation, folder: Path, about: Mapping[str, Any])
 
 
 def _page(evaluation: Evaluation, about: Mapping[str, Any]) -> str:
-    name = Path(str(about.get("dataset", "a data set"))).name or str(about["dataset"])
+    name = Path(about["dataset"]).resolve().name if "dataset" in about else "a data set"
     head = tag(
         "head", _metas(), tag("title", f"{name}, tricue evaluation"), tag("style", _asset("style.css"))
     )

@@ -130,12 +130,20 @@ def _speed(group: Group, looks: Mapping[str, Look]) -> Html | None:
             xlabel="frames per second, one thread",
             ylabel="AUC",
         )
-        axes.xaxis.set_major_formatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}")
+        axes.xaxis.set_major_formatter(lambda value, _: _short(value))
 
     note = "Right and up is better. Large round points are tricue's."
     fast = {name: fps for name, (fps, _) in points.items()}
     label = _said("Accuracy against speed, frames per second", group, fast, 0)
     return _figure("Accuracy against speed", note, vector.svg(draw, f"{group.name}-speed", label), None)
+
+
+def _short(value: float) -> str:
+    """1000 as 1k, so that ticks don't touch."""
+    for size, letter in ((1e6, "M"), (1e3, "k")):
+        if value >= size:
+            return f"{value / size:g}{letter}"
+    return f"{value:g}"
 
 
 def _reliability(group: Group, looks: Mapping[str, Look]) -> Html | None:
