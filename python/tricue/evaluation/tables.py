@@ -41,6 +41,7 @@ _SHOWN = {
     "position_error": "position error, m",
 }
 """Columns of the printed table; one without any number is left out."""
+MOST_COLUMNS = 12  # sequences in a printed table
 _LONG_TERM = ("f_score", "true_positive")  # say something where targets are absent
 
 
@@ -94,12 +95,15 @@ def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
 
 
 def markdown(evaluation: Evaluation) -> str:
-    """The summary as a table per group of sequences, with the frames per second."""
+    """Two tables per group of sequences: the summary, and the AUC on each, unless they are too many."""
     lines, fast = summary(evaluation), {(line["group"], line["tracker"]): line for line in speeds(evaluation)}
-    return "\n\n".join(
-        _group_table(group, [line for line in lines if line["group"] == group], fast)
-        for group in evaluation.groups
-    )
+    found = []
+    for group in evaluation.groups:
+        found.append(_group_table(group, [line for line in lines if line["group"] == group], fast))
+        names = [each.entry.name for each in evaluation.opened if each.group == group]
+        if 1 < len(names) <= MOST_COLUMNS:
+            found.append(_sequence_table(evaluation, group, names))
+    return "\n\n".join(found)
 
 
 def settings(evaluation: Evaluation, **how: Any) -> Line:
@@ -147,6 +151,19 @@ def _group_table(group: str, lines: Sequence[Line], fast: Mapping[tuple[str, str
         numbers = ["-" if math.isnan(line[name]) else f"{line[name]:.2f}" for name in shown]
         times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"]
         rows.append([line["tracker"], str(line["sequences"]), *numbers, *times])
+    return _aligned(rows)
+
+
+def _sequence_table(evaluation: Evaluation, group: str, names: Sequence[str]) -> str:
+    """AUC, the mean over seeds; "-" where a tracker didn't run."""
+    rows = [[f"{group}: AUC", *(Path(name).name for name in names)], ["---"] * (len(names) + 1)]
+    for _, tracker, results in (each for each in _compared(evaluation) if each[0] == group):
+        found = [[each.row.auc for each in results if each.row.sequence == name] for name in names]
+        rows.append([tracker, *(f"{np.mean(values):.2f}" if values else "-" for values in found)])
+    return _aligned(rows)
+
+
+def _aligned(rows: Sequence[Sequence[str]]) -> str:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return "\n".join(
         f"| {' | '.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))} |"
