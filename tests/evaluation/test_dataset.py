@@ -147,7 +147,7 @@ def test_a_depth_tracker_is_judged_in_metres(tmp_path):
     folder = write_rgbd(tmp_path / "walk", count=8, cameras=TWO, positions=True)
     entry = Entry("walk", folder)
     record = perform(Task(Entrant("flow-depth"), entry))
-    row = row_of(entry.open(), "flow-depth", 0, judged(record, entry.open()), None)
+    row = row_of(entry.open(), "flow-depth", 0, judged(record, entry.open()))
     assert record.trouble == ""
     assert row.position_error < 0.2
     assert row.group == "depth"
@@ -180,7 +180,7 @@ def test_runs_start_where_the_truth_starts(tmp_path):
     record = perform(Task(Entrant("still-box"), entry))
     assert record.starts == (2,)
     assert np.isnan(record.run.boxes[:2]).all()
-    row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()), None)
+    row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()))
     assert (row.frames, row.success) == (4, 1.0)
     assert np.isnan(row.true_negative)
 
@@ -190,9 +190,8 @@ def test_absent_frames_make_rates(tmp_path):
     folder = write_rgbd(tmp_path / "walk")
     (folder / "groundtruth.txt").write_text(BOX * 3 + "nan,nan,nan,nan\n" * 3)
     entry = Entry("walk", folder)
-    row = row_of(
-        entry.open(), "still-box", 0, judged(perform(Task(Entrant("still-box"), entry)), entry.open()), None
-    )
+    record = perform(Task(Entrant("still-box"), entry))
+    row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()))
     assert (row.true_positive, row.true_negative, row.ok_while_lost) == (1.0, 0.0, 0.5)
 
 
@@ -221,7 +220,7 @@ def test_a_seed_gives_the_same_run_whoever_ran_before(tmp_path, name):
 def measured(name, entry):
     """The row of a tracker on a recorded sequence."""
     record = perform(Task(Entrant(name), entry))
-    return row_of(entry.open(), name, 0, judged(record, entry.open()), None, record.trouble)
+    return row_of(entry.open(), name, 0, judged(record, entry.open()))
 
 
 def test_ours_follows_real_people(data):

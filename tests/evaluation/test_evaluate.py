@@ -8,6 +8,7 @@ from tricue.camera.box import Box
 from tricue.evaluation import metrics, one_pass, tables
 from tricue.evaluation.evaluate import RUNS, Options, evaluate
 from tricue.evaluation.peers import StillBox
+from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, perform
 
 FEW = Options(trackers=("color-particle", "meanShift", "still-box"), seeds=2)
@@ -184,11 +185,8 @@ def test_boxes_are_the_trackers_own(undisturbed, patrol):
     import tricue
 
     frames, boxes = patrol
-    record = next(
-        each.record
-        for each in undisturbed[1].results
-        if (each.row.tracker, each.row.sequence, each.row.seed) == ("color-particle", "there", 1)
-    )
+    path = undisturbed[0] / RUNS / ONE_PASS / "color-particle" / "there" / "seed-1.json"
+    record = Record.from_json(path.read_text())
     run = one_pass.run(tricue.create("color-particle", seed=1), frames, Box(*boxes[0]))
     np.testing.assert_array_equal(record.run.boxes, run.boxes)
     np.testing.assert_array_equal(record.run.scores, run.scores)

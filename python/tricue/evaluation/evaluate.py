@@ -7,7 +7,7 @@ runs that are missing, and ends with the same numbers.
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,7 +16,7 @@ from tricue.evaluation.dataset import Entry, Opened, Reading, find_entries
 from tricue.evaluation.entrants import Entrant, entrants
 from tricue.evaluation.record import Record
 from tricue.evaluation.remaining import Remaining
-from tricue.evaluation.rows import Judged, Row, Speed, judged, row_of, speed_of
+from tricue.evaluation.rows import Judged, Row, Speed, judged, robustness_of, row_of, speed_of
 from tricue.evaluation.schedule import Perform, completed
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
@@ -39,10 +39,9 @@ class Options:
 
 
 class Result(NamedTuple):
-    """A run in one pass: its record, and its numbers."""
+    """A run in one pass against the truth, and its numbers."""
 
     task: Task
-    record: Record
     judged: Judged
     row: Row
     speed: Speed
@@ -98,12 +97,13 @@ def evaluate(
     """
     plan = _Plan(root, options)
     store = Store(folder / RUNS)
-    known = ((task, None if fresh else store.load(task, plan.fingerprint(task))) for task in plan.tasks)
-    records = {task: record for task, record in known if record}
-    missing = sorted((task for task in plan.tasks if task not in records), key=plan.weight, reverse=True)
     failed = dict(plan.failed)
+    for task in () if fresh else plan.tasks:
+        if record := store.load(task, plan.fingerprint(task)):
+            plan.take(task, record)
+    missing = sorted((task for task in plan.tasks if task not in plan.taken), key=plan.weight, reverse=True)
     remaining = Remaining(plan.weight, missing)
-    done = len(records)
+    done = len(plan.taken)
     tell(Told(done, len(plan.tasks), None, None))
     with closing(completed(missing, work, jobs, scheduler)) as results:
         for index, record, error in results:
@@ -112,10 +112,10 @@ def evaluate(
                 failed[task.name] = error
             else:
                 store.save(task, plan.fingerprint(task), record)
-                records[task] = record
+                plan.take(task, record)
             done += 1
             tell(Told(done, len(plan.tasks), task, remaining.after(task)))
-    return plan.judge(records, failed)
+    return plan.evaluation(failed)
 
 
 class _Plan:
@@ -127,6 +127,7 @@ class _Plan:
         self.failed: dict[str, str] = {}
         self.opened = dict(self._opened(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
+        self.taken: dict[Task, Any] = {}
         self._described = {entrant: entrant.described for entrant in self.entrants}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
         self.tasks = [task for opened in self.opened.values() for task in self._tasks(opened)]
@@ -162,18 +163,28 @@ class _Plan:
         source = opened.source
         return float(source.length or len(opened.boxes)) * task.entrant.slowness
 
-    def judge(self, records: Mapping[Task, Record], failed: Mapping[str, str]) -> Evaluation:
-        results = []
+    def take(self, task: Task, record: Record) -> None:
+        """Judge a finished run, of which no more is kept than that needs: there may be many long ones."""
+        opened = self.opened[task.entry.name]
+        if task.kind == RESTARTS:
+            self.taken[task] = robustness_of(record, opened)
+        else:
+            speed = speed_of(opened, task.entrant.name, task.seed, record.run)
+            self.taken[task] = judged(record, opened), speed
+
+    def evaluation(self, failed: Mapping[str, str]) -> Evaluation:
+        """What was taken, in the order of the tasks."""
+        results = tuple(self._results())
+        opened = tuple(self.opened.values())
+        return Evaluation(self.options, opened, self.entrants, results, self.left_out, failed)
+
+    def _results(self) -> Iterator[Result]:
         for task in self.tasks:
-            if task.kind == ONE_PASS and (record := records.get(task)):
-                again = records.get(Task(task.entrant, task.entry, task.seed, RESTARTS))
-                opened, name = self.opened[task.entry.name], task.entrant.name
-                run = judged(record, opened)
-                row = row_of(opened, name, task.seed, run, again, record.trouble)
-                speed = speed_of(opened, name, task.seed, record.run)
-                results.append(Result(task, record, run, row, speed))
-        opened_all = tuple(self.opened.values())
-        return Evaluation(self.options, opened_all, self.entrants, tuple(results), self.left_out, failed)
+            if task.kind == ONE_PASS and task in self.taken:
+                run, speed = self.taken[task]
+                fails = self.taken.get(replace(task, kind=RESTARTS))
+                row = row_of(self.opened[task.entry.name], task.entrant.name, task.seed, run, fails)
+                yield Result(task, run, row, speed)
 
 
 def _tried(entry: Entry) -> Opened | OSError | ValueError:

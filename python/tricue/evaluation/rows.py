@@ -19,15 +19,21 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Judged:
-    """A run against the truth, over the N frames from its start on: arrays of that length."""
+    """A run against the truth, over the N frames from its start on: arrays of that length.
 
+    start: the frame, counted from the sequence's first. trouble: the error that ended the tracker, or "".
+    """
+
+    start: int
     boxes: Array
     truth: Array
     absent: NDArray[np.bool_]
     overlaps: Array
     scores: Array
+    statuses: tuple[Status, ...]
     tracked: NDArray[np.bool_]
     position_errors: Array
+    trouble: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,13 +89,16 @@ def judged(record: Record, opened: Opened) -> Judged:
     boxes = bounded(run.boxes, opened)[since]
     truth, absent = opened.truth(frames)[since], opened.absent(frames)[since]
     return Judged(
+        record.starts[0],
         boxes,
         truth,
         absent,
         metrics.overlaps(boxes, truth),
         run.scores[since],
-        np.array([status is Status.TRACKED for status in run.statuses], dtype=np.bool_)[since],
+        run.statuses[since],
+        np.array([status is Status.TRACKED for status in run.statuses[since]], dtype=np.bool_),
         metrics.position_errors(run.positions[since], opened.positions(frames)[since]),
+        record.trouble,
     )
 
 
@@ -105,12 +114,11 @@ def bounded(boxes: Array, opened: Opened) -> Array:
 
 
 def row_of(
-    opened: Opened, tracker: str, seed: int, run: Judged, restarted: Record | None, trouble: str = ""
+    opened: Opened, tracker: str, seed: int, run: Judged, fails: restarts.Robustness | None = None
 ) -> Row:
-    """The numbers of a run in one pass, and of the one with restarts if there is one."""
+    """The numbers of a run in one pass, with those of the one with restarts if there is one."""
     score = metrics.score(run.boxes, run.truth)
     rates = long_term.rates(run.boxes, run.truth, run.tracked, run.absent)
-    fails = _robustness(restarted, opened)
     return Row(
         opened.group,
         opened.entry.name,
@@ -131,7 +139,7 @@ def row_of(
         _median(run.position_errors),
         float("nan") if fails is None else float(fails.failures),
         float("nan") if fails is None else fails.accuracy,
-        trouble,
+        run.trouble,
     )
 
 
@@ -171,9 +179,8 @@ def over_sequences(rows: Iterable[Row]) -> dict[str, float]:
     return {name: _mean(np.array([mean[name] for mean in means])) for name in means[0]}
 
 
-def _robustness(record: Record | None, opened: Opened) -> restarts.Robustness | None:
-    if record is None:
-        return None
+def robustness_of(record: Record, opened: Opened) -> restarts.Robustness:
+    """The numbers of a run with restarts."""
     boxes = bounded(record.run.boxes, opened)
     overlaps = metrics.overlaps(boxes, opened.truth(len(boxes)))
     return restarts.robustness(record, overlaps)

@@ -21,6 +21,7 @@ from tricue.evaluation.report.plots import Group
 from tricue.evaluation.report.summary import summary_table
 from tricue.evaluation.rows import Judged
 from tricue.track.create import names
+from tricue.track.track import Status
 
 NAN = math.nan
 
@@ -31,7 +32,9 @@ def run(overlaps, tracked=None, absent=None):
     box = np.tile([0.0, 0.0, 4.0, 4.0], (count, 1))
     gone = np.zeros(count, bool) if absent is None else np.array(absent, bool)
     said = np.ones(count, bool) if tracked is None else np.array(tracked, bool)
-    return Judged(box, box, gone, np.array(overlaps, float), np.ones(count), said, np.full(count, NAN))
+    statuses = tuple(Status.TRACKED if each else Status.LOST for each in said)
+    overlap, unknown = np.array(overlaps, float), np.full(count, NAN)
+    return Judged(0, box, box, gone, overlap, np.ones(count), statuses, said, unknown)
 
 
 @given(st.text(), st.text())

@@ -29,7 +29,7 @@ _EDGE = Look("#ffffff", "", 3.8)
 def filmstrip(opened: Opened, tracker: str, results: Mapping[str, Result], looks: Mapping[str, Look]) -> Html:
     """The start and the worst moments of ``tracker``, one of the ``results``, whose boxes are all drawn."""
     main = results[tracker]
-    chosen, since = moments(main.judged), main.record.starts[0]
+    chosen, since = moments(main.judged), main.judged.start
     try:
         frames = list(opened.source.frames([since + index for index in chosen]))
     except (ValueError, OSError) as error:  # the numbers are whole without pictures
@@ -111,7 +111,7 @@ def _said(result: Result, index: int) -> str:
     run = result.judged
     overlap = run.overlaps[index]
     told = "absent" if run.absent[index] else "no truth" if np.isnan(overlap) else f"{overlap:.2f}"
-    status = result.record.run.statuses[result.record.starts[0] + index]
+    status = result.judged.statuses[index]
     return told if run.tracked[index] else f"{told} {str(status).upper()}"
 
 
