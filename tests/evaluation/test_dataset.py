@@ -195,6 +195,13 @@ def test_absent_frames_make_rates(tmp_path):
     assert (row.true_positive, row.true_negative, row.ok_while_lost) == (1.0, 0.0, 0.5)
 
 
+def test_kitti_has_ten_pairs_a_second(data):
+    """Its files don't tell, but its cameras had no other rate; what the user says goes before it."""
+    folder = data / "stereo" / "kitti-tracking"
+    for reading, rate in ((Reading(), 10), (Reading(fps=25), 25)):
+        assert Entry("car", folder, "Car 31", reading).open().source.fps == rate
+
+
 def test_all_trackers_of_this_package_and_of_cv2_take_part():
     """Without names everybody does, each once."""
     found = [entrant.name for entrant in entrants(None, {})]

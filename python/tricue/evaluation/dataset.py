@@ -6,7 +6,7 @@ An :class:`Entry` is small and can be sent to another process or machine, which 
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -22,6 +22,8 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.sources import Source, open_source
 from tricue.camera.streams import Images, Stream, Video
 
+RATES = {"KITTI tracking": 10.0}
+"""Frames a second of the cameras of formats whose files don't tell them (Geiger et al. 2013)."""
 PAIR = "calibration.yml"
 """OpenCV's calibration of a pair, looked for beside its images."""
 BOUNDED = ("VOT", "VOT RGB-D", "KITTI tracking")
@@ -65,6 +67,8 @@ class Entry:
         source = open_source(
             self.place, depth_scale=_scale(self, reading.depth_scale), fps=reading.fps, target=self.target
         )
+        if reading.fps is None and source.format in RATES and not source.channels[source.clock].timed:
+            source = replace(source, rate=RATES[source.format])
         return Opened(self, source)
 
 
