@@ -67,7 +67,7 @@ class Entry:
         source = open_source(
             self.place, depth_scale=_scale(self, reading.depth_scale), fps=reading.fps, target=self.target
         )
-        if reading.fps is None and source.format in RATES and not source.channels[source.clock].timed:
+        if reading.fps is None and source.format in RATES and not source.clock.timed:
             source = replace(source, rate=RATES[source.format])
         return Opened(self, source)
 
