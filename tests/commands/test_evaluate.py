@@ -158,3 +158,19 @@ def test_a_sequence_that_cannot_be_read_is_told_and_the_exit_code_is_1(tmp_path,
     captured = capsys.readouterr()
     assert "bad/groundtruth_rect.txt, line 1" in captured.err
     assert "| still-box " in captured.out
+
+
+@pytest.mark.parametrize(
+    ("missing", "options"),
+    [("matplotlib.figure", []), ("joblib", ["--jobs", "2"]), ("distributed", ["--scheduler", "x"])],
+)
+def test_a_missing_extra_is_told_before_anything_runs(
+    dataset, tmp_path, capsys, monkeypatch, missing, options
+):
+    """One line that names the extra, exit code 2, no run."""
+    monkeypatch.setitem(sys.modules, missing, None)
+    assert main(["evaluate", str(dataset), "--output", str(tmp_path / "out"), *options]) == 2
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert f"tricue[{'dask' if missing == 'distributed' else 'evaluate'}]" in error
+    assert not list(tmp_path.rglob("*.json"))

@@ -12,6 +12,7 @@ from tricue.commands.progress import Progress
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
+from tricue.evaluation.report import vector
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import perform
 from tricue.track.settings import read_settings
@@ -23,6 +24,7 @@ def run(options: Namespace) -> int:
     """Run the verb: progress on stderr, the table on stdout; the exit code is 1 if a sequence couldn't be
     read.
     """
+    vector.require()  # now, not after hours
     folder: Path = options.output
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
