@@ -164,7 +164,7 @@ def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monke
             "--trackers: expected some of color-particle, .* got 'color-particel'",
         ),
         (Options(settings={"color-particle": {"particles": -1}}), "particles"),
-        (Options(settings={"CSRT": {"scales": 2}}), "got one of CSRT"),
+        (Options(settings={"still-box": {"scales": 2}}), "got one of still-box"),
     ],
 )
 def test_wrong_options_are_told_before_anything_runs(folders, tmp_path, options, message):
