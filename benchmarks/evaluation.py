@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What evaluating costs: ``python benchmarks/evaluation.py`` prints time by jobs, memory by length, the report.
+"""What evaluating costs: ``python benchmarks/evaluation.py`` prints time by jobs, memory, the report's size.
 
 The sequences are made in a temporary folder: a textured square that goes round over noise, 160x120.
 """
@@ -13,7 +13,6 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-
 from tricue.evaluation.report.page import REPORT
 
 MANY, SHORT, LONG = 200, 60, 20_000  # sequences; frames
