@@ -128,7 +128,7 @@ def _recolored(picture: Image, rng: np.random.Generator) -> Image:
     """The same lightness, the opposite hues, and a tint, for what is grey has no opposite."""
     lab = cv2.cvtColor((picture / np.float32(255)).astype(np.float32), cv2.COLOR_BGR2LAB)
     angle = rng.uniform(0, 2 * np.pi)
-    lab[..., 1:] = -lab[..., 1:] + np.array([30 * np.cos(angle), 30 * np.sin(angle)], np.float32)
+    lab[..., 1:] = -lab[..., 1:] + np.array([45 * np.cos(angle), 45 * np.sin(angle)], np.float32)
     colors = cv2.cvtColor(lab, cv2.COLOR_LAB2BGR)
     return np.asarray(np.clip(np.rint(255 * colors), 0, 255), np.uint8)
 
@@ -150,8 +150,8 @@ def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -
 
 
 def _floor(far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
-    """Boards or stone from a metre before the camera to the wall."""
-    kind = [textures.WOOD, textures.BLOTCHES][rng.integers(2)]
+    """Boards or a carpet from a metre before the camera to the wall."""
+    kind = [textures.WOOD, textures.PLAIN][rng.integers(2)]
     picture = textures.surface(kind, (256, 512), textures.any_color(rng) * 0.5 + 60, rng)
     pose = Pose(np.array([0, FLOOR, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
     return Card.cut(picture, rectangle(), (16.0, far - 1)), pose

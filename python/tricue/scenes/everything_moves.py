@@ -166,7 +166,7 @@ def meet(moves: Moves, span: range, rng: np.random.Generator) -> None:
         side = 1 if index else -1
         angle = 2 * np.pi * (frames - span.start - 25) / rng.uniform(60, 90) + rng.uniform(-0.5, 0.5)
         across = side * width * (1.35 * np.cos(angle) + 0.2 * sway(frames / RATE, 1.0, 3.0, rng))
-        up = side * 0.3 * height + 0.25 * height * sway(frames / RATE, 1.0, 3.0, rng)
+        up = side * height * (0.45 + 0.15 * sway(frames / RATE, 1.0, 3.0, rng))
         lookalike.pixels[:, 0] = way.pixels[:, 0] + across + side * outside * 1.5 * camera.width
         lookalike.pixels[:, 1] = way.pixels[:, 1] + up
         lookalike.depth[:] = way.depth * nearer[index]
