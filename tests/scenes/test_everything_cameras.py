@@ -15,8 +15,8 @@ def whole(made):
 
 @pytest.mark.parametrize("kind", ["plain", "scale", "camera"])
 def test_depth_at_the_targets_middle_is_its_distance(kind):
-    """The median of the depth about the target's middle is its Z, within a fifth of a sensor's deviation and
-    a millimetre's rounding.
+    """The mean of the depths about the target's middle is its Z: within half of the sensor's deviation, for
+    81 pixels average it, and a millimetre, for the middle is rounded to a pixel of a tilted card.
     """
     made = everything(kind, 1, channels="rgbd")
     for index in whole(made):
@@ -24,7 +24,7 @@ def test_depth_at_the_targets_middle_is_its_distance(kind):
         z = made.positions[index, 2]
         around = made.frames[index].depth[v - 4 : v + 5, u - 4 : u + 5]
         if np.isfinite(around).sum() > 40:
-            assert np.nanmedian(around) == pytest.approx(z, abs=0.5 * 1.425e-3 * z**2 + 0.001)
+            assert np.nanmean(around) == pytest.approx(z, abs=0.5 * 1.425e-3 * z**2 + 0.001)
 
 
 def test_depth_is_whole_millimetres_of_a_sensor_with_gaps():
@@ -56,13 +56,15 @@ def test_disparity_is_focal_length_times_baseline_over_distance(kind, seed):
 
 @pytest.mark.parametrize("seed", [0, 1])
 def test_depth_and_disparity_of_the_wall_agree(seed):
-    """Where nothing but the wall is, f b / disparity is what the depth camera measures, within a twentieth."""
+    """Where nothing but the wall is, f b / disparity is what the depth camera measures."""
     stereo, depth = (
         everything("plain", seed, channels=channels, noise=0) for channels in ("stereo", "depth")
     )
-    free = depth.frames[0].depth[20:60, 60:300]
-    z = np.nanmedian(free)
-    found = disparity(stereo.frames[0].color, stereo.frames[0].right, 200, 40, 20, 6)
+    (u, v), half = (80, 40), 20
+    around = np.s_[v - half : v + half + 1, u - half - 15 : u + half + 1]
+    assert not depth.masks[0][around].any()
+    z = np.nanmean(depth.frames[0].depth[around])
+    found = disparity(stereo.frames[0].color, stereo.frames[0].right, u, v, half, 6)
     assert found == pytest.approx(stereo.rig.intrinsics.fx * stereo.rig.baseline / z, abs=0.35)
 
 

@@ -15,8 +15,8 @@ def test_what_is_written_is_read_back(tmp_path, channels):
     made = everything("leaving", 2, (160, 120), channels)
     write_sequence(made, tmp_path / "scene")
     (entry,) = find_entries(tmp_path)
-    entry.check()
     opened, count = entry.open(), len(made.frames)
+    opened.check()
     assert opened.group == channels
     assert opened.start == 0
     frames = tuple(opened.source)

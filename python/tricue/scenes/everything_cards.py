@@ -20,7 +20,7 @@ from tricue.scenes.textures import at_detail, pyramid
 
 NOBODY = 0  # the number of what has no name in an image of names
 NEAREST = 0.2  # metres
-FINE = 16  # steps into which a pixel's side is parted where outlines are filled, 2^4
+FINE = 4  # parts of a texel's side in which outlines are filled
 
 
 class Card(NamedTuple):
@@ -33,11 +33,7 @@ class Card(NamedTuple):
     @classmethod
     def cut(cls, picture: NDArray[np.uint8] | Picture, outline: Array, size: tuple[float, float]) -> "Card":
         """A picture (h, w, 3) cut along an outline."""
-        height, width = picture.shape[:2]
-        opacity = np.zeros((height, width), np.uint8)
-        corners = np.rint((outline * [width, height] - 0.5) * FINE).astype(np.int32)
-        cv2.fillPoly(opacity, [corners], 255, lineType=cv2.LINE_AA, shift=4)
-        share = (opacity / np.float32(255)).astype(np.float32)[..., None]
+        share = _opacity(outline, *picture.shape[:2])[..., None]
         return cls(pyramid(np.dstack([picture * share, share]).astype(np.float32)), outline, size)
 
 
@@ -169,3 +165,12 @@ def facing(center: Array, roll: float, yaw: float) -> Pose:
     cos, sin = np.cos(roll), np.sin(roll)
     turn = np.array([[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]])
     return Pose(center, turn @ [cos, sin, 0], turn @ [-sin, cos, 0])
+
+
+def _opacity(outline: Array, height: int, width: int) -> Picture:
+    """The share of each texel (height, width) within an outline."""
+    if np.array_equal(outline, rectangle()):
+        return np.ones((height, width), np.float32)
+    fine = np.zeros((height * FINE, width * FINE), np.float32)
+    cv2.fillPoly(fine, [np.rint(outline * [width * FINE, height * FINE] - 0.5).astype(np.int32)], 1.0)
+    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), np.float32)

@@ -5,6 +5,7 @@ Targets and walls are cut from different photographs of scikit-image; what hides
 textures of :mod:`tricue.scenes.textures`.
 """
 
+from functools import cache
 from typing import NamedTuple
 
 import cv2
@@ -83,10 +84,11 @@ def _window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, 
     """A random part of a photograph and its name: the first of several that has contrast, detail, and other
     colors than the wall; else the last one.
     """
-    behind = _histogram(photographs.photograph(wall))
+    load = cache(photographs.photograph)
+    behind = _histogram(load(wall))
     for _ in range(TRIES):
         name = other(PHOTOGRAPHS, (wall,), rng)
-        picture = photographs.photograph(name)
+        picture = load(name)
         width, height = np.array([aspect**0.5, aspect**-0.5]) * rng.uniform(90, 170)
         top, left = (rng.random(2) * (np.array(picture.shape[:2]) - [height, width])).astype(int)
         part = picture[top : top + int(height), left : left + int(width)]

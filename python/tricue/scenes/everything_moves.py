@@ -137,7 +137,7 @@ def hide(moves: Moves, span: range, rng: np.random.Generator) -> None:
     way, camera, curtain = moves.target, moves.camera, moves.curtain
     first = span.start + LEAD
     frames = np.arange(len(moves))
-    halves = np.array([way.reach(camera, index) for index in range(max(first - 2, 0), first + HIDDEN + 2)])
+    halves = np.array([way.reach(camera, index) for index in range(first - 1, first + HIDDEN + 1)])
     half, tall = halves.max(axis=0)
     margin = 0.35 * half + 3
     depth = max(0.62 * way.depth[first : first + HIDDEN].min(), NEAREST)
@@ -145,11 +145,12 @@ def hide(moves: Moves, span: range, rng: np.random.Generator) -> None:
     scale = 2 * depth / camera.fx
     size = (half + margin) * scale * 1.02, (1.6 * tall + margin) * scale
     curtain.card = curtain.card._replace(size=size)
-    near, beyond = 0.6 * margin, margin + 0.3 * half + 2
-    far, pace = beyond + 2.2 * camera.width, 0.35 * half
-    slow = int(np.ceil((far - beyond) / pace))
+    # A third of the target's half looks out beside it in the frames before and after.
+    before, behind = (half + margin - 0.7 * halves[index, 0] + 2 for index in (0, -1))
+    near, far, pace = 0.6 * margin, 2.5 * camera.width, 0.35 * half
+    slow = int(np.ceil(far / pace))
     knots = [first - 1 - slow, first - 1, first, first + HIDDEN - 1, first + HIDDEN, first + HIDDEN + slow]
-    offset = np.interp(frames, knots, [-far, -beyond, -near, near, beyond, far])
+    offset = np.interp(frames, knots, [-far, -before, -near, near, behind, far])
     curtain.pixels[:] = way.pixels
     curtain.pixels[:, 0] += (1 if rng.random() < 0.5 else -1) * offset
     curtain.there[:] = np.abs(offset) < far

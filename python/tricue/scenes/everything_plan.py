@@ -11,7 +11,7 @@ from tricue.scenes.everything_moves import EVENTS, RATE, Moves, Way
 from tricue.scenes.head_moves import sway
 
 FRAMES = {
-    "plain": 90,
+    "plain": 120,
     "fast": 120,
     "light": 120,
     "camera": 120,
