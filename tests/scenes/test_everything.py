@@ -9,7 +9,8 @@ import pytest
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
-from tricue.scenes.everything import KINDS, _Stage, everything
+from tricue.scenes.everything import KINDS, everything
+from tricue.scenes.everything_stage import Stage
 
 SIZE = np.array([320, 240])
 
@@ -22,7 +23,7 @@ def scene(kind, seed=0, channels="color", noise=0.0):
 
 def moves(kind, seed):
     """What happens in a scene, without its pictures."""
-    return _Stage.build(kind, seed, (320, 240)).moves
+    return Stage.build(kind, seed, (320, 240)).moves
 
 
 def sizes(made):
@@ -238,20 +239,29 @@ def near(mask):
     return cv2.dilate(mask.astype(np.uint8), np.ones((11, 11))) > 0
 
 
-def test_blank_is_black_then_another_scene():
-    """Eight frames without light or depth, 24 with another picture, and the old one again after them."""
-    made = everything("blank", 2, channels="rgbd", noise=0)
+@pytest.mark.parametrize("seed", range(4))
+def test_blank_is_black_and_another_scene(seed):
+    """Eight frames without light or depth, 24 with another picture beside them, then the old one again."""
+    made = everything("blank", seed, channels="rgbd", noise=0)
     black = np.array([frame.color.max() == 0 for frame in made.frames])
     assert runs(black) == [8]
     assert all(np.isnan(made.frames[index].depth).all() for index in np.flatnonzero(black))
     elsewhere = np.isnan(made.boxes).any(axis=1)
     assert runs(elsewhere) == [24]
-    after = int(np.flatnonzero(black)[-1]) + 1
-    assert elsewhere[after]
+    assert runs(black | elsewhere) == [32]
     assert np.array_equal(made.visible == 0, black | elsewhere)
-    first, other, last = (made.frames[index].color.astype(float) for index in (0, after, -1))
+    inside = int(np.flatnonzero(elsewhere)[0])
+    first, other, last = (made.frames[index].color.astype(float) for index in (0, inside, -1))
     assert np.corrcoef(first.ravel(), other.ravel())[0, 1] < 0.6
     assert np.corrcoef(first.ravel(), last.ravel())[0, 1] > 0.8
+
+
+def test_the_other_scene_comes_before_or_after_the_black():
+    """Both orders are met, so that each break can be measured by itself."""
+    orders = {
+        int(np.argmax(m.black)) < int(np.argmax(m.elsewhere)) for m in (moves("blank", s) for s in range(8))
+    }
+    assert orders == {True, False}
 
 
 def test_fast_and_plain_keep_their_speed():

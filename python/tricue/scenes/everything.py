@@ -19,18 +19,14 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.body import Array
 from tricue.scenes.depth_camera import CAMERAS, DepthCamera, Mask
 from tricue.scenes.everything_cards import Canvas, Eye
-from tricue.scenes.everything_looks import WALLS, Room, cast, furnish, other
-from tricue.scenes.everything_moves import RATE, Moves, Way
-from tricue.scenes.everything_plan import FRAMES, lay
+from tricue.scenes.everything_moves import RATE
+from tricue.scenes.everything_plan import FRAMES
+from tricue.scenes.everything_stage import Stage
 from tricue.scenes.paste import Picture
 from tricue.scenes.stereo_camera import BLUR, photograph
 
 KINDS = tuple(FRAMES)
 CHANNELS = ("color", "rgbd", "stereo", "depth")
-FIELD, BASELINE = 60.0, 0.12  # degrees across, metres
-SIDE = 0.24  # of the target, about, at its middle depth, as a share of the image's height
-MIDDLE = 1.8  # metres
-TARGET, LOOKALIKES, CURTAIN = 1, (2, 3), 4  # names on a canvas
 SMALLEST = 80  # pixels along each side of an image
 EXPOSURES = 5  # that make a blurred one
 MILLIMETRES = np.float32(0.001)
@@ -91,7 +87,7 @@ def everything(
         "hidden": something nearer hides it wholly for 20 frames;
         "lookalike": one of its colors with another structure and one of its structure in other colors cross
             its way and stay nearby;
-        "blank": 8 black frames, then 24 of another scene;
+        "blank": 8 black frames, then 24 of another scene, or the other way round;
         "all": all of these but "fast" in 300 frames, in an order drawn from the seed, the size changing
             smoothly all the time.
     channels: "color"; "rgbd", color and registered depth; "stereo", a pair; "depth" alone. Of one kind, seed
@@ -102,7 +98,7 @@ def everything(
     The seed decides the looks, the room, the path and the times. No shadows are cast.
     """
     _check(kind, seed, size, channels, noise, shutter)
-    stage = _Stage.build(kind, seed, size)
+    stage = Stage.build(kind, seed, size)
     sights = [stage.sight(index) for index in range(len(stage.moves))]
     film = _Film(channels, noise, shutter, seed)
     return Scene(
@@ -122,92 +118,6 @@ def everything(
     )
 
 
-class _Sight(NamedTuple):
-    """A frame's truth, and the left camera's canvas."""
-
-    canvas: Canvas
-    boxes: tuple[Array, Array, Array]  # (4,) of the target and the look-alikes
-    visible: float
-    position: Array
-    mask: Mask
-
-
-class _Stage(NamedTuple):
-    """All that is to be drawn."""
-
-    moves: Moves
-    rooms: tuple[Room, Room]  # the target's, and another
-    rig: StereoRig
-    straight: dict[tuple[float, bool], Canvas]  # the rooms before a camera that looks straight, by its offset
-
-    @classmethod
-    def build(cls, kind: str, seed: int, size: tuple[int, int]) -> "_Stage":
-        camera = Intrinsics.from_fov(*size, FIELD)
-        rng = np.random.default_rng([seed, 0])
-        wall = other(WALLS, (), rng)
-        everybody = cast(SIDE * size[1] / camera.fx * MIDDLE, wall, rng)
-        room = furnish(camera, wall, rng)
-        elsewhere = furnish(camera, other(WALLS, (wall, everybody.source), rng), rng)
-        moves = lay(kind, camera, everybody, MIDDLE, np.random.default_rng([seed, 1]))
-        return cls(moves, (room, elsewhere), StereoRig(camera, BASELINE), {})
-
-    def draw(self, eye: Eye, index: int, time: float) -> Canvas:
-        """What an eye sees at a time within a frame, in the light of 1."""
-        moves = self.moves
-        elsewhere = bool(moves.elsewhere[index])
-        canvas = self._empty(eye, elsewhere, time)
-        if not elsewhere:
-            ways = zip(
-                (TARGET, *LOOKALIKES, CURTAIN), (moves.target, *moves.lookalikes, moves.curtain), strict=True
-            )
-            there = [(name, way) for name, way in ways if way.there[index]]
-            for name, way in sorted(there, key=lambda named: -named[1].depth[index]):
-                eye.draw(canvas, way.card, way.pose(eye.camera, time), name)
-        return canvas
-
-    def _empty(self, eye: Eye, elsewhere: bool, time: float) -> Canvas:
-        """A room alone; drawn once where the camera looks straight, as it mostly does."""
-        rotation, key = self.moves.rotation(time), (eye.offset, elsewhere)
-        straight = bool((rotation == np.eye(3)).all())
-        if straight and key in self.straight:
-            return self.straight[key].copy()
-        canvas = Canvas.empty(eye.camera)
-        self.rooms[elsewhere].draw(eye, canvas, rotation)
-        if straight:
-            self.straight[key] = canvas.copy()
-        return canvas
-
-    def sight(self, index: int) -> _Sight:
-        """The truth of a frame."""
-        moves, eye = self.moves, Eye(self.moves.camera)
-        canvas = self.draw(eye, index, index)
-        boxes = [self._box(way, index) for way in (moves.target, *moves.lookalikes)]
-        unseen = moves.black[index] or np.isnan(boxes[0]).any()
-        mask = (canvas.names == TARGET) & (not unseen)
-        pose = moves.target.pose(eye.camera, index)
-        visible = 0.0 if unseen else float(mask.sum()) / self._whole(index)
-        position = np.full(3, np.nan) if np.isnan(boxes[0]).any() else pose.center
-        return _Sight(canvas, (boxes[0], boxes[1], boxes[2]), visible, position, mask)
-
-    def _box(self, way: Way, index: int) -> Array:
-        """The box of a card in a frame, NaN where it isn't in the picture."""
-        eye = Eye(self.moves.camera)
-        pose = way.pose(eye.camera, index)
-        if not way.there[index] or self.moves.elsewhere[index] or not eye.mask(way.card, pose).any():
-            return np.full(4, np.nan)
-        outline = eye.outline(way.card, pose)
-        return np.concatenate([outline.min(axis=0), np.ptp(outline, axis=0)])
-
-    def _whole(self, index: int) -> float:
-        """How many pixels the target has where nothing hides it, those beyond the image's edge included."""
-        eye, target = Eye(self.moves.camera), self.moves.target
-        pose = target.pose(eye.camera, index)
-        count = float(eye.mask(target.card, pose).sum())
-        outline = eye.outline(target.card, pose)
-        inside = (outline >= 0).all() and (outline <= [eye.camera.width, eye.camera.height]).all()
-        return count if inside else max(count, float(cv2.contourArea(outline.astype(np.float32))))
-
-
 class _Film(NamedTuple):
     """What the cameras make of a stage. Each has a noise of its own, so that one doesn't change another's."""
 
@@ -216,7 +126,7 @@ class _Film(NamedTuple):
     shutter: float
     seed: int
 
-    def shoot(self, stage: _Stage, canvases: Sequence[Canvas]) -> Iterator[Frame]:
+    def shoot(self, stage: Stage, canvases: Sequence[Canvas]) -> Iterator[Frame]:
         """The frames, from the left camera's canvases."""
         noises = [np.random.default_rng([self.seed, 2, camera]) for camera in range(3)]
         sensor = replace(CAMERAS["rgbd"], intrinsics=stage.moves.camera)
@@ -232,7 +142,7 @@ class _Film(NamedTuple):
             yield Frame(images.get("color"), images.get("depth"), images.get("right"), timestamp=index / RATE)
 
     def _expose(
-        self, stage: _Stage, eye: Eye, index: int, rng: np.random.Generator, sharp: Canvas | None = None
+        self, stage: Stage, eye: Eye, index: int, rng: np.random.Generator, sharp: Canvas | None = None
     ) -> NDArray[np.uint8]:
         """A color image; ``sharp`` is the canvas of the exposure's middle, where there is one."""
         moves = stage.moves

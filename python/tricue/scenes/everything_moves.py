@@ -200,10 +200,12 @@ def shake(moves: Moves, span: range, rng: np.random.Generator) -> None:
 
 
 def blank(moves: Moves, span: range, rng: np.random.Generator) -> None:
-    """Black frames, and then another scene, in which the target isn't; it comes back in the end."""
+    """Black frames and then another scene, in which the target isn't, or that first; it comes back after."""
     start = span.start + int(rng.integers(len(span) - BLACK - ELSEWHERE + 1))
-    moves.black[start : start + BLACK] = True
-    moves.elsewhere[start + BLACK : start + BLACK + ELSEWHERE] = True
+    first, second = (moves.black, moves.elsewhere) if rng.random() < 0.5 else (moves.elsewhere, moves.black)
+    change = start + (BLACK if first is moves.black else ELSEWHERE)
+    first[start:change] = True
+    second[change : start + BLACK + ELSEWHERE] = True
 
 
 EVENTS: dict[str, Callable[[Moves, range, np.random.Generator], None]] = {
