@@ -104,7 +104,7 @@ def test_unusual_frames_are_followed(case):
 
 def test_update_before_init():
     """update says that init comes first."""
-    with pytest.raises(RuntimeError, match="^update: expected init first"):
+    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
         FusedTracker().update(IMAGE)
 
 

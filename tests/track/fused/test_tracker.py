@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That the fused tracker follows, says when it has lost its target, finds it again, and has no hidden state."""
+"""That the fused tracker follows, says when it has lost its target, finds it again, and hides no state."""
 
 import copy
 import pickle
@@ -23,7 +23,7 @@ BLANK = {
 
 
 def test_follows_a_face_over_clutter(scene, follow):
-    """The overlap with the true box stays above 0.5 in all frames, whatever the light does, TRACKED in most."""
+    """The overlap with the true box stays above 0.5, whatever the light does; most frames are TRACKED."""
     tracks = follow(FusedTracker(), scene.frames, scene.boxes[0])
     overlap = overlaps([track.box for track in tracks], scene.boxes)
     assert overlap.min() > 0.5
@@ -46,7 +46,7 @@ def test_follows_a_change_of_size(factor, stage, follow):
 
 @pytest.mark.parametrize("blank", BLANK)
 def test_a_frame_without_target_is_told(blank, stage, follow):
-    """In frames of one color or of noise it is never TRACKED, LOST from the third on, and scores under 0.3."""
+    """In frames of one color or of noise it is never TRACKED, LOST from the third, and scores under 0.3."""
     tracker = FusedTracker()
     follow(tracker, stage(HERE), START)
     tracks = [tracker.update(BLANK[blank]) for _ in range(12)]

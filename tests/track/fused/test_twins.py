@@ -7,6 +7,7 @@ from tricue.track.fused import twins
 
 RNG = np.random.default_rng(5)
 CELLS = 32
+ALL = np.ones((CELLS, CELLS), np.float32)
 
 
 def bell(width: float = 1.0) -> np.ndarray:
@@ -77,7 +78,7 @@ def test_colors_are_without_their_mean():
 def test_a_filter_finds_a_shift():
     """The answer to what was learnt, shifted by any number of cells, has its top there, and is about 1."""
     cells = RNG.normal(size=(5, CELLS, CELLS)).astype(np.float32)
-    learnt = twins.correlation_train(cells, bell(), *blank(5), 1.0)
+    learnt = twins.correlation_train(cells, ALL, bell(), *blank(5), 1.0, 0.0)
     for down, right in ((0, 0), (3, -5), (-16, 15)):
         answer = twins.correlation_response(np.roll(cells, (down, right), (1, 2)), *learnt, 1e-6)
         assert np.unravel_index(answer.argmax(), answer.shape) == (16 + down, 16 + right)
@@ -87,12 +88,29 @@ def test_a_filter_finds_a_shift():
 def test_a_rate_of_zero_learns_nothing():
     """Rate 0 gives the filter itself, rate 1 forgets it."""
     one, other = RNG.normal(size=(2, 3, CELLS, CELLS)).astype(np.float32)
-    first = twins.correlation_train(one, bell(), *blank(3), 1.0)
-    same = twins.correlation_train(other, bell(), *first, 0.0)
-    new = twins.correlation_train(other, bell(), *first, 1.0)
-    fresh = twins.correlation_train(other, bell(), *blank(3), 1.0)
+    first = twins.correlation_train(one, ALL, bell(), *blank(3), 1.0, 0.0)
+    same = twins.correlation_train(other, ALL, bell(), *first, 0.0, 0.0)
+    new = twins.correlation_train(other, ALL, bell(), *first, 1.0, 0.0)
+    fresh = twins.correlation_train(other, ALL, bell(), *blank(3), 1.0, 0.0)
     assert all(np.array_equal(a, b) for a, b in zip(same, first, strict=True))
     assert all(np.allclose(a, b, atol=1e-4) for a, b in zip(new, fresh, strict=True))
+
+
+def test_a_filter_ignores_its_background():
+    """With the rest of the window to be answered by 0, a still background with a moved target is answered
+    where the target is; without, where the background is.
+    """
+    noise = RNG.normal(size=(5, CELLS, CELLS)).astype(np.float32)
+    target = np.zeros((CELLS, CELLS), np.float32)
+    target[12:20, 12:20] = 1
+    moved = noise * (1 - np.roll(target, 5, -1)) + np.roll(noise * target, 5, -1)
+    focused = twins.correlation_train(noise, target, bell(), *blank(5), 1.0, 1.0)
+    whole = twins.correlation_train(noise, ALL, bell(), *blank(5), 1.0, 0.0)
+    tops = [
+        np.unravel_index(twins.correlation_response(moved, *each, 1e-2).argmax(), (CELLS, CELLS))
+        for each in (focused, whole)
+    ]
+    assert tops == [(16, 21), (16, 16)]
 
 
 def test_a_scale_filter_finds_a_step():
@@ -150,7 +168,7 @@ BAD = {
     ),
     "rate": (
         "rate",
-        lambda: twins.correlation_train(np.zeros((2, 32, 32), np.float32), bell(), *blank(2), 1.5),
+        lambda: twins.correlation_train(np.zeros((2, 32, 32), np.float32), ALL, bell(), *blank(2), 1.5, 0.0),
     ),
     "box": ("box", lambda: twins.box_contrast(np.zeros((64, 64), np.float32), 0.0, 4.0, 1.5, 1.0)),
     "heights": (

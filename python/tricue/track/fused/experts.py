@@ -39,9 +39,9 @@ class FilterExpert(NamedTuple):
     def start(cls, k: Kernels, view: View, p: FusedParams) -> "FilterExpert":
         """Learnt from the first frame."""
         label = _label(p.label_width * CELLS / p.context)
-        cells = cells_of(view)
+        cells, focus = cells_of(view), focus_of(view, p)
         none = np.zeros((len(cells), *label.shape), np.complex64), np.zeros(label.shape, np.float32)
-        first = twins.correlation_train(cells, label, *none, 1.0)
+        first = twins.correlation_train(cells, focus, label, *none, 1.0, p.background)
         return cls(*first, first, label, p)
 
     def evidence(self, k: Kernels, view: View) -> Plane:
@@ -61,7 +61,16 @@ class FilterExpert(NamedTuple):
         return twins.correlation_response(cells, *self.first, self.params.ridge)
 
     def learnt(self, k: Kernels, view: View, rate: float) -> "FilterExpert":
-        now = twins.correlation_train(cells_of(view), self.label, self.numerator, self.denominator, rate)
+        p = self.params
+        now = twins.correlation_train(
+            cells_of(view),
+            focus_of(view, p),
+            self.label,
+            self.numerator,
+            self.denominator,
+            rate,
+            p.background,
+        )
         return self._replace(numerator=now[0], denominator=now[1])
 
 
@@ -98,6 +107,17 @@ class ColorExpert(NamedTuple):
 def cells_of(view: View) -> Plane:
     """(11, 32, 32) what the filter reads of a view."""
     return twins.gradient_color_cells(view.patch, TAPER)
+
+
+def focus_of(view: View, p: FusedParams) -> Plane:
+    """(32, 32) 1 in the target's box, falling to 0 at its outer size: what the filter has to answer to."""
+    offset = 2 * np.abs(np.arange(CELLS) + 0.5 - CELLS / 2)
+    across, down = (np.clip((p.focus - 2 * offset / length) / (p.focus - 1), 0, 1) for length in view.size)
+    return np.outer(_smooth(down), _smooth(across)).astype(np.float32)
+
+
+def _smooth(share: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.sin(np.pi / 2 * share) ** 2
 
 
 def masks(width: float, height: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:

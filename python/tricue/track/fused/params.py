@@ -25,6 +25,13 @@ class FusedParams(Params):
     anchor: float = parameter(0.1, unit="-", source=OURS, low=0, high=1, doc="of the first frame's filter")
     filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0)
 
+    focus: float = parameter(
+        2.0, unit="of the box", source=OURS, above=1, high=99, doc="outer size of what the filter learns"
+    )
+    background: float = parameter(
+        1.0, unit="-", source=OURS, low=0, doc="weight of the rest, to be answered by 0"
+    )
+
     color_weight: float = parameter(0.3, unit="-", source=OURS, low=0)
     color_rate: float = parameter(0.04, unit="per frame", source="Bertinetto et al. 2016", low=0, high=0.5)
     frame: float = parameter(1.5, unit="of the box", source=OURS, above=1, doc="the surround in the evidence")

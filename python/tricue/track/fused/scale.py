@@ -57,7 +57,7 @@ class ScaleExpert(NamedTuple):
 
 def factors(p: FusedParams) -> NDArray[np.float64]:
     """(S,) of the size, 1 in the middle."""
-    steps: NDArray[np.float64] = p.scale_step ** (np.arange(p.scales) - p.scales // 2.0)
+    steps: NDArray[np.float64] = np.power(p.scale_step, np.arange(p.scales) - p.scales // 2.0)
     return steps
 
 
