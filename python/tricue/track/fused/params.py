@@ -6,7 +6,8 @@ from typing import Literal
 
 from tricue.track.params import Params, parameter
 
-OURS = "our experiment: benchmarks/README.md"
+FAST = "our experiment on sparse and shaken frames"
+OURS = "our prototype, or a choice not yet compared with others"
 Cue = Literal["filter", "color", "ranks", "edges"]
 
 
@@ -26,10 +27,10 @@ class FusedParams(Params):
     filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0)
 
     focus: float = parameter(
-        2.0, unit="of the box", source=OURS, above=1, high=99, doc="outer size of what the filter learns"
+        2.0, unit="of the box", source=FAST, above=1, high=99, doc="outer size of what the filter learns"
     )
     background: float = parameter(
-        1.0, unit="-", source=OURS, low=0, doc="weight of the rest, to be answered by 0"
+        1.0, unit="-", source=FAST, low=0, doc="weight of the rest, to be answered by 0"
     )
 
     color_weight: float = parameter(0.3, unit="-", source=OURS, low=0)
