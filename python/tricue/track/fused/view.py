@@ -46,7 +46,7 @@ class Target(NamedTuple):
 
     def scaled(self, factor: float) -> "Target":
         """As large as that, in the same place."""
-        return self._replace(width=self.width * factor, height=self.height * factor)
+        return self._replace(width=float(self.width * factor), height=float(self.height * factor))
 
 
 class View(NamedTuple):
