@@ -10,6 +10,7 @@ void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
 void define_kalman(pybind11::module_& m);
 void define_motion(pybind11::module_& m);
+void define_patch(pybind11::module_& m);
 void define_skin(pybind11::module_& m);
 void define_stereo(pybind11::module_& m);
 }  // namespace tricue::bindings
@@ -20,6 +21,7 @@ PYBIND11_MODULE(_core, m) {
         "tricue.reference.";
     tricue::bindings::define_color(m);
     tricue::bindings::define_color_search(m);
+    tricue::bindings::define_patch(m);
     tricue::bindings::define_skin(m);
     tricue::bindings::define_depth(m);
     tricue::bindings::define_depth_objects(m);

@@ -238,6 +238,13 @@ def floor_plane(
     (6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three pixels, row * cols + col.
     """
 
+def gradient_color_cells(
+    patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    (11, R, C) of a BGR patch (2R, 2C, 3), times a taper (R, C): eight signed orientations, every 45 degrees, of gradients over the contrast around, then blue, green and red in [0, 1] without their means.
+    """
+
 def gradient_disparity(
     left: numpy.typing.NDArray[numpy.uint8],
     right: numpy.typing.NDArray[numpy.uint8],
@@ -501,6 +508,16 @@ def sample_ellipses(
 ) -> numpy.typing.NDArray[numpy.uint8]:
     """
     The pixels (N, 3, n) at the places (u, v) of the pattern (n, 2) in each ellipse (N, 4): x, y, minor, major.
+    """
+
+def sample_windows(
+    image: numpy.typing.NDArray[numpy.uint8],
+    windows: numpy.typing.NDArray[numpy.float64],
+    rows: int,
+    columns: int,
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Windows (N, 4), left, top, width, height in pixels, of a BGR image (H, W, 3) on a grid each: (N, rows, columns, 3) means of up to 4 x 4 bilinear readings of what a sample covers, rounded; the image's edge is repeated.
     """
 
 def section_distance(
@@ -779,6 +796,9 @@ class Kernels(Protocol):
         up: numpy.typing.NDArray[numpy.float64],
         least_cosine: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def gradient_color_cells(
+        self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def gradient_disparity(
         self,
         left: numpy.typing.NDArray[numpy.uint8],
@@ -972,6 +992,13 @@ class Kernels(Protocol):
         image: numpy.typing.NDArray[numpy.uint8],
         ellipses: numpy.typing.NDArray[numpy.float64],
         pattern: numpy.typing.NDArray[numpy.float64],
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def sample_windows(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        windows: numpy.typing.NDArray[numpy.float64],
+        rows: int,
+        columns: int,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def section_distance(
         self, sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]

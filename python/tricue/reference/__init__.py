@@ -13,6 +13,7 @@ from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.ellipse_gradient import ellipse_gradient
 from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
+from tricue.reference.cues.color.gradient_color_cells import gradient_color_cells
 from tricue.reference.cues.color.histogram_mean import histogram_mean
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
@@ -20,6 +21,7 @@ from tricue.reference.cues.color.rank_contrast import rank_contrast
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
+from tricue.reference.cues.color.sample_windows import sample_windows
 from tricue.reference.cues.color.section_distance import section_distance
 from tricue.reference.cues.color.shift_histogram import shift_histogram
 from tricue.reference.cues.color.skin_blobs import skin_blobs
@@ -86,6 +88,7 @@ __all__ = [
     "ellipse_search",
     "fill_gaps",
     "floor_plane",
+    "gradient_color_cells",
     "gradient_disparity",
     "gradient_flow",
     "height_above",
@@ -108,6 +111,7 @@ __all__ = [
     "reweight",
     "sad_disparity",
     "sample_ellipses",
+    "sample_windows",
     "section_distance",
     "shift_histogram",
     "skin_blobs",

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+"""Windows on a grid: native, reference, and OpenCV's resize of each window moved to whole pixels."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Image = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+
+ONE = np.array([[70.0, 40.0, 150.0, 150.0]])
+SCALES = np.array([[160 - s, 120 - s, 2 * s, 2 * s] for s in 37.5 * 1.03 ** np.arange(-5, 6)])
+
+
+def script(image: Image, windows: Floats, rows: int, columns: int) -> Image:
+    """The peer: INTER_AREA where windows shrink, as they all do here."""
+    samples = []
+    for x, y, width, height in np.rint(windows).astype(int).tolist():
+        part = image[y : y + height, x : x + width]
+        samples.append(cv2.resize(part, (columns, rows), interpolation=cv2.INTER_AREA))
+    return np.stack(samples)
+
+
+CONTENDERS = {"native": _core.sample_windows, "reference": reference.sample_windows, "peer": script}
+
+
+@pytest.mark.parametrize("sample_windows", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize(
+    ("windows", "side"),
+    [
+        pytest.param(ONE, 64, marks=pytest.mark.benchmark(group="sample_windows, one of 150 px to 64x64")),
+        pytest.param(SCALES, 12, marks=pytest.mark.benchmark(group="sample_windows, 11 of 75 px to 12x12")),
+    ],
+    ids=["one", "scales"],
+)
+def bench_sample_windows(
+    benchmark: Any, sample_windows: Callable[..., Image], frame: Image, windows: Floats, side: int
+) -> None:
+    """Twins give the same bytes; on clouds without sharp edges the peer's areas, moved by up to half a pixel,
+    are a level from our readings in the mean.
+    """
+    samples = benchmark(sample_windows, frame, windows, side, side)
+    differences = abs(samples.astype(int) - reference.sample_windows(frame, windows, side, side))
+    assert differences.mean() < 2 if sample_windows is script else not differences.any()

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/gradient_color_cells.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "rimmed_planes.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kBins = 8, kColors = 3;
+constexpr float kFaint = 32.0F;  // levels
+constexpr float kMost = 0.4F;
+
+TRICUE_MULTIVERSION
+void split_row(const std::uint8_t* __restrict pixels, int n, float* __restrict blue, float* __restrict green,
+               float* __restrict red) {
+    for (int x = 0; x < n; ++x) {
+        blue[x] = pixels[3 * x];
+        green[x] = pixels[3 * x + 1];
+        red[x] = pixels[3 * x + 2];
+    }
+}
+
+/// A row of each channel and the ones above and below it.
+struct Neighbours {
+    const float *above[kColors], *here[kColors], *below[kColors];
+};
+
+/// out: kBins rows of n.
+TRICUE_MULTIVERSION
+void share_row(const Neighbours& rows, int n, float* out) {
+    const float *b0 = rows.above[0], *b1 = rows.here[0], *b2 = rows.below[0];
+    const float *g0 = rows.above[1], *g1 = rows.here[1], *g2 = rows.below[1];
+    const float *r0 = rows.above[2], *r1 = rows.here[2], *r2 = rows.below[2];
+    float *right = out, *right_down = out + n, *down = out + 2 * n, *left_down = out + 3 * n;
+    float *left = out + 4 * n, *left_up = out + 5 * n, *up = out + 6 * n, *right_up = out + 7 * n;
+    TRICUE_INDEPENDENT
+    for (int x = 0; x < n; ++x) {
+        float dx = b1[x + 1] - b1[x - 1], dy = b2[x] - b0[x];
+        float square = dy * dy + dx * dx;
+        const auto take_if_longer = [&](float other_x, float other_y) {
+            const float other = other_y * other_y + other_x * other_x;
+            const bool longer = other > square;
+            dx = longer ? other_x : dx;
+            dy = longer ? other_y : dy;
+            square = longer ? other : square;
+        };
+        take_if_longer(g1[x + 1] - g1[x - 1], g2[x] - g0[x]);
+        take_if_longer(r1[x + 1] - r1[x - 1], r2[x] - r0[x]);
+        const float ax = std::fabs(dx), ay = std::fabs(dy), length = std::sqrt(square);
+        const bool flat = ax >= ay;
+        const float shorter = flat ? ay : ax, longer = flat ? ax : ay;
+        const float diagonal = shorter * length / (longer > 1.0F ? longer : 1.0F);
+        const float straight = length - diagonal;
+        const float across = flat ? straight : 0.0F, along = flat ? 0.0F : straight;
+        const float to_right = dx >= 0 ? diagonal : 0.0F, to_left = dx >= 0 ? 0.0F : diagonal;
+        right[x] = dx >= 0 ? across : 0.0F;
+        left[x] = dx >= 0 ? 0.0F : across;
+        down[x] = dy >= 0 ? along : 0.0F;
+        up[x] = dy >= 0 ? 0.0F : along;
+        right_down[x] = dy >= 0 ? to_right : 0.0F;
+        right_up[x] = dy >= 0 ? 0.0F : to_right;
+        left_down[x] = dy >= 0 ? to_left : 0.0F;
+        left_up[x] = dy >= 0 ? 0.0F : to_left;
+    }
+}
+
+/// Sums of 2 x 2 of two rows of 2 n.
+TRICUE_MULTIVERSION
+void sum_cells(const float* __restrict upper, const float* __restrict lower, int n, float* __restrict cells) {
+    for (int x = 0; x < n; ++x) cells[x] = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
+}
+
+TRICUE_MULTIVERSION
+void add_squares(const float* __restrict cells, int n, float* __restrict energy) {
+    for (int x = 0; x < n; ++x) energy[x] += cells[x] * cells[x];
+}
+
+/// Out of the energy of three rows of cells; `column` holds n + 2 numbers.
+TRICUE_MULTIVERSION
+void find_scales(const float* __restrict above, const float* __restrict here, const float* __restrict below,
+                 int n, float* __restrict column, float* __restrict scales) {
+    for (int x = 0; x < n + 2; ++x) column[x] = above[x - 1] + here[x - 1] + below[x - 1];
+    for (int x = 0; x < n; ++x)
+        scales[x] = 1.0F / std::sqrt(column[x] + column[x + 1] + column[x + 2] + kFaint * kFaint);
+}
+
+TRICUE_MULTIVERSION
+void normalize(const float* __restrict scales, const float* __restrict taper, int n,
+               float* __restrict cells) {
+    for (int x = 0; x < n; ++x) {
+        const float normal = cells[x] * scales[x];
+        cells[x] = (normal < kMost ? normal : kMost) * taper[x];
+    }
+}
+
+TRICUE_MULTIVERSION
+void center(float mean, const float* __restrict taper, int n, float* __restrict cells) {
+    for (int x = 0; x < n; ++x) cells[x] = (cells[x] / 1020.0F - mean) * taper[x];
+}
+
+/// The mean of a plane of sums of four levels, in [0, 1]; a sum of whole numbers, so exact in any order.
+float mean_color(const float* cells, Eigen::Index count) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < count; ++i) sum += cells[i];
+    return static_cast<float>(sum / (1020.0 * static_cast<double>(count)));
+}
+
+/// All planes as sums over cells.
+Floats sum_planes(RimmedPlanes& levels, int rows, int cols) {
+    Floats cells(kBins * rows + kColors * rows, cols);
+    const auto row = [&](int plane, int y) { return cells.data() + std::ptrdiff_t{plane * rows + y} * cols; };
+    std::vector<float> upper(static_cast<std::size_t>(kBins * 2 * cols)), lower(upper.size());
+    const auto share = [&](int y, float* out) {
+        Neighbours around;
+        for (int c = 0; c < kColors; ++c) {
+            around.above[c] = levels.row(c, y - 1);
+            around.here[c] = levels.row(c, y);
+            around.below[c] = levels.row(c, y + 1);
+        }
+        share_row(around, 2 * cols, out);
+    };
+    for (int y = 0; y < rows; ++y) {
+        share(2 * y, upper.data());
+        share(2 * y + 1, lower.data());
+        for (int k = 0; k < kBins; ++k)
+            sum_cells(upper.data() + 2 * k * cols, lower.data() + 2 * k * cols, cols, row(k, y));
+        for (int c = 0; c < kColors; ++c)
+            sum_cells(levels.row(c, 2 * y), levels.row(c, 2 * y + 1), cols, row(kBins + c, y));
+    }
+    return cells;
+}
+
+void normalize_orientations(FloatsRef taper, Floats& cells) {
+    const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols());
+    const auto row = [&](int plane, int y) { return cells.data() + std::ptrdiff_t{plane * rows + y} * cols; };
+    RimmedPlanes energy(1, rows, cols);
+    for (int y = 0; y < rows; ++y)
+        for (int k = 0; k < kBins; ++k) add_squares(row(k, y), cols, energy.row(0, y));
+    energy.fill_rim(0);
+    std::vector<float> column(static_cast<std::size_t>(cols + 2)), scales(column.size());
+    for (int y = 0; y < rows; ++y) {
+        find_scales(energy.row(0, y - 1), energy.row(0, y), energy.row(0, y + 1), cols, column.data(),
+                    scales.data());
+        const float* weights = taper.data() + std::ptrdiff_t{y} * cols;
+        for (int k = 0; k < kBins; ++k) normalize(scales.data(), weights, cols, row(k, y));
+    }
+}
+
+void center_colors(FloatsRef taper, Floats& cells) {
+    const Eigen::Index count = taper.size();
+    for (int c = 0; c < kColors; ++c) {
+        float* plane = cells.data() + (kBins + c) * count;
+        center(mean_color(plane, count), taper.data(), static_cast<int>(count), plane);
+    }
+}
+
+void require_arguments(const ImageView& patch, FloatsRef taper) {
+    if (taper.size() < 1) refuse("taper", "at least one cell", "none");
+    const auto shape = [](Eigen::Index rows, Eigen::Index cols) {
+        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ", 3)";
+    };
+    if (patch.rows != 2 * taper.rows() || patch.cols != 2 * taper.cols())
+        refuse("patch", "shape " + shape(2 * taper.rows(), 2 * taper.cols()) + ", twice the taper's",
+               shape(patch.rows, patch.cols));
+}
+
+}  // namespace
+
+Floats gradient_color_cells(const ImageView& patch, FloatsRef taper) {
+    require_arguments(patch, taper);
+    RimmedPlanes levels(kColors, patch.rows, patch.cols);
+    for (int y = 0; y < patch.rows; ++y)
+        split_row(patch.row(y), patch.cols, levels.row(0, y), levels.row(1, y), levels.row(2, y));
+    for (int c = 0; c < kColors; ++c) levels.fill_rim(c);
+    Floats cells = sum_planes(levels, patch.rows / 2, patch.cols / 2);
+    normalize_orientations(taper, cells);
+    center_colors(taper, cells);
+    return cells;
+}
+
+}  // namespace tricue

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/sample_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "check.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kUnit = 64;         // parts of a pixel that places are rounded to
+constexpr int kMostReadings = 4;  // of a sample along one axis
+constexpr int kMostPixels = 2 * kMostReadings;
+constexpr int kLanes = 4;  // blue, green, red, and one that is thrown away
+
+using Four [[gnu::vector_size(4 * kLanes)]] = float;
+
+/// Which pixels a sample has along one axis, and how much of each, in parts of kUnit.
+struct Sample {
+    int pixels[kMostPixels];
+    float weights[kMostPixels];  // whole numbers, 0 beyond the last pixel
+
+    void add(int pixel, int weight, int* count) {
+        if (*count == 0 || pixels[*count - 1] != pixel) pixels[(*count)++] = pixel;
+        weights[*count - 1] += static_cast<float>(weight);
+    }
+    std::uint16_t share(int k) const { return static_cast<std::uint16_t>(weights[k]); }
+};
+
+struct Axis {
+    std::vector<Sample> samples;
+    int readings;    ///< of each sample
+    int pixels = 0;  ///< that each sample has at most, rounded up to pairs
+};
+
+Axis find_samples(double start, double length, int count, int size) {
+    const double step = length / count;
+    Axis axis{std::vector<Sample>(static_cast<std::size_t>(count)),
+              static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMostReadings}))};
+    for (int i = 0; i < count; ++i) {
+        Sample& sample = axis.samples[static_cast<std::size_t>(i)];
+        int used = 0;
+        for (int j = 0; j < axis.readings; ++j) {
+            const double place = start + (i * axis.readings + j + 0.5) * (step / axis.readings) - 0.5;
+            const double inside = std::min(std::max(place, 0.0), size - 1.0);
+            const int fixed = static_cast<int>(inside * kUnit + 0.5), low = fixed / kUnit;
+            sample.add(low, kUnit - fixed % kUnit, &used);
+            sample.add(std::min(low + 1, size - 1), fixed % kUnit, &used);
+        }
+        std::fill(sample.pixels + used, sample.pixels + kMostPixels, sample.pixels[0]);
+        axis.pixels = std::max(axis.pixels, used + used % 2);
+    }
+    return axis;
+}
+
+/// Two rows of n bytes more in a blend of rows: at most 255 times the sum of weights, 4 kUnit, so it fits.
+TRICUE_MULTIVERSION
+void add_rows(const std::uint8_t* __restrict one, const std::uint8_t* __restrict two, std::uint16_t share_one,
+              std::uint16_t share_two, bool first, int n, std::uint16_t* __restrict sums) {
+    if (first) {
+        for (int x = 0; x < n; ++x)
+            sums[x] = static_cast<std::uint16_t>(one[x] * share_one + two[x] * share_two);
+    } else {
+        for (int x = 0; x < n; ++x)
+            sums[x] = static_cast<std::uint16_t>(sums[x] + one[x] * share_one + two[x] * share_two);
+    }
+}
+
+TRICUE_MULTIVERSION
+void widen(const std::uint16_t* __restrict sums, int n, float* __restrict blend) {
+    for (int x = 0; x < n; ++x) blend[x] = sums[x];
+}
+
+/// `blend` begins at pixel `left` and has a number more than its pixels, `sums` one more than 3 a sample.
+TRICUE_MULTIVERSION
+void add_columns(const Sample* samples, int count, int pixels, const float* blend, int left, float* sums) {
+    for (int i = 0; i < count; ++i) {
+        Four sum = {0, 0, 0, 0};
+        for (int k = 0; k < pixels; ++k) {
+            Four color;
+            __builtin_memcpy(&color, blend + 3 * (samples[i].pixels[k] - left), sizeof color);
+            sum += color * samples[i].weights[k];
+        }
+        __builtin_memcpy(sums + 3 * i, &sum, sizeof sum);
+    }
+}
+
+/// Quotients are no nearer than 1 / (12 kUnit²) to a half that they aren't, further than both roundings go.
+TRICUE_MULTIVERSION
+void divide(const float* __restrict sums, float whole, int n, std::uint8_t* __restrict bytes) {
+    for (int x = 0; x < n; ++x)
+        bytes[x] = static_cast<std::uint8_t>(static_cast<int>(sums[x] / whole + 0.5F));
+}
+
+void sample_window(const ImageView& image, const Axis& down, const Axis& across, std::uint8_t* bytes) {
+    const auto& columns = across.samples;
+    const int left = columns.front().pixels[0];
+    int right = left;
+    for (const int pixel : columns.back().pixels) right = std::max(right, pixel);
+    const int width = 3 * (right + 1 - left), count = static_cast<int>(columns.size());
+    std::vector<std::uint16_t> sums(static_cast<std::size_t>(width));
+    std::vector<float> blend(sums.size() + 1), row(3 * columns.size() + 1);
+    const auto whole = static_cast<float>(down.readings * across.readings * kUnit * kUnit);
+    for (const Sample& sample : down.samples) {
+        for (int k = 0; k < down.pixels; k += 2)
+            add_rows(image.row(sample.pixels[k]) + 3 * left, image.row(sample.pixels[k + 1]) + 3 * left,
+                     sample.share(k), sample.share(k + 1), k == 0, width, sums.data());
+        widen(sums.data(), width, blend.data());
+        add_columns(columns.data(), count, across.pixels, blend.data(), left, row.data());
+        divide(row.data(), whole, 3 * count, bytes);
+        bytes += 3 * count;
+    }
+}
+
+void require_arguments(const ImageView& image, StatesRef windows, int rows, int columns) {
+    if (image.rows < 1 || image.cols < 1) refuse("image", "at least one pixel", "none");
+    require_shape(windows, windows.rows(), 4, "windows");
+    require_finite(windows, "windows");
+    for (Eigen::Index i = 0; i < windows.rows(); ++i)
+        for (const double size : {windows(i, 2), windows(i, 3)})
+            if (!(size > 0.0)) refuse("windows", "widths and heights above 0", size);
+    if (rows < 1) refuse("rows", "at least 1", rows);
+    if (columns < 1) refuse("columns", "at least 1", columns);
+}
+
+}  // namespace
+
+WindowBytes sample_windows(const ImageView& image, StatesRef windows, int rows, int columns) {
+    require_arguments(image, windows, rows, columns);
+    const Eigen::Index each = Eigen::Index{3} * rows * columns;
+    WindowBytes samples(windows.rows() * each);
+    for (Eigen::Index i = 0; i < windows.rows(); ++i) {
+        const Axis across = find_samples(windows(i, 0), windows(i, 2), columns, image.cols);
+        const Axis down = find_samples(windows(i, 1), windows(i, 3), rows, image.rows);
+        sample_window(image, down, across, samples.data() + i * each);
+    }
+    return samples;
+}
+
+}  // namespace tricue

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace tricue {
+
+/// Planes of floats with a rim of one number, so that all inside have neighbours.
+class RimmedPlanes {
+public:
+    RimmedPlanes(int planes, int rows, int cols)
+        : rows_(rows),
+          cols_(cols),
+          numbers_(static_cast<std::size_t>(planes) * (static_cast<std::size_t>(rows) + 2) *
+                   (static_cast<std::size_t>(cols) + 2)) {}
+
+    /// From the first number inside on; y is between -1 and `rows`.
+    float* row(int plane, int y) {
+        const std::ptrdiff_t line = plane * (std::ptrdiff_t{rows_} + 2) + y + 1;
+        return numbers_.data() + line * (std::ptrdiff_t{cols_} + 2) + 1;
+    }
+
+    /// With the nearest numbers inside; there must be one.
+    void fill_rim(int plane) {
+        for (int y = 0; y < rows_; ++y) {
+            float* inside = row(plane, y);
+            inside[-1] = inside[0];
+            inside[cols_] = inside[cols_ - 1];
+        }
+        std::copy_n(row(plane, 0) - 1, cols_ + 2, row(plane, -1) - 1);
+        std::copy_n(row(plane, rows_ - 1) - 1, cols_ + 2, row(plane, rows_) - 1);
+    }
+
+private:
+    int rows_, cols_;
+    std::vector<float> numbers_;
+};
+
+}  // namespace tricue

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "arrays.hpp"
+#include "cues/color/gradient_color_cells.hpp"
+#include "cues/color/sample_windows.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+using Bytes = Array<std::uint8_t>;
+
+Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, int rows, int columns) {
+    const auto view = color_image(image, "image");
+    const auto each = states(windows, "windows");
+    const auto work = each.rows() * rows * columns;
+    auto samples = unlocked(work, [&] { return sample_windows(view, each, rows, columns); });
+    return give(std::move(samples), {each.rows(), rows, columns, 3});
+}
+
+Array<float> gradient_color_cells_arrays(const Bytes& patch, const Array<float>& taper) {
+    const auto view = color_image(patch, "patch");
+    const auto weights = floats(taper, "taper", {-1, -1}, "float32 (R, C)");
+    auto cells =
+        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return gradient_color_cells(view, weights); });
+    return give(std::move(cells), {11, weights.rows(), weights.cols()});
+}
+
+}  // namespace
+
+void define_patch(py::module_& m) {
+    m.def("sample_windows", sample_windows_arrays, py::arg("image"), py::arg("windows"), py::arg("rows"),
+          py::arg("columns"),
+          "Windows (N, 4), left, top, width, height in pixels, of a BGR image (H, W, 3) on a grid each: (N, "
+          "rows, columns, 3) means of up to 4 x 4 bilinear readings of what a sample covers, rounded; the "
+          "image's edge is repeated.");
+    m.def("gradient_color_cells", gradient_color_cells_arrays, py::arg("patch"), py::arg("taper"),
+          "(11, R, C) of a BGR patch (2R, 2C, 3), times a taper (R, C): eight signed orientations, every 45 "
+          "degrees, of gradients over the contrast around, then blue, green and red in [0, 1] without their "
+          "means.");
+}
+
+}  // namespace tricue::bindings
