@@ -3,6 +3,7 @@
 // The one place where NumPy arrays become C++ views. Strict: a wrong dtype, rank or layout raises and names the argument;
 // nothing is converted or copied behind the caller's back.
 
+#include <pybind11/complex.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -13,6 +14,7 @@
 #include "camera/depth_view.hpp"
 #include "camera/image_view.hpp"
 #include "camera/sample_view.hpp"
+#include "camera/stack_view.hpp"
 
 namespace tricue::bindings {
 
@@ -137,6 +139,19 @@ inline Eigen::Map<const Floats> floats(const py::object& object, const char* nam
         if (i + 1 < shape.size()) rows *= size;
     }
     return {contiguous<float>(array, name), rows, array.shape(array.ndim() - 1)};
+}
+
+inline Eigen::Map<const Complexes> complexes(const py::object& object, const char* name,
+                                             const char* expected) {
+    const auto array = require<std::complex<float>>(object, name, 2, expected);
+    return {contiguous<std::complex<float>>(array, name), array.shape(0), array.shape(1)};
+}
+
+template <typename Scalar>
+StackView<Scalar> stack(const py::object& object, const char* name, const char* expected) {
+    const auto array = require<Scalar>(object, name, 3, expected);
+    return {contiguous<Scalar>(array, name), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), static_cast<int>(array.shape(2))};
 }
 
 inline Bgr bgr(const py::object& object, const char* name) {

@@ -5,6 +5,7 @@ namespace tricue::bindings {
 void define_bayes(pybind11::module_& m);
 void define_color(pybind11::module_& m);
 void define_color_search(pybind11::module_& m);
+void define_correlation(pybind11::module_& m);
 void define_depth(pybind11::module_& m);
 void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
@@ -28,6 +29,7 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_stereo(m);
     tricue::bindings::define_motion(m);
     tricue::bindings::define_fuse(m);
+    tricue::bindings::define_correlation(m);
     tricue::bindings::define_kalman(m);
     tricue::bindings::define_bayes(m);
 }

@@ -87,6 +87,29 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).
     """
 
+def correlation_response(
+    cells: numpy.typing.NDArray[numpy.float32],
+    numerator: numpy.typing.NDArray[numpy.complex64],
+    denominator: numpy.typing.NDArray[numpy.float32],
+    ridge: float,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    (R, C), no shift at (R // 2, C // 2): how much cells (K, R, C), shifted, look as those learnt: equation (6), of the numerator (K, R, C // 2 + 1) and the denominator (R, C // 2 + 1) that correlation_train makes; lambda is ridge times the denominator's mean.
+    """
+
+def correlation_train(
+    cells: numpy.typing.NDArray[numpy.float32],
+    focus: numpy.typing.NDArray[numpy.float32],
+    label: numpy.typing.NDArray[numpy.complex64],
+    numerator: numpy.typing.NDArray[numpy.complex64],
+    denominator: numpy.typing.NDArray[numpy.float32],
+    rate: float,
+    background: float,
+) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Numerator (K, R, C // 2 + 1) and denominator (R, C // 2 + 1), equation (5), with cells (K, R, C) times a focus (R, C) blended in at a rate from 0 to 1, which starts them. The rest adds its energy to the denominator, background times. label (R, C // 2 + 1) is the spectrum of the wanted answer, its peak at (0, 0).
+    """
+
 def cut_sides(
     depth: numpy.typing.NDArray[numpy.float32],
     table: numpy.typing.NDArray[numpy.float64],
@@ -691,6 +714,23 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def correlation_response(
+        self,
+        cells: numpy.typing.NDArray[numpy.float32],
+        numerator: numpy.typing.NDArray[numpy.complex64],
+        denominator: numpy.typing.NDArray[numpy.float32],
+        ridge: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def correlation_train(
+        self,
+        cells: numpy.typing.NDArray[numpy.float32],
+        focus: numpy.typing.NDArray[numpy.float32],
+        label: numpy.typing.NDArray[numpy.complex64],
+        numerator: numpy.typing.NDArray[numpy.complex64],
+        denominator: numpy.typing.NDArray[numpy.float32],
+        rate: float,
+        background: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]: ...
     def cut_sides(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

@@ -52,6 +52,8 @@ from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
+from tricue.reference.fuse.correlation_response import correlation_response
+from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
@@ -74,6 +76,8 @@ __all__ = [
     "color_histogram",
     "color_lookup",
     "color_ranks",
+    "correlation_response",
+    "correlation_train",
     "cut_sides",
     "density_extrema",
     "depth_components",

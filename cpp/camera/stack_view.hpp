@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <cstddef>
+
+namespace tricue {
+
+/// Read-only planes of one size, one behind the other, that somebody else owns: C-contiguous (planes, rows, cols).
+template <typename Scalar>
+struct StackView {
+    const Scalar* data;
+    int planes, rows, cols;
+
+    const Scalar* row(int plane, int y) const {
+        return data + (std::ptrdiff_t{plane} * rows + y) * std::ptrdiff_t{cols};
+    }
+};
+
+using FloatStack = StackView<float>;
+using ComplexStack = StackView<std::complex<float>>;
+
+/// Spectra, a frequency along y a row, contiguous.
+using Complexes = Eigen::Array<std::complex<float>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using ComplexesRef = Eigen::Ref<const Complexes>;
+
+}  // namespace tricue

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "camera/arrays.hpp"
+#include "camera/stack_view.hpp"
+
+namespace tricue {
+
+/// Each throws std::invalid_argument that names the argument, what was expected and what came.
+void require_cells(const FloatStack& cells);
+/// Of the spectra (planes, rows, cols / 2 + 1) of such cells.
+void require_numerator(const ComplexStack& numerator, const FloatStack& cells);
+void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
+                   int expected_cols);
+/// One plane of such spectra.
+void require_denominator(FloatsRef denominator, const FloatStack& cells);
+void require_rate(double rate);
+void require_ridge(double ridge);
+
+}  // namespace tricue

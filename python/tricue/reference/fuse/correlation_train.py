@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""Learning of a correlation filter with many channels."""
+
+import numpy as np
+
+from tricue.reference.checks import refuse
+from tricue.reference.fuse.correlation_response import Complexes, Floats, require_filter
+
+
+def correlation_train(
+    cells: Floats,
+    focus: Floats,
+    label: Complexes,
+    numerator: Complexes,
+    denominator: Floats,
+    rate: float,
+    background: float,
+) -> tuple[Complexes, Floats]:
+    """Numerator (K, R, C // 2 + 1) and denominator (R, C // 2 + 1) with new cells (K, R, C), times the focus
+    (R, C), blended in at a rate in [0, 1]; 1 starts them.
+
+    Danelljan et al. 2014 (5): A_k = Y X̄_k and B = sum_k X_k X̄_k, the label Y (R, C // 2 + 1) being the
+    spectrum of the wanted answer, its peak at (0, 0). What the focus leaves out should be answered by 0: its
+    energy, times background, is in B.
+    """
+    require_filter(cells, numerator, denominator)
+    require_rate(rate)
+    if not 0 <= background < np.inf:
+        refuse("background", "a finite number, not negative", float(background))
+    if focus.shape != cells.shape[1:]:
+        refuse("focus", f"shape {cells.shape[1:]}", focus.shape)
+    if label.shape != denominator.shape:
+        refuse("label", f"shape {denominator.shape}", label.shape)
+    own = np.fft.rfft2(cells.astype(np.float64) * focus)
+    other = np.fft.rfft2(cells * (1 - focus.astype(np.float64)))
+    energy = (abs(own) ** 2 + background * abs(other) ** 2).sum(axis=0)
+    return (
+        (numerator + rate * (label * own.conj() - numerator)).astype(np.complex64),
+        (denominator + rate * (energy - denominator)).astype(np.float32),
+    )
+
+
+def require_rate(rate: float) -> None:
+    """Refuse what would forget more than all."""
+    if not 0 <= rate <= 1:
+        refuse("rate", "a number in [0, 1]", float(rate))
