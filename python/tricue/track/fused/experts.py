@@ -39,31 +39,31 @@ class FilterExpert(NamedTuple):
     def start(cls, k: Kernels, view: View, p: FusedParams) -> "FilterExpert":
         """Learnt from the first frame."""
         label = _label(p.label_width * CELLS / p.context)
-        cells, focus = cells_of(view), focus_of(view, p)
+        cells, focus = cells_of(k, view), focus_of(view, p)
         none = np.zeros((len(cells), *label.shape), np.complex64), np.zeros(label.shape, np.float32)
-        first = twins.correlation_train(cells, focus, label, *none, 1.0, p.background)
+        first = k.correlation_train(cells, focus, label, *none, 1.0, p.background)
         return cls(*first, first, label, p)
 
     def evidence(self, k: Kernels, view: View) -> Plane:
-        return self.response(cells_of(view))
+        return self.response(k, cells_of(k, view))
 
-    def response(self, cells: Plane) -> Plane:
+    def response(self, k: Kernels, cells: Plane) -> Plane:
         """The answer to the cells of a view."""
         share = np.float32(self.params.anchor)
         numerator, denominator = (
             now + share * (first - now)
             for now, first in zip((self.numerator, self.denominator), self.first, strict=True)
         )
-        return twins.correlation_response(cells, numerator, denominator, self.params.ridge)
+        return k.correlation_response(cells, numerator, denominator, self.params.ridge)
 
-    def first_response(self, cells: Plane) -> Plane:
+    def first_response(self, k: Kernels, cells: Plane) -> Plane:
         """What the first frame's filter alone answers."""
-        return twins.correlation_response(cells, *self.first, self.params.ridge)
+        return k.correlation_response(cells, *self.first, self.params.ridge)
 
     def learnt(self, k: Kernels, view: View, rate: float) -> "FilterExpert":
         p = self.params
-        now = twins.correlation_train(
-            cells_of(view),
+        now = k.correlation_train(
+            cells_of(k, view),
             focus_of(view, p),
             self.label,
             self.numerator,
@@ -104,9 +104,9 @@ class ColorExpert(NamedTuple):
         return self._replace(target=target, surround=surround, table=table)
 
 
-def cells_of(view: View) -> Plane:
+def cells_of(k: Kernels, view: View) -> Plane:
     """(11, 32, 32) what the filter reads of a view."""
-    return twins.gradient_color_cells(view.patch, TAPER)
+    return k.gradient_color_cells(view.patch, TAPER)
 
 
 def focus_of(view: View, p: FusedParams) -> Plane:

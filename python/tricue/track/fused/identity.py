@@ -54,8 +54,8 @@ class Identity(NamedTuple):
 
     def marks(self, k: Kernels, view: View, ranks: Plane, filter_: FilterExpert, color: ColorExpert) -> Marks:
         """Of the view whose middle is what was found, and whose ranks (3, n) these are."""
-        cells = cells_of(view)
-        answer = filter_.response(cells)
+        cells = cells_of(k, view)
+        answer = filter_.response(k, cells)
         contrast = twins.box_contrast(color.posterior(k, view), *view.size, color.params.frame, 1.0)
         inside, _ = masks(*view.size)
         samples = np.ascontiguousarray(view.colors[:, :, inside])
@@ -65,7 +65,7 @@ class Identity(NamedTuple):
             order=float(np.abs(ranks - self.ranks).mean()),
             colors=float(np.sqrt(seen * self.colors.ravel()).sum()),
             contrast=float(contrast[CELLS // 2, CELLS // 2]),
-            first=float(filter_.first_response(cells)[MIDDLE, MIDDLE].max()),
+            first=float(filter_.first_response(k, cells)[MIDDLE, MIDDLE].max()),
         )
 
     def learnt(self, ranks: Plane, rate: float) -> "Identity":

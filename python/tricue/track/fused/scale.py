@@ -67,7 +67,7 @@ def looks(
     """A target's place at every step of scale."""
     sizes = p.scale_reach * np.outer(steps, [target.width, target.height])
     windows = np.column_stack([np.array([target.x, target.y]) - sizes / 2, sizes])
-    samples = twins.sample_windows(image, windows, GRID, GRID)
+    samples = k.sample_windows(image, windows, GRID, GRID)
     flat = np.ascontiguousarray(samples.reshape(len(samples), -1, 3).transpose(0, 2, 1))
     return Looks(k.color_ranks(flat), k.color_lookup(flat, table))
 

@@ -42,7 +42,7 @@ def examine(k: Kernels, state: State, place: Place, p: FusedParams, steps: NDArr
     """Measure the size of what is at a place, and judge whether it is the target."""
     models, image = state.models, place.view.image
     target = resized(k, state, place, p, steps)
-    view = look(image, [target], p.context)[0]
+    view = look(k, image, [target], p.context)[0]
     looks = scale.looks(k, image, target, models.color.table, p, steps)
     marks = models.identity.marks(k, view, looks.ranks[len(steps) // 2], models.filter, models.color)
     return Found(target, view, looks, marks, place.answer)
@@ -58,7 +58,7 @@ def resized(k: Kernels, state: State, place: Place, p: FusedParams, steps: NDArr
             scale.looks(k, image, target, models.color.table, p, steps)
         )
     if "edges" in p.cues:
-        view = look(image, [target], p.context)[0]
+        view = look(k, image, [target], p.context)[0]
         total += p.edge_weight * scale.edges(models.color.posterior(k, view), view.size, steps, models.edge)
     best = int(np.argmax(total))
     factor = p.scale_step ** (offset[best] + peak(total, best))
@@ -66,10 +66,10 @@ def resized(k: Kernels, state: State, place: Place, p: FusedParams, steps: NDArr
     return target.scaled(min(max(factor, low), high))
 
 
-def beside(image: Image, target: Target, context: float) -> list[View]:
+def beside(k: Kernels, image: Image, target: Target, context: float) -> list[View]:
     """The eight windows round a target's own, half a window away."""
     half = context * target.side / 2
-    return look(image, [target.moved(i * half, j * half) for i, j in AROUND], context)
+    return look(k, image, [target.moved(i * half, j * half) for i, j in AROUND], context)
 
 
 def elsewhere(k: Kernels, state: State, image: Image, p: FusedParams) -> list[View]:
@@ -78,7 +78,7 @@ def elsewhere(k: Kernels, state: State, image: Image, p: FusedParams) -> list[Vi
     every = _lattice(state, image, p)
     first = state.count * BY_TURNS
     by_turns = [every[(first + i) % len(every)] for i in range(min(BY_TURNS, len(every)))]
-    return look(image, by_color + by_turns, p.context)
+    return look(k, image, by_color + by_turns, p.context)
 
 
 def _colored(k: Kernels, state: State, image: Image, p: FusedParams) -> list[Target]:
@@ -87,7 +87,7 @@ def _colored(k: Kernels, state: State, image: Image, p: FusedParams) -> list[Tar
     target = state.target
     unit = max(target.side / DETAIL, max(height, width) / MOST_SAMPLES)
     rows, columns = (max(2 * round(length / unit / 2), 2) for length in (height, width))
-    samples = twins.sample_windows(image, np.array([[0.0, 0.0, width, height]]), rows, columns)
+    samples = k.sample_windows(image, np.array([[0.0, 0.0, width, height]]), rows, columns)
     flat = np.ascontiguousarray(samples.reshape(1, -1, 3).transpose(0, 2, 1))
     posterior = k.color_lookup(flat, state.models.color.table).reshape(rows, columns)
     across, down = width / columns, height / rows

@@ -58,7 +58,7 @@ class FusedTracker:
             raise ValueError("box: expected (x, y, width, height), got None; this tracker needs to be told")
         target = Target.of(lifecycle.box_in(as_box(box), image))
         k, p = self._k, self.params
-        view = look(image, [target], p.context)[0]
+        view = look(k, image, [target], p.context)[0]
         color, filter_ = ColorExpert.start(k, view, p), FilterExpert.start(k, view, p)
         looks = scale.looks(k, image, target, color.table, p, self._steps)
         identity = Identity(color.target, looks.ranks[p.scales // 2])
@@ -96,9 +96,9 @@ class FusedTracker:
         """Look where the target should be; where its answer surprises, beside that, too."""
         k, p = self._k, self.params
         guess = state.target.moved(p.drift * state.velocity[0], p.drift * state.velocity[1])
-        place = best_place(k, state.models, look(image, [guess], p.context)[0], p)
+        place = best_place(k, state.models, look(k, image, [guess], p.context)[0], p)
         if place.answer < p.doubt * state.usual:
-            views = beside(image, guess, p.context)
+            views = beside(k, image, guess, p.context)
             place = max([place, *self._places(state, views, guess)], key=lambda each: each.evidence)
         return examine(k, state, place, p, self._steps)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.track.fused import twins
+from tricue.kernels import Kernels
 
 Image = NDArray[np.uint8]
 Plane = NDArray[np.float32]
@@ -71,11 +71,11 @@ class View(NamedTuple):
         return np.ascontiguousarray(self.patch.reshape(1, -1, 3).transpose(0, 2, 1))
 
 
-def look(image: Image, targets: list[Target], context: float) -> list[View]:
+def look(k: Kernels, image: Image, targets: list[Target], context: float) -> list[View]:
     """The views of some targets; context: side of a window in sides of its target."""
     sides = [context * each.side for each in targets]
     windows = np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in zip(targets, sides, strict=True)])
-    patches = twins.sample_windows(image, windows, PIXELS, PIXELS)
+    patches = k.sample_windows(image, windows, PIXELS, PIXELS)
     return [
         View(image, patch, side / PIXELS, target)
         for patch, side, target in zip(patches, sides, targets, strict=True)
