@@ -41,6 +41,20 @@ void require_denominator(FloatsRef denominator, const FloatStack& cells) {
     require_plane("denominator", denominator.rows(), denominator.cols(), cells.rows, cells.cols / 2 + 1);
 }
 
+void require_looks(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator) {
+    if (looks.size() < 1)
+        refuse("looks", "at least one scale and channel", shape(looks.rows(), looks.cols()));
+    if (numerator.rows() != looks.rows() || numerator.cols() != looks.cols())
+        refuse("numerator", "shape " + shape(looks.rows(), looks.cols()),
+               shape(numerator.rows(), numerator.cols()));
+    require_scales("denominator", denominator.cols(), looks.rows());
+}
+
+void require_scales(const char* name, Eigen::Index scales, Eigen::Index expected) {
+    if (scales != expected)
+        refuse(name, "shape (" + std::to_string(expected) + ",)", "(" + std::to_string(scales) + ",)");
+}
+
 void require_rate(double rate) {
     if (!(rate >= 0.0 && rate <= 1.0)) refuse("rate", "a number in [0, 1]", rate);
 }

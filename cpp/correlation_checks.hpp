@@ -14,6 +14,9 @@ void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int e
                    int expected_cols);
 /// One plane of such spectra.
 void require_denominator(FloatsRef denominator, const FloatStack& cells);
+/// Of S scales with D channels: both at least 1, the numerator of S x D, the denominator of S.
+void require_looks(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator);
+void require_scales(const char* name, Eigen::Index scales, Eigen::Index expected);
 void require_rate(double rate);
 void require_ridge(double ridge);
 

@@ -2,6 +2,8 @@
 #include "arrays.hpp"
 #include "fuse/correlation_response.hpp"
 #include "fuse/correlation_train.hpp"
+#include "fuse/scale_response.hpp"
+#include "fuse/scale_train.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -41,6 +43,30 @@ std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, co
             give(std::move(filter.denominator))};
 }
 
+constexpr const char* kLooks = "float32 looks (S, D)";
+constexpr const char* kFrequencies = "complex64 (S, D)";
+
+Floating scale_response_arrays(const Floating& looks, const Complex& numerator, const Floating& denominator,
+                               double ridge) {
+    const auto seen = floats(looks, "looks", {-1, -1}, kLooks);
+    const auto upper = complexes(numerator, "numerator", kFrequencies);
+    const auto lower = floats(denominator, "denominator", {-1}, "float32 (S,)");
+    return give(unlocked(seen.size(), [&] { return scale_response(seen, upper, lower, ridge); }));
+}
+
+std::tuple<Complex, Floating> scale_train_arrays(const Floating& looks, const Complex& label,
+                                                 const Complex& numerator, const Floating& denominator,
+                                                 double rate) {
+    const auto seen = floats(looks, "looks", {-1, -1}, kLooks);
+    const auto wanted = require<std::complex<float>>(label, "label", 1, "complex64 (S,)");
+    const Eigen::Map<const Complexes> spectrum(contiguous<std::complex<float>>(wanted, "label"), 1,
+                                               wanted.shape(0));
+    const auto upper = complexes(numerator, "numerator", kFrequencies);
+    const auto lower = floats(denominator, "denominator", {-1}, "float32 (S,)");
+    auto filter = unlocked(seen.size(), [&] { return scale_train(seen, spectrum, upper, lower, rate); });
+    return {give(std::move(filter.numerator)), give(std::move(filter.denominator))};
+}
+
 }  // namespace
 
 void define_correlation(py::module_& m) {
@@ -56,6 +82,16 @@ void define_correlation(py::module_& m) {
         "times a focus (R, C) blended in at a rate from 0 to 1, which starts them. The rest adds its energy "
         "to the denominator, background times. label (R, C // 2 + 1) is the spectrum of the wanted answer, "
         "its peak at (0, 0).");
+    m.def("scale_response", scale_response_arrays, py::arg("looks"), py::arg("numerator"),
+          py::arg("denominator"), py::arg("ridge"),
+          "(S,), no change at S // 2: how much the looks (S, D) of a target at S steps of scale, shifted, "
+          "are as those learnt: equation (6) along one dimension, of the numerator (S, D) and the "
+          "denominator (S,) that scale_train makes; lambda is ridge times the denominator's mean.");
+    m.def("scale_train", scale_train_arrays, py::arg("looks"), py::arg("label"), py::arg("numerator"),
+          py::arg("denominator"), py::arg("rate"),
+          "Numerator (S, D) and denominator (S,), equation (5) along one dimension, with looks (S, D) "
+          "blended in at a rate from 0 to 1, which starts them; label (S,) is the spectrum of the wanted "
+          "answer, its peak at 0.");
 }
 
 }  // namespace tricue::bindings

@@ -543,6 +543,27 @@ def sample_windows(
     Windows (N, 4), left, top, width, height in pixels, of a BGR image (H, W, 3) on a grid each: (N, rows, columns, 3) means of up to 4 x 4 bilinear readings of what a sample covers, rounded; the image's edge is repeated.
     """
 
+def scale_response(
+    looks: numpy.typing.NDArray[numpy.float32],
+    numerator: numpy.typing.NDArray[numpy.complex64],
+    denominator: numpy.typing.NDArray[numpy.float32],
+    ridge: float,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    (S,), no change at S // 2: how much the looks (S, D) of a target at S steps of scale, shifted, are as those learnt: equation (6) along one dimension, of the numerator (S, D) and the denominator (S,) that scale_train makes; lambda is ridge times the denominator's mean.
+    """
+
+def scale_train(
+    looks: numpy.typing.NDArray[numpy.float32],
+    label: numpy.typing.NDArray[numpy.complex64],
+    numerator: numpy.typing.NDArray[numpy.complex64],
+    denominator: numpy.typing.NDArray[numpy.float32],
+    rate: float,
+) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Numerator (S, D) and denominator (S,), equation (5) along one dimension, with looks (S, D) blended in at a rate from 0 to 1, which starts them; label (S,) is the spectrum of the wanted answer, its peak at 0.
+    """
+
 def section_distance(
     sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -1040,6 +1061,21 @@ class Kernels(Protocol):
         rows: int,
         columns: int,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def scale_response(
+        self,
+        looks: numpy.typing.NDArray[numpy.float32],
+        numerator: numpy.typing.NDArray[numpy.complex64],
+        denominator: numpy.typing.NDArray[numpy.float32],
+        ridge: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def scale_train(
+        self,
+        looks: numpy.typing.NDArray[numpy.float32],
+        label: numpy.typing.NDArray[numpy.complex64],
+        numerator: numpy.typing.NDArray[numpy.complex64],
+        denominator: numpy.typing.NDArray[numpy.float32],
+        rate: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]: ...
     def section_distance(
         self, sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float64]: ...

@@ -60,6 +60,8 @@ from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
+from tricue.reference.fuse.scale_response import scale_response
+from tricue.reference.fuse.scale_train import scale_train
 from tricue.reference.fuse.summarize import summarize
 from tricue.reference.fuse.target_distribution import target_distribution
 from tricue.reference.fuse.target_pixels import target_pixels
@@ -116,6 +118,8 @@ __all__ = [
     "sad_disparity",
     "sample_ellipses",
     "sample_windows",
+    "scale_response",
+    "scale_train",
     "section_distance",
     "shift_histogram",
     "skin_blobs",

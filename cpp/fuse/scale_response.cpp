@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/scale_response.hpp"
+
+#include <algorithm>
+
+#include "correlation_checks.hpp"
+#include "fourier_columns.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kParts = 16;
+
+/// sum of A Z; `a` holds pairs of a real and an imaginary part.
+TRICUE_MULTIVERSION
+void sum_products(const float* a, const float* re, const float* im, int n, float* sum_re, float* sum_im) {
+    float part_re[kParts] = {}, part_im[kParts] = {};
+    int d = 0;
+    for (; d + kParts <= n; d += kParts) {
+        TRICUE_INDEPENDENT
+        for (int j = 0; j < kParts; ++j) {
+            const float x = a[2 * (d + j)], y = a[2 * (d + j) + 1];
+            part_re[j] += x * re[d + j] - y * im[d + j];
+            part_im[j] += x * im[d + j] + y * re[d + j];
+        }
+    }
+    for (int j = 0; d < n; ++d, ++j) {
+        part_re[j] += a[2 * d] * re[d] - a[2 * d + 1] * im[d];
+        part_im[j] += a[2 * d] * im[d] + a[2 * d + 1] * re[d];
+    }
+    *sum_re = *sum_im = 0;
+    for (int j = 0; j < kParts; ++j) {
+        *sum_re += part_re[j];
+        *sum_im += part_im[j];
+    }
+}
+
+}  // namespace
+
+Eigen::Array<float, Eigen::Dynamic, 1> scale_response(FloatsRef looks, ComplexesRef numerator,
+                                                      FloatsRef denominator, double ridge) {
+    require_looks(looks, numerator, denominator);
+    require_ridge(ridge);
+    const int scales = static_cast<int>(looks.rows()), channels = static_cast<int>(looks.cols());
+    FourierColumns fourier(scales, channels), answer(scales, 1);
+    std::copy_n(looks.data(), looks.size(), fourier.real(0));
+    fourier.forward();
+    const double mean = denominator.cast<double>().mean();
+    const auto lambda = static_cast<float>(ridge * std::max(mean, 1e-12));
+    for (int u = 0; u < scales; ++u) {
+        const auto* a = reinterpret_cast<const float*>(numerator.data() + std::ptrdiff_t{u} * channels);
+        sum_products(a, fourier.real(u), fourier.imag(u), channels, answer.real(u), answer.imag(u));
+        const float share = 1.0F / (denominator(0, u) + lambda);
+        *answer.real(u) *= share;
+        *answer.imag(u) *= share;
+    }
+    answer.inverse();
+    Eigen::Array<float, Eigen::Dynamic, 1> response(scales);
+    for (int k = 0; k < scales; ++k)
+        response[(k + scales / 2) % scales] = *answer.real(k) / static_cast<float>(scales);
+    return response;
+}
+
+}  // namespace tricue

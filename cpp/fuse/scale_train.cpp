@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/scale_train.hpp"
+
+#include <algorithm>
+
+#include "correlation_checks.hpp"
+#include "fourier_columns.hpp"
+#include "simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kParts = 16;
+
+TRICUE_MULTIVERSION
+void sum_energy(const float* re, const float* im, int n, float* energy) {
+    float parts[kParts] = {};
+    int d = 0;
+    for (; d + kParts <= n; d += kParts)
+        for (int j = 0; j < kParts; ++j) parts[j] += re[d + j] * re[d + j] + im[d + j] * im[d + j];
+    for (int j = 0; d < n; ++d, ++j) parts[j] += re[d] * re[d] + im[d] * im[d];
+    *energy = 0;
+    for (int j = 0; j < kParts; ++j) *energy += parts[j];
+}
+
+/// Y conj(X) blended into a numerator; of complex numbers these are pairs of a real and an imaginary part.
+TRICUE_MULTIVERSION
+void blend_products(float a, float b, const float* __restrict re, const float* __restrict im,
+                    const float* __restrict old, float rate, int n, float* __restrict numerator) {
+    for (int d = 0; d < n; ++d) {
+        const float own_re = a * re[d] + b * im[d], own_im = b * re[d] - a * im[d];
+        numerator[2 * d] = old[2 * d] + rate * (own_re - old[2 * d]);
+        numerator[2 * d + 1] = old[2 * d + 1] + rate * (own_im - old[2 * d + 1]);
+    }
+}
+
+}  // namespace
+
+ScaleFilter scale_train(FloatsRef looks, ComplexesRef label, ComplexesRef numerator, FloatsRef denominator,
+                        double rate) {
+    require_looks(looks, numerator, denominator);
+    require_scales("label", label.cols(), looks.rows());
+    require_rate(rate);
+    const int scales = static_cast<int>(looks.rows()), channels = static_cast<int>(looks.cols());
+    FourierColumns fourier(scales, channels);
+    std::copy_n(looks.data(), looks.size(), fourier.real(0));
+    fourier.forward();
+    ScaleFilter filter{Complexes(scales, channels), Eigen::Array<float, Eigen::Dynamic, 1>(scales)};
+    const auto share = static_cast<float>(rate);
+    for (int u = 0; u < scales; ++u) {
+        const auto* old = reinterpret_cast<const float*>(numerator.data() + std::ptrdiff_t{u} * channels);
+        auto* blended = reinterpret_cast<float*>(filter.numerator.data() + std::ptrdiff_t{u} * channels);
+        const std::complex<float> y = label(0, u);
+        blend_products(y.real(), y.imag(), fourier.real(u), fourier.imag(u), old, share, channels, blended);
+        float energy = 0;
+        sum_energy(fourier.real(u), fourier.imag(u), channels, &energy);
+        filter.denominator[u] = denominator(0, u) + share * (energy - denominator(0, u));
+    }
+    return filter;
+}
+
+}  // namespace tricue
