@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
+#include "cues/color/box_contrast.hpp"
+#include "cues/color/box_means.hpp"
 #include "cues/color/gradient_color_cells.hpp"
 #include "cues/color/sample_windows.hpp"
 
@@ -24,6 +26,27 @@ Array<float> gradient_color_cells_arrays(const Bytes& patch, const Array<float>&
     return give(std::move(cells), {11, weights.rows(), weights.cols()});
 }
 
+PlaneView map(const Array<float>& plane) {
+    const auto array = packed_rows<float>(plane, "plane", "a float32 map (H, W)");
+    return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
+            static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
+}
+
+Array<float> box_contrast_arrays(const Array<float>& plane, double width, double height, double outer,
+                                 double around) {
+    const auto view = map(plane);
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols,
+                         [&] { return box_contrast(view, {width, height, outer}, around); }));
+}
+
+Array<double> box_means_arrays(const Array<float>& plane, const Array<double>& widths,
+                               const Array<double>& heights) {
+    const auto view = map(plane);
+    const auto across = vector(widths, "widths"), down = vector(heights, "heights");
+    return give(
+        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return box_means(view, across, down); }));
+}
+
 }  // namespace
 
 void define_patch(py::module_& m) {
@@ -36,6 +59,13 @@ void define_patch(py::module_& m) {
           "(11, R, C) of a BGR patch (2R, 2C, 3), times a taper (R, C): eight signed orientations, every 45 "
           "degrees, of gradients over the contrast around, then blue, green and red in [0, 1] without their "
           "means.");
+    m.def("box_contrast", box_contrast_arrays, py::arg("plane"), py::arg("width"), py::arg("height"),
+          py::arg("outer"), py::arg("around"),
+          "(R, C) of a map (2R, 2C): its mean in a box of width by height pixels at every second place, the "
+          "middle one at (R // 2, C // 2), minus around times that in the frame that reaches to outer times "
+          "its size.");
+    m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("widths"), py::arg("heights"),
+          "(N,) means of a map (H, W) in boxes of N sizes round its middle, pixels; 0 lies outside.");
 }
 
 }  // namespace tricue::bindings

@@ -57,6 +57,22 @@ def block_mask(
     (H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0.
     """
 
+def box_contrast(
+    plane: numpy.typing.NDArray[numpy.float32], width: float, height: float, outer: float, around: float
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    (R, C) of a map (2R, 2C): its mean in a box of width by height pixels at every second place, the middle one at (R // 2, C // 2), minus around times that in the frame that reaches to outer times its size.
+    """
+
+def box_means(
+    plane: numpy.typing.NDArray[numpy.float32],
+    widths: numpy.typing.NDArray[numpy.float64],
+    heights: numpy.typing.NDArray[numpy.float64],
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    (N,) means of a map (H, W) in boxes of N sizes round its middle, pixels; 0 lies outside.
+    """
+
 def color_bins(
     image: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
@@ -718,6 +734,20 @@ class Kernels(Protocol):
     def block_mask(
         self, blocks: numpy.typing.NDArray[numpy.float64], height: int, width: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def box_contrast(
+        self,
+        plane: numpy.typing.NDArray[numpy.float32],
+        width: float,
+        height: float,
+        outer: float,
+        around: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def box_means(
+        self,
+        plane: numpy.typing.NDArray[numpy.float32],
+        widths: numpy.typing.NDArray[numpy.float64],
+        heights: numpy.typing.NDArray[numpy.float64],
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def color_bins(
         self,
         image: numpy.typing.NDArray[numpy.uint8],

@@ -6,6 +6,8 @@ compute.
 from tricue.reference.camera.back_project import back_project
 from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
+from tricue.reference.cues.color.box_contrast import box_contrast
+from tricue.reference.cues.color.box_means import box_means
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -74,6 +76,8 @@ __all__ = [
     "bhattacharyya",
     "block_counts",
     "block_mask",
+    "box_contrast",
+    "box_means",
     "color_bins",
     "color_histogram",
     "color_lookup",

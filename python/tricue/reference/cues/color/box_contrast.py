@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+"""How much more of a map lies in a box than round it, for every place of the box."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_finite
+from tricue.reference.cues.color.box_means import covered
+
+Plane = NDArray[np.float32]
+
+
+def box_contrast(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
+    """(R, C) of a map (2R, 2C): its mean in a box minus ``around`` times that in the frame round it.
+
+    The box of ``width`` by ``height`` pixels has its centre at (C + 2 (j - C // 2), R + 2 (i - R // 2)) for
+    the value in row i, column j; the frame reaches to ``outer`` times its size. Outside the map lies 0.
+    Pixels count by the part that is covered, as an integral image gives it.
+    """
+    _require_arguments(plane, width, height, outer, around)
+    rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
+    y, x = (count + 2.0 * (np.arange(count) - count // 2) for count in (rows, columns))
+    values = plane.astype(np.float64)
+    inner = covered(2 * rows, y, height) @ values @ covered(2 * columns, x, width).T
+    whole = covered(2 * rows, y, height * outer) @ values @ covered(2 * columns, x, width * outer).T
+    area = width * height
+    contrast: NDArray[np.float64] = inner / area - around * (whole - inner) / (area * (outer * outer - 1))
+    return contrast.astype(np.float32)
+
+
+def _require_arguments(plane: Plane, width: float, height: float, outer: float, around: float) -> None:
+    if min(plane.shape) < 2 or plane.shape[0] % 2 or plane.shape[1] % 2:
+        refuse("plane", "even sides of at least 2", plane.shape)
+    for name, number, low in (("width", width, 0), ("height", height, 0), ("outer", outer, 1)):
+        if not low < number < np.inf:
+            refuse(name, f"a finite number above {low}", float(number))
+    if not np.isfinite(around):
+        refuse("around", "a finite number", float(around))
+    require_finite("plane", plane.astype(np.float64))

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""What a map has in boxes round its middle, and so along their edges: where a target ends."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse, require_finite, require_shape
+
+Floats = NDArray[np.float64]
+
+
+def box_means(plane: NDArray[np.float32], widths: Floats, heights: Floats) -> Floats:
+    """(N,) means of a map (H, W) in boxes of the given sizes, pixels, round its middle; 0 lies outside.
+
+    Two of them give what lies between two boxes.
+    """
+    if plane.size < 1:
+        refuse("plane", "at least one pixel", "none")
+    _require_lengths("widths", widths)
+    require_shape("heights", heights, widths.shape)
+    _require_lengths("heights", heights)
+    require_finite("plane", plane.astype(np.float64))
+    rows, columns = plane.shape
+    down, across = covered(rows, rows / 2, heights), covered(columns, columns / 2, widths)
+    sums: Floats = ((down @ plane.astype(np.float64)) * across).sum(axis=1)
+    return sums / (widths * heights)
+
+
+def covered(size: int, centers: Floats | float, lengths: Floats | float) -> Floats:
+    """(N, size): how much of each pixel lengths round N centers cover."""
+    low, high = np.atleast_1d(centers - lengths / 2), np.atleast_1d(centers + lengths / 2)
+    pixel = np.arange(size)
+    overlap: Floats = np.minimum(high[:, None], pixel + 1) - np.maximum(low[:, None], pixel)
+    return np.clip(overlap, 0, 1)
+
+
+def _require_lengths(name: str, lengths: Floats) -> None:
+    require_finite(name, lengths)
+    if not (lengths > 0).all():
+        refuse(name, "numbers above 0", float(lengths[lengths <= 0][0]))
