@@ -22,8 +22,8 @@ def noise(rows: int, columns: int, seed: int = 0) -> Plane:
 @pytest.mark.parametrize("seed", range(20))
 def test_native_is_the_twin(seed: int) -> None:
     """Both give the same for maps of any size and memory layout, and boxes from parts of a pixel to far
-    beyond the map: to float32's rounding of the result, float64's running sums losing less than 1e-12 of the map's
-    sum over the box's area.
+    beyond the map: to float32's rounding of the result, float64's running sums losing less than 1e-12 of the
+    map's sum over the box's area.
     """
     rng = np.random.default_rng(seed)
     rows, columns = rng.integers(1, 40, 2).tolist()

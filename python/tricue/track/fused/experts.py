@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.fused import twins
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.view import CELLS, PIXELS, Plane, View
 
@@ -94,7 +93,7 @@ class ColorExpert(NamedTuple):
 
     def evidence(self, k: Kernels, view: View) -> Plane:
         p = self.params
-        return twins.box_contrast(self.posterior(k, view), *view.size, p.frame, p.around)
+        return k.box_contrast(self.posterior(k, view), *view.size, p.frame, p.around)
 
     def learnt(self, k: Kernels, view: View, rate: float) -> "ColorExpert":
         inside, around = masks(*view.size)

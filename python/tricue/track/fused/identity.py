@@ -7,7 +7,6 @@ from typing import NamedTuple
 import numpy as np
 
 from tricue.kernels import Kernels
-from tricue.track.fused import twins
 from tricue.track.fused.experts import BINS, ColorExpert, FilterExpert, cells_of, masks
 from tricue.track.fused.view import CELLS, Plane, View
 
@@ -56,7 +55,7 @@ class Identity(NamedTuple):
         """Of the view whose middle is what was found, and whose ranks (3, n) these are."""
         cells = cells_of(k, view)
         answer = filter_.response(k, cells)
-        contrast = twins.box_contrast(color.posterior(k, view), *view.size, color.params.frame, 1.0)
+        contrast = k.box_contrast(color.posterior(k, view), *view.size, color.params.frame, 1.0)
         inside, _ = masks(*view.size)
         samples = np.ascontiguousarray(view.colors[:, :, inside])
         seen = k.joint_histogram(samples, BINS)[0]

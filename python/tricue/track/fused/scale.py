@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.fused import twins
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.view import Image, Plane, Target
 
@@ -37,21 +36,21 @@ class ScaleExpert(NamedTuple):
     params: FusedParams
 
     @classmethod
-    def start(cls, looks: Looks, p: FusedParams) -> "ScaleExpert":
+    def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "ScaleExpert":
         """Learnt from the first frame."""
         channels = looks.channels.shape[1]
         offset = np.fft.fftfreq(p.scales, 1 / p.scales)
         label = np.fft.fft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
-        none = np.zeros((channels, p.scales), np.complex64)
-        return cls(none, np.zeros(p.scales, np.float32), label, p).learnt(looks, 1.0)
+        none = np.zeros((p.scales, channels), np.complex64)
+        return cls(none, np.zeros(p.scales, np.float32), label, p).learnt(k, looks, 1.0)
 
-    def evidence(self, looks: Looks) -> Plane:
+    def evidence(self, k: Kernels, looks: Looks) -> Plane:
         """(S,), about 1 at the right one."""
-        return twins.scale_response(looks.channels, self.numerator, self.denominator, self.params.ridge)
+        return k.scale_response(looks.channels, self.numerator, self.denominator, self.params.ridge)
 
-    def learnt(self, looks: Looks, rate: float) -> "ScaleExpert":
+    def learnt(self, k: Kernels, looks: Looks, rate: float) -> "ScaleExpert":
         """With the looks, the middle one right, blended in."""
-        learnt = twins.scale_train(looks.channels, self.label, self.numerator, self.denominator, rate)
+        learnt = k.scale_train(looks.channels, self.label, self.numerator, self.denominator, rate)
         return self._replace(numerator=learnt[0], denominator=learnt[1])
 
 
@@ -73,16 +72,16 @@ def looks(
 
 
 def edges(
-    posterior: Plane, size: tuple[float, float], steps: NDArray[np.float64], level: float
+    k: Kernels, posterior: Plane, size: tuple[float, float], steps: NDArray[np.float64], level: float
 ) -> NDArray[np.float64]:
     """(S,) what the posterior adds up to above a level in boxes of every scale, of the first's area."""
-    means = twins.edge_shares(posterior, size[0] * steps, size[1] * steps)
+    means = k.box_means(posterior, size[0] * steps, size[1] * steps)
     sums: NDArray[np.float64] = (means - level) * steps * steps
     return sums
 
 
-def edge_level(posterior: Plane, size: tuple[float, float], step: float) -> float:
+def edge_level(k: Kernels, posterior: Plane, size: tuple[float, float], step: float) -> float:
     """The posterior along the target's edge, where boxes of both sizes next to it differ."""
     steps = np.array([1 / step, step])
-    sums = edges(posterior, size, steps, 0.0)
+    sums = edges(k, posterior, size, steps, 0.0)
     return float((sums[1] - sums[0]) / (steps[1] ** 2 - steps[0] ** 2))

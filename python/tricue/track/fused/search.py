@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.fused import scale, twins
+from tricue.track.fused import scale
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import Found, Models, Place, State
 from tricue.track.fused.view import CELLS, Image, Plane, Target, View, look
@@ -55,11 +55,13 @@ def resized(k: Kernels, state: State, place: Place, p: FusedParams, steps: NDArr
     total = -p.scale_prior * offset.astype(np.float64) ** 2
     if "ranks" in p.cues:
         total += p.rank_weight * models.scale.evidence(
-            scale.looks(k, image, target, models.color.table, p, steps)
+            k, scale.looks(k, image, target, models.color.table, p, steps)
         )
     if "edges" in p.cues:
         view = look(k, image, [target], p.context)[0]
-        total += p.edge_weight * scale.edges(models.color.posterior(k, view), view.size, steps, models.edge)
+        total += p.edge_weight * scale.edges(
+            k, models.color.posterior(k, view), view.size, steps, models.edge
+        )
     best = int(np.argmax(total))
     factor = p.scale_step ** (offset[best] + peak(total, best))
     low, high = (bound * state.first_side / target.side for bound in p.size_range)
@@ -91,7 +93,7 @@ def _colored(k: Kernels, state: State, image: Image, p: FusedParams) -> list[Tar
     flat = np.ascontiguousarray(samples.reshape(1, -1, 3).transpose(0, 2, 1))
     posterior = k.color_lookup(flat, state.models.color.table).reshape(rows, columns)
     across, down = width / columns, height / rows
-    contrast = twins.box_contrast(posterior, target.width / across, target.height / down, p.frame, 1.0)
+    contrast = k.box_contrast(posterior, target.width / across, target.height / down, p.frame, 1.0)
     y = down * (rows // 2 + 2.0 * (np.arange(rows // 2) - rows // 4))[:, None]
     x = across * (columns // 2 + 2.0 * (np.arange(columns // 2) - columns // 4))[None]
     places = []

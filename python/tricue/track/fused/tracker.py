@@ -62,8 +62,8 @@ class FusedTracker:
         color, filter_ = ColorExpert.start(k, view, p), FilterExpert.start(k, view, p)
         looks = scale.looks(k, image, target, color.table, p, self._steps)
         identity = Identity(color.target, looks.ranks[p.scales // 2])
-        edge = scale.edge_level(color.posterior(k, view), view.size, p.scale_step)
-        models = Models(filter_, color, ScaleExpert.start(looks, p), identity, edge)
+        edge = scale.edge_level(k, color.posterior(k, view), view.size, p.scale_step)
+        models = Models(filter_, color, ScaleExpert.start(k, looks, p), identity, edge)
         self._state = State(
             shape=image.shape,
             models=models,
@@ -146,7 +146,7 @@ class FusedTracker:
         learnt = models._replace(
             filter=models.filter.learnt(k, found.view, p.filter_rate),
             color=models.color.learnt(k, found.view, p.color_rate),
-            scale=models.scale.learnt(found.looks, p.filter_rate),
+            scale=models.scale.learnt(k, found.looks, p.filter_rate),
             identity=models.identity.learnt(found.looks.ranks[p.scales // 2], p.filter_rate),
         )
         return replace(state, models=learnt)
