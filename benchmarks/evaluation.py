@@ -17,7 +17,7 @@ from tricue.evaluation.report.page import REPORT
 
 MANY, SHORT, LONG = 200, 60, 20_000  # sequences; frames
 REPORTED = 20  # sequences of the report
-TRACKERS = ("color-particle,KCF-0.1", "color-particle,flow-depth,meanShift,still-box")
+TRACKERS = ("color-particle,meanShift", "color-particle,flow-depth,meanShift,still-box")
 
 
 def write_sequence(folder: Path, frames: int, seed: int) -> None:
@@ -61,13 +61,13 @@ def main() -> None:
         both, own = TRACKERS
         for jobs in (1, 2):
             seconds, _ = evaluated(root / "many", root / f"jobs{jobs}", both, "--jobs", str(jobs))
-            print(f"{MANY} sequences of {SHORT} frames, {both}, {jobs} jobs: {seconds:.1f} s")
+            print(f"{MANY} sequences of {SHORT} frames, {both}, {jobs} jobs: {seconds:.1f} s", flush=True)
         for name, frames in (("short", SHORT), ("long", LONG)):
             _, memory = evaluated(root / name, root / f"{name}-out", own, "--seeds", "1")
-            print(f"{frames:,} frames, {own}: {memory:.0f} MB at most")
+            print(f"{frames:,} frames, {own}: {memory:.0f} MB at most", flush=True)
         evaluated(root / "some", root / "report", own)
         size = (root / "report" / REPORT).stat().st_size / 1e6
-        print(f"report of {REPORTED} sequences: {size:.2f} MB")
+        print(f"report of {REPORTED} sequences: {size:.2f} MB", flush=True)
 
 
 if __name__ == "__main__":
