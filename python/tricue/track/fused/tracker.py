@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike, as_box
 from tricue.camera.frame import FrameLike
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track import lifecycle
 from tricue.track.fused import scale
 from tricue.track.fused.experts import ColorExpert, FilterExpert
@@ -40,12 +41,20 @@ class FusedTracker:
 
     def __init__(
         self,
-        *,
-        kernels: kernel_sets.Name = "native",
         params: FusedParams | None = None,
-        **parameters: Any,
+        *,
+        rig: StereoRig | None = None,
+        intrinsics: Intrinsics | None = None,
+        seed: int = 0,
+        kernels: kernel_sets.Name = "native",
+        **values: Any,
     ) -> None:
-        self.params = lifecycle.parameters(FusedParams, params, parameters)
+        self.params = lifecycle.parameters(FusedParams, params, values)
+        self.rig = lifecycle.rig(rig)
+        self.intrinsics = lifecycle.intrinsics(intrinsics)
+        if self.rig is not None and self.intrinsics is not None:
+            raise TypeError("intrinsics: expected without rig, whose intrinsics are those of the left camera")
+        self.seed = lifecycle.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._steps: NDArray[np.float64] = scale.factors(self.params)
