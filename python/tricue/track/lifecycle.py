@@ -46,11 +46,11 @@ def seed(value: int) -> int:
     return int(value)
 
 
-def box_in(box: Box, image: NDArray[Any]) -> Box:
-    """The box itself; ValueError where no part of it is in the image, or it is under 2 pixels wide or
-    high.
+def box_in(box: Box, shape: tuple[int, ...]) -> Box:
+    """The box itself; ValueError where no part of it is in an image of that shape, or it is under 2 pixels
+    wide or high.
     """
-    height, width = image.shape[:2]
+    height, width = shape[:2]
     if min(box.width, box.height) < 2:
         raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     if box.clip(width, height).area <= 0:

@@ -103,7 +103,7 @@ class ColorParticleTracker:
             raise ValueError(
                 "box: expected (x, y, width, height); the color particle tracker can't start without one"
             )
-        k, ellipse = self._k, lifecycle.box_in(as_box(box), image).ellipse
+        k, ellipse = self._k, lifecycle.box_in(as_box(box), image.shape).ellipse
         self._rng = np.random.default_rng(self.seed)
         appearance, window = Appearance(self.params), np.array([ellipse])
         look = appearance.look(k, image, window)

@@ -103,7 +103,7 @@ class DepthParticleTracker:
         if box is None:
             target = somebody(objects, self.params)
         else:
-            target = in_box(lifecycle.box_in(as_box(box), depth), objects, fg, self.params)
+            target = in_box(lifecycle.box_in(as_box(box), depth.shape), objects, fg, self.params)
         model = DepthModel.empty(self.params).learnt(self._k, fg, target.state, 1.0)
         seen = model.look(self._k, fg, target.state[None])
         self._rng = rng

@@ -79,7 +79,7 @@ class FlowDepthTracker:
         checked = lifecycle.moving(frame, self.params.cues)
         if box is None:
             raise ValueError("box: expected (x, y, width, height): this tracker finds nobody by itself")
-        target = lifecycle.box_in(as_box(box), checked.image)
+        target = lifecycle.box_in(as_box(box), checked.image.shape)
         lens = self._lens(checked.image.shape, checked.frame)
         view = view_of(self._k, checked.frame, lens, self.params)
         return self._keep(begin(self._k, checked, view, lens, target, self.params))

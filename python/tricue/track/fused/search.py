@@ -1,99 +1,205 @@
 # SPDX-License-Identifier: MIT
 """Where the target is: in the window round its last place, in those beside it, and in the whole frame."""
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.kernels import Kernels
-from tricue.track.fused import scale
+from tricue.track.fused.experts import posterior, size
+from tricue.track.fused.experts.color import ColorExpert
+from tricue.track.fused.experts.depth import DepthExpert, Measured, measure
+from tricue.track.fused.experts.size import Looks
+from tricue.track.fused.identity import Marks
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.state import Found, Models, Place, State
-from tricue.track.fused.view import CELLS, Image, Plane, Target, View, look
+from tricue.track.fused.sight import Plane, Sight
+from tricue.track.fused.state import Models
+from tricue.track.fused.view import CELLS, PIXELS, Target, View, look
 
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame
 BY_COLOR, BY_TURNS = 6, 6  # windows of the whole frame that are looked at in a frame
+OFF = 6  # cells from a window's middle beyond which it is looked at again, from nearer
+MIDDLE = CELLS // 2
 
 
-def evidence(k: Kernels, models: Models, view: View, p: FusedParams) -> tuple[Plane, Plane]:
-    """(32, 32) of all experts for the target's centre at each cell, and what the filter alone answers."""
-    answer = models.filter.evidence(k, view)
-    total = np.zeros_like(answer)
-    if "filter" in p.cues:
-        total += np.float32(p.filter_weight) * answer
-    if "color" in p.cues:
-        total += np.float32(p.color_weight) * models.color.evidence(k, view)
-    return total, answer
+class Known(NamedTuple):
+    """What the search goes by."""
+
+    models: Models
+    depth: DepthExpert | None
+    first_side: float
+    p: FusedParams
 
 
-def best_place(k: Kernels, models: Models, view: View, p: FusedParams) -> Place:
+class Place(NamedTuple):
+    """Where something like the target was found, and the evidence for it.
+
+    right, down: patch pixels off the view's middle. answers: of the learnt and the first frame's filter.
+    """
+
+    target: Target
+    view: View
+    right: float
+    down: float
+    evidence: float
+    answers: tuple[float, float]
+    sharpness: float
+    contrast: float
+    own: Plane | None
+
+
+class Found(NamedTuple):
+    """A place looked at closely: its size and depth measured, its identity judged. hidden: share of its box
+    before which something nearer is.
+    """
+
+    target: Target
+    marks: Marks
+    answer: float
+    measured: Measured | None
+    hidden: float
+
+    @property
+    def log_odds(self) -> float:
+        """Of its being the target."""
+        return self.marks.log_odds
+
+
+def best_place(known: Known, view: View) -> Place:
     """The place in a view that has most evidence, between cells by a parabola."""
-    total, answer = evidence(k, models, view, p)
-    i, j = (int(each) for each in np.unravel_index(np.argmax(total), total.shape))
-    down, right = i + peak(total[:, j], i) - CELLS // 2, j + peak(total[i], j) - CELLS // 2
-    target = view.target.moved(2 * view.unit * right, 2 * view.unit * down)
-    height, width = view.image.shape[:2]
-    inside = target._replace(x=min(max(target.x, 0.0), width), y=min(max(target.y, 0.0), height))
-    return Place(inside, view, float(total[i, j]), float(answer[i, j]))
+    models, p = known.models, known.p
+    answers = models.filter.evidence(view)
+    total = np.float32(p.filter_weight if "filter" in p.cues else 0.0) * answers[0]
+    own = posterior([each.opinion(view) for each in _pixel_experts(known)])
+    contrast = None
+    if own is not None:
+        contrast = view.sight.k.box_contrast(own, *view.size, p.frame, p.around)
+        total += np.float32(p.color_weight) * contrast
+    i, j = divmod(int(total.argmax()), CELLS)
+    down, right = i + peak(total[:, j], i) - MIDDLE, j + peak(total[i], j) - MIDDLE
+    target = _inside(view.target.moved(2 * view.unit * right, 2 * view.unit * down), view)
+    near = slice(max(i - 1, 0), i + 2), slice(max(j - 1, 0), j + 2)
+    answer = answers[0]
+    return Place(
+        target,
+        view,
+        2 * right,
+        2 * down,
+        float(total[i, j]),
+        (float(answer[i, j]), float(answers[1][near].max())),
+        float((answer[near].max() - answer.mean()) / max(float(answer.std()), 1e-6)),
+        0.0 if contrast is None else float(contrast[i, j]),
+        own,
+    )
 
 
-def examine(k: Kernels, state: State, place: Place, p: FusedParams, steps: NDArray[np.float64]) -> Found:
+def _pixel_experts(known: Known) -> list[ColorExpert | DepthExpert]:
+    experts = [known.models.color] if "color" in known.p.cues else []
+    return [*experts, known.depth] if known.depth is not None else experts
+
+
+def _inside(target: Target, view: View) -> Target:
+    height, width = view.sight.picture.shape[:2]
+    return Target(
+        min(max(target.x, 0.0), width), min(max(target.y, 0.0), height), target.width, target.height
+    )
+
+
+def closer(known: Known, place: Place) -> Place:
+    """The place itself, or what is there seen from nearer, if it was at the edge of its view."""
+    if max(abs(place.right), abs(place.down)) <= 2 * OFF:
+        return place
+    return best_place(known, look(place.view.sight, [place.target], known.p.context)[0])
+
+
+def examine(known: Known, place: Place) -> Found:
     """Measure the size of what is at a place, and judge whether it is the target."""
-    models, image = state.models, place.view.image
-    target = resized(k, state, place, p, steps)
-    view = look(k, image, [target], p.context)[0]
-    looks = scale.looks(k, image, target, models.color.table, p, steps)
-    marks = models.identity.marks(k, view, looks.ranks[len(steps) // 2], models.filter, models.color)
-    return Found(target, view, looks, marks, place.answer)
+    place = closer(known, place)
+    models, p, view = known.models, known.p, place.view
+    looks = size.looks(view.sight, place.target, models.color.table, p)
+    measured = None if known.depth is None else measure(view.sight, place.target, view.sight.expected)
+    step, factor = _factor(known, place, looks, measured)
+    low, high = (bound * known.first_side / place.target.side for bound in p.size_range)
+    at_depth, hidden = _depths(place)
+    marks = Marks(
+        sharpness=place.sharpness,
+        order=models.identity.order(looks.ranks[step]),
+        colors=models.identity.likeness(view, place.right, place.down),
+        contrast=place.contrast,
+        first=place.answers[1],
+        depth=at_depth,
+    )
+    target = place.target.scaled(min(max(factor, low), high))
+    return Found(target, marks, place.answers[0], measured, hidden)
 
 
-def resized(k: Kernels, state: State, place: Place, p: FusedParams, steps: NDArray[np.float64]) -> Target:
-    """The target at a place with the size for which there is most evidence."""
-    models, image, target = state.models, place.view.image, place.target
-    offset = np.arange(len(steps)) - len(steps) // 2
-    total = -p.scale_prior * offset.astype(np.float64) ** 2
+def _depths(place: Place) -> tuple[float, float]:
+    """Mean P(target | depth) in the box, less its prior, and the share that something nearer hides."""
+    view = place.view
+    if view.depth is None:
+        return 0.0, 0.0
+    box = view.inner(place.right, place.down, 0.8)
+    return float(view.depth[0][box].mean()) - 0.5, float(view.depth[1][box].mean())
+
+
+def _factor(known: Known, place: Place, looks: Looks, measured: Measured | None) -> tuple[int, float]:
+    """The step of scale for which there is most evidence, and the factor that it stands for."""
+    models, p, k = known.models, known.p, place.view.sight.k
+    offset = np.arange(p.scales) - p.scales // 2.0
+    total = -p.scale_prior * offset * offset
+    if measured is not None and known.depth is not None:
+        factor = known.depth.length / (measured.z * place.target.side)
+        total -= p.depth_prior * (offset - math.log(factor) / math.log(p.scale_step)) ** 2
     if "ranks" in p.cues:
-        total += p.rank_weight * models.scale.evidence(
-            k, scale.looks(k, image, target, models.color.table, p, steps)
-        )
-    if "edges" in p.cues:
-        view = look(k, image, [target], p.context)[0]
-        total += p.edge_weight * scale.edges(
-            k, models.color.posterior(k, view), view.size, steps, models.edge
-        )
-    best = int(np.argmax(total))
-    factor = p.scale_step ** (offset[best] + peak(total, best))
-    low, high = (bound * state.first_side / target.side for bound in p.size_range)
-    return target.scaled(min(max(factor, low), high))
+        total += p.rank_weight * models.size.evidence(k, looks, p.ridge)
+    if "edges" in p.cues and place.own is not None:
+        middle = _centred(place.own, place.right, place.down)
+        total += p.edge_weight * size.edges(k, middle, place.view.size, size.factors(p), models.edge)
+    best = int(total.argmax())
+    return best, float(p.scale_step ** (offset[best] + peak(total, best)))
 
 
-def beside(k: Kernels, image: Image, target: Target, context: float) -> list[View]:
+def _centred(plane: Plane, right: float, down: float) -> Plane:
+    """The plane moved by whole pixels so that a place off its middle comes to lie there; 0 comes in."""
+    i, j = round(down), round(right)
+    moved = np.zeros_like(plane)
+    rows, columns = PIXELS - abs(i), PIXELS - abs(j)
+    from_i, from_j, to_i, to_j = max(i, 0), max(j, 0), max(-i, 0), max(-j, 0)
+    moved[to_i : to_i + rows, to_j : to_j + columns] = plane[
+        from_i : from_i + rows, from_j : from_j + columns
+    ]
+    return moved
+
+
+def beside(sight: Sight, target: Target, context: float) -> list[View]:
     """The eight windows round a target's own, half a window away."""
     half = context * target.side / 2
-    return look(k, image, [target.moved(i * half, j * half) for i, j in AROUND], context)
+    return look(sight, [target.moved(i * half, j * half) for i, j in AROUND], context)
 
 
-def elsewhere(k: Kernels, state: State, image: Image, p: FusedParams) -> list[View]:
+def elsewhere(known: Known, sight: Sight, target: Target, count: int) -> list[View]:
     """Windows of the whole frame: where the target's colors are, and some of all, by turns."""
-    by_color = _colored(k, state, image, p)
-    every = _lattice(state, image, p)
-    first = state.count * BY_TURNS
+    by_color = _colored(known, sight, target)
+    every = _lattice(sight, target, known.p)
+    first = count * BY_TURNS
     by_turns = [every[(first + i) % len(every)] for i in range(min(BY_TURNS, len(every)))]
-    return look(k, image, by_color + by_turns, p.context)
+    return look(sight, by_color + by_turns, known.p.context)
 
 
-def _colored(k: Kernels, state: State, image: Image, p: FusedParams) -> list[Target]:
+def _colored(known: Known, sight: Sight, target: Target) -> list[Target]:
     """The target where its colors stand out most, at least its own side from place to place."""
-    height, width = image.shape[:2]
-    target = state.target
+    height, width = sight.picture.shape[:2]
+    k = sight.k
     unit = max(target.side / DETAIL, max(height, width) / MOST_SAMPLES)
     rows, columns = (max(2 * round(length / unit / 2), 2) for length in (height, width))
-    samples = k.sample_windows(image, np.array([[0.0, 0.0, width, height]]), rows, columns)
+    samples = k.sample_windows(sight.picture, np.array([[0.0, 0.0, width, height]]), rows, columns)
     flat = np.ascontiguousarray(samples.reshape(1, -1, 3).transpose(0, 2, 1))
-    posterior = k.color_lookup(flat, state.models.color.table).reshape(rows, columns)
+    own = k.color_lookup(flat, known.models.color.table).reshape(rows, columns)
     across, down = width / columns, height / rows
-    contrast = k.box_contrast(posterior, target.width / across, target.height / down, p.frame, 1.0)
+    contrast = k.box_contrast(own, target.width / across, target.height / down, known.p.frame, 1.0)
     y = down * (rows // 2 + 2.0 * (np.arange(rows // 2) - rows // 4))[:, None]
     x = across * (columns // 2 + 2.0 * (np.arange(columns // 2) - columns // 4))[None]
     places = []
@@ -105,13 +211,13 @@ def _colored(k: Kernels, state: State, image: Image, p: FusedParams) -> list[Tar
     return places
 
 
-def _lattice(state: State, image: Image, p: FusedParams) -> list[Target]:
+def _lattice(sight: Sight, target: Target, p: FusedParams) -> list[Target]:
     """The target at places half a window apart, over the whole frame."""
-    half = p.context * state.target.side / 2
-    height, width = image.shape[:2]
+    half = p.context * target.side / 2
+    height, width = sight.picture.shape[:2]
     rows, columns = (min(max(int(np.ceil(length / half)), 1), CELLS) for length in (height, width))
     return [
-        state.target._replace(x=(j + 0.5) * width / columns, y=(i + 0.5) * height / rows)
+        target._replace(x=(j + 0.5) * width / columns, y=(i + 0.5) * height / rows)
         for i in range(rows)
         for j in range(columns)
     ]
@@ -121,6 +227,6 @@ def peak(values: NDArray[np.floating], index: int) -> float:
     """Offset from the largest value of the top of the parabola through it and its neighbours."""
     if not 0 < index < len(values) - 1:
         return 0.0
-    before, top, after = (float(each) for each in values[index - 1 : index + 2])
+    before, top, after = values[index - 1 : index + 2].tolist()
     bend = before - 2 * top + after
     return 0.5 * (before - after) / bend if bend < 0 else 0.0

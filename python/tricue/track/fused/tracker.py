@@ -1,40 +1,46 @@
 # SPDX-License-Identifier: MIT
-"""The fused tracker, as far as it sees color."""
+"""The fused tracker: color, depth and motion in one."""
 
 import math
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track import lifecycle
-from tricue.track.fused import scale
-from tricue.track.fused.experts import ColorExpert, FilterExpert
-from tricue.track.fused.identity import Identity
+from tricue.track.fused import learn
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.scale import ScaleExpert
-from tricue.track.fused.search import beside, best_place, elsewhere, examine
-from tricue.track.fused.state import Found, Models, Place, State
-from tricue.track.fused.view import Image, Target, View, look
+from tricue.track.fused.reading import Seen, read
+from tricue.track.fused.search import Found, Known, Place, beside, best_place, elsewhere, examine
+from tricue.track.fused.sight import Expected, Sight
+from tricue.track.fused.state import State
+from tricue.track.fused.view import Target, View, look
 from tricue.track.track import Status, Track
 
 USUAL_RATE = 0.05  # per frame, of the filter's usual answer
+UNSURE = 3.0  # metres, at most, of the depth that is expected
 
 
 class FusedTracker:
-    """Follows any target in BGR video by experts whose opinions add up, and says when it isn't the target.
+    """Follows any target by experts whose opinions add up, in whatever channels a frame has, and says when
+    it isn't the target.
 
-    A correlation filter and the target's colors say where it is, its ranks at eleven sizes and the edge of
-    its colors how large; models that keep the first frame say whether it is the target. Where it isn't,
-    nothing is learnt, and the search widens to the whole frame.
+    A correlation filter, the target's colors and its depth say where it is; its ranks at eleven sizes, the
+    edge of its colors and its distance how large; models that keep the first frame whether it is the target.
+    Where it isn't, nothing is learnt, and the search widens to the whole frame.
 
-    ``FusedTracker(kernels="native", **parameters)``: the parameters are those of :attr:`Params`, one by one
-    or all at once as ``params=``. Nothing in it is random. Pickles with all of its state.
+    Frames have ``color`` (BGR or gray), alone or with registered ``depth`` or with ``right``, or ``depth``
+    alone; channels may come and go. ``position`` and ``covariance`` are there once depth was measured, in the
+    frame of the camera that ``intrinsics=``, or ``rig=`` for a pair, describes. Nothing is random: ``seed``
+    is taken as by every tracker and not used.
+
+        tracker = tricue.FusedTracker()
+        track = tracker.init(frame, box=(x, y, width, height))
+        track = tracker.update(frame)
     """
 
     Params = FusedParams
@@ -57,89 +63,85 @@ class FusedTracker:
         self.seed = lifecycle.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
-        self._steps: NDArray[np.float64] = scale.factors(self.params)
         self._state: State | None = None
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``, at least 2 pixels wide and high, a part of it in the image."""
-        image = lifecycle.color_image(frame)
+        seen = self._read(frame, None)
         if box is None:
             raise ValueError("box: expected (x, y, width, height), got None; this tracker needs to be told")
-        target = Target.of(lifecycle.box_in(as_box(box), image))
-        k, p = self._k, self.params
-        view = look(k, image, [target], p.context)[0]
-        color, filter_ = ColorExpert.start(k, view, p), FilterExpert.start(k, view, p)
-        looks = scale.looks(k, image, target, color.table, p, self._steps)
-        identity = Identity(color.target, looks.ranks[p.scales // 2])
-        edge = scale.edge_level(k, color.posterior(k, view), view.size, p.scale_step)
-        models = Models(filter_, color, ScaleExpert.start(k, looks, p), identity, edge)
-        self._state = State(
-            shape=image.shape,
-            models=models,
-            target=target,
-            velocity=(0.0, 0.0),
-            first_side=target.side,
-            marks=identity.marks(k, view, identity.ranks, filter_, color),
-            score=1.0,
-            usual=best_place(k, models, view, p).answer,
-        )
+        target = Target.of(lifecycle.box_in(as_box(box), seen.shape))
+        self._state = learn.begin(self._k, seen, target, self.params)
         return self._track(self._state)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        RuntimeError before ``init``. An error leaves the tracker as it was.
+        Timestamps tell the 3-D filter how long it was, ``rate`` where there are none. RuntimeError before
+        ``init``. An error leaves the tracker as it was.
         """
-        state = lifecycle.started(self._state)
-        image = lifecycle.color_image(frame, state.shape)
-        found = self._near(state, image)
+        before = lifecycle.started(self._state)
+        seen = self._read(frame, before.shape)
+        state = self._ahead(before, seen)
+        sight = seen.sight(self._k, _expected(state))
+        state = learn.met(state, sight, self.params)
+        found = self._near(state, sight)
         if state.missed:
-            found = self._anywhere(state, image, found)
-        state = self._accepted(state, found)
-        if state.missed == 0 and state.score >= self.params.learn_above:
-            state = self._learnt(state, found)
+            found = self._anywhere(state, sight, found)
+        state = self._accepted(state, sight, found)
+        if state.missed == 0:
+            state = learn.learnt(state, seen, sight, found, self.params)
         self._state = state
         return self._track(state)
 
-    def _near(self, state: State, image: Image) -> Found:
-        """Look where the target should be; where its answer surprises, beside that, too."""
-        k, p = self._k, self.params
-        guess = state.target.moved(p.drift * state.velocity[0], p.drift * state.velocity[1])
-        place = best_place(k, state.models, look(k, image, [guess], p.context)[0], p)
-        if place.answer < p.doubt * state.usual:
-            views = beside(k, image, guess, p.context)
-            place = max([place, *self._places(state, views, guess)], key=lambda each: each.evidence)
-        return examine(k, state, place, p, self._steps)
+    def _read(self, frame: FrameLike, shape: tuple[int, int] | None) -> Seen:
+        return read(self._k, frame, shape, (self.rig, self.intrinsics), "depth" in self.params.cues)
 
-    def _anywhere(self, state: State, image: Image, near: Found) -> Found:
+    def _ahead(self, state: State, seen: Seen) -> State:
+        """The state when this frame was taken."""
+        seconds = lifecycle.elapsed(state.timestamp, seen.timestamp, self.params.rate)
+        space = None if state.space is None else state.space.predicted(self._k, seconds, self.params)
+        return replace(state, space=space, timestamp=seen.timestamp, count=state.count + 1)
+
+    def _near(self, state: State, sight: Sight) -> Found:
+        """Look where the target should be; where its answer surprises, beside that, too."""
+        p, known = self.params, self._known(state, sight)
+        guess = state.target.moved(p.drift * state.velocity[0], p.drift * state.velocity[1])
+        place = best_place(known, look(sight, [guess], p.context)[0])
+        if place.answers[0] < p.doubt * state.usual:
+            views = beside(sight, guess, p.context)
+            place = max([place, *self._places(known, views, guess)], key=lambda each: each.evidence)
+        return examine(known, place)
+
+    def _anywhere(self, state: State, sight: Sight, near: Found) -> Found:
         """Look in the whole frame; something else than what is near has to be recognised for sure."""
-        k, p = self._k, self.params
-        views = elsewhere(k, state, image, p)
-        places = sorted((best_place(k, state.models, view, p) for view in views), key=lambda e: -e.evidence)
-        others = [examine(k, state, place, p, self._steps) for place in places[: p.candidates]]
+        p, known = self.params, self._known(state, sight)
+        views = elsewhere(known, sight, state.target, state.count)
+        places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
+        others = [examine(known, place) for place in places[: p.candidates]]
         best = max(others, key=lambda each: each.log_odds)
         sure = best.marks.score >= p.found_above
         return best if sure and best.log_odds > near.log_odds else near
 
-    def _places(self, state: State, views: list[View], guess: Target) -> list[Place]:
+    def _places(self, known: Known, views: list[View], guess: Target) -> list[Place]:
         """The best of each view, by evidence less what its distance from the guess takes off."""
-        k, p = self._k, self.params
-        half = p.context * guess.side / 2
+        half = known.p.context * guess.side / 2
         found = []
         for view in views:
             far = (view.target.x - guess.x) ** 2 + (view.target.y - guess.y) ** 2
-            place = best_place(k, state.models, view, p)
-            found.append(place._replace(evidence=place.evidence - p.far * far / half**2))
+            place = best_place(known, view)
+            found.append(place._replace(evidence=place.evidence - known.p.far * far / half**2))
         return found
 
-    def _accepted(self, state: State, found: Found) -> State:
+    def _accepted(self, state: State, sight: Sight, found: Found) -> State:
         """Make what was found the state; what is surely something else only counts as missed."""
         p = self.params
         score = found.marks.score
-        state = replace(state, marks=found.marks, score=score, count=state.count + 1)
-        if score < p.hopeless:
+        hidden = found.hidden > p.hidden_above
+        state = replace(state, marks=found.marks, score=score, hidden=hidden)
+        if score < p.hopeless or hidden:
             slower = (0.5 * state.velocity[0], 0.5 * state.velocity[1])
-            return replace(state, velocity=slower, missed=state.missed + 1)
+            return replace(state, velocity=slower, missed=state.missed + 1, score=min(score, p.lost_below))
         right, down = found.target.x - state.target.x, found.target.y - state.target.y
         jumped = math.hypot(right, down) > p.context / 2 * state.target.side
         rate = p.velocity_rate
@@ -149,23 +151,19 @@ class FusedTracker:
         usual = state.usual if missed else state.usual + USUAL_RATE * (found.answer - state.usual)
         return replace(state, target=found.target, velocity=velocity, missed=missed, usual=usual)
 
-    def _learnt(self, state: State, found: Found) -> State:
-        """Blend what was found into all models but the first frame's."""
-        k, p, models = self._k, self.params, state.models
-        learnt = models._replace(
-            filter=models.filter.learnt(k, found.view, p.filter_rate),
-            color=models.color.learnt(k, found.view, p.color_rate),
-            scale=models.scale.learnt(k, found.looks, p.filter_rate),
-            identity=models.identity.learnt(found.looks.ranks[p.scales // 2], p.filter_rate),
-        )
-        return replace(state, models=learnt)
+    def _known(self, state: State, sight: Sight) -> Known:
+        return Known(state.models[sight.kind], state.depth, state.first_side, self.params)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:
             status = Status.TRACKED
+        elif state.hidden or state.missed < self.params.lost_after:
+            status = Status.OCCLUDED
         else:
-            status = Status.OCCLUDED if state.missed < self.params.lost_after else Status.LOST
-        return Track(state.target.box, state.score, status)
+            status = Status.LOST
+        space = state.space
+        where = (None, None) if space is None else (space.position, space.uncertainty)
+        return Track(state.target.box, state.score, status, *where)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_k"}
@@ -173,3 +171,10 @@ class FusedTracker:
     def __setstate__(self, values: dict[str, Any]) -> None:
         self.__dict__.update(values)
         self._k = kernel_sets.load(self.kernels)
+
+
+def _expected(state: State) -> Expected | None:
+    if state.space is None or state.depth is None:
+        return None
+    sigma = min(math.sqrt(float(state.space.covariance[2, 2])), UNSURE)
+    return Expected(max(float(state.space.mean[2]), 0.05), float(np.hypot(sigma, state.depth.relief)))

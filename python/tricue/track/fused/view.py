@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: MIT
-"""Where the target is believed to be, and the part of the image round it that the experts look at."""
+"""Where the target is believed to be, and the part of a frame round it that the experts look at."""
 
 import math
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.kernels import Kernels
-
-Image = NDArray[np.uint8]
-Plane = NDArray[np.float32]
+from tricue.track.fused.sight import Image, Plane, Sight
 
 CELLS = 32  # a side of the window
 PIXELS = 2 * CELLS  # a side of its patch
@@ -42,41 +40,63 @@ class Target(NamedTuple):
 
     def moved(self, right: float, down: float) -> "Target":
         """The same elsewhere."""
-        return self._replace(x=self.x + right, y=self.y + down)
+        return Target(self.x + right, self.y + down, self.width, self.height)
 
     def scaled(self, factor: float) -> "Target":
         """As large as that, in the same place."""
-        return self._replace(width=float(self.width * factor), height=float(self.height * factor))
+        return Target(self.x, self.y, float(self.width * factor), float(self.height * factor))
 
 
-class View(NamedTuple):
-    """A square window of the image round a target.
+class View:
+    """A square window of a frame round a target; what experts read of it is worked out once, when asked for.
 
     patch: (64, 64, 3) BGR. unit: image pixels a patch pixel. target: as it was believed when looking.
     """
 
-    image: Image
-    patch: Image
-    unit: float
-    target: Target
+    def __init__(self, sight: Sight, target: Target, patch: Image, unit: float) -> None:
+        self.sight, self.target, self.patch, self.unit = sight, target, patch, unit
+        self.size = target.width / unit, target.height / unit  # of the target, patch pixels
 
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and height of the target in patch pixels."""
-        return self.target.width / self.unit, self.target.height / self.unit
+    @cached_property
+    def cells(self) -> Plane:
+        """(11, 32, 32) orientations and colors, fading out towards the window's edge."""
+        return self.sight.k.gradient_color_cells(self.patch, TAPER)
 
-    @property
-    def colors(self) -> Any:
+    @cached_property
+    def colors(self) -> Image:
         """(1, 3, 4096) samples of the patch."""
-        return np.ascontiguousarray(self.patch.reshape(1, -1, 3).transpose(0, 2, 1))
+        return np.ascontiguousarray(self.patch.reshape(-1, 3).T)[None]
+
+    @cached_property
+    def depth(self) -> tuple[Plane, Plane] | None:
+        """(64, 64) P(target | depth), 0.5 where there is none, and 1 where something is nearer, else 0."""
+        x, y = self.target.x - PIXELS / 2 * self.unit, self.target.y - PIXELS / 2 * self.unit
+        return self.sight.depths(x, y, self.unit, PIXELS)
+
+    def inner(self, right: float = 0.0, down: float = 0.0, share: float = 1.0) -> tuple[slice, slice]:
+        """Rows and columns of the patch that a target so many patch pixels off the middle covers, or the
+        inner share of it; at least one of each.
+        """
+        return _span(PIXELS / 2 + down, share * self.size[1]), _span(PIXELS / 2 + right, share * self.size[0])
 
 
-def look(k: Kernels, image: Image, targets: list[Target], context: float) -> list[View]:
+def look(sight: Sight, targets: list[Target], context: float) -> list[View]:
     """The views of some targets; context: side of a window in sides of its target."""
     sides = [context * each.side for each in targets]
     windows = np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in zip(targets, sides, strict=True)])
-    patches = k.sample_windows(image, windows, PIXELS, PIXELS)
-    return [
-        View(image, patch, side / PIXELS, target)
-        for patch, side, target in zip(patches, sides, targets, strict=True)
-    ]
+    patches = sight.k.sample_windows(sight.picture, windows, PIXELS, PIXELS)
+    return [View(sight, *each) for each in zip(targets, patches, [s / PIXELS for s in sides], strict=True)]
+
+
+def _span(middle: float, length: float) -> slice:
+    first = min(max(round(middle - length / 2), 0), PIXELS - 1)
+    return slice(first, max(min(round(middle + length / 2), PIXELS), first + 1))
+
+
+def _taper() -> Plane:
+    """Hann's window, so that a patch has no edges."""
+    bell: NDArray[np.float64] = np.sin(np.pi * (np.arange(CELLS) + 0.5) / CELLS) ** 2
+    return np.outer(bell, bell).astype(np.float32)
+
+
+TAPER = _taper()

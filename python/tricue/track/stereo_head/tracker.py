@@ -73,7 +73,7 @@ class StereoHeadTracker:
         """
         left, right, timestamp = lifecycle.stereo_pair(frame)
         eyes = Eyes.of(lifecycle.rig_for(self.rig, left.shape))
-        head = lifecycle.box_in(_face(left) if box is None else as_box(box), left)
+        head = lifecycle.box_in(_face(left) if box is None else as_box(box), left.shape)
         if max(head.width, head.height) > LARGEST:
             raise ValueError(f"box: expected a head of at most {LARGEST} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """How large the target is: its spatial ranks at eleven sizes, and where its colors end."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -8,67 +9,68 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.view import Image, Plane, Target
+from tricue.track.fused.sight import Plane, Sight
+from tricue.track.fused.view import Target
 
 GRID = 12  # samples a side
-COLORED = 0.5  # what the posterior counts for beside a channel's ranks
+COLORED = np.float32(0.5)  # what the posterior counts for beside a channel's ranks
+HALF = np.float32(0.5)
 
 
 class Looks(NamedTuple):
-    """What S steps of scale show: ranks (S, 3, n) and posterior (S, n) of the samples."""
+    """What S steps of scale show: ranks (S, 3, n) and the filter's channels (S, 4 n), which are ranks and
+    posterior.
+    """
 
     ranks: Plane
-    posterior: Plane
-
-    @property
-    def channels(self) -> Plane:
-        """(S, 4 n), the filter's."""
-        flat = self.ranks.reshape(len(self.ranks), -1) - np.float32(0.5)
-        return np.concatenate([flat, np.float32(COLORED) * (self.posterior - np.float32(0.5))], axis=1)
+    channels: Plane
 
 
-class ScaleExpert(NamedTuple):
-    """A correlation filter over scales."""
+class SizeExpert(NamedTuple):
+    """A correlation filter over scales (Danelljan et al. 2014), on spatial ranks, which light doesn't change
+    (Sabeti, Parvizi and Wu 2008).
+    """
 
     numerator: NDArray[np.complex64]
     denominator: NDArray[np.float32]
     label: NDArray[np.complex64]
-    params: FusedParams
 
     @classmethod
-    def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "ScaleExpert":
+    def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "SizeExpert":
         """Learnt from the first frame."""
         channels = looks.channels.shape[1]
         offset = np.fft.fftfreq(p.scales, 1 / p.scales)
         label = np.fft.fft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
         none = np.zeros((p.scales, channels), np.complex64)
-        return cls(none, np.zeros(p.scales, np.float32), label, p).learnt(k, looks, 1.0)
+        return cls(none, np.zeros(p.scales, np.float32), label).learnt(k, looks, 1.0)
 
-    def evidence(self, k: Kernels, looks: Looks) -> Plane:
+    def evidence(self, k: Kernels, looks: Looks, ridge: float) -> Plane:
         """(S,), about 1 at the right one."""
-        return k.scale_response(looks.channels, self.numerator, self.denominator, self.params.ridge)
+        return k.scale_response(looks.channels, self.numerator, self.denominator, ridge)
 
-    def learnt(self, k: Kernels, looks: Looks, rate: float) -> "ScaleExpert":
+    def learnt(self, k: Kernels, looks: Looks, rate: float) -> "SizeExpert":
         """With the looks, the middle one right, blended in."""
         learnt = k.scale_train(looks.channels, self.label, self.numerator, self.denominator, rate)
-        return self._replace(numerator=learnt[0], denominator=learnt[1])
+        return SizeExpert(*learnt, self.label)
 
 
+@lru_cache(maxsize=8)
 def factors(p: FusedParams) -> NDArray[np.float64]:
     """(S,) of the size, 1 in the middle."""
     steps: NDArray[np.float64] = np.power(p.scale_step, np.arange(p.scales) - p.scales // 2.0)
     return steps
 
 
-def looks(
-    k: Kernels, image: Image, target: Target, table: Plane, p: FusedParams, steps: NDArray[np.float64]
-) -> Looks:
-    """A target's place at every step of scale."""
-    sizes = p.scale_reach * np.outer(steps, [target.width, target.height])
-    windows = np.column_stack([np.array([target.x, target.y]) - sizes / 2, sizes])
-    samples = k.sample_windows(image, windows, GRID, GRID)
+def looks(sight: Sight, target: Target, table: Plane, p: FusedParams) -> Looks:
+    """A target's place at every step of scale; table: (16, 16, 16) P(target | color)."""
+    k, steps = sight.k, factors(p)
+    width, height = p.scale_reach * target.width * steps, p.scale_reach * target.height * steps
+    windows = np.stack([target.x - width / 2, target.y - height / 2, width, height], axis=1)
+    samples = k.sample_windows(sight.picture, windows, GRID, GRID)
     flat = np.ascontiguousarray(samples.reshape(len(samples), -1, 3).transpose(0, 2, 1))
-    return Looks(k.color_ranks(flat), k.color_lookup(flat, table))
+    ranks = k.color_ranks(flat)
+    colored = COLORED * (k.color_lookup(flat, table) - HALF)
+    return Looks(ranks, np.concatenate([ranks.reshape(len(ranks), -1) - HALF, colored], axis=1))
 
 
 def edges(

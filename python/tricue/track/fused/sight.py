@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""One frame as the experts see it: a picture to read, and how far away its pixels are."""
+
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+
+Image = NDArray[np.uint8]
+Plane = NDArray[np.float32]
+Kind = Literal["color", "depth"]
+
+RELIEF = 0.5  # metres from the target's depth to black or white, in a picture made of depth
+
+
+class Expected(NamedTuple):
+    """Where along the optical axis the target should be: metres, and standard deviation of its pixels."""
+
+    z: float
+    sigma: float
+
+    @property
+    def margin(self) -> float:
+        """Metres: what is nearer by more is something else before the target."""
+        return max(3 * self.sigma, 0.25)
+
+
+class Ranger(Protocol):
+    """Measures how far away pixels are."""
+
+    def metres(self, x: float, y: float, unit: float, side: int, around: Expected | None) -> Plane:
+        """(side, side) of the squares of ``unit`` pixels right of x and below y; NaN where nothing is
+        measured. A pair looks for depths round what is expected; None: for all.
+        """
+
+    def noise(self, z: float, unit: float) -> float:
+        """Metres, standard deviation of one of these at a depth."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """picture: (H, W, 3) BGR, of color, or of depth where there is no color. ranger: None without depth.
+    expected: None where the target's depth isn't known.
+    """
+
+    k: Kernels
+    picture: Image
+    kind: Kind
+    ranger: Ranger | None
+    expected: Expected | None
+
+    def depths(self, x: float, y: float, unit: float, side: int) -> tuple[Plane, Plane] | None:
+        """P(target | depth) of squares of the image, and 1 where something is nearer, else 0; None where
+        there is no depth to compare with.
+        """
+        if self.ranger is None or self.expected is None:
+            return None
+        metres = self.ranger.metres(x, y, unit, side, self.expected)
+        own = np.hypot(self.expected.sigma, self.ranger.noise(self.expected.z, unit))
+        bell = np.exp(np.float32(-0.5) * ((metres - np.float32(self.expected.z)) / np.float32(own)) ** 2)
+        share = bell / (bell + np.float32(0.1))
+        nearer = metres < self.expected.z - max(self.expected.margin, 3 * own)
+        return np.where(np.isnan(share), np.float32(0.5), share), nearer.astype(np.float32)
+
+
+def shades(depth: Plane, z: float) -> Image:
+    """(H, W, 3) a picture of depth, gray at the target's, black nearer, white farther and where none is
+    measured; so that the target looks the same at any distance.
+    """
+    gray = np.nan_to_num((depth - np.float32(z)) * np.float32(127 / RELIEF) + np.float32(128), nan=255.0)
+    levels: Any = np.clip(gray, 0, 255).astype(np.uint8)
+    return np.repeat(levels[:, :, None], 3, axis=2)

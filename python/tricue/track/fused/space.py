@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+"""The target's position in metres: a Kalman filter over place and velocity in the camera's frame."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.fused.params import FusedParams
+
+Floats = NDArray[np.float64]
+
+POSITION = np.eye(3, 6)
+
+
+class Space(NamedTuple):
+    """mean (6,): X, Y, Z metres, x right, y down, z forward; and their velocities, m/s. covariance (6, 6)."""
+
+    mean: Floats
+    covariance: Floats
+
+    @classmethod
+    def start(cls, point: Floats, noise: Floats, p: FusedParams) -> "Space":
+        """At rest at a measured point (3,) with its covariance (3, 3)."""
+        covariance = np.zeros((6, 6))
+        covariance[:3, :3] = noise
+        covariance[3:, 3:] = p.fastest**2 / 3 * np.eye(3)
+        return cls(np.concatenate([point, np.zeros(3)]), covariance)
+
+    @property
+    def position(self) -> Floats:
+        """(3,) metres."""
+        return self.mean[:3].copy()
+
+    @property
+    def uncertainty(self) -> Floats:
+        """(3, 3) metres², of the position."""
+        return self.covariance[:3, :3].copy()
+
+    def predicted(self, k: Kernels, seconds: float, p: FusedParams) -> "Space":
+        """That much later, by a white acceleration (Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2)."""
+        mean, covariance = k.kalman_predict(self.mean, self.covariance, *_dynamics(seconds, p.agility))
+        return Space(mean, covariance)
+
+    def corrected(self, k: Kernels, point: Floats, noise: Floats) -> "Space":
+        """With a measured point (3,) and its covariance (3, 3)."""
+        mean, covariance, *_ = k.kalman_update(self.mean, self.covariance, point, POSITION, noise)
+        return Space(mean, covariance)
+
+
+@lru_cache(maxsize=64)
+def _dynamics(seconds: float, agility: float) -> tuple[Floats, Floats]:
+    """F and Q, (6, 6)."""
+    transition, one = np.eye(6), np.eye(3)
+    transition[:3, 3:] = seconds * one
+    quarter, half = seconds**4 / 4 * one, seconds**3 / 2 * one
+    noise = agility**2 * np.block([[quarter, half], [half, seconds**2 * one]])
+    return transition, noise
