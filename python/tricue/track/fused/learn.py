@@ -35,7 +35,7 @@ def begin(k: Kernels, seen: Seen, target: Target, p: FusedParams) -> State:
     sight = seen.sight(k, expected)
     depth, space = _located(seen, sight, target, measured, p)
     models = first_models(sight, target, p)
-    known = Known(models, depth, target.side, p)
+    known = Known(models, depth, None, target.side, p)
     view = look(sight, [target], p.context)[0]
     return State(
         shape=seen.shape,

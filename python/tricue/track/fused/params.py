@@ -8,7 +8,7 @@ from tricue.track.params import Params, parameter
 
 FAST = "our experiment on sparse and shaken frames"
 OURS = "our prototype, or a choice not yet compared with others"
-Cue = Literal["filter", "color", "ranks", "edges", "depth"]
+Cue = Literal["filter", "color", "ranks", "edges", "depth", "flow"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,7 +16,7 @@ class FusedParams(Params):
     """Sizes are in pixels, "target" is the side of the square as large as the target."""
 
     cues: tuple[Cue, ...] = parameter(
-        ("filter", "color", "ranks", "edges", "depth"),
+        ("filter", "color", "ranks", "edges", "depth", "flow"),
         unit="-",
         source="fused.md",
         doc="the experts that are asked",
@@ -46,13 +46,13 @@ class FusedParams(Params):
     scale_reach: float = parameter(1.5, unit="of the box", source=OURS, above=0)
     scale_label: float = parameter(1.0, unit="steps", source=OURS, above=0)
     scale_prior: float = parameter(0.02, unit="per step²", source=OURS, low=0)
+    scale_anchor: float = parameter(
+        0.4, unit="-", source=OURS, low=0, high=1, doc="of the first frame's ranks"
+    )
     rank_weight: float = parameter(1.0, unit="-", source=OURS, low=0)
     edge_weight: float = parameter(1.0, unit="-", source=OURS, low=0)
     size_range: tuple[float, float] = parameter((0.2, 5.0), unit="of the first size", source=OURS, above=0)
 
-    depth_prior: float = parameter(
-        0.1, unit="per step²", source=OURS, low=0, doc="for the size that goes with the depth"
-    )
     depth_rate: float = parameter(
         0.02, unit="per frame", source=OURS, low=0, high=1, doc="of relief and length"
     )
@@ -64,7 +64,7 @@ class FusedParams(Params):
         high=1,
         doc="covered by what is nearer, it counts as hidden",
     )
-    agility: float = parameter(2.0, unit="m/s²", source=OURS, above=0, doc="standard deviation")
+    agility: float = parameter(10.0, unit="m/s²", source=OURS, above=0, doc="standard deviation")
     fastest: float = parameter(2.0, unit="m/s", source=OURS, above=0)
     rate: float = parameter(30.0, unit="frames/s", source=OURS, above=0, doc="where timestamps tell nothing")
 

@@ -3,6 +3,7 @@
 
 from typing import NamedTuple
 
+import cv2
 import numpy as np
 
 from tricue.camera.rig import StereoRig
@@ -56,8 +57,8 @@ class Pair(NamedTuple):
         last = min(last, 4 * side)
         width = side + last
         place = np.array([[x - last * unit, y, width * unit, side * unit]])
-        left = self.k.sample_windows(self.left, place, side, width)[0]
-        right = self.k.sample_windows(self.right, place - [[shift, 0, 0, 0]], side, width)[0]
+        left = _gray(self.k.sample_windows(self.left, place, side, width)[0])
+        right = _gray(self.k.sample_windows(self.right, place - [[shift, 0, 0, 0]], side, width)[0])
         region = (last, 0, width, side)
         found = self.k.sad_disparity(left, right, region, False, first, last, WINDOW, 5, True, 1)
         disparity = found * np.float32(unit) + np.float32(shift)
@@ -69,3 +70,7 @@ class Pair(NamedTuple):
     def noise(self, z: float, unit: float) -> float:
         """Of a disparity that is a share of a sample off."""
         return MATCHING * unit * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
+
+
+def _gray(samples: Image) -> Image:
+    return cv2.cvtColor(samples, cv2.COLOR_BGR2GRAY)  # type: ignore[return-value]

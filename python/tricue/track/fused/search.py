@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Where the target is: in the window round its last place, in those beside it, and in the whole frame."""
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 from tricue.track.fused.experts import posterior, size
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.depth import DepthExpert, Measured, measure
+from tricue.track.fused.experts.flow import Glance, growth
 from tricue.track.fused.experts.size import Looks
 from tricue.track.fused.identity import Marks
 from tricue.track.fused.params import FusedParams
@@ -23,13 +23,15 @@ MOST_SAMPLES = 256  # a side of the frame
 BY_COLOR, BY_TURNS = 6, 6  # windows of the whole frame that are looked at in a frame
 OFF = 6  # cells from a window's middle beyond which it is looked at again, from nearer
 MIDDLE = CELLS // 2
+LEAP = 1.25  # times, that a target grows or shrinks in a frame
 
 
 class Known(NamedTuple):
-    """What the search goes by."""
+    """What the search goes by. glance: at the target in the last frame."""
 
     models: Models
     depth: DepthExpert | None
+    glance: Glance | None
     first_side: float
     p: FusedParams
 
@@ -61,6 +63,7 @@ class Found(NamedTuple):
     answer: float
     measured: Measured | None
     hidden: float
+    glance: Glance | None
 
     @property
     def log_odds(self) -> float:
@@ -119,9 +122,11 @@ def examine(known: Known, place: Place) -> Found:
     """Measure the size of what is at a place, and judge whether it is the target."""
     place = closer(known, place)
     models, p, view = known.models, known.p, place.view
-    looks = size.looks(view.sight, place.target, models.color.table, p)
     measured = None if known.depth is None else measure(view.sight, place.target, view.sight.expected)
-    step, factor = _factor(known, place, looks, measured)
+    glance = Glance.at(view, place.right, place.down) if "flow" in p.cues else None
+    expected = _foreseen(known, place, measured, glance)
+    looks = size.looks(view.sight, place.target.scaled(expected), models.color.table, p)
+    step, factor = _factor(known, place, looks, expected)
     low, high = (bound * known.first_side / place.target.side for bound in p.size_range)
     at_depth, hidden = _depths(place)
     marks = Marks(
@@ -133,7 +138,20 @@ def examine(known: Known, place: Place) -> Found:
         depth=at_depth,
     )
     target = place.target.scaled(min(max(factor, low), high))
-    return Found(target, marks, place.answers[0], measured, hidden)
+    return Found(target, marks, place.answers[0], measured, hidden, glance)
+
+
+def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Glance | None) -> float:
+    """How many times as large as before the target should be: as much as it came nearer, or its pixels moved
+    apart.
+    """
+    if measured is not None and known.depth is not None:
+        grown = known.depth.length / (measured.z * place.target.side)
+    elif known.glance is not None and glance is not None:
+        grown = growth(known.glance, glance, place.view) or 1.0
+    else:
+        return 1.0
+    return min(max(grown, 1 / LEAP), LEAP)
 
 
 def _depths(place: Place) -> tuple[float, float]:
@@ -145,21 +163,19 @@ def _depths(place: Place) -> tuple[float, float]:
     return float(view.depth[0][box].mean()) - 0.5, float(view.depth[1][box].mean())
 
 
-def _factor(known: Known, place: Place, looks: Looks, measured: Measured | None) -> tuple[int, float]:
+def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[int, float]:
     """The step of scale for which there is most evidence, and the factor that it stands for."""
     models, p, k = known.models, known.p, place.view.sight.k
     offset = np.arange(p.scales) - p.scales // 2.0
     total = -p.scale_prior * offset * offset
-    if measured is not None and known.depth is not None:
-        factor = known.depth.length / (measured.z * place.target.side)
-        total -= p.depth_prior * (offset - math.log(factor) / math.log(p.scale_step)) ** 2
     if "ranks" in p.cues:
-        total += p.rank_weight * models.size.evidence(k, looks, p.ridge)
+        total += p.rank_weight * models.size.evidence(k, looks, p.ridge, p.scale_anchor)
     if "edges" in p.cues and place.own is not None:
         middle = _centred(place.own, place.right, place.down)
-        total += p.edge_weight * size.edges(k, middle, place.view.size, size.factors(p), models.edge)
+        across, down = (expected * each for each in place.view.size)
+        total += p.edge_weight * size.edges(k, middle, (across, down), size.factors(p), models.edge)
     best = int(total.argmax())
-    return best, float(p.scale_step ** (offset[best] + peak(total, best)))
+    return best, expected * float(p.scale_step ** (offset[best] + peak(total, best)))
 
 
 def _centred(plane: Plane, right: float, down: float) -> Plane:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.experts.filter import FilterExpert
+from tricue.track.fused.experts.flow import Glance
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.identity import Identity, Marks
 from tricue.track.fused.sight import Kind
@@ -38,6 +39,7 @@ class State:
     velocity: tuple[float, float] = (0.0, 0.0)  # pixels a frame
     depth: DepthExpert | None = None
     space: Space | None = None
+    glance: Glance | None = None
     hidden: bool = False  # behind something nearer
     missed: int = 0  # frames in a row in which it was not recognised
     count: int = 0  # frames since init

@@ -138,7 +138,7 @@ class FusedTracker:
         p = self.params
         score = found.marks.score
         hidden = found.hidden > p.hidden_above
-        state = replace(state, marks=found.marks, score=score, hidden=hidden)
+        state = replace(state, marks=found.marks, score=score, hidden=hidden, glance=None)
         if score < p.hopeless or hidden:
             slower = (0.5 * state.velocity[0], 0.5 * state.velocity[1])
             return replace(state, velocity=slower, missed=state.missed + 1, score=min(score, p.lost_below))
@@ -149,10 +149,13 @@ class FusedTracker:
         velocity = (0.0, 0.0) if jumped else (u + rate * (right - u), v + rate * (down - v))
         missed = state.missed + 1 if score < p.lost_below else 0
         usual = state.usual if missed else state.usual + USUAL_RATE * (found.answer - state.usual)
-        return replace(state, target=found.target, velocity=velocity, missed=missed, usual=usual)
+        glance = None if missed or jumped else found.glance
+        return replace(
+            state, target=found.target, velocity=velocity, missed=missed, usual=usual, glance=glance
+        )
 
     def _known(self, state: State, sight: Sight) -> Known:
-        return Known(state.models[sight.kind], state.depth, state.first_side, self.params)
+        return Known(state.models[sight.kind], state.depth, state.glance, state.first_side, self.params)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:

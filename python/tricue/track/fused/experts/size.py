@@ -34,6 +34,7 @@ class SizeExpert(NamedTuple):
     numerator: NDArray[np.complex64]
     denominator: NDArray[np.float32]
     label: NDArray[np.complex64]
+    first: tuple[NDArray[np.complex64], NDArray[np.float32]] | None = None
 
     @classmethod
     def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "SizeExpert":
@@ -42,16 +43,19 @@ class SizeExpert(NamedTuple):
         offset = np.fft.fftfreq(p.scales, 1 / p.scales)
         label = np.fft.fft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
         none = np.zeros((p.scales, channels), np.complex64)
-        return cls(none, np.zeros(p.scales, np.float32), label).learnt(k, looks, 1.0)
+        start = cls(none, np.zeros(p.scales, np.float32), label).learnt(k, looks, 1.0)
+        return start._replace(first=start[:2])
 
-    def evidence(self, k: Kernels, looks: Looks, ridge: float) -> Plane:
+    def evidence(self, k: Kernels, looks: Looks, ridge: float, anchor: float = 0.0) -> Plane:
         """(S,), about 1 at the right one."""
-        return k.scale_response(looks.channels, self.numerator, self.denominator, ridge)
+        now, share = self[:2], np.float32(anchor)
+        asked = [a + share * (b - a) for a, b in zip(now, self.first, strict=True)]
+        return k.scale_response(looks.channels, *asked, ridge)
 
     def learnt(self, k: Kernels, looks: Looks, rate: float) -> "SizeExpert":
         """With the looks, the middle one right, blended in."""
         learnt = k.scale_train(looks.channels, self.label, self.numerator, self.denominator, rate)
-        return SizeExpert(*learnt, self.label)
+        return SizeExpert(*learnt, self.label, self.first)
 
 
 @lru_cache(maxsize=8)

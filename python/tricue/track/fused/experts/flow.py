@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""How the target's own pixels moved since the last frame: how much it grew."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+
+from tricue.track.fused.sight import Image, Plane
+from tricue.track.fused.view import PIXELS, View
+
+HALF = 20  # patch pixels, of the part round the target that flow is measured in
+SIGMA, LEVELS, POOL = 1.0, 2, 2  # of the flow: pixels, of its filters; levels; radius of its windows
+MIN_ANGLE, MIN_CONTRAST = 0.05, 4.0  # its least reliability
+LEAST = 30  # pixels of the target that flow has to be measured at
+INNER = 0.8  # of the box, whose pixels are the target's
+OUTLIERS = 2.5  # standard deviations
+LOOSE = 0.15  # patch pixels, standard deviation beyond which the motion isn't a rigid one
+
+
+class Glance(NamedTuple):
+    """What flow remembers of a frame: (41, 41) gray round the target, and image pixels a pixel of it."""
+
+    gray: Image
+    unit: float
+
+    @classmethod
+    def at(cls, view: View, right: float, down: float) -> "Glance":
+        """Of a target so many patch pixels off the view's middle."""
+        i, j = (PIXELS // 2 - HALF + round(each) for each in (down, right))
+        reach = PIXELS - 2 * HALF - 1
+        i, j = min(max(i, 0), reach), min(max(j, 0), reach)
+        part = view.patch[i : i + 2 * HALF + 1, j : j + 2 * HALF + 1]
+        return cls(cv2.cvtColor(part, cv2.COLOR_BGR2GRAY), view.unit)  # type: ignore[arg-type]
+
+
+def growth(before: Glance, now: Glance, view: View) -> float | None:
+    """How many times as large as in the last frame the target is, by a similarity fitted to the flow of its
+    pixels; None where that tells nothing.
+    """
+    width, height = (min(INNER * each / 2, HALF - 1.0) for each in view.size)
+    left, top = max(HALF - round(width), 0), max(HALF - round(height), 0)
+    region = left, top, 2 * HALF + 1 - left, 2 * HALF + 1 - top
+    u, v, _, _ = view.sight.k.pyramid_flow(
+        before.gray, now.gray, SIGMA, LEVELS, MIN_ANGLE, MIN_CONTRAST, region, POOL
+    )
+    x, y = _places(*region)
+    known = np.isfinite(u) & np.isfinite(v)
+    shrunk = _slope(x[known], y[known], x[known] - u[known], y[known] - v[known])
+    return None if shrunk is None else now.unit / before.unit / shrunk
+
+
+def _slope(x: Plane, y: Plane, u: Plane, v: Plane) -> float | None:
+    """a of u = a x + b, v = a y + c by least squares, twice: the second time without outliers."""
+    for _ in range(2):
+        if len(x) < LEAST:
+            return None
+        x0, y0, u0, v0 = (each - each.mean() for each in (x, y, u, v))
+        a = float((x0 @ u0 + y0 @ v0) / (x0 @ x0 + y0 @ y0))
+        off = (u0 - a * x0) ** 2 + (v0 - a * y0) ** 2
+        spread = float(off.mean())
+        near = off <= OUTLIERS**2 * spread
+        x, y, u, v = x[near], y[near], u[near], v[near]
+    return a if 0.5 < a < 2 and spread < 2 * LOOSE**2 else None
+
+
+@lru_cache(maxsize=64)
+def _places(left: int, top: int, right: int, bottom: int) -> tuple[Plane, Plane]:
+    x, y = np.meshgrid(np.arange(left, right, dtype=np.float32), np.arange(top, bottom, dtype=np.float32))
+    return x, y
