@@ -53,11 +53,14 @@ class FilterExpert(NamedTuple):
             now + share * (first - now)
             for now, first in zip((self.numerator, self.denominator), self.first, strict=True)
         )
-        return k.correlation_response(cells, numerator, denominator, self.params.ridge)
+        answers: Plane = k.correlation_response(cells, numerator[None], denominator[None], self.params.ridge)
+        return answers.reshape(CELLS, CELLS)
 
     def first_response(self, k: Kernels, cells: Plane) -> Plane:
         """What the first frame's filter alone answers."""
-        return k.correlation_response(cells, *self.first, self.params.ridge)
+        numerator, denominator = self.first
+        answers: Plane = k.correlation_response(cells, numerator[None], denominator[None], self.params.ridge)
+        return answers.reshape(CELLS, CELLS)
 
     def learnt(self, k: Kernels, view: View, rate: float) -> "FilterExpert":
         p = self.params

@@ -40,9 +40,9 @@ class ScaleExpert(NamedTuple):
         """Learnt from the first frame."""
         channels = looks.channels.shape[1]
         offset = np.fft.fftfreq(p.scales, 1 / p.scales)
-        label = np.fft.fft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
-        none = np.zeros((p.scales, channels), np.complex64)
-        return cls(none, np.zeros(p.scales, np.float32), label, p).learnt(k, looks, 1.0)
+        label = np.fft.rfft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
+        none = np.zeros((len(label), channels), np.complex64)
+        return cls(none, np.zeros(len(label), np.float32), label, p).learnt(k, looks, 1.0)
 
     def evidence(self, k: Kernels, looks: Looks) -> Plane:
         """(S,), about 1 at the right one."""
