@@ -217,6 +217,21 @@ def depth_histogram(
     Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, far).
     """
 
+def depth_posterior(
+    depth: numpy.typing.NDArray[numpy.float32],
+    x0: float,
+    y0: float,
+    step: float,
+    rows: int,
+    columns: int,
+    expected: float,
+    sigma: float,
+    near_margin: float,
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]:
+    """
+    (rows, columns) P(target | z), and (rows, columns) 1 where z is less than expected - near_margin; z is the depth of the pixel under the centre of each square of step pixels of a grid with its top left corner at (x0, y0). 1/2 where nothing is measured.
+    """
+
 def divide_depth(
     depth: numpy.typing.NDArray[numpy.float32],
     mask: numpy.typing.NDArray[numpy.uint8],
@@ -846,6 +861,18 @@ class Kernels(Protocol):
         far: float,
         levels: int,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def depth_posterior(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        x0: float,
+        y0: float,
+        step: float,
+        rows: int,
+        columns: int,
+        expected: float,
+        sigma: float,
+        near_margin: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]: ...
     def divide_depth(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
