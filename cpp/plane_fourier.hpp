@@ -1,51 +1,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fourier_columns.hpp"
+#include <complex>
+#include <cstddef>
+#include <vector>
 
 namespace tricue {
 
-/// Rows of real and of imaginary parts, a spectrum's.
-struct ComplexRow {
-    float *re, *im;
-};
-
-/// Two-dimensional spectra of two real planes (rows, cols) at a time: one is the real part, the other the imaginary part of what
-/// is transformed along the rows, and symmetry tells them apart again. They have cols / 2 + 1 columns, as numpy.fft.rfft2's.
-class PlaneFourier {
+/// Two-dimensional spectra of two real planes (rows, cols) by one complex transform, OpenCV's: one plane is its real part, the
+/// other its imaginary part, and symmetry tells their spectra apart again. These have `half` = cols / 2 + 1 columns, as
+/// numpy.fft.rfft2's. In float32; nothing here starts a thread.
+///
+/// Spectra stand with real and imaginary parts apart, which compilers vectorise: rows x half numbers each, contiguous.
+class PlanePair {
 public:
-    PlaneFourier(int rows, int cols);
+    PlanePair(int rows, int cols);
 
-    /// Row y of both planes; all are to be written before each transform.
-    void write_row(int y, const float* one, const float* two);
-    void transform();
+    int half() const { return cols_ / 2 + 1; }
+    /// How many numbers a spectrum's real or imaginary part has.
+    std::size_t count() const { return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(half()); }
 
-    /// Row u of the first (0) or second (1) plane's spectrum.
-    ComplexRow spectrum(int plane, int u) {
-        return {down_.real(u) + plane * half_, down_.imag(u) + plane * half_};
+    /// Both planes, contiguous. To transform one alone give it as the second too, and leave out that spectrum.
+    void transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
+                   float* two_im);
+
+    /// rows times cols times the planes of two spectra. As numpy.fft.irfft2 it ignores what has to be real in a spectrum of a real
+    /// plane and isn't.
+    void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im);
+
+    /// Row y of both planes after `invert`: cols pairs.
+    const float* pairs(int y) const {
+        return reinterpret_cast<const float*>(pairs_.data()) + std::ptrdiff_t{2} * y * cols_;
     }
 
 private:
-    int rows_, cols_, half_;
-    FourierColumns along_, down_;
-};
-
-/// The way back, of one plane.
-class PlaneInverse {
-public:
-    PlaneInverse(int rows, int cols);
-
-    /// A place for row u of the spectrum, cols / 2 + 1 numbers.
-    ComplexRow spectrum(int u) { return {down_.real(u), down_.imag(u)}; }
-    void transform();
-
-    /// rows times cols times the plane's column x; as numpy.fft.irfft2's it doesn't depend on what has to be real in the spectrum
-    /// and isn't.
-    const float* column(int x) { return along_.real(x); }
-
-private:
-    int rows_, cols_, half_;
-    FourierColumns down_, along_;
+    int rows_, cols_;
+    std::vector<std::complex<float>> pairs_, spectrum_;
 };
 
 }  // namespace tricue

@@ -16,15 +16,16 @@ Complexes = NDArray[np.complex64]
 
 random = np.random.default_rng(0)
 LOOKS = random.uniform(-1, 1, (11, 576)).astype(np.float32)
-NUMERATOR = np.fft.fft(random.uniform(-1, 1, LOOKS.shape), axis=0).astype(np.complex64)
-DENOMINATOR = 1 + 0.5 * np.cos(2 * np.pi * np.arange(11) / 11).astype(np.float32)
+NUMERATOR = np.fft.rfft(random.uniform(-1, 1, LOOKS.shape), axis=0).astype(np.complex64)
+DENOMINATOR = 1 + 0.5 * np.cos(2 * np.pi * np.arange(6) / 11).astype(np.float32)
 
 
 def script(looks: Floats, numerator: Complexes, denominator: Floats, ridge: float) -> Floats:
     """Do it as one would without the kernel."""
     rows = np.ascontiguousarray(looks.T)
-    spectrum = cv2.dft(rows, flags=cv2.DFT_ROWS | cv2.DFT_COMPLEX_OUTPUT).view(np.complex64)[..., 0]
-    product = (numerator * spectrum.T).sum(axis=1) / (denominator + ridge * denominator.mean())
+    spectrum = cv2.dft(rows, flags=cv2.DFT_ROWS | cv2.DFT_COMPLEX_OUTPUT).view(np.complex64)[:, :6, 0]
+    half = (numerator * spectrum.T).sum(axis=1) / (denominator + ridge * denominator.mean())
+    product = np.concatenate([half, half[:0:-1].conj()])
     answer = cv2.idft(product.view(np.float32).reshape(1, -1, 2), flags=cv2.DFT_SCALE | cv2.DFT_REAL_OUTPUT)
     return np.fft.fftshift(answer[0])
 

@@ -21,6 +21,16 @@ struct StackView {
 using FloatStack = StackView<float>;
 using ComplexStack = StackView<std::complex<float>>;
 
+/// Read-only spectra of several filters with as many planes each: C-contiguous (filters, planes, rows, cols).
+struct FilterStack {
+    const std::complex<float>* data;
+    int filters, planes, rows, cols;
+
+    const std::complex<float>* plane(int filter, int plane) const {
+        return data + (std::ptrdiff_t{filter} * planes + plane) * (std::ptrdiff_t{rows} * cols);
+    }
+};
+
 /// Spectra, a frequency along y a row, contiguous.
 using Complexes = Eigen::Array<std::complex<float>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using ComplexesRef = Eigen::Ref<const Complexes>;

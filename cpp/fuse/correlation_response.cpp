@@ -10,12 +10,11 @@
 namespace tricue {
 namespace {
 
-/// A row of A_k Z_k more; `numerator` holds pairs of a real and an imaginary part.
+/// A_k Z_k more; `numerator` holds pairs of a real and an imaginary part.
 TRICUE_MULTIVERSION
-void add_product(const float* numerator, const float* re, const float* im, int n, float* sum_re,
-                 float* sum_im) {
-    TRICUE_INDEPENDENT
-    for (int v = 0; v < n; ++v) {
+void add_product(const float* __restrict numerator, const float* __restrict re, const float* __restrict im,
+                 std::size_t n, float* __restrict sum_re, float* __restrict sum_im) {
+    for (std::size_t v = 0; v < n; ++v) {
         const float a = numerator[2 * v], b = numerator[2 * v + 1];
         sum_re[v] += a * re[v] - b * im[v];
         sum_im[v] += a * im[v] + b * re[v];
@@ -23,61 +22,84 @@ void add_product(const float* numerator, const float* re, const float* im, int n
 }
 
 TRICUE_MULTIVERSION
-void divide(const float* __restrict denominator, float lambda, int n, float* __restrict re,
+void divide(const float* __restrict denominator, float lambda, std::size_t n, float* __restrict re,
             float* __restrict im) {
-    for (int v = 0; v < n; ++v) {
+    for (std::size_t v = 0; v < n; ++v) {
         const float share = 1.0F / (denominator[v] + lambda);
         re[v] *= share;
         im[v] *= share;
     }
 }
 
-void add_products(const FloatStack& cells, const ComplexStack& numerator, PlaneInverse& sum) {
-    PlaneFourier fourier(cells.rows, cells.cols);
+/// Every second number.
+TRICUE_MULTIVERSION
+void scale(const float* __restrict pairs, float whole, int n, float* __restrict numbers) {
+    for (int x = 0; x < n; ++x) numbers[x] = whole * pairs[2 * x];
+}
+
+/// Of each filter a row of real and one of imaginary parts.
+struct Spectra {
+    Floats re, im;
+};
+
+Spectra sum_products(const FloatStack& cells, const FilterStack& numerators, PlanePair& planes) {
+    const auto n = static_cast<Eigen::Index>(planes.count());
+    Spectra sums{Floats::Zero(numerators.filters, n), Floats::Zero(numerators.filters, n)};
+    Floats re(2, n), im(2, n);
     for (int k = 0; k < cells.planes; k += 2) {
-        const int second =
-            std::min(k + 1, cells.planes - 1);  // without another channel this one again, unread
-        for (int y = 0; y < cells.rows; ++y) fourier.write_row(y, cells.row(k, y), cells.row(second, y));
-        fourier.transform();
-        for (int plane = k; plane <= second; ++plane)
-            for (int u = 0; u < cells.rows; ++u) {
-                const ComplexRow z = fourier.spectrum(plane - k, u), out = sum.spectrum(u);
-                const auto* a = reinterpret_cast<const float*>(numerator.row(plane, u));
-                add_product(a, z.re, z.im, numerator.cols, out.re, out.im);
-            }
+        const int last = std::min(k + 1, cells.planes - 1);
+        planes.transform(cells.row(k, 0), cells.row(last, 0), &re(0, 0), &im(0, 0), &re(1, 0), &im(1, 0));
+        for (int filter = 0; filter < numerators.filters; ++filter)
+            for (int plane = k; plane <= last; ++plane)
+                add_product(reinterpret_cast<const float*>(numerators.plane(filter, plane)),
+                            &re(plane - k, 0), &im(plane - k, 0), planes.count(), &sums.re(filter, 0),
+                            &sums.im(filter, 0));
+    }
+    return sums;
+}
+
+void divide_all(const FloatStack& denominators, double ridge, Spectra& sums) {
+    const Eigen::Index n = sums.re.cols();
+    for (int filter = 0; filter < denominators.planes; ++filter) {
+        const Eigen::Map<const Floats> denominator(denominators.row(filter, 0), 1, n);
+        const double mean = denominator.cast<double>().mean();
+        const auto lambda = static_cast<float>(ridge * std::max(mean, 1e-12));
+        divide(denominator.data(), lambda, static_cast<std::size_t>(n), &sums.re(filter, 0),
+               &sums.im(filter, 0));
     }
 }
 
-/// With no shift in the middle.
-Floats shifted(PlaneInverse& answer, int rows, int cols) {
-    Floats response(rows, cols);
+/// The first (0) or second (1) plane, with no shift in the middle.
+void write_shifted(const PlanePair& answers, int which, int rows, int cols, float* response) {
     const float whole = 1.0F / static_cast<float>(rows * cols);
-    for (int x = 0; x < cols; ++x) {
-        const float* column = answer.column(x);
-        const int to = (x + cols / 2) % cols;
-        for (int y = 0; y < rows; ++y) response((y + rows / 2) % rows, to) = whole * column[y];
+    const int right = cols / 2;  // where the first column goes
+    for (int y = 0; y < rows; ++y) {
+        const float* from = answers.pairs(y) + which;
+        float* to = response + std::ptrdiff_t{(y + rows / 2) % rows} * cols;
+        scale(from, whole, cols - right, to + right);
+        scale(from + 2 * (cols - right), whole, right, to);
     }
-    return response;
 }
 
 }  // namespace
 
-Floats correlation_response(const FloatStack& cells, const ComplexStack& numerator, FloatsRef denominator,
-                            double ridge) {
+Floats correlation_response(const FloatStack& cells, const FilterStack& numerators,
+                            const FloatStack& denominators, double ridge) {
     require_cells(cells);
-    require_numerator(numerator, cells);
-    require_denominator(denominator, cells);
+    require_filters(numerators, denominators, cells);
     require_ridge(ridge);
-    PlaneInverse answer(cells.rows, cells.cols);
-    add_products(cells, numerator, answer);
-    const double mean = denominator.cast<double>().mean();
-    const auto lambda = static_cast<float>(ridge * std::max(mean, 1e-12));
-    for (int u = 0; u < cells.rows; ++u) {
-        const ComplexRow row = answer.spectrum(u);
-        divide(denominator.data() + u * denominator.cols(), lambda, numerator.cols, row.re, row.im);
+    const int rows = cells.rows, cols = cells.cols, filters = numerators.filters;
+    PlanePair planes(rows, cols);
+    Spectra sums = sum_products(cells, numerators, planes);
+    divide_all(denominators, ridge, sums);
+    Floats responses(filters * rows, cols);
+    for (int filter = 0; filter < filters; filter += 2) {
+        const int last = std::min(filter + 1, filters - 1);
+        planes.invert(&sums.re(filter, 0), &sums.im(filter, 0), &sums.re(last, 0), &sums.im(last, 0));
+        for (int each = filter; each <= last; ++each)
+            write_shifted(planes, each - filter, rows, cols, &responses(each * rows, 0));
     }
-    answer.transform();
-    return shifted(answer, cells.rows, cells.cols);
+    return responses;
 }
 
 }  // namespace tricue

@@ -2,7 +2,6 @@
 #include "fuse/correlation_train.hpp"
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "check.hpp"
@@ -14,29 +13,32 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void split_row(const float* __restrict cells, const float* __restrict focus, int n, float* __restrict own,
-               float* __restrict rest) {
-    for (int x = 0; x < n; ++x) {
-        own[x] = cells[x] * focus[x];
-        rest[x] = cells[x] * (1.0F - focus[x]);
+void split(const float* __restrict cells, const float* __restrict focus, std::size_t n, float* __restrict own,
+           float* __restrict rest) {
+    for (std::size_t i = 0; i < n; ++i) {
+        own[i] = cells[i] * focus[i];
+        rest[i] = cells[i] * (1.0F - focus[i]);
     }
 }
 
+/// |X|² of what is in the focus, and `background` times that of the rest, more.
 TRICUE_MULTIVERSION
-void add_energy(const float* __restrict re, const float* __restrict im, float share, int n,
-                float* __restrict energy) {
-    for (int v = 0; v < n; ++v) energy[v] += share * (re[v] * re[v] + im[v] * im[v]);
+void add_energy(const float* __restrict re, const float* __restrict im, const float* __restrict rest_re,
+                const float* __restrict rest_im, float background, std::size_t n, float* __restrict energy) {
+    for (std::size_t i = 0; i < n; ++i)
+        energy[i] += (re[i] * re[i] + im[i] * im[i]) +
+                     background * (rest_re[i] * rest_re[i] + rest_im[i] * rest_im[i]);
 }
 
 /// Y conj(X) blended into a numerator; of complex numbers these are pairs of a real and an imaginary part.
 TRICUE_MULTIVERSION
 void blend_product(const float* __restrict label, const float* __restrict re, const float* __restrict im,
-                   const float* __restrict old, float rate, int n, float* __restrict numerator) {
-    for (int v = 0; v < n; ++v) {
-        const float a = label[2 * v], b = label[2 * v + 1];
-        const float own_re = a * re[v] + b * im[v], own_im = b * re[v] - a * im[v];
-        numerator[2 * v] = old[2 * v] + rate * (own_re - old[2 * v]);
-        numerator[2 * v + 1] = old[2 * v + 1] + rate * (own_im - old[2 * v + 1]);
+                   const float* __restrict old, float rate, std::size_t n, float* __restrict numerator) {
+    for (std::size_t i = 0; i < n; ++i) {
+        const float a = label[2 * i], b = label[2 * i + 1];
+        const float own_re = a * re[i] + b * im[i], own_im = b * re[i] - a * im[i];
+        numerator[2 * i] = old[2 * i] + rate * (own_re - old[2 * i]);
+        numerator[2 * i + 1] = old[2 * i + 1] + rate * (own_im - old[2 * i + 1]);
     }
 }
 
@@ -48,23 +50,19 @@ float* parts(std::complex<float>* numbers) {
     return reinterpret_cast<float*>(numbers);
 }
 
-/// A's blend; B's new part goes into the filter's denominator.
-void add_channel(const FloatStack& cells, int k, FloatsRef focus, ComplexesRef label,
-                 const ComplexStack& numerator, float rate, float background, PlaneFourier& fourier,
-                 CorrelationFilter& filter) {
-    std::vector<float> own(static_cast<std::size_t>(cells.cols)), rest(own.size());
-    for (int y = 0; y < cells.rows; ++y) {
-        split_row(cells.row(k, y), focus.data() + y * focus.cols(), cells.cols, own.data(), rest.data());
-        fourier.write_row(y, own.data(), rest.data());
-    }
-    fourier.transform();
-    const int half = numerator.cols;
-    for (int u = 0; u < cells.rows; ++u) {
-        const ComplexRow x = fourier.spectrum(0, u), other = fourier.spectrum(1, u);
-        add_energy(x.re, x.im, 1.0F, half, &filter.denominator(u, 0));
-        add_energy(other.re, other.im, background, half, &filter.denominator(u, 0));
-        blend_product(parts(label.data() + u * label.cols()), x.re, x.im, parts(numerator.row(k, u)), rate,
-                      half, parts(&filter.numerator(k * cells.rows + u, 0)));
+/// A's blend; B's new part goes into the filter's denominator. What is in the focus and the rest are transformed as one.
+void add_channels(const FloatStack& cells, FloatsRef focus, ComplexesRef label, const ComplexStack& numerator,
+                  float rate, float background, CorrelationFilter& filter) {
+    PlanePair planes(cells.rows, cells.cols);
+    const std::size_t n = planes.count(), whole = static_cast<std::size_t>(focus.size());
+    std::vector<float> own(whole), rest(whole), re(n), im(n), rest_re(n), rest_im(n);
+    for (int k = 0; k < cells.planes; ++k) {
+        split(cells.row(k, 0), focus.data(), whole, own.data(), rest.data());
+        planes.transform(own.data(), rest.data(), re.data(), im.data(), rest_re.data(), rest_im.data());
+        add_energy(re.data(), im.data(), rest_re.data(), rest_im.data(), background, n,
+                   filter.denominator.data());
+        blend_product(parts(label.data()), re.data(), im.data(), parts(numerator.row(k, 0)), rate, n,
+                      parts(&filter.numerator(k * cells.rows, 0)));
     }
 }
 
@@ -88,11 +86,8 @@ CorrelationFilter correlation_train(const FloatStack& cells, FloatsRef focus, Co
     require_denominator(denominator, cells);
     CorrelationFilter filter{Complexes(cells.planes * cells.rows, numerator.cols),
                              Floats::Zero(cells.rows, numerator.cols)};
-    PlaneFourier fourier(cells.rows, cells.cols);
     const auto share = static_cast<float>(rate);
-    for (int k = 0; k < cells.planes; ++k)
-        add_channel(cells, k, focus, label, numerator, share, static_cast<float>(background), fourier,
-                    filter);
+    add_channels(cells, focus, label, numerator, share, static_cast<float>(background), filter);
     filter.denominator = denominator + share * (filter.denominator - denominator);
     return filter;
 }

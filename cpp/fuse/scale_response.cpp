@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "correlation_checks.hpp"
-#include "fourier_columns.hpp"
+#include "scale_fourier.hpp"
 #include "simd.hpp"
 
 namespace tricue {
@@ -38,27 +38,22 @@ void sum_products(const float* a, const float* re, const float* im, int n, float
 
 }  // namespace
 
-Eigen::Array<float, Eigen::Dynamic, 1> scale_response(FloatsRef looks, ComplexesRef numerator,
-                                                      FloatsRef denominator, double ridge) {
+Eigen::ArrayXf scale_response(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator, double ridge) {
     require_looks(looks, numerator, denominator);
     require_ridge(ridge);
     const int scales = static_cast<int>(looks.rows()), channels = static_cast<int>(looks.cols());
-    FourierColumns fourier(scales, channels), answer(scales, 1);
-    std::copy_n(looks.data(), looks.size(), fourier.real(0));
-    fourier.forward();
+    const ScaleSpectra spectra = scale_spectra(looks);
     const double mean = denominator.cast<double>().mean();
     const auto lambda = static_cast<float>(ridge * std::max(mean, 1e-12));
-    for (int u = 0; u < scales; ++u) {
-        const auto* a = reinterpret_cast<const float*>(numerator.data() + std::ptrdiff_t{u} * channels);
-        sum_products(a, fourier.real(u), fourier.imag(u), channels, answer.real(u), answer.imag(u));
-        const float share = 1.0F / (denominator(0, u) + lambda);
-        *answer.real(u) *= share;
-        *answer.imag(u) *= share;
+    Eigen::ArrayXf re(spectra.half()), im(spectra.half());
+    for (Eigen::Index u = 0; u < spectra.half(); ++u) {
+        const auto* a = reinterpret_cast<const float*>(numerator.data() + u * channels);
+        sum_products(a, spectra.re(u), spectra.im(u), channels, &re[u], &im[u]);
     }
-    answer.inverse();
-    Eigen::Array<float, Eigen::Dynamic, 1> response(scales);
-    for (int k = 0; k < scales; ++k)
-        response[(k + scales / 2) % scales] = *answer.real(k) / static_cast<float>(scales);
+    const Eigen::ArrayXf shares = 1.0F / (denominator.row(0).transpose() + lambda);
+    const Eigen::ArrayXf signal = scale_signal(re * shares, im * shares, scales);
+    Eigen::ArrayXf response(scales);
+    response << signal.tail(scales / 2), signal.head(scales - scales / 2);
     return response;
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/scale_train.hpp"
 
-#include <algorithm>
-
 #include "correlation_checks.hpp"
-#include "fourier_columns.hpp"
+#include "scale_fourier.hpp"
 #include "simd.hpp"
 
 namespace tricue {
@@ -39,21 +37,19 @@ void blend_products(float a, float b, const float* __restrict re, const float* _
 ScaleFilter scale_train(FloatsRef looks, ComplexesRef label, ComplexesRef numerator, FloatsRef denominator,
                         double rate) {
     require_looks(looks, numerator, denominator);
-    require_scales("label", label.cols(), looks.rows());
+    require_frequencies("label", label.cols(), numerator.rows());
     require_rate(rate);
-    const int scales = static_cast<int>(looks.rows()), channels = static_cast<int>(looks.cols());
-    FourierColumns fourier(scales, channels);
-    std::copy_n(looks.data(), looks.size(), fourier.real(0));
-    fourier.forward();
-    ScaleFilter filter{Complexes(scales, channels), Eigen::Array<float, Eigen::Dynamic, 1>(scales)};
+    const int channels = static_cast<int>(looks.cols());
+    const ScaleSpectra spectra = scale_spectra(looks);
+    ScaleFilter filter{Complexes(spectra.half(), channels), Eigen::ArrayXf(spectra.half())};
     const auto share = static_cast<float>(rate);
-    for (int u = 0; u < scales; ++u) {
-        const auto* old = reinterpret_cast<const float*>(numerator.data() + std::ptrdiff_t{u} * channels);
-        auto* blended = reinterpret_cast<float*>(filter.numerator.data() + std::ptrdiff_t{u} * channels);
+    for (Eigen::Index u = 0; u < spectra.half(); ++u) {
+        const auto* old = reinterpret_cast<const float*>(numerator.data() + u * channels);
+        auto* blended = reinterpret_cast<float*>(filter.numerator.data() + u * channels);
         const std::complex<float> y = label(0, u);
-        blend_products(y.real(), y.imag(), fourier.real(u), fourier.imag(u), old, share, channels, blended);
+        blend_products(y.real(), y.imag(), spectra.re(u), spectra.im(u), old, share, channels, blended);
         float energy = 0;
-        sum_energy(fourier.real(u), fourier.imag(u), channels, &energy);
+        sum_energy(spectra.re(u), spectra.im(u), channels, &energy);
         filter.denominator[u] = denominator(0, u) + share * (energy - denominator(0, u));
     }
     return filter;

@@ -8,8 +8,8 @@ namespace tricue {
 
 /// A correlation filter over S scales with D channels: what scale_response takes.
 struct ScaleFilter {
-    Complexes numerator;                                 ///< S x D
-    Eigen::Array<float, Eigen::Dynamic, 1> denominator;  ///< S
+    Complexes numerator;  ///< (S / 2 + 1) x D: a frequency a row, not negative, as numpy.fft.rfft orders them
+    Eigen::ArrayXf denominator;  ///< S / 2 + 1
 };
 
 /// A correlation filter over scales with new looks of a target blended in.
@@ -18,9 +18,9 @@ struct ScaleFilter {
 /// a rate of 1 starts them. Sums over the channels have sixteen parts, d modulo 16.
 ///
 /// @param looks       S x D: D channels at every scale, at least one
-/// @param label       1 x S, Y: the spectrum of the wanted answer, its peak at 0
-/// @param numerator   S x D, A until now: a frequency a row
-/// @param denominator 1 x S, B until now
+/// @param label       1 x (S / 2 + 1), Y: the spectrum of the wanted answer, its peak at 0
+/// @param numerator   (S / 2 + 1) x D, A until now
+/// @param denominator 1 x (S / 2 + 1), B until now
 /// @param rate        0 to 1
 /// @throws std::invalid_argument on other shapes, and on a rate out of range
 /// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.2.

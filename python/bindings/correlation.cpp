@@ -19,12 +19,20 @@ std::ptrdiff_t work(const FloatStack& cells) {
     return std::ptrdiff_t{cells.planes} * cells.rows * cells.cols;
 }
 
-Floating correlation_response_arrays(const Floating& cells, const Complex& numerator,
-                                     const Floating& denominator, double ridge) {
+FilterStack filter_stack(const Complex& numerators) {
+    const auto array =
+        require<std::complex<float>>(numerators, "numerators", 4, "complex64 (F, K, R, C // 2 + 1)");
+    const auto size = [&](int axis) { return static_cast<int>(array.shape(axis)); };
+    return {contiguous<std::complex<float>>(array, "numerators"), size(0), size(1), size(2), size(3)};
+}
+
+Floating correlation_response_arrays(const Floating& cells, const Complex& numerators,
+                                     const Floating& denominators, double ridge) {
     const auto planes = stack<float>(cells, "cells", kCells);
-    const auto upper = stack<std::complex<float>>(numerator, "numerator", kNumerator);
-    const auto lower = floats(denominator, "denominator", {-1, -1}, kHalf);
-    return give(unlocked(work(planes), [&] { return correlation_response(planes, upper, lower, ridge); }));
+    const auto upper = filter_stack(numerators);
+    const auto lower = stack<float>(denominators, "denominators", "float32 (F, R, C // 2 + 1)");
+    return give(unlocked(work(planes), [&] { return correlation_response(planes, upper, lower, ridge); }),
+                {upper.filters, planes.rows, planes.cols});
 }
 
 std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, const Floating& focus,
@@ -44,13 +52,14 @@ std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, co
 }
 
 constexpr const char* kLooks = "float32 looks (S, D)";
-constexpr const char* kFrequencies = "complex64 (S, D)";
+constexpr const char* kFrequencies = "complex64 (S // 2 + 1, D)";
+constexpr const char* kLine = "float32 (S // 2 + 1,)";
 
 Floating scale_response_arrays(const Floating& looks, const Complex& numerator, const Floating& denominator,
                                double ridge) {
     const auto seen = floats(looks, "looks", {-1, -1}, kLooks);
     const auto upper = complexes(numerator, "numerator", kFrequencies);
-    const auto lower = floats(denominator, "denominator", {-1}, "float32 (S,)");
+    const auto lower = floats(denominator, "denominator", {-1}, kLine);
     return give(unlocked(seen.size(), [&] { return scale_response(seen, upper, lower, ridge); }));
 }
 
@@ -58,11 +67,11 @@ std::tuple<Complex, Floating> scale_train_arrays(const Floating& looks, const Co
                                                  const Complex& numerator, const Floating& denominator,
                                                  double rate) {
     const auto seen = floats(looks, "looks", {-1, -1}, kLooks);
-    const auto wanted = require<std::complex<float>>(label, "label", 1, "complex64 (S,)");
+    const auto wanted = require<std::complex<float>>(label, "label", 1, "complex64 (S // 2 + 1,)");
     const Eigen::Map<const Complexes> spectrum(contiguous<std::complex<float>>(wanted, "label"), 1,
                                                wanted.shape(0));
     const auto upper = complexes(numerator, "numerator", kFrequencies);
-    const auto lower = floats(denominator, "denominator", {-1}, "float32 (S,)");
+    const auto lower = floats(denominator, "denominator", {-1}, kLine);
     auto filter = unlocked(seen.size(), [&] { return scale_train(seen, spectrum, upper, lower, rate); });
     return {give(std::move(filter.numerator)), give(std::move(filter.denominator))};
 }
@@ -70,11 +79,11 @@ std::tuple<Complex, Floating> scale_train_arrays(const Floating& looks, const Co
 }  // namespace
 
 void define_correlation(py::module_& m) {
-    m.def("correlation_response", correlation_response_arrays, py::arg("cells"), py::arg("numerator"),
-          py::arg("denominator"), py::arg("ridge"),
-          "(R, C), no shift at (R // 2, C // 2): how much cells (K, R, C), shifted, look as those learnt: "
-          "equation (6), of the numerator (K, R, C // 2 + 1) and the denominator (R, C // 2 + 1) that "
-          "correlation_train makes; lambda is ridge times the denominator's mean.");
+    m.def("correlation_response", correlation_response_arrays, py::arg("cells"), py::arg("numerators"),
+          py::arg("denominators"), py::arg("ridge"),
+          "(F, R, C), no shift at (R // 2, C // 2): how much cells (K, R, C), shifted, look as those learnt: "
+          "equation (6), of F filters, their numerators (F, K, R, C // 2 + 1) and denominators "
+          "(F, R, C // 2 + 1) as correlation_train makes them; lambda is ridge times a denominator's mean.");
     m.def(
         "correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
         py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
@@ -85,12 +94,15 @@ void define_correlation(py::module_& m) {
     m.def("scale_response", scale_response_arrays, py::arg("looks"), py::arg("numerator"),
           py::arg("denominator"), py::arg("ridge"),
           "(S,), no change at S // 2: how much the looks (S, D) of a target at S steps of scale, shifted, "
-          "are as those learnt: equation (6) along one dimension, of the numerator (S, D) and the "
-          "denominator (S,) that scale_train makes; lambda is ridge times the denominator's mean.");
+          "are as those learnt: equation (6) along one dimension, of the numerator (S // 2 + 1, D) and "
+          "the denominator (S // 2 + 1,) that scale_train makes; lambda is ridge times the denominator's "
+          "mean.");
     m.def("scale_train", scale_train_arrays, py::arg("looks"), py::arg("label"), py::arg("numerator"),
           py::arg("denominator"), py::arg("rate"),
-          "Numerator (S, D) and denominator (S,), equation (5) along one dimension, with looks (S, D) "
-          "blended in at a rate from 0 to 1, which starts them; label (S,) is the spectrum of the wanted "
+          "Numerator (S // 2 + 1, D) and denominator (S // 2 + 1,), equation (5) along one dimension, with "
+          "looks (S, D) "
+          "blended in at a rate from 0 to 1, which starts them; label (S // 2 + 1,) is the spectrum of the "
+          "wanted "
           "answer, its peak at 0.");
 }
 

@@ -5,6 +5,7 @@
 #include "cues/depth/above_floor.hpp"
 #include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
+#include "cues/depth/depth_posterior.hpp"
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
@@ -31,6 +32,16 @@ Array<double> depth_histogram_arrays(const Array<float>& depth, const Bytes& mas
     const auto under = mask_image(mask, "mask");
     const DepthLevels range{near, far, levels};
     return give(unlocked(pixels(view), [&] { return depth_histogram(view, under, range); }));
+}
+
+std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, double x0, double y0,
+                                                       double step, int rows, int columns, double expected,
+                                                       double sigma, double near_margin) {
+    const auto view = depth_image(depth, "depth");
+    const SampleGrid grid{x0, y0, step, rows, columns};
+    auto found = unlocked(std::ptrdiff_t{rows} * columns,
+                          [&] { return depth_posterior(view, grid, {expected, sigma, near_margin}); });
+    return {give(std::move(found.posterior)), give(std::move(found.nearer))};
 }
 
 Bytes divide_depth_arrays(const Array<float>& depth, const Bytes& mask, const Array<double>& dividers) {
@@ -105,6 +116,13 @@ void define_depth(py::module_& m) {
           py::arg("far"), py::arg("levels"),
           "Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, "
           "far).");
+    m.def(
+        "depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
+        py::arg("step"), py::arg("rows"), py::arg("columns"), py::arg("expected"), py::arg("sigma"),
+        py::arg("near_margin"),
+        "(rows, columns) P(target | z), and (rows, columns) 1 where z is less than expected - near_margin; z "
+        "is the depth of the pixel under the centre of each square of step pixels of a grid with its top "
+        "left corner at (x0, y0). 1/2 where nothing is measured.");
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
           "The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), "
           "equations (35), (36).");

@@ -105,12 +105,12 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
 
 def correlation_response(
     cells: numpy.typing.NDArray[numpy.float32],
-    numerator: numpy.typing.NDArray[numpy.complex64],
-    denominator: numpy.typing.NDArray[numpy.float32],
+    numerators: numpy.typing.NDArray[numpy.complex64],
+    denominators: numpy.typing.NDArray[numpy.float32],
     ridge: float,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    (R, C), no shift at (R // 2, C // 2): how much cells (K, R, C), shifted, look as those learnt: equation (6), of the numerator (K, R, C // 2 + 1) and the denominator (R, C // 2 + 1) that correlation_train makes; lambda is ridge times the denominator's mean.
+    (F, R, C), no shift at (R // 2, C // 2): how much cells (K, R, C), shifted, look as those learnt: equation (6), of F filters, their numerators (F, K, R, C // 2 + 1) and denominators (F, R, C // 2 + 1) as correlation_train makes them; lambda is ridge times a denominator's mean.
     """
 
 def correlation_train(
@@ -215,6 +215,21 @@ def depth_histogram(
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
     Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, far).
+    """
+
+def depth_posterior(
+    depth: numpy.typing.NDArray[numpy.float32],
+    x0: float,
+    y0: float,
+    step: float,
+    rows: int,
+    columns: int,
+    expected: float,
+    sigma: float,
+    near_margin: float,
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]:
+    """
+    (rows, columns) P(target | z), and (rows, columns) 1 where z is less than expected - near_margin; z is the depth of the pixel under the centre of each square of step pixels of a grid with its top left corner at (x0, y0). 1/2 where nothing is measured.
     """
 
 def divide_depth(
@@ -566,7 +581,7 @@ def scale_response(
     ridge: float,
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    (S,), no change at S // 2: how much the looks (S, D) of a target at S steps of scale, shifted, are as those learnt: equation (6) along one dimension, of the numerator (S, D) and the denominator (S,) that scale_train makes; lambda is ridge times the denominator's mean.
+    (S,), no change at S // 2: how much the looks (S, D) of a target at S steps of scale, shifted, are as those learnt: equation (6) along one dimension, of the numerator (S // 2 + 1, D) and the denominator (S // 2 + 1,) that scale_train makes; lambda is ridge times the denominator's mean.
     """
 
 def scale_train(
@@ -577,7 +592,7 @@ def scale_train(
     rate: float,
 ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]:
     """
-    Numerator (S, D) and denominator (S,), equation (5) along one dimension, with looks (S, D) blended in at a rate from 0 to 1, which starts them; label (S,) is the spectrum of the wanted answer, its peak at 0.
+    Numerator (S // 2 + 1, D) and denominator (S // 2 + 1,), equation (5) along one dimension, with looks (S, D) blended in at a rate from 0 to 1, which starts them; label (S // 2 + 1,) is the spectrum of the wanted answer, its peak at 0.
     """
 
 def section_distance(
@@ -768,8 +783,8 @@ class Kernels(Protocol):
     def correlation_response(
         self,
         cells: numpy.typing.NDArray[numpy.float32],
-        numerator: numpy.typing.NDArray[numpy.complex64],
-        denominator: numpy.typing.NDArray[numpy.float32],
+        numerators: numpy.typing.NDArray[numpy.complex64],
+        denominators: numpy.typing.NDArray[numpy.float32],
         ridge: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def correlation_train(
@@ -846,6 +861,18 @@ class Kernels(Protocol):
         far: float,
         levels: int,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def depth_posterior(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        x0: float,
+        y0: float,
+        step: float,
+        rows: int,
+        columns: int,
+        expected: float,
+        sigma: float,
+        near_margin: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.uint8]]: ...
     def divide_depth(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

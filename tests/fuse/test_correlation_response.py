@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The answer of a correlation filter with many channels."""
+"""The answers of correlation filters with many channels."""
 
 from collections.abc import Callable
 from typing import Any
@@ -33,29 +33,49 @@ def cells_of(shape: tuple[int, ...], seed: int = 0) -> Floats:
     return np.random.default_rng(seed).uniform(-1, 1, shape).astype(np.float32)
 
 
-def filter_of(shape: tuple[int, ...], seed: int = 1) -> tuple[Complexes, Floats]:
-    """Any filter of real weights: a numerator, and a denominator from 0.5 to 1.5."""
-    weights = np.random.default_rng(seed).uniform(-1, 1, shape)
-    numerator = np.fft.rfft2(weights).astype(np.complex64)
-    return numerator, (0.5 + abs(np.sin(np.arange(numerator[0].size)))).astype(np.float32).reshape(
-        numerator[0].shape
-    )
+def filters_of(shape: tuple[int, ...], count: int = 1, seed: int = 1) -> tuple[Complexes, Floats]:
+    """Any filters of real weights: numerators, and denominators from 0.5 to 1.5."""
+    weights = np.random.default_rng(seed).uniform(-1, 1, (count, *shape))
+    numerators = np.fft.rfft2(weights).astype(np.complex64)
+    denominators = 0.5 + abs(np.sin(np.arange(numerators[:, 0].size)))
+    return numerators, denominators.astype(np.float32).reshape(numerators[:, 0].shape)
 
 
+@pytest.mark.parametrize("count", [1, 2, 3])
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
-def test_native_is_the_twin(shape: tuple[int, int, int], fourier_error: Callable[..., float]) -> None:
-    """Both give the same for even, odd and prime sizes and any count of channels: to the error of the
-    spectra, part of the cells' norm, times what the filter makes of it (Cauchy and Schwarz), and that of the
-    way back.
+def test_native_is_the_twin(
+    shape: tuple[int, int, int], count: int, fourier_error: Callable[..., float]
+) -> None:
+    """Both give the same for even, odd and prime sizes and any count of channels and filters: to the error of
+    the spectra, part of the norm of the two planes that are transformed as one, times what the filter makes
+    of it (Cauchy and Schwarz), and that of the way back, part of the norm of two answers.
     """
-    cells, (numerator, denominator) = cells_of(shape), filter_of(shape)
-    native = _core.correlation_response(cells, numerator, denominator, 0.01)
-    twin = reference.correlation_response(cells, numerator, denominator, 0.01)
+    cells, (numerators, denominators) = cells_of(shape), filters_of(shape, count)
+    native = _core.correlation_response(cells, numerators, denominators, 0.01)
+    twin = reference.correlation_response(cells, numerators, denominators, 0.01)
     assert native.dtype == twin.dtype == np.float32
-    assert native.shape == twin.shape == shape[1:]
-    gain = 2 * np.linalg.norm(numerator / denominator) / np.sqrt(shape[1] * shape[2])
+    assert native.shape == twin.shape == (count, *shape[1:])
+    gain = 2 * max(map(np.linalg.norm, numerators / denominators[:, None]))
+    gain /= np.sqrt(shape[1] * shape[2])
     bound = fourier_error(*shape[1:]) * (gain * np.linalg.norm(cells) + np.linalg.norm(twin))
     assert abs(native - twin).max() <= bound + 1e-7 * abs(twin).max()
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (2, 2), (4, 6), (5, 8), (6, 9), (1, 4), (7, 1)], ids=str)
+def test_takes_any_spectrum(kernels: Kernels, shape: tuple[int, int]) -> None:
+    """Spectra that no real plane has give what NumPy's irfft2 makes of them, with another filter's beside
+    them or without: what should be real and isn't changes nothing.
+    """
+    rows, columns = shape
+    rng = np.random.default_rng(3)
+    numerators = rng.normal(size=(3, 1, rows, columns // 2 + 1, 2)).astype(np.float32).view(np.complex64)
+    numerators = numerators[..., 0]
+    delta = np.zeros((1, rows, columns), np.float32)
+    delta[0, 0, 0] = 1
+    almost = np.full((3, *numerators.shape[2:]), 1 - 1e-3, np.float32)
+    found = kernels.correlation_response(delta, numerators, almost, 1e-3 / (1 - 1e-3))
+    expected = np.fft.irfft2(numerators[:, 0].astype(np.complex128), shape)
+    assert_allclose(np.fft.ifftshift(found, axes=(1, 2)), expected, atol=2e-6)
 
 
 @pytest.mark.parametrize("shape", [(1, 6, 8), (3, 9, 7), (2, 16, 5)], ids=str)
@@ -68,9 +88,9 @@ def test_is_scipys_correlation(kernels: Kernels, shape: tuple[int, int, int]) ->
         correlate(np.tile(cell, (2, 2))[:-1, :-1], weight, "valid", method="direct")
         for cell, weight in zip(cells, weights, strict=True)
     )
-    numerator = np.fft.rfft2(weights).conj().astype(np.complex64)
-    almost = np.full(numerator.shape[1:], 1 - 1e-3, np.float32)
-    found = kernels.correlation_response(cells.astype(np.float32), numerator, almost, 1e-3 / (1 - 1e-3))
+    numerators = np.fft.rfft2(weights).conj().astype(np.complex64)[None]
+    almost = np.full(numerators[:, 0].shape, 1 - 1e-3, np.float32)
+    (found,) = kernels.correlation_response(cells.astype(np.float32), numerators, almost, 1e-3 / (1 - 1e-3))
     assert_allclose(np.fft.ifftshift(found), direct, atol=2e-5)
 
 
@@ -84,8 +104,9 @@ def test_finds_a_shift(kernels: Kernels) -> None:
         none = np.zeros((11, *label.shape), np.complex64), np.zeros(label.shape, np.float32)
         focus = np.ones((rows, columns), np.float32)
         learnt = kernels.correlation_train(cells, focus, label, *none, 1.0, 0.0)
+        filters = [each[None] for each in learnt]
         for down, across in ((0, 0), (3, -5), (-7, 2)):
-            answer = kernels.correlation_response(np.roll(cells, (down, across), (1, 2)), *learnt, 1e-4)
+            (answer,) = kernels.correlation_response(np.roll(cells, (down, across), (1, 2)), *filters, 1e-4)
             peak = np.unravel_index(answer.argmax(), answer.shape)
             assert peak == (rows // 2 + down, columns // 2 + across)
             assert answer.max() == pytest.approx(1, abs=2e-3)
@@ -93,23 +114,35 @@ def test_finds_a_shift(kernels: Kernels) -> None:
 
 def test_adds_up_channels(kernels: Kernels) -> None:
     """The answer is linear in the cells, and channels that are 0 change nothing."""
-    cells, (numerator, denominator) = cells_of((3, 10, 12)), filter_of((3, 10, 12))
-    whole = kernels.correlation_response(cells, numerator, denominator, 0.1)
+    cells, (numerators, denominators) = cells_of((3, 10, 12)), filters_of((3, 10, 12))
+    whole = kernels.correlation_response(cells, numerators, denominators, 0.1)
     parts = sum(
-        kernels.correlation_response(cells[k : k + 1], numerator[k : k + 1], denominator, 0.1)
+        kernels.correlation_response(
+            cells[k : k + 1], np.ascontiguousarray(numerators[:, k : k + 1]), denominators, 0.1
+        )
         for k in range(3)
     )
     assert_allclose(whole, parts, atol=1e-5)
     assert_allclose(
-        kernels.correlation_response(-2 * cells, numerator, denominator, 0.1), -2 * whole, atol=1e-5
+        kernels.correlation_response(-2 * cells, numerators, denominators, 0.1), -2 * whole, atol=1e-5
     )
-    assert not kernels.correlation_response(0 * cells, numerator, denominator, 0.1).any()
+    assert not kernels.correlation_response(0 * cells, numerators, denominators, 0.1).any()
+
+
+@pytest.mark.parametrize("shape", [(3, 10, 12), (2, 7, 9)], ids=str)
+def test_filters_answer_by_themselves(kernels: Kernels, shape: tuple[int, int, int]) -> None:
+    """Each filter answers as it does alone, whatever others are asked with it."""
+    cells, (numerators, denominators) = cells_of(shape), filters_of(shape, 5)
+    together = kernels.correlation_response(cells, numerators, denominators, 0.1)
+    for f, answer in enumerate(together):
+        (alone,) = kernels.correlation_response(cells, numerators[f : f + 1], denominators[f : f + 1], 0.1)
+        assert_allclose(answer, alone, atol=1e-5 * abs(alone).max())
 
 
 def test_an_empty_filter_answers_nothing(kernels: Kernels) -> None:
     """Where nothing was learnt yet the ridge keeps from dividing by 0."""
     answer = kernels.correlation_response(
-        cells_of((2, 4, 6)), np.zeros((2, 4, 4), np.complex64), np.zeros((4, 4), np.float32), 0.01
+        cells_of((2, 4, 6)), np.zeros((1, 2, 4, 4), np.complex64), np.zeros((1, 4, 4), np.float32), 0.01
     )
     assert not answer.any()
 
@@ -124,10 +157,25 @@ BAD: list[tuple[dict[str, Any], str]] = [
         r"cells: expected at least one channel and cell, got \(2, 4, 0\)",
     ),
     (
-        {"numerator": np.zeros((2, 4, 6), np.complex64)},
-        r"numerator: expected shape \(2, 4, 4\), got \(2, 4, 6\)",
+        {"numerators": np.zeros((0, 2, 4, 4), np.complex64)},
+        r"numerators: expected at least one filter, got \(0, 2, 4, 4\)",
     ),
-    ({"denominator": np.zeros((4, 6), np.float32)}, r"denominator: expected shape \(4, 4\), got \(4, 6\)"),
+    (
+        {"numerators": np.zeros((2, 2, 4, 6), np.complex64)},
+        r"numerators: expected shape \(2, 2, 4, 4\), got \(2, 2, 4, 6\)",
+    ),
+    (
+        {"numerators": np.zeros((2, 1, 4, 4), np.complex64)},
+        r"numerators: expected shape \(2, 2, 4, 4\), got \(2, 1, 4, 4\)",
+    ),
+    (
+        {"denominators": np.zeros((2, 4, 6), np.float32)},
+        r"denominators: expected shape \(2, 4, 4\), got \(2, 4, 6\)",
+    ),
+    (
+        {"denominators": np.zeros((1, 4, 4), np.float32)},
+        r"denominators: expected shape \(2, 4, 4\), got \(1, 4, 4\)",
+    ),
     ({"ridge": 0.0}, "ridge: expected a finite number above 0, got 0"),
     ({"ridge": float("nan")}, "ridge: expected a finite number above 0, got nan"),
     ({"ridge": float("inf")}, "ridge: expected a finite number above 0, got inf"),
@@ -137,18 +185,20 @@ BAD: list[tuple[dict[str, Any], str]] = [
 @pytest.mark.parametrize(("changes", "message"), BAD)
 def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> None:
     """Wrong shapes and numbers are named, with what was expected."""
-    numerator, denominator = filter_of((2, 4, 6))
-    good = {"cells": cells_of((2, 4, 6)), "numerator": numerator, "denominator": denominator, "ridge": 0.01}
+    upper, lower = filters_of((2, 4, 6), 2)
+    good = {"cells": cells_of((2, 4, 6)), "numerators": upper, "denominators": lower, "ridge": 0.01}
     with pytest.raises(ValueError, match=message):
         kernels.correlation_response(**good | changes)
 
 
 def test_native_refuses_other_arrays() -> None:
     """Other numbers and layouts are named, never converted."""
-    cells, (numerator, denominator) = cells_of((2, 4, 6)), filter_of((2, 4, 6))
+    cells, (numerators, denominators) = cells_of((2, 4, 6)), filters_of((2, 4, 6), 2)
     with pytest.raises(TypeError, match="cells: expected float32 cells"):
-        _core.correlation_response(cells.astype(np.float64), numerator, denominator, 0.01)
-    with pytest.raises(TypeError, match="numerator: expected complex64"):
-        _core.correlation_response(cells, numerator.astype(np.complex128), denominator, 0.01)
-    with pytest.raises(ValueError, match="denominator: expected a C-contiguous"):
-        _core.correlation_response(cells, numerator, np.asfortranarray(denominator), 0.01)
+        _core.correlation_response(cells.astype(np.float64), numerators, denominators, 0.01)
+    with pytest.raises(TypeError, match="numerators: expected complex64"):
+        _core.correlation_response(cells, numerators.astype(np.complex128), denominators, 0.01)
+    with pytest.raises(ValueError, match="numerators: expected complex64"):
+        _core.correlation_response(cells, numerators[0], denominators, 0.01)
+    with pytest.raises(ValueError, match="denominators: expected a C-contiguous"):
+        _core.correlation_response(cells, numerators, np.asfortranarray(denominators), 0.01)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "check.hpp"
 #include "covered_sums.hpp"
@@ -13,13 +14,17 @@ namespace {
 /// Sums over boxes of one size at all places.
 States box_sums(CoveredSums& sums, int rows, int cols, double width, double height) {
     States found(rows, cols);
+    std::vector<CoveredSpan> across;
+    across.reserve(static_cast<std::size_t>(cols));
+    for (int j = 0; j < cols; ++j) {
+        const double x = cols + 2.0 * (j - cols / 2);
+        across.push_back(sums.across(x - width / 2, x + width / 2));
+    }
     for (int i = 0; i < rows; ++i) {
         const double y = rows + 2.0 * (i - rows / 2);
         sums.take_rows(y - height / 2, y + height / 2);
-        for (int j = 0; j < cols; ++j) {
-            const double x = cols + 2.0 * (j - cols / 2);
-            found(i, j) = sums.columns(x - width / 2, x + width / 2);
-        }
+        double* row = &found(i, 0);
+        for (const CoveredSpan& span : across) *row++ = sums.columns(span);
     }
     return found;
 }

@@ -25,7 +25,8 @@ Vector box_means(const PlaneView& plane, VectorRef widths, VectorRef heights) {
     for (Eigen::Index i = 0; i < widths.size(); ++i) {
         const double width = widths[i], height = heights[i];
         sums.take_rows((plane.rows - height) / 2, (plane.rows + height) / 2);
-        means[i] = sums.columns((plane.cols - width) / 2, (plane.cols + width) / 2) / (width * height);
+        means[i] =
+            sums.columns(sums.across((plane.cols - width) / 2, (plane.cols + width) / 2)) / (width * height);
     }
     return means;
 }

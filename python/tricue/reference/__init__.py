@@ -41,6 +41,7 @@ from tricue.reference.cues.depth.depth_density import depth_density
 from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
+from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
@@ -92,6 +93,7 @@ __all__ = [
     "depth_distance",
     "depth_edges",
     "depth_histogram",
+    "depth_posterior",
     "divide_depth",
     "ellipse_gradient",
     "ellipse_histogram",

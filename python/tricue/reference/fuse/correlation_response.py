@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The answer of a correlation filter with many channels."""
+"""The answers of correlation filters with many channels."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,24 +10,45 @@ Floats = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
 
 
-def correlation_response(cells: Floats, numerator: Complexes, denominator: Floats, ridge: float) -> Floats:
-    """(R, C), no shift at (R // 2, C // 2): how much the cells (K, R, C), shifted, look as those learnt.
+def correlation_response(cells: Floats, numerators: Complexes, denominators: Floats, ridge: float) -> Floats:
+    """(F, R, C), no shift at (R // 2, C // 2): how much the cells (K, R, C), shifted, look as those learnt.
 
-    Danelljan et al. 2014 (6), Bolme et al. 2010: F⁻¹{sum_k A_k Z_k / (B + λ)}, of the numerators
-    (K, R, C // 2 + 1) and the common denominator (R, C // 2 + 1); λ is ridge times B's mean.
+    Danelljan et al. 2014 (6), Bolme et al. 2010: F⁻¹{sum_k A_k Z_k / (B + λ)}, of each filter's numerators
+    (F, K, R, C // 2 + 1) and denominator (F, R, C // 2 + 1); λ is ridge times B's mean.
     """
-    require_filter(cells, numerator, denominator)
+    require_filters(cells, numerators, denominators)
     require_ridge(ridge)
     spectrum = np.fft.rfft2(cells.astype(np.float64))
-    shrunk = denominator + ridge * max(float(denominator.mean(dtype=np.float64)), 1e-12)
-    answer = np.fft.irfft2((numerator * spectrum).sum(axis=0) / shrunk, cells.shape[1:])
-    return np.fft.fftshift(answer).astype(np.float32)
+    answers = []
+    for numerator, denominator in zip(numerators, denominators, strict=True):
+        shrunk = denominator + ridge * max(float(denominator.mean(dtype=np.float64)), 1e-12)
+        answer = np.fft.irfft2((numerator * spectrum).sum(axis=0) / shrunk, cells.shape[1:])
+        answers.append(np.fft.fftshift(answer))
+    return np.array(answers, np.float32)
+
+
+def require_filters(cells: Floats, numerators: Complexes, denominators: Floats) -> None:
+    """Refuse no cells, no filters, and filters that aren't for them."""
+    require_cells(cells)
+    channels, rows, columns = cells.shape
+    count, half = len(numerators), (rows, columns // 2 + 1)
+    if count < 1:
+        refuse("numerators", "at least one filter", numerators.shape)
+    if numerators.shape != (count, channels, *half):
+        refuse("numerators", f"shape {(count, channels, *half)}", numerators.shape)
+    if denominators.shape != (count, *half):
+        refuse("denominators", f"shape {(count, *half)}", denominators.shape)
+
+
+def require_cells(cells: Floats) -> None:
+    """Refuse no cells."""
+    if cells.size < 1:
+        refuse("cells", "at least one channel and cell", cells.shape)
 
 
 def require_filter(cells: Floats, numerator: Complexes, denominator: Floats) -> None:
     """Refuse no cells, and a filter that isn't for them."""
-    if cells.size < 1:
-        refuse("cells", "at least one channel and cell", cells.shape)
+    require_cells(cells)
     count, rows, columns = cells.shape
     half = (rows, columns // 2 + 1)
     if numerator.shape != (count, *half):

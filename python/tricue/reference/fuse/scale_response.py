@@ -15,20 +15,21 @@ def scale_response(looks: Floats, numerator: Complexes, denominator: Floats, rid
     """(S,): how much the looks (S, D) of a target at S steps of scale, shifted, are as those learnt.
 
     Danelljan et al. 2014, section 3.2: one dimension along the scales, D channels; the middle one, S // 2, is
-    no change. numerator: (S, D), denominator: (S,); λ is ridge times its mean.
+    no change. numerator: (S // 2 + 1, D), denominator: (S // 2 + 1,); λ is ridge times its mean.
     """
     require_scale_filter(looks, numerator, denominator)
     require_ridge(ridge)
-    product = (numerator * np.fft.fft(looks.astype(np.float64), axis=0)).sum(axis=1)
+    product = (numerator * np.fft.rfft(looks.astype(np.float64), axis=0)).sum(axis=1)
     shrunk = denominator + ridge * max(float(denominator.mean(dtype=np.float64)), 1e-12)
-    return np.fft.fftshift(np.fft.ifft(product / shrunk).real).astype(np.float32)
+    return np.fft.fftshift(np.fft.irfft(product / shrunk, len(looks))).astype(np.float32)
 
 
 def require_scale_filter(looks: Floats, numerator: Complexes, denominator: Floats) -> None:
     """Refuse no looks, and a filter that isn't for them."""
     if looks.size < 1:
         refuse("looks", "at least one scale and channel", looks.shape)
-    if numerator.shape != looks.shape:
-        refuse("numerator", f"shape {looks.shape}", numerator.shape)
-    if denominator.shape != looks.shape[:1]:
-        refuse("denominator", f"shape {looks.shape[:1]}", denominator.shape)
+    half = (len(looks) // 2 + 1, looks.shape[1])
+    if numerator.shape != half:
+        refuse("numerator", f"shape {half}", numerator.shape)
+    if denominator.shape != half[:1]:
+        refuse("denominator", f"shape {half[:1]}", denominator.shape)

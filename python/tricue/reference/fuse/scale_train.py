@@ -11,15 +11,16 @@ from tricue.reference.fuse.scale_response import Complexes, Floats, require_scal
 def scale_train(
     looks: Floats, label: Complexes, numerator: Complexes, denominator: Floats, rate: float
 ) -> tuple[Complexes, Floats]:
-    """Numerator (S, D) and denominator (S,) with new looks (S, D) blended in; a rate of 1 starts them.
+    """Numerator (S // 2 + 1, D) and denominator (S // 2 + 1,) with new looks (S, D) blended in.
 
-    As correlation_train along one dimension; label (S,) is the wanted answer's spectrum, its peak at 0.
+    As correlation_train along one dimension; a rate of 1 starts them. label (S // 2 + 1,) is the wanted
+    answer's spectrum, its peak at 0.
     """
     require_scale_filter(looks, numerator, denominator)
     if label.shape != denominator.shape:
         refuse("label", f"shape {denominator.shape}", label.shape)
     require_rate(rate)
-    spectrum = np.fft.fft(looks.astype(np.float64), axis=0)
+    spectrum = np.fft.rfft(looks.astype(np.float64), axis=0)
     energy = (abs(spectrum) ** 2).sum(axis=1)
     return (
         (numerator + rate * (label[:, None] * spectrum.conj() - numerator)).astype(np.complex64),

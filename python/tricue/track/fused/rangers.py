@@ -5,10 +5,11 @@ from typing import NamedTuple
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
-from tricue.track.fused.sight import Expected, Image, Plane
+from tricue.track.fused.sight import Expected, Grid, Image, Plane
 
 WINDOW = 7  # samples a side, compared in both images of a pair
 NEARER, FARTHER = 16, 8  # samples of disparity round the expected one
@@ -22,14 +23,21 @@ class DepthImage(NamedTuple):
 
     depth: Plane
 
-    def metres(self, x: float, y: float, unit: float, side: int, around: Expected | None) -> Plane:
+    def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
         """The pixels nearest to the middles of the squares."""
+        x, y, unit = grid
         steps = (np.arange(side) + 0.5) * unit
         rows, columns = np.floor(y + steps).astype(int), np.floor(x + steps).astype(int)
         height, width = self.depth.shape
         inside = ((rows >= 0) & (rows < height))[:, None] & ((columns >= 0) & (columns < width))
         sampled = self.depth[rows.clip(0, height - 1)[:, None], columns.clip(0, width - 1)]
         return np.where(inside, sampled, np.float32(np.nan))
+
+    def posterior(
+        self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float
+    ) -> tuple[Plane, NDArray[np.uint8]]:
+        """As in Ranger."""
+        return k.depth_posterior(self.depth, *grid, side, side, *expected, margin)
 
     def noise(self, z: float, unit: float) -> float:
         """Grows with the distance."""
@@ -44,11 +52,12 @@ class Pair(NamedTuple):
     right: Image
     rig: StereoRig
 
-    def metres(self, x: float, y: float, unit: float, side: int, around: Expected | None) -> Plane:
+    def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
         """By sums of absolute differences (Moreno et al. 2002, section 3.2), between samples of both images.
 
         The right one is sampled where what is expected has the disparity 0.
         """
+        x, y, unit = grid
         product = self.rig.intrinsics.fx * self.rig.baseline
         shift = 0.0 if around is None else product / around.z
         most = WIDEST * self.left.shape[1]
@@ -66,6 +75,13 @@ class Pair(NamedTuple):
             return np.where(disparity > 0, np.float32(product) / disparity, np.float32(np.inf)).astype(
                 np.float32
             )
+
+    def posterior(
+        self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float
+    ) -> tuple[Plane, NDArray[np.uint8]]:
+        """As in Ranger."""
+        metres = self.metres(grid, side, expected)
+        return k.depth_posterior(metres, 0.0, 0.0, 1.0, side, side, *expected, margin)
 
     def noise(self, z: float, unit: float) -> float:
         """Of a disparity that is a share of a sample off."""

@@ -169,7 +169,7 @@ def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[
     offset = np.arange(p.scales) - p.scales // 2.0
     total = -p.scale_prior * offset * offset
     if "ranks" in p.cues:
-        total += p.rank_weight * models.size.evidence(k, looks, p.ridge, p.scale_anchor)
+        total += p.rank_weight * models.size.evidence(k, looks, p.ridge)
     if "edges" in p.cues and place.own is not None:
         middle = _centred(place.own, place.right, place.down)
         across, down = (expected * each for each in place.view.size)

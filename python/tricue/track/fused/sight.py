@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """One frame as the experts see it: a picture to read, and how far away its pixels are."""
 
+import math
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, Protocol
 
@@ -28,13 +29,19 @@ class Expected(NamedTuple):
         return max(3 * self.sigma, 0.25)
 
 
+Grid = tuple[float, float, float]  # pixels: x, y of its corner, side of a square
+
+
 class Ranger(Protocol):
     """Measures how far away pixels are."""
 
-    def metres(self, x: float, y: float, unit: float, side: int, around: Expected | None) -> Plane:
-        """(side, side) of the squares of ``unit`` pixels right of x and below y; NaN where nothing is
-        measured. A pair looks for depths round what is expected; None: for all.
-        """
+    def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
+        """(side, side) of the squares of a grid; NaN where nothing is measured. A pair looks for depths round what is expected; None: for all."""
+
+    def posterior(
+        self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float
+    ) -> tuple[Plane, NDArray[np.uint8]]:
+        """(side, side) P(target | depth), and 1 where it is nearer than expected by more than a margin."""
 
     def noise(self, z: float, unit: float) -> float:
         """Metres, standard deviation of one of these at a depth."""
@@ -52,18 +59,16 @@ class Sight:
     ranger: Ranger | None
     expected: Expected | None
 
-    def depths(self, x: float, y: float, unit: float, side: int) -> tuple[Plane, Plane] | None:
+    def depths(self, x: float, y: float, unit: float, side: int) -> tuple[Plane, NDArray[np.uint8]] | None:
         """P(target | depth) of squares of the image, and 1 where something is nearer, else 0; None where
         there is no depth to compare with.
         """
         if self.ranger is None or self.expected is None:
             return None
-        metres = self.ranger.metres(x, y, unit, side, self.expected)
-        own = np.hypot(self.expected.sigma, self.ranger.noise(self.expected.z, unit))
-        bell = np.exp(np.float32(-0.5) * ((metres - np.float32(self.expected.z)) / np.float32(own)) ** 2)
-        share = bell / (bell + np.float32(0.1))
-        nearer = metres < self.expected.z - max(self.expected.margin, 3 * own)
-        return np.where(np.isnan(share), np.float32(0.5), share), nearer.astype(np.float32)
+        noise = self.ranger.noise(self.expected.z, unit)
+        own = math.hypot(self.expected.sigma, noise)
+        margin = max(self.expected.margin, 3 * own)
+        return self.ranger.posterior(self.k, (x, y, unit), side, self.expected._replace(sigma=own), margin)
 
 
 def shades(depth: Plane, z: float) -> Image:

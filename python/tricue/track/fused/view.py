@@ -68,7 +68,7 @@ class View:
         return np.ascontiguousarray(self.patch.reshape(-1, 3).T)[None]
 
     @cached_property
-    def depth(self) -> tuple[Plane, Plane] | None:
+    def depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
         """(64, 64) P(target | depth), 0.5 where there is none, and 1 where something is nearer, else 0."""
         x, y = self.target.x - PIXELS / 2 * self.unit, self.target.y - PIXELS / 2 * self.unit
         return self.sight.depths(x, y, self.unit, PIXELS)

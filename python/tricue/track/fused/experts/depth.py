@@ -51,7 +51,7 @@ def measure(sight: Sight, target: Target, expected: Expected | None) -> Measured
         return None
     side = CENTRAL * target.side if expected is None else max(target.width, target.height)
     unit = side / GRID
-    metres = sight.ranger.metres(target.x - side / 2, target.y - side / 2, unit, GRID, expected)
+    metres = sight.ranger.metres((target.x - side / 2, target.y - side / 2, unit), GRID, expected)
     if expected is None:
         inside = np.isfinite(metres)
         middle = float(np.median(metres[inside])) if inside.any() else math.nan

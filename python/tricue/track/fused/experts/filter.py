@@ -38,10 +38,7 @@ class FilterExpert(NamedTuple):
 
     def evidence(self, view: View) -> Plane:
         """(2, 32, 32): the learnt filter's answer, and the first frame's."""
-        k, p = view.sight.k, self.params
-        return np.stack(
-            [k.correlation_response(view.cells, n, d, p.ridge) for n, d in zip(*self.asked, strict=True)]
-        )
+        return view.sight.k.correlation_response(view.cells, *self.asked, self.params.ridge)
 
     def learnt(self, view: View, rate: float) -> "FilterExpert":
         """With the view, whose middle is the target, blended in."""

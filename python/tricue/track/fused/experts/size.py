@@ -17,6 +17,9 @@ COLORED = np.float32(0.5)  # what the posterior counts for beside a channel's ra
 HALF = np.float32(0.5)
 
 
+Filter = tuple[NDArray[np.complex64], Plane]
+
+
 class Looks(NamedTuple):
     """What S steps of scale show: ranks (S, 3, n) and the filter's channels (S, 4 n), which are ranks and
     posterior.
@@ -29,33 +32,36 @@ class Looks(NamedTuple):
 class SizeExpert(NamedTuple):
     """A correlation filter over scales (Danelljan et al. 2014), on spatial ranks, which light doesn't change
     (Sabeti, Parvizi and Wu 2008).
+
+    learnt, first, asked: numerator (S // 2 + 1, 4 n) and denominator (S // 2 + 1,) of what is learnt, of the
+    first frame's, and of what answers, which is both.
     """
 
-    numerator: NDArray[np.complex64]
-    denominator: NDArray[np.float32]
+    learnt: Filter
+    first: Filter
+    asked: Filter
     label: NDArray[np.complex64]
-    first: tuple[NDArray[np.complex64], NDArray[np.float32]] | None = None
 
     @classmethod
     def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "SizeExpert":
         """Learnt from the first frame."""
         channels = looks.channels.shape[1]
         offset = np.fft.fftfreq(p.scales, 1 / p.scales)
-        label = np.fft.fft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
-        none = np.zeros((p.scales, channels), np.complex64)
-        start = cls(none, np.zeros(p.scales, np.float32), label).learnt(k, looks, 1.0)
-        return start._replace(first=start[:2])
+        label = np.fft.rfft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
+        none = np.zeros((len(label), channels), np.complex64), np.zeros(len(label), np.float32)
+        first = k.scale_train(looks.channels, label, *none, 1.0)
+        return cls(first, first, first, label)
 
-    def evidence(self, k: Kernels, looks: Looks, ridge: float, anchor: float = 0.0) -> Plane:
+    def evidence(self, k: Kernels, looks: Looks, ridge: float) -> Plane:
         """(S,), about 1 at the right one."""
-        now, share = self[:2], np.float32(anchor)
-        asked = [a + share * (b - a) for a, b in zip(now, self.first, strict=True)]
-        return k.scale_response(looks.channels, *asked, ridge)
+        return k.scale_response(looks.channels, *self.asked, ridge)
 
-    def learnt(self, k: Kernels, looks: Looks, rate: float) -> "SizeExpert":
-        """With the looks, the middle one right, blended in."""
-        learnt = k.scale_train(looks.channels, self.label, self.numerator, self.denominator, rate)
-        return SizeExpert(*learnt, self.label, self.first)
+    def blended(self, k: Kernels, looks: Looks, rate: float, anchor: float) -> "SizeExpert":
+        """With the looks, the middle one right, learnt; anchor: share of the first frame's in the answers."""
+        now = k.scale_train(looks.channels, self.label, *self.learnt, rate)
+        share = np.float32(anchor)
+        asked = now[0] + share * (self.first[0] - now[0]), now[1] + share * (self.first[1] - now[1])
+        return SizeExpert(now, self.first, asked, self.label)
 
 
 @lru_cache(maxsize=8)

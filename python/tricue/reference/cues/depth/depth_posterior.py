@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+"""P(target | depth) on a grid of places, and what is before the target."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.checks import refuse
+
+Depth = NDArray[np.float32]
+CLUTTER = 0.1  # the likelihood of any depth where the target isn't; the target's is 1 at the expected one
+
+
+def depth_posterior(
+    depth: Depth,
+    x0: float,
+    y0: float,
+    step: float,
+    rows: int,
+    columns: int,
+    expected: float,
+    sigma: float,
+    near_margin: float,
+) -> tuple[Depth, NDArray[np.uint8]]:
+    """(rows, columns) P(target | z), and (rows, columns) 1 where z is less than expected - near_margin.
+
+    z is the depth of the pixel under the centre of each square, ``step`` pixels wide, of a grid whose top
+    left corner is (x0, y0); pixel (i, j) covers [j, j + 1) x [i, i + 1). Bayes' rule with equal priors:
+    p / (p + c), p = exp(-((z - expected) / sigma)² / 2), c = 0.1. Where nothing is measured, or outside the
+    image, it is 1/2. All in metres but the grid.
+    """
+    _require_arguments(x0, y0, step, rows, columns, expected, sigma, near_margin)
+    posterior, nearer = np.full((rows, columns), 0.5), np.zeros((rows, columns), np.uint8)
+    for i, j in np.ndindex(rows, columns):
+        x, y = x0 + (j + 0.5) * step, y0 + (i + 0.5) * step
+        if not (0 <= x < depth.shape[1] and 0 <= y < depth.shape[0]):
+            continue
+        z = float(depth[int(y), int(x)])
+        if 0 < z < np.inf:
+            likelihood = np.exp(-0.5 * min(abs(z - expected) / sigma, 1e3) ** 2)
+            posterior[i, j] = likelihood / (likelihood + CLUTTER)
+            nearer[i, j] = z < expected - near_margin
+    return posterior.astype(np.float32), nearer
+
+
+def _require_arguments(
+    x0: float,
+    y0: float,
+    step: float,
+    rows: int,
+    columns: int,
+    expected: float,
+    sigma: float,
+    near_margin: float,
+) -> None:
+    for name, number in (("x0", x0), ("y0", y0)):
+        if not np.isfinite(number):
+            refuse(name, "a finite number", float(number))
+    for name, count in (("rows", rows), ("columns", columns)):
+        if count < 1:
+            refuse(name, "at least 1", count)
+    for name, number in (("step", step), ("expected", expected), ("sigma", sigma)):
+        if not 0 < number < np.inf:
+            refuse(name, "a finite number above 0", float(number))
+    if not 0 <= near_margin < np.inf:
+        refuse("near_margin", "a finite number, not negative", float(near_margin))
