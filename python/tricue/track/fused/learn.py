@@ -72,11 +72,11 @@ def first_models(sight: Sight, target: Target, p: FusedParams) -> Models:
     )
 
 
-def learnt(state: State, seen: Seen, sight: Sight, found: Found, p: FusedParams) -> State:
+def learnt(state: State, seen: Seen, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
     """With what was found blended in; its looks only where it was surely recognised, every second frame at
-    twice the rate, which costs half.
+    twice the rate, which costs half. again: it had been lost.
     """
-    state = _ranged(state, seen, sight, found, p)
+    state = _ranged(state, seen, sight, found, again, p)
     if state.score < p.learn_above or state.count % EVERY:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
@@ -94,7 +94,7 @@ def _blended(models: Models, view: View, p: FusedParams) -> Models:
     )
 
 
-def _ranged(state: State, seen: Seen, sight: Sight, found: Found, p: FusedParams) -> State:
+def _ranged(state: State, seen: Seen, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
     """With the depth that was measured in the 3-D filter."""
     if sight.ranger is None:
         return state
@@ -105,6 +105,8 @@ def _ranged(state: State, seen: Seen, sight: Sight, found: Found, p: FusedParams
     if found.measured is None:
         return state
     point, noise = _point(seen, sight, state.target, found.measured)
+    if again:
+        return replace(state, space=Space.start(point, noise, p))
     depth = state.depth.learnt(found.measured, state.target.side * found.measured.z, p.depth_rate)
     return replace(state, depth=depth, space=state.space.corrected(sight.k, point, noise))
 

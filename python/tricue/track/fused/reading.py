@@ -31,7 +31,7 @@ class Seen(NamedTuple):
             return Sight(k, self.color, "color", self.ranger, expected)
         assert self.depth is not None, "a frame has color or depth"
         middle = expected.z if expected else 0.0
-        return Sight(k, shades(self.depth, middle), "depth", self.ranger, expected)
+        return Sight(k, shades(self.depth, middle), "depth", self.ranger, expected, self.depth)
 
 
 def read(

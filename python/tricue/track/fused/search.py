@@ -13,7 +13,7 @@ from tricue.track.fused.experts.flow import Glance, growth
 from tricue.track.fused.experts.size import Looks
 from tricue.track.fused.identity import Marks
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.sight import Plane, Sight
+from tricue.track.fused.sight import Expected, Plane, Sight
 from tricue.track.fused.state import Models
 from tricue.track.fused.view import CELLS, PIXELS, Target, View, look
 
@@ -197,12 +197,30 @@ def beside(sight: Sight, target: Target, context: float) -> list[View]:
 
 
 def elsewhere(known: Known, sight: Sight, target: Target, count: int) -> list[View]:
-    """Windows of the whole frame: where the target's colors are, and some of all, by turns."""
+    """Windows of the whole frame: where the target's colors are, and some of all, by turns. With depth each
+    is as large as the target would be there.
+    """
     by_color = _colored(known, sight, target)
     every = _lattice(sight, target, known.p)
     first = count * BY_TURNS
     by_turns = [every[(first + i) % len(every)] for i in range(min(BY_TURNS, len(every)))]
-    return look(sight, by_color + by_turns, known.p.context)
+    if known.depth is None or sight.ranger is None:
+        return look(sight, by_color + by_turns, known.p.context)
+    views = []
+    for each in by_color + by_turns:
+        views += look(*_there(known, sight, each), known.p.context)
+    return views
+
+
+def _there(known: Known, sight: Sight, target: Target) -> tuple[Sight, list[Target]]:
+    """The target at the depth that a place has, and the frame as seen by one who expects it at that."""
+    measured = measure(sight, target, None)
+    if measured is None or known.depth is None:
+        return sight, [target]
+    low, high = (bound * known.first_side / target.side for bound in known.p.size_range)
+    factor = known.depth.length / (measured.z * target.side)
+    expected = Expected(measured.z, known.depth.relief)
+    return sight.expecting(expected), [target.scaled(min(max(factor, low), high))]
 
 
 def _colored(known: Known, sight: Sight, target: Target) -> list[Target]:

@@ -2,7 +2,7 @@
 """One frame as the experts see it: a picture to read, and how far away its pixels are."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
@@ -50,7 +50,7 @@ class Ranger(Protocol):
 @dataclass(frozen=True, slots=True)
 class Sight:
     """picture: (H, W, 3) BGR, of color, or of depth where there is no color. ranger: None without depth.
-    expected: None where the target's depth isn't known.
+    expected: None where the target's depth isn't known. depth: (H, W) metres, if the picture is made of it.
     """
 
     k: Kernels
@@ -58,6 +58,14 @@ class Sight:
     kind: Kind
     ranger: Ranger | None
     expected: Expected | None
+    depth: Plane | None = None
+
+    def expecting(self, expected: Expected) -> "Sight":
+        """The same frame for one who expects another depth."""
+        picture = self.picture
+        if self.kind == "depth" and self.depth is not None:
+            picture = shades(self.depth, expected.z)
+        return replace(self, picture=picture, expected=expected)
 
     def depths(self, x: float, y: float, unit: float, side: int) -> tuple[Plane, NDArray[np.uint8]] | None:
         """P(target | depth) of squares of the image, and 1 where something is nearer, else 0; None where

@@ -13,6 +13,7 @@ from tricue.track.fused.params import FusedParams
 Floats = NDArray[np.float64]
 
 POSITION = np.eye(3, 6)
+SLOWING = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
 
 class Space(NamedTuple):
@@ -38,6 +39,10 @@ class Space(NamedTuple):
     def uncertainty(self) -> Floats:
         """(3, 3) metres², of the position."""
         return self.covariance[:3, :3].copy()
+
+    def slowed(self) -> "Space":
+        """Coming to rest, as nobody sees where it goes."""
+        return Space(self.mean * SLOWING, self.covariance)
 
     def predicted(self, k: Kernels, seconds: float, p: FusedParams) -> "Space":
         """That much later, by a white acceleration (Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2)."""

@@ -88,9 +88,10 @@ class FusedTracker:
         found = self._near(state, sight)
         if state.missed:
             found = self._anywhere(state, sight, found)
+        again = before.missed >= self.params.lost_after
         state = self._accepted(state, sight, found)
         if state.missed == 0:
-            state = learn.learnt(state, seen, sight, found, self.params)
+            state = learn.learnt(state, seen, sight, found, again, self.params)
         self._state = state
         return self._track(state)
 
@@ -100,7 +101,9 @@ class FusedTracker:
     def _ahead(self, state: State, seen: Seen) -> State:
         """The state when this frame was taken."""
         seconds = lifecycle.elapsed(state.timestamp, seen.timestamp, self.params.rate)
-        space = None if state.space is None else state.space.predicted(self._k, seconds, self.params)
+        space = state.space
+        if space is not None:
+            space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)
         return replace(state, space=space, timestamp=seen.timestamp, count=state.count + 1)
 
     def _near(self, state: State, sight: Sight) -> Found:

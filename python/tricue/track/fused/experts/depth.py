@@ -46,9 +46,13 @@ class Measured(NamedTuple):
 
 
 def measure(sight: Sight, target: Target, expected: Expected | None) -> Measured | None:
-    """The depth of what is in a target's box, near what is expected; without that, of its middle."""
+    """The depth of what is in a target's box, near what is expected; where that is nothing or unsure, of
+    its middle.
+    """
     if sight.ranger is None:
         return None
+    if expected is not None and expected.sigma > REACH:
+        expected = None
     side = CENTRAL * target.side if expected is None else max(target.width, target.height)
     unit = side / GRID
     metres = sight.ranger.metres((target.x - side / 2, target.y - side / 2, unit), GRID, expected)
