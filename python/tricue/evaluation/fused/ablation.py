@@ -76,6 +76,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         todo = robust.tasks(found, options.dataset)
     except (OSError, ValueError) as error:
         made.error(str(error))
+    todo.sort(key=lambda task: -task.participant.entrant.slowness)  # so that all processes end together
     recorded = list(performed(robust.perform, todo, options.jobs))
     scenery = scenes.tasks(found, CHANNELS, options.kinds, options.seeds)
     drawn = [each for several in performed(scene_runs.perform, scenery, options.jobs) for each in several]
