@@ -10,9 +10,10 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.commands.demo_metric import Result, follow_all
+from tricue.commands.demo_metric import Floats, Result, follow_all
+from tricue.commands.outputs import Step
 from tricue.commands.run import steps
-from tricue.draw import OverlayWriter, overlay
+from tricue.draw import Image, OverlayWriter, depth_overlay, overlay
 from tricue.scenes.everything import Scene, everything
 from tricue.track.create import create
 from tricue.track.track import Status
@@ -63,11 +64,17 @@ def _follow(options: Namespace, name: str, scene: Scene, video: OverlayWriter) -
     result = Result(scene)
     for step in steps(tracker, frames, lambda _: Box(*scene.boxes[0].tolist()), result.clock):
         result.tracks.append(step.track)
-        numbers, image = scene.boxes[step.number], step.frame.color
-        assert image is not None
-        truth = Box(*numbers.tolist()) if np.isfinite(numbers).all() else None
-        video.write(overlay(image, step.track, truth=truth, note=f"{name}, frame {step.number}"))
+        video.write(_picture(step, scene.boxes[step.number], f"{name}, frame {step.number}"))
     return result
+
+
+def _picture(step: Step, numbers: Floats, note: str) -> Image:
+    """The overlay, on the depth where there is no color; numbers: the true box, NaN where there is none."""
+    truth = Box(*numbers.tolist()) if np.isfinite(numbers).all() else None
+    if step.frame.color is not None:
+        return overlay(step.frame.color, step.track, truth=truth, note=note)
+    assert step.frame.depth is not None
+    return depth_overlay(step.frame.depth, step.track, truth=truth, note=note)
 
 
 def _table(results: Mapping[str, Result[Scene]]) -> str:
