@@ -2,7 +2,8 @@
 """The fused tracker without each of its cues: ``python -m tricue.evaluation.fused.ablation --jobs 2``.
 
 A row with all cues, one without each, and cv2's CSRT. The first columns are those of ``robust`` on recorded
-color sequences, AUROC too; the last the mean overlap in scenes, as in ``scenes``, by their channels.
+color sequences, AUROC too; the last the mean overlap in scenes, as in ``scenes``, by their channels. The peer
+sees color alone, which is the same in all of them, so that it runs on that once.
 """
 
 import argparse
@@ -44,12 +45,17 @@ def _possible(cues: tuple[str, ...]) -> bool:
     return True
 
 
+def _able(found: Sequence[Participant], channels: str) -> list[Participant]:
+    """Those who see more in a scene than in one of color alone, or all in that."""
+    return [each for each in found if each.entrant.ours or channels == "color"]
+
+
 def lines(
     found: Sequence[Participant],
     recorded: Sequence[robust.Result],
     drawn: Iterable[scene_runs.Followed],
 ) -> list[list[Cell]]:
-    """HEAD for each contestant; the peer sees the color alone in every scene."""
+    """HEAD for each contestant; NaN where it didn't run."""
     by_tracker, groups = robust.by_tracker(recorded), scenes.grouped(drawn)
     made: list[list[Cell]] = []
     for each in (participant.label for participant in found):
@@ -78,7 +84,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         made.error(str(error))
     todo.sort(key=lambda task: -task.participant.entrant.slowness)  # so that all processes end together
     recorded = list(performed(robust.perform, todo, options.jobs))
-    scenery = scenes.tasks(found, CHANNELS, options.kinds, options.seeds)
+    scenery = [
+        task
+        for channels in CHANNELS
+        for task in scenes.tasks(_able(found, channels), (channels,), options.kinds, options.seeds)
+    ]
     drawn = [each for several in performed(scene_runs.perform, scenery, options.jobs) for each in several]
     table = lines(found, recorded, drawn)
     print(markdown(HEAD, table))
