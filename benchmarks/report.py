@@ -163,6 +163,7 @@ def kernel_rows(report: dict[str, Any]) -> Iterator[str]:
 def tracker_rows(scene: Scene) -> Iterator[str]:
     """A line a tracker, in turn over the rounds."""
     makers = {"color-particle": ours(), "color-particle, reference": ours(kernels="reference")}
+    makers["fused"] = partial(tricue.create, "fused")
     makers |= {name: (lambda make=make: make(0)) for name, make in peers.available().items()}
     times: dict[str, list[NDArray[np.float64]]] = {name: [] for name in makers}
     overlap = {}

@@ -47,6 +47,12 @@ def test_the_flow_and_depth_tracker_is_there() -> None:
     assert "FlowDepthTracker" in tricue.__all__
 
 
+def test_the_fused_tracker_is_there() -> None:
+    """It proves that the name of the fused tracker and its class are what users were told."""
+    assert "fused" in registry.names()
+    assert "FusedTracker" in tricue.__all__
+
+
 def test_the_version_stands_in_one_place() -> None:
     """It proves that __version__ is what pyproject.toml says."""
     declared = re.search(r'^version = "(.+)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)

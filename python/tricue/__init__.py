@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tricue.track.color_particle.tracker import ColorParticleTracker
     from tricue.track.depth_particle.tracker import DepthParticleTracker
     from tricue.track.flow_depth.tracker import FlowDepthTracker
+    from tricue.track.fused.tracker import FusedTracker
     from tricue.track.stereo_head.tracker import StereoHeadTracker
 
     __version__: str
@@ -32,6 +33,7 @@ __all__ = [
     "DepthParticleTracker",
     "FlowDepthTracker",
     "Frame",
+    "FusedTracker",
     "Intrinsics",
     "Status",
     "StereoHeadTracker",
@@ -47,6 +49,7 @@ _TRACKERS = {
     "ColorParticleTracker": "color-particle",
     "DepthParticleTracker": "depth-particle",
     "FlowDepthTracker": "flow-depth",
+    "FusedTracker": "fused",
     "StereoHeadTracker": "stereo-head",
 }
 

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from tricue import Intrinsics
 from tricue.cli import main
+from tricue.track import create
 
 MM = ("--depth-scale", "0.001")
 FOV = ("--fov", "60,45")
@@ -264,3 +265,27 @@ def test_real_depth_from_the_command_line(
     assert content["intrinsics"]["fx"] == 567.9
     assert len(content["tracks"]) == 34
     assert content["tracks"][0]["x"] == 0.0  # the first true box's
+
+
+@pytest.mark.parametrize(
+    ("more", "chosen"),
+    [
+        ((), "depth-particle"),
+        (("--detect", "person"), "depth-particle"),
+        (("--box", "10,20,10,30"), "fused"),
+    ],
+)
+def test_the_usual_tracker_can_start(
+    recording: Path,
+    nearest_tracker: str,
+    monkeypatch: pytest.MonkeyPatch,
+    tmp_path: Path,
+    more: tuple[str, ...],
+    chosen: str,
+) -> None:
+    """It proves that where no tracker is chosen it is "fused" from a box on, but in depth without one that
+    which finds people.
+    """
+    monkeypatch.setitem(create._TRACKERS, "fused", create._TRACKERS[nearest_tracker])
+    assert main(["track", str(recording), *MM, *more, "--json", str(tmp_path / "o.json")]) == 0
+    assert json.loads((tmp_path / "o.json").read_text())["tracker"] == chosen

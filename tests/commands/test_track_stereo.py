@@ -41,8 +41,8 @@ class Pair:
 
 @pytest.fixture(autouse=True)
 def pair_tracker(monkeypatch: pytest.MonkeyPatch) -> None:
-    """``--tracker color-particle`` now is that tracker."""
-    monkeypatch.setitem(create._TRACKERS, "color-particle", f"{Pair.__module__}:Pair")
+    """``--tracker fused`` now is that tracker."""
+    monkeypatch.setitem(create._TRACKERS, "fused", f"{Pair.__module__}:Pair")
 
 
 @pytest.fixture
@@ -152,7 +152,7 @@ def test_raw_pairs_are_rectified(pair: list[str], tmp_path: Path, monkeypatch: p
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (["--fov", "60"], "--fov: color-particle needs the pair's baseline too"),
+        (["--fov", "60"], "--fov: fused needs the pair's baseline too"),
         (["--rectify"], "--rectify: expected with --calibration FILE"),
         (["--unit", "0.001"], "--unit: expected with --calibration FILE"),
         (["--calibration", "raw.yml"], "raw.yml: expected P1 and P2 of a rectified rig"),

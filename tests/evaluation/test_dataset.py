@@ -113,6 +113,7 @@ def test_trackers_are_shown_what_they_can_use(tmp_path):
         "depth-particle": (("depth",), ("depth",), "no depth"),
         "stereo-head": ("no stereo pair", "no stereo pair", ("color", "right")),
         "flow-depth": (("color", "depth"), ("depth",), ("color", "right")),
+        "fused": (("color", "depth"), ("depth",), ("color", "right")),
         "still-box": (("color",), ("color",), ("color",)),
     }
     for name, each in expected.items():
@@ -130,7 +131,8 @@ def test_depth_of_another_camera_is_not_taken_for_the_colors(tmp_path):
     """Where the true boxes are in the color image and the depth isn't registered, only color is used."""
     opened = Entry("walk", write_rgbd(tmp_path / "walk", cameras=TWO)).open()
     assert Entrant("depth-particle").refuses(opened) == "no depth"
-    assert Entrant("flow-depth").view(opened)(next(iter(opened.source))).channels == ("color",)
+    for name in ("flow-depth", "fused"):
+        assert Entrant(name).view(opened)(next(iter(opened.source))).channels == ("color",)
 
 
 def test_peers_see_depth_as_a_picture_with_steady_shades(tmp_path):
@@ -206,9 +208,8 @@ def test_all_trackers_of_this_package_and_of_cv2_take_part():
     """Without names everybody does, each once."""
     found = [entrant.name for entrant in entrants(None, {})]
     assert len(set(found)) == len(found)
-    assert {"color-particle", "depth-particle", "stereo-head", "flow-depth", "CamShift", "meanShift"} <= set(
-        found
-    )
+    ours = {"color-particle", "depth-particle", "stereo-head", "flow-depth", "fused"}
+    assert ours | {"CamShift", "meanShift"} <= set(found)
 
 
 @pytest.mark.parametrize(

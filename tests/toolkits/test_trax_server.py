@@ -107,6 +107,7 @@ def talk(
     [
         ("color-particle", {"particles": 50}, ("color",)),
         ("depth-particle", {"particles": 50}, ("depth",)),
+        ("fused", {}, ("color",)),
         ("flow-depth", {}, ("color", "depth")),
         ("flow-depth", {"cues": ("flow",)}, ("color",)),
         ("flow-depth", {"cues": ("disparity",)}, ("depth",)),
@@ -381,7 +382,7 @@ def test_a_calibration_is_that_of_the_camera(images: Path, scene: WalkScene, tmp
     camera = scene.rig.intrinsics
     names = ("fx", "fy", "cx", "cy", "width", "height")
     (tmp_path / "c.toml").write_text("".join(f"{name} = {getattr(camera, name)}\n" for name in names))
-    for tracker in ("depth-particle", "flow-depth"):
+    for tracker in ("depth-particle", "flow-depth", "fused"):
         contestant = Contestant(tracker, calibration=tmp_path / "c.toml")
         frame = frame_of(images, 1, "color", "depth")
         made = contestant.tracker(frame)
@@ -396,5 +397,6 @@ def test_channels_by_default() -> None:
     assert channels_of("color-particle") == ("color",)
     assert channels_of("depth-particle") == ("depth",)
     assert channels_of("flow-depth") == ("color", "depth")
+    assert channels_of("fused") == ("color",)
     with pytest.raises(ValueError, match="right image"):
         channels_of("stereo-head")

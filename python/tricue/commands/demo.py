@@ -2,7 +2,7 @@
 """``tricue demo``: scenes with known truth, tracked; an error table, an overlay video and a plot.
 
 Here are those in color, a face over clutter; commands.demo_depth has those in depth, commands.demo_stereo
-those of a stereo pair, commands.demo_flow_depth those of walkers.
+those of a stereo pair, commands.demo_flow_depth those of walkers, commands.demo_fused that with everything.
 """
 
 from argparse import Namespace
@@ -21,6 +21,7 @@ from tricue.track.create import create
 IN_DEPTH = ("depth-particle",)  # trackers that need depth
 IN_STEREO = ("stereo-head",)  # trackers that need a pair
 OF_WALKERS = ("flow-depth",)  # trackers that need motion and depth
+OF_ALL = ("fused",)  # trackers that take all channels
 LOST = 25.0  # pixels off the true centre, where a face counts as lost
 FPS = 15.0
 FLOOR = 0.1  # pixels, of the logarithmic plot
@@ -50,6 +51,10 @@ def demo(options: Namespace) -> int:
         from tricue.commands.demo_flow_depth import demo_flow_depth
 
         return demo_flow_depth(options)
+    if options.tracker in OF_ALL:
+        from tricue.commands.demo_fused import demo_fused
+
+        return demo_fused(options)
     return _demo_color(options)
 
 

@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 from tricue.commands.progress import Progress
 from tricue.commands.run import Clock
 from tricue.draw import OverlayWriter
+from tricue.evaluation import metrics
 from tricue.evaluation.papers.depth_curves import HALF, HIDDEN
 from tricue.scenes import DepthScene, StereoScene, WalkScene
+from tricue.scenes.everything import Scene
 from tricue.track.track import Status, Track
 
 Floats = NDArray[np.float64]
-S = TypeVar("S", DepthScene, StereoScene, WalkScene)
+S = TypeVar("S", DepthScene, StereoScene, WalkScene, Scene)
 
 
 @dataclass(frozen=True)
@@ -36,8 +38,8 @@ class Result(Generic[S]):
 
     @property
     def overlaps(self) -> Floats:
-        """(M,) with the box round the whole target."""
-        return np.array([t.box.iou(b) for t, b in zip(self.tracks, self.scene.boxes, strict=True)])
+        """(M,) with the box round the whole target; NaN where it has none."""
+        return metrics.overlaps([track.box for track in self.tracks], self.scene.boxes)
 
     @property
     def seen(self) -> NDArray[np.bool_]:

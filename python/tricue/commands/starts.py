@@ -10,9 +10,18 @@ from tricue.camera.sources import Source
 from tricue.commands.run import Start, finds_by_itself
 from tricue.track.create import names
 from tricue.track.track import Tracker
+from tricue.verbs.track import IN_DEPTH, USUAL
 
 BOX, FACE = "give --box x,y,width,height", "--detect face"
-IN_DEPTH = "depth-particle"
+
+
+def usual_tracker(options: Namespace, source: Source) -> str:
+    """The tracker where none is chosen: the one of all channels, but where nothing tells on what to start and
+    depth is there, the one that finds people in it.
+    """
+    told = options.box is not None or options.detect == "face"
+    told = told or (options.detect is None and source.first_box is not None)
+    return IN_DEPTH if "depth" in source.channels and not told else USUAL
 
 
 def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:

@@ -19,7 +19,7 @@ from tricue.commands.calibrations import find_calibration
 from tricue.commands.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.commands.progress import Progress
 from tricue.commands.run import Clock, Start, steps, stoppable
-from tricue.commands.starts import BOX, advice, choose_start
+from tricue.commands.starts import BOX, advice, choose_start, usual_tracker
 from tricue.track.settings import make_tracker
 from tricue.track.track import Status, Track, Tracker
 
@@ -81,6 +81,7 @@ def _prepare(options: Namespace) -> tuple[Run, list[str]]:
         fps=options.fps,
         right=options.right,
     )
+    options.tracker = options.tracker or usual_tracker(options, source)
     right = Path(options.right) if options.right else None
     for place in (Path(options.input), right, options.calibration, options.params):
         _spare_the_input(place, (options.output, options.csv, options.json, options.plot))

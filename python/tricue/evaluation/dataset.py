@@ -79,6 +79,11 @@ class Opened:
     entry: Entry
     source: Source
 
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """Those of its frames."""
+        return tuple(self.source.channels)
+
     @cached_property
     def channel(self) -> str:
         """The channel whose pixels the true boxes count."""

@@ -2,20 +2,19 @@
 """Who takes part: our trackers, on whatever they can see of a sequence, and the installed cv2's."""
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import cv2
 
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.camera.rig import StereoRig
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.draw import depth_picture, depth_range
 from tricue.errors import one_line
 from tricue.evaluation import peers
-from tricue.evaluation.dataset import Opened
 from tricue.evaluation.one_pass import Contender
 from tricue.track.create import names, tracker_class
 from tricue.track.track import Status, Track
@@ -26,6 +25,23 @@ View = Callable[[Frame], Frame]
 WIDEST, NARROWEST = 0.25, 4.0  # disparities of a stereo head's range: of the image's width; pixels
 _SLOWNESS = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
 _STEADY = tuple(name for name in peers.available() if name != "script-pf")  # draw no random numbers
+
+
+class Offer(Protocol):
+    """What a sequence has for trackers, as an ``Opened`` tells it: its channels, the one whose pixels the
+    boxes count, whether depth is registered to color, and its cameras as far as they are known.
+    """
+
+    @property
+    def channels(self) -> Collection[str]: ...
+    @property
+    def channel(self) -> str: ...
+    @property
+    def registered(self) -> bool: ...
+    @property
+    def intrinsics(self) -> Intrinsics | None: ...
+    @property
+    def rig(self) -> StereoRig | None: ...
 
 
 @dataclass(frozen=True)
@@ -43,7 +59,7 @@ class Entrant:
     @property
     def steady(self) -> bool:
         """Whether one run is enough: it draws no random numbers, or, as MIL, none that its users can seed."""
-        return self.name in _STEADY or self.name in ("stereo-head", "flow-depth")
+        return self.name in _STEADY or self.name in ("stereo-head", "flow-depth", "fused")
 
     @property
     def slowness(self) -> float:
@@ -58,9 +74,9 @@ class Entrant:
         params = tracker_class(self.name).Params(**dict(self.settings))
         return json.dumps({"tricue": tricue.__version__, **asdict(params)}, default=str)
 
-    def refuses(self, opened: Opened) -> str:
+    def refuses(self, opened: Offer) -> str:
         """Why it can't run on a sequence, "" where it can."""
-        channels, depth = opened.source.channels, opened.channel == "depth"
+        channels, depth = opened.channels, opened.channel == "depth"
         if self.name == "stereo-head":
             return "" if "right" in channels else "no stereo pair"
         if self.name == "depth-particle":
@@ -69,7 +85,7 @@ class Entrant:
             return "boxes of the depth image" if depth else ""
         return ""
 
-    def contender(self, opened: Opened, seed: int) -> "Guarded":
+    def contender(self, opened: Offer, seed: int) -> "Guarded":
         """The tracker for a sequence, with its cameras."""
         peers.seed(seed)
         if not self.ours:
@@ -77,7 +93,7 @@ class Entrant:
         keywords = _FITTED[self.name](opened)[0] | dict(self.settings)
         return Guarded(tricue.create(self.name, seed=seed, **keywords))
 
-    def view(self, opened: Opened) -> View:
+    def view(self, opened: Offer) -> View:
         """What the tracker is shown: the channels that it can use. The peers see depth as a picture where the
         true boxes are in it.
         """
@@ -150,22 +166,22 @@ def _check(entrant: Entrant) -> None:
 Fitted = tuple[dict[str, Any], View]  # keywords for the tracker, and what it is shown
 
 
-def _color_particle(opened: Opened) -> Fitted:
+def _color_particle(opened: Offer) -> Fitted:
     return {}, _color
 
 
-def _depth_particle(opened: Opened) -> Fitted:
+def _depth_particle(opened: Offer) -> Fitted:
     return {"intrinsics": opened.intrinsics}, _depth
 
 
-def _stereo_head(opened: Opened) -> Fitted:
+def _stereo_head(opened: Offer) -> Fitted:
     rig = opened.rig
     return ({} if rig is None else {"rig": rig, **_range(rig)}), _pair
 
 
-def _flow_depth(opened: Opened) -> Fitted:
+def _flow_depth(opened: Offer) -> Fitted:
     """Both cues where there is a pair, or depth that belongs to the color; else the one that there is."""
-    channels = opened.source.channels
+    channels = opened.channels
     if "right" in channels:
         return {"rig": opened.rig}, _pair
     if opened.channel == "depth":
@@ -175,17 +191,30 @@ def _flow_depth(opened: Opened) -> Fitted:
     return {"cues": ("flow",)}, _color
 
 
+def _fused(opened: Offer) -> Fitted:
+    """All that belongs together: the pair, color with registered depth, or the one of both that there is."""
+    channels = opened.channels
+    if "right" in channels:
+        return {"rig": opened.rig}, _pair
+    if opened.channel == "depth":
+        return {"intrinsics": opened.intrinsics}, _depth
+    if "depth" in channels and opened.registered:
+        return {"intrinsics": opened.intrinsics}, _whole
+    return {}, _color
+
+
 def _range(rig: StereoRig) -> dict[str, float]:
     """Between which distances a target is looked for: where a pair's disparity is WIDEST and NARROWEST."""
     product = rig.intrinsics.fx * rig.baseline
     return {"near": product / (WIDEST * rig.intrinsics.width), "far": product / NARROWEST}
 
 
-_FITTED: dict[str, Callable[[Opened], Fitted]] = {
+_FITTED: dict[str, Callable[[Offer], Fitted]] = {
     "color-particle": _color_particle,
     "depth-particle": _depth_particle,
     "stereo-head": _stereo_head,
     "flow-depth": _flow_depth,
+    "fused": _fused,
 }
 
 

@@ -68,8 +68,11 @@ class Contestant:
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """Those that the tracker needs: color, depth or both."""
-        return channels_of(self.name, tracker_class(self.name).Params(**self.values))
+        """Those that the tracker needs: color, depth or both; of fused, which needs no depth but uses it,
+        both where the depth camera is known.
+        """
+        needed = channels_of(self.name, tracker_class(self.name).Params(**self.values))
+        return ("color", "depth") if self.name == "fused" and self.calibration is not None else needed
 
     def tracker(self, frame: Frame) -> Tracker:
         """A new tracker for a camera of the frame's size."""

@@ -10,6 +10,7 @@ _TRACKERS = {
     "color-particle": "tricue.track.color_particle.tracker:ColorParticleTracker",
     "depth-particle": "tricue.track.depth_particle.tracker:DepthParticleTracker",
     "flow-depth": "tricue.track.flow_depth.tracker:FlowDepthTracker",
+    "fused": "tricue.track.fused.tracker:FusedTracker",
     "stereo-head": "tricue.track.stereo_head.tracker:StereoHeadTracker",
 }
 

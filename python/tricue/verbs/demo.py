@@ -13,6 +13,7 @@ examples:
   tricue demo depth-particle                                  people before a depth camera, in metres
   tricue demo stereo-head                                     a head before a stereo pair, in metres
   tricue demo flow-depth                                      a walker who is overtaken, before a panning pair
+  tricue demo fused                                           a target in all troubles, before three cameras
   tricue demo color-particle --kernels reference --output here
 """
 

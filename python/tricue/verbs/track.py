@@ -7,12 +7,13 @@ from pathlib import Path
 from tricue.track.create import names
 from tricue.verbs.verb import Verb, add_common, angles, box
 
+USUAL, IN_DEPTH = "fused", "depth-particle"  # trackers where none is chosen
 EXAMPLES = """\
 examples:
   tricue track video.mp4 --box 120,80,64,78 --output overlay.mp4 --csv track.csv
   tricue track 0 --detect face --output overlay.mp4           the first camera, until Ctrl-C
   tricue track sequences/David --json track.json              starts on the sequence's first true box
-  tricue track images/ --box 10,20,30,40 --set particles=300 --seed 7
+  tricue track images/ --box 10,20,30,40 --tracker color-particle --set particles=300 --seed 7
   tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
@@ -29,7 +30,11 @@ def add_options(verb: argparse.ArgumentParser) -> None:
     verb.add_argument(
         "input", metavar="INPUT", help="video file, folder of images, sequence folder, camera number"
     )
-    verb.add_argument("--tracker", default=names()[0], choices=names(), help="default %(default)s")
+    verb.add_argument(
+        "--tracker",
+        choices=names(),
+        help=f"default {USUAL}; {IN_DEPTH} where there is depth and nothing tells where to start",
+    )
     start = verb.add_mutually_exclusive_group()
     start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
     start.add_argument(

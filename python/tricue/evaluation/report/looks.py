@@ -2,7 +2,7 @@
 """How trackers look, the same in tables, plots and pictures: ours in solid lines, the peers in broken ones.
 
 Okabe and Ito's colors, which color-blind readers can tell apart, those too light for a contrast of 3 on white
-darkened, and a violet and a gray for black and yellow.
+darkened, and a violet and a gray for yellow.
 """
 
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from typing import NamedTuple
 from tricue.evaluation.entrants import Entrant
 from tricue.evaluation.report.markup import Html, tag
 
-_OURS = ("#0072B2", "#D55E00", "#009E73", "#C2649A")
+_OURS = ("#0072B2", "#D55E00", "#009E73", "#C2649A", "#000000")
 _PEERS = ("#5E3C99", "#B07800", "#2F97D4", "#767676")
 _DASHES = ("6 3", "2 2", "8 2 2 2")
 
@@ -25,7 +25,7 @@ class Look(NamedTuple):
 
 
 def looks(entrants: Sequence[Entrant]) -> dict[str, Look]:
-    """The look of each entrant, by name; no two are the same among 4 trackers of ours and 12 peers."""
+    """The look of each entrant, by name; no two are the same among 5 trackers of ours and 12 peers."""
     ours = [each.name for each in entrants if each.ours]
     peers = [each.name for each in entrants if not each.ours]
     found = {name: Look(_OURS[i % len(_OURS)], "", 2.4) for i, name in enumerate(ours)}

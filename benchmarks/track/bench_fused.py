@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: MIT
+"""The fused tracker, one whole update a frame: by channels, native and reference, and cv2's on the color."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+import tricue
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.evaluation import metrics, peers
+from tricue.scenes.everything import Scene, everything
+
+SEES = ("color", "color and depth", "pair")
+CHANNELS = {"color and depth": "rgbd", "pair": "stereo"}
+PEERS = {name: make for name, make in peers.available().items() if name in ("CSRT", "KCF", "MedianFlow")}
+FRAMES = {"reference": 8}  # of those that take long
+USUAL = 60
+
+
+@cache
+def scene(channels: str) -> Scene:
+    """A target that comes or goes, its size changing 1:2 in these frames; made before any clock starts."""
+    pytest.importorskip("skimage", reason="needs scikit-image: pip install tricue[demo]")
+    return everything("scale", seed=0, channels=channels)
+
+
+def scene_of(name: str) -> Scene:
+    """What a tracker sees; the frames' color is the same in all."""
+    return scene(CHANNELS.get(name, "color"))
+
+
+def seen(name: str) -> list[Frame]:
+    """The frames for a tracker."""
+    return list(scene_of(name).frames[: FRAMES.get(name, USUAL)])
+
+
+def maker(name: str) -> Callable[[], Any]:
+    """How to make the tracker."""
+    if name in PEERS:
+        return lambda: PEERS[name](0)
+    camera: dict[str, Any] = {"rig": scene_of(name).rig} if name == "pair" else {}
+    if name == "color and depth":
+        camera["intrinsics"] = scene_of(name).intrinsics
+    kernels = "reference" if name == "reference" else "native"
+    return lambda: tricue.create("fused", kernels=kernels, **camera)
+
+
+@pytest.mark.benchmark(group="fused, 320x240, one update")
+@pytest.mark.parametrize("name", [*SEES, "reference", *PEERS])
+def bench_fused(benchmark: Any, name: str) -> None:
+    """A round is a frame; init is left out. Both sets of kernels give one track, within a tenth of a pixel: a
+    sample that is rounded to another level of 255 changes what is learnt.
+    """
+    boxes = []
+    tracker = maker(name)()
+    tracker.init(seen(name)[0], Box(*scene_of(name).boxes[0].tolist()))
+    feed = iter(seen(name)[1:])
+    benchmark.pedantic(
+        lambda frame: boxes.append(tracker.update(frame).box),
+        setup=lambda: ((next(feed),), {}),
+        rounds=len(seen(name)) - 1,
+    )
+    truth = scene_of(name).boxes[1 : 1 + len(boxes)]
+    benchmark.extra_info["overlap above 0.5"] = float(np.mean(metrics.overlaps(np.array(boxes), truth) > 0.5))
+    if name == "reference":
+        assert np.abs(np.array(boxes) - native_track()[: len(boxes)]).max() < 0.1
+
+
+def native_track() -> Any:
+    """The native track's boxes after the first frame, on color alone as the reference's."""
+    tracker = maker("color")()
+    tracker.init(seen("color")[0], Box(*scene("color").boxes[0].tolist()))
+    return np.array([tracker.update(frame).box for frame in seen("color")[1:]])
