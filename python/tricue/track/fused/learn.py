@@ -89,7 +89,7 @@ def _blended(models: Models, view: View, p: FusedParams) -> Models:
     return models._replace(
         filter=models.filter.learnt(view, filter_rate),
         color=models.color.learnt(view, EVERY * p.color_rate),
-        size=models.size.blended(sight.k, looks, filter_rate, p.scale_anchor),
+        size=models.size.learnt(sight.k, looks, filter_rate),
         identity=models.identity.learnt(looks.ranks[p.scales // 2], filter_rate),
     )
 

@@ -85,6 +85,9 @@ class FusedParams(Params):
     lost_after: int = parameter(
         3, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
     )
+    reach: float = parameter(
+        0.5, unit="target per frame", source=OURS, above=0, doc="standard deviation of where a lost target is"
+    )
     found_above: float = parameter(
         0.7, unit="score", source=OURS, low=0, high=1, doc="of something far away, to be taken for the target"
     )

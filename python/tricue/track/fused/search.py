@@ -6,12 +6,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.fused.experts import posterior, size
-from tricue.track.fused.experts.color import ColorExpert
+from tricue.track.fused.experts import PixelExpert, posterior, size
 from tricue.track.fused.experts.depth import DepthExpert, Measured, measure
 from tricue.track.fused.experts.flow import Glance, growth
 from tricue.track.fused.experts.size import Looks
-from tricue.track.fused.identity import Marks
+from tricue.track.fused.identity import Marks, probability
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.sight import Expected, Plane, Sight
 from tricue.track.fused.state import Models
@@ -65,10 +64,12 @@ class Found(NamedTuple):
     hidden: float
     glance: Glance | None
 
+    log_odds: float  # of its being the target
+
     @property
-    def log_odds(self) -> float:
-        """Of its being the target."""
-        return self.marks.log_odds
+    def score(self) -> float:
+        """Probability of its being the target."""
+        return probability(self.log_odds)
 
 
 def best_place(known: Known, view: View) -> Place:
@@ -99,8 +100,8 @@ def best_place(known: Known, view: View) -> Place:
     )
 
 
-def _pixel_experts(known: Known) -> list[ColorExpert | DepthExpert]:
-    experts = [known.models.color] if "color" in known.p.cues else []
+def _pixel_experts(known: Known) -> list[PixelExpert]:
+    experts: list[PixelExpert] = [known.models.color] if "color" in known.p.cues else []
     return [*experts, known.depth] if known.depth is not None else experts
 
 
@@ -138,7 +139,9 @@ def examine(known: Known, place: Place) -> Found:
         depth=at_depth,
     )
     target = place.target.scaled(min(max(factor, low), high))
-    return Found(target, marks, place.answers[0], measured, hidden, glance)
+    return Found(
+        target, marks, place.answers[0], measured, hidden, glance, marks.log_odds(_channels(known, view))
+    )
 
 
 def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Glance | None) -> float:
@@ -152,6 +155,12 @@ def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Gla
     else:
         return 1.0
     return min(max(grown, 1 / LEAP), LEAP)
+
+
+def _channels(known: Known, view: View) -> str:
+    if view.sight.kind == "depth":
+        return "depth"
+    return "color" if known.depth is None or view.depth is None else "both"
 
 
 def _depths(place: Place) -> tuple[float, float]:
@@ -169,7 +178,7 @@ def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[
     offset = np.arange(p.scales) - p.scales // 2.0
     total = -p.scale_prior * offset * offset
     if "ranks" in p.cues:
-        total += p.rank_weight * models.size.evidence(k, looks, p.ridge)
+        total += p.rank_weight * models.size.evidence(k, looks)
     if "edges" in p.cues and place.own is not None:
         middle = _centred(place.own, place.right, place.down)
         across, down = (expected * each for each in place.view.size)

@@ -36,7 +36,9 @@ class Ranger(Protocol):
     """Measures how far away pixels are."""
 
     def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
-        """(side, side) of the squares of a grid; NaN where nothing is measured. A pair looks for depths round what is expected; None: for all."""
+        """(side, side) of the squares of a grid; NaN where nothing is measured. Of a pair only depths round
+        the expected one are found; of None, all.
+        """
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float

@@ -33,12 +33,12 @@ class Space(NamedTuple):
     @property
     def position(self) -> Floats:
         """(3,) metres."""
-        return self.mean[:3].copy()
+        return np.array(self.mean[:3])
 
     @property
     def uncertainty(self) -> Floats:
         """(3, 3) metres², of the position."""
-        return self.covariance[:3, :3].copy()
+        return np.array(self.covariance[:3, :3])
 
     def slowed(self) -> "Space":
         """Coming to rest, as nobody sees where it goes."""

@@ -121,10 +121,16 @@ class FusedTracker:
         p, known = self.params, self._known(state, sight)
         views = elsewhere(known, sight, state.target, state.count)
         places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
-        others = [examine(known, place) for place in places[: p.candidates]]
+        others = [self._unlikely(state, examine(known, place)) for place in places[: p.candidates]]
         best = max(others, key=lambda each: each.log_odds)
-        sure = best.marks.score >= p.found_above
+        sure = best.score >= p.found_above
         return best if sure and best.log_odds > near.log_odds else near
+
+    def _unlikely(self, state: State, found: Found) -> Found:
+        """What was found, less sure the farther it is from where the target can be by now."""
+        reach = state.target.side * (self.params.reach * (1 + state.missed))
+        far = math.hypot(found.target.x - state.target.x, found.target.y - state.target.y) / reach
+        return found._replace(log_odds=found.log_odds - 0.5 * far * far)
 
     def _places(self, known: Known, views: list[View], guess: Target) -> list[Place]:
         """The best of each view, by evidence less what its distance from the guess takes off."""
@@ -139,7 +145,7 @@ class FusedTracker:
     def _accepted(self, state: State, sight: Sight, found: Found) -> State:
         """Make what was found the state; what is surely something else only counts as missed."""
         p = self.params
-        score = found.marks.score
+        score = found.score
         hidden = found.hidden > p.hidden_above
         state = replace(state, marks=found.marks, score=score, hidden=hidden, glance=None)
         if score < p.hopeless or hidden:

@@ -11,20 +11,19 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.sight import Plane
 from tricue.track.fused.view import CELLS, View
 
-Numerators = NDArray[np.complex64]
+Filter = tuple[NDArray[np.complex64], Plane]  # numerator and denominator
 
 
 class FilterExpert(NamedTuple):
     """A filter on orientations and colors (Danelljan et al. 2014, Bolme et al. 2010).
 
-    numerator (11, 32, 17), denominator (32, 17): what is learnt. asked: the filters that answer, stacked,
-    (2, 11, 32, 17) and (2, 32, 17): what is learnt with a tenth of the first frame's, and that alone.
+    model: numerator (11, 32, 17) and denominator (32, 17), as they are learnt. asked: the two that answer,
+    stacked: the model with a share of the first frame's, and the first frame's alone.
     """
 
-    numerator: Numerators
-    denominator: Plane
-    asked: tuple[Numerators, Plane]
-    label: Numerators
+    model: Filter
+    asked: Filter
+    label: NDArray[np.complex64]
     params: FusedParams
 
     @classmethod
@@ -34,7 +33,7 @@ class FilterExpert(NamedTuple):
         none = np.zeros((len(view.cells), *label.shape), np.complex64), np.zeros(label.shape, np.float32)
         focus = focus_of(view.size, p.focus)
         first = view.sight.k.correlation_train(view.cells, focus, label, *none, 1.0, p.background)
-        return cls(*first, _stacked(first, first), label, p)
+        return cls(first, _stacked(first, first), label, p)
 
     def evidence(self, view: View) -> Plane:
         """(2, 32, 32): the learnt filter's answer, and the first frame's."""
@@ -44,17 +43,19 @@ class FilterExpert(NamedTuple):
         """With the view, whose middle is the target, blended in."""
         p = self.params
         focus = focus_of(view.size, p.focus)
-        past = self.numerator, self.denominator
-        now = view.sight.k.correlation_train(view.cells, focus, self.label, *past, rate, p.background)
+        now = view.sight.k.correlation_train(view.cells, focus, self.label, *self.model, rate, p.background)
         first = self.asked[0][1], self.asked[1][1]
-        share = np.float32(p.anchor)
-        blended = tuple(a + share * (b - a) for a, b in zip(now, first, strict=True))
-        return FilterExpert(*now, _stacked(blended, first), self.label, p)
+        return FilterExpert(now, _stacked(mixed(now, first, p.anchor), first), self.label, p)
 
 
-def _stacked(learnt: tuple[Plane, ...], first: tuple[Plane, ...]) -> tuple[Numerators, Plane]:
-    both = [np.stack(pair) for pair in zip(learnt, first, strict=True)]
-    return both[0], both[1]
+def mixed(model: Filter, first: Filter, share: float) -> Filter:
+    """A model with a share of the first frame's, against forgetting."""
+    part = np.float32(share)
+    return model[0] + part * (first[0] - model[0]), model[1] + part * (first[1] - model[1])
+
+
+def _stacked(learnt: Filter, first: Filter) -> Filter:
+    return np.stack([learnt[0], first[0]]), np.stack([learnt[1], first[1]])
 
 
 @lru_cache(maxsize=64)

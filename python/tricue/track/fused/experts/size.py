@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.fused.experts.filter import Filter, mixed
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.sight import Plane, Sight
 from tricue.track.fused.view import Target
@@ -15,9 +16,6 @@ from tricue.track.fused.view import Target
 GRID = 12  # samples a side
 COLORED = np.float32(0.5)  # what the posterior counts for beside a channel's ranks
 HALF = np.float32(0.5)
-
-
-Filter = tuple[NDArray[np.complex64], Plane]
 
 
 class Looks(NamedTuple):
@@ -33,14 +31,15 @@ class SizeExpert(NamedTuple):
     """A correlation filter over scales (Danelljan et al. 2014), on spatial ranks, which light doesn't change
     (Sabeti, Parvizi and Wu 2008).
 
-    learnt, first, asked: numerator (S // 2 + 1, 4 n) and denominator (S // 2 + 1,) of what is learnt, of the
-    first frame's, and of what answers, which is both.
+    model, first, asked: numerator (S // 2 + 1, 4 n) and denominator (S // 2 + 1,), as they are learnt, of the
+    first frame, and of both, which answer.
     """
 
-    learnt: Filter
+    model: Filter
     first: Filter
     asked: Filter
     label: NDArray[np.complex64]
+    params: FusedParams
 
     @classmethod
     def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "SizeExpert":
@@ -50,18 +49,17 @@ class SizeExpert(NamedTuple):
         label = np.fft.rfft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
         none = np.zeros((len(label), channels), np.complex64), np.zeros(len(label), np.float32)
         first = k.scale_train(looks.channels, label, *none, 1.0)
-        return cls(first, first, first, label)
+        return cls(first, first, first, label, p)
 
-    def evidence(self, k: Kernels, looks: Looks, ridge: float) -> Plane:
+    def evidence(self, k: Kernels, looks: Looks) -> Plane:
         """(S,), about 1 at the right one."""
-        return k.scale_response(looks.channels, *self.asked, ridge)
+        return k.scale_response(looks.channels, *self.asked, self.params.ridge)
 
-    def blended(self, k: Kernels, looks: Looks, rate: float, anchor: float) -> "SizeExpert":
-        """With the looks, the middle one right, learnt; anchor: share of the first frame's in the answers."""
-        now = k.scale_train(looks.channels, self.label, *self.learnt, rate)
-        share = np.float32(anchor)
-        asked = now[0] + share * (self.first[0] - now[0]), now[1] + share * (self.first[1] - now[1])
-        return SizeExpert(now, self.first, asked, self.label)
+    def learnt(self, k: Kernels, looks: Looks, rate: float) -> "SizeExpert":
+        """With the looks, the middle one right, blended in."""
+        now = k.scale_train(looks.channels, self.label, *self.model, rate)
+        asked = mixed(now, self.first, self.params.scale_anchor)
+        return SizeExpert(now, self.first, asked, self.label, self.params)
 
 
 @lru_cache(maxsize=8)
