@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "check.hpp"
@@ -34,18 +35,23 @@ struct Axis {
     std::vector<Sample> samples;
     int readings;    ///< of each sample
     int pixels = 0;  ///< that each sample has at most, rounded up to pairs
+
+    int first() const { return samples.front().pixels[0]; }
+    int last() const { return *std::max_element(samples.back().pixels, samples.back().pixels + kMostPixels); }
 };
 
 Axis find_samples(double start, double length, int count, int size) {
     const double step = length / count;
     Axis axis{std::vector<Sample>(static_cast<std::size_t>(count)),
               static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMostReadings}))};
-    for (int i = 0; i < count; ++i) {
-        Sample& sample = axis.samples[static_cast<std::size_t>(i)];
+    const int readings = axis.readings;
+    const double apart = step / readings, most = size - 1.0;
+    int reading = 0;
+    for (Sample& sample : axis.samples) {
         int used = 0;
-        for (int j = 0; j < axis.readings; ++j) {
-            const double place = start + (i * axis.readings + j + 0.5) * (step / axis.readings) - 0.5;
-            const double inside = std::min(std::max(place, 0.0), size - 1.0);
+        for (int j = 0; j < readings; ++j, ++reading) {
+            const double place = start + (reading + 0.5) * apart - 0.5;
+            const double inside = std::min(std::max(place, 0.0), most);
             const int fixed = static_cast<int>(inside * kUnit + 0.5), low = fixed / kUnit;
             sample.add(low, kUnit - fixed % kUnit, &used);
             sample.add(std::min(low + 1, size - 1), fixed % kUnit, &used);
@@ -74,14 +80,14 @@ void widen(const std::uint16_t* __restrict sums, int n, float* __restrict blend)
     for (int x = 0; x < n; ++x) blend[x] = sums[x];
 }
 
-/// `blend` begins at pixel `left` and has a number more than its pixels, `sums` one more than 3 a sample.
+/// `blend` begins at the first pixel and has a number more than its pixels, `sums` one more than 3 a sample.
 TRICUE_MULTIVERSION
-void add_columns(const Sample* samples, int count, int pixels, const float* blend, int left, float* sums) {
+void add_columns(const Sample* samples, int count, int pixels, const float* blend, float* sums) {
     for (int i = 0; i < count; ++i) {
         Four sum = {0, 0, 0, 0};
         for (int k = 0; k < pixels; ++k) {
             Four color;
-            __builtin_memcpy(&color, blend + 3 * (samples[i].pixels[k] - left), sizeof color);
+            __builtin_memcpy(&color, blend + samples[i].pixels[k], sizeof color);
             sum += color * samples[i].weights[k];
         }
         __builtin_memcpy(sums + 3 * i, &sum, sizeof sum);
@@ -95,12 +101,12 @@ void divide(const float* __restrict sums, float whole, int n, std::uint8_t* __re
         bytes[x] = static_cast<std::uint8_t>(static_cast<int>(sums[x] / whole + 0.5F));
 }
 
-void sample_window(const ImageView& image, const Axis& down, const Axis& across, std::uint8_t* bytes) {
-    const auto& columns = across.samples;
-    const int left = columns.front().pixels[0];
-    int right = left;
-    for (const int pixel : columns.back().pixels) right = std::max(right, pixel);
-    const int width = 3 * (right + 1 - left), count = static_cast<int>(columns.size());
+void sample_window(const ImageView& image, const Axis& down, Axis across, std::uint8_t* bytes) {
+    const int left = across.first(), width = 3 * (across.last() + 1 - left);
+    auto& columns = across.samples;
+    const int count = static_cast<int>(columns.size());
+    for (Sample& column : columns)
+        for (int& pixel : column.pixels) pixel = 3 * (pixel - left);  // where in a row of numbers
     std::vector<std::uint16_t> sums(static_cast<std::size_t>(width));
     std::vector<float> blend(sums.size() + 1), row(3 * columns.size() + 1);
     const auto whole = static_cast<float>(down.readings * across.readings * kUnit * kUnit);
@@ -109,7 +115,7 @@ void sample_window(const ImageView& image, const Axis& down, const Axis& across,
             add_rows(image.row(sample.pixels[k]) + 3 * left, image.row(sample.pixels[k + 1]) + 3 * left,
                      sample.share(k), sample.share(k + 1), k == 0, width, sums.data());
         widen(sums.data(), width, blend.data());
-        add_columns(columns.data(), count, across.pixels, blend.data(), left, row.data());
+        add_columns(columns.data(), count, across.pixels, blend.data(), row.data());
         divide(row.data(), whole, 3 * count, bytes);
         bytes += 3 * count;
     }
@@ -133,9 +139,9 @@ WindowBytes sample_windows(const ImageView& image, StatesRef windows, int rows, 
     const Eigen::Index each = Eigen::Index{3} * rows * columns;
     WindowBytes samples(windows.rows() * each);
     for (Eigen::Index i = 0; i < windows.rows(); ++i) {
-        const Axis across = find_samples(windows(i, 0), windows(i, 2), columns, image.cols);
+        Axis across = find_samples(windows(i, 0), windows(i, 2), columns, image.cols);
         const Axis down = find_samples(windows(i, 1), windows(i, 3), rows, image.rows);
-        sample_window(image, down, across, samples.data() + i * each);
+        sample_window(image, down, std::move(across), samples.data() + i * each);
     }
     return samples;
 }
