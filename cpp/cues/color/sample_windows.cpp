@@ -28,7 +28,6 @@ struct Sample {
         if (*count == 0 || pixels[*count - 1] != pixel) pixels[(*count)++] = pixel;
         weights[*count - 1] += static_cast<float>(weight);
     }
-    std::uint16_t share(int k) const { return static_cast<std::uint16_t>(weights[k]); }
 };
 
 struct Axis {
@@ -62,22 +61,35 @@ Axis find_samples(double start, double length, int count, int size) {
     return axis;
 }
 
-/// Two rows of n bytes more in a blend of rows: at most 255 times the sum of weights, 4 kUnit, so it fits.
-TRICUE_MULTIVERSION
-void add_rows(const std::uint8_t* __restrict one, const std::uint8_t* __restrict two, std::uint16_t share_one,
-              std::uint16_t share_two, bool first, int n, std::uint16_t* __restrict sums) {
-    if (first) {
-        for (int x = 0; x < n; ++x)
-            sums[x] = static_cast<std::uint16_t>(one[x] * share_one + two[x] * share_two);
-    } else {
-        for (int x = 0; x < n; ++x)
-            sums[x] = static_cast<std::uint16_t>(sums[x] + one[x] * share_one + two[x] * share_two);
+/// Rows of bytes and how much of each is in a blend of them.
+struct Rows {
+    const std::uint8_t* bytes[kMostPixels];
+    std::uint16_t shares[kMostPixels];
+};
+
+/// A sum is at most 255 times that of the shares, 4 kUnit, so 16 bits hold it.
+template <int kRows>
+inline void blend_all(const Rows& rows, int n, float* blend) {
+    const Rows own = rows;
+    TRICUE_INDEPENDENT
+    for (int x = 0; x < n; ++x) {
+        std::uint16_t sum = 0;
+        for (int k = 0; k < kRows; ++k)
+            sum = static_cast<std::uint16_t>(sum + own.bytes[k][x] * own.shares[k]);
+        blend[x] = sum;
     }
 }
 
 TRICUE_MULTIVERSION
-void widen(const std::uint16_t* __restrict sums, int n, float* __restrict blend) {
-    for (int x = 0; x < n; ++x) blend[x] = sums[x];
+void blend_rows(const Rows& rows, int count, int n, float* blend) {
+    if (count == 2)
+        blend_all<2>(rows, n, blend);
+    else if (count == 4)
+        blend_all<4>(rows, n, blend);
+    else if (count == 6)
+        blend_all<6>(rows, n, blend);
+    else
+        blend_all<kMostPixels>(rows, n, blend);
 }
 
 /// `blend` begins at the first pixel and has a number more than its pixels, `sums` one more than 3 a sample.
@@ -107,14 +119,15 @@ void sample_window(const ImageView& image, const Axis& down, Axis across, std::u
     const int count = static_cast<int>(columns.size());
     for (Sample& column : columns)
         for (int& pixel : column.pixels) pixel = 3 * (pixel - left);  // where in a row of numbers
-    std::vector<std::uint16_t> sums(static_cast<std::size_t>(width));
-    std::vector<float> blend(sums.size() + 1), row(3 * columns.size() + 1);
+    std::vector<float> blend(static_cast<std::size_t>(width) + 1), row(3 * columns.size() + 1);
     const auto whole = static_cast<float>(down.readings * across.readings * kUnit * kUnit);
     for (const Sample& sample : down.samples) {
-        for (int k = 0; k < down.pixels; k += 2)
-            add_rows(image.row(sample.pixels[k]) + 3 * left, image.row(sample.pixels[k + 1]) + 3 * left,
-                     sample.share(k), sample.share(k + 1), k == 0, width, sums.data());
-        widen(sums.data(), width, blend.data());
+        Rows rows;
+        for (int k = 0; k < kMostPixels; ++k) {
+            rows.bytes[k] = image.row(sample.pixels[k]) + 3 * left;
+            rows.shares[k] = static_cast<std::uint16_t>(sample.weights[k]);
+        }
+        blend_rows(rows, down.pixels, width, blend.data());
         add_columns(columns.data(), count, across.pixels, blend.data(), row.data());
         divide(row.data(), whole, 3 * count, bytes);
         bytes += 3 * count;
