@@ -11,23 +11,35 @@
 namespace tricue {
 namespace {
 
-/// Sums over boxes of one size at all places.
-States box_sums(CoveredSums& sums, int rows, int cols, double width, double height) {
-    States found(rows, cols);
-    std::vector<CoveredSpan> across;
-    across.reserve(static_cast<std::size_t>(cols));
-    for (int j = 0; j < cols; ++j) {
-        const double x = cols + 2.0 * (j - cols / 2);
-        across.push_back(sums.across(x - width / 2, x + width / 2));
-    }
-    for (int i = 0; i < rows; ++i) {
-        const double y = rows + 2.0 * (i - rows / 2);
-        sums.take_rows(y - height / 2, y + height / 2);
-        double* row = &found(i, 0);
-        for (const CoveredSpan& span : across) *row++ = sums.columns(span);
-    }
-    return found;
+/// Of the i-th of `count` boxes along an axis.
+double center(int i, int count) {
+    return count + 2.0 * (i - count / 2);
 }
+
+/// What boxes of one size add up.
+class Boxes {
+public:
+    Boxes(CoveredSums& sums, int cols, double width, double height)
+        : sums_(sums), height_(height), found_(cols) {
+        across_.reserve(static_cast<std::size_t>(cols));
+        for (int j = 0; j < cols; ++j)
+            across_.push_back(sums.across(center(j, cols) - width / 2, center(j, cols) + width / 2));
+    }
+
+    /// Of a row of boxes with their centres at `y`.
+    const Eigen::ArrayXd& row(double y) {
+        sums_.take_rows(y - height_ / 2, y + height_ / 2);
+        double* found = found_.data();
+        for (const CoveredSpan& span : across_) *found++ = sums_.columns(span);
+        return found_;
+    }
+
+private:
+    CoveredSums& sums_;
+    double height_;
+    std::vector<CoveredSpan> across_;
+    Eigen::ArrayXd found_;
+};
 
 void require_arguments(const PlaneView& plane, const FramedBox& box, double around) {
     if (plane.rows < 2 || plane.cols < 2 || plane.rows % 2 != 0 || plane.cols % 2 != 0)
@@ -46,10 +58,16 @@ Floats box_contrast(const PlaneView& plane, const FramedBox& box, double around)
     require_arguments(plane, box, around);
     CoveredSums sums(plane);
     const int rows = plane.rows / 2, cols = plane.cols / 2;
-    const States inner = box_sums(sums, rows, cols, box.width, box.height);
-    const States whole = box_sums(sums, rows, cols, box.width * box.outer, box.height * box.outer);
+    Boxes inner(sums, cols, box.width, box.height),
+        whole(sums, cols, box.width * box.outer, box.height * box.outer);
     const double area = box.width * box.height, frame = area * (box.outer * box.outer - 1);
-    return (inner / area - around * ((whole - inner) / frame)).cast<float>();
+    const double in_box = 1 / area + around / frame, in_whole = around / frame;
+    Floats contrast(rows, cols);
+    for (int i = 0; i < rows; ++i) {
+        const double y = center(i, rows);
+        contrast.row(i) = (in_box * inner.row(y) - in_whole * whole.row(y)).cast<float>();
+    }
+    return contrast;
 }
 
 }  // namespace tricue

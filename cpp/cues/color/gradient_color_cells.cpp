@@ -32,14 +32,15 @@ struct Neighbours {
     const float *above[kColors], *here[kColors], *below[kColors];
 };
 
-/// out: kBins rows of n.
-TRICUE_MULTIVERSION
-void share_row(const Neighbours& rows, int n, float* out) {
+/// A row's lengths shared by orientation, or those added to what is there; out: kBins rows of n.
+template <bool kAdd>
+inline void share_row(const Neighbours& rows, int n, float* out) {
     const float *b0 = rows.above[0], *b1 = rows.here[0], *b2 = rows.below[0];
     const float *g0 = rows.above[1], *g1 = rows.here[1], *g2 = rows.below[1];
     const float *r0 = rows.above[2], *r1 = rows.here[2], *r2 = rows.below[2];
     float *right = out, *right_down = out + n, *down = out + 2 * n, *left_down = out + 3 * n;
     float *left = out + 4 * n, *left_up = out + 5 * n, *up = out + 6 * n, *right_up = out + 7 * n;
+    const auto put = [](float& to, float share) { to = kAdd ? to + share : share; };
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         float dx = b1[x + 1] - b1[x - 1], dy = b2[x] - b0[x];
@@ -60,26 +61,49 @@ void share_row(const Neighbours& rows, int n, float* out) {
         const float straight = length - diagonal;
         const float across = flat ? straight : 0.0F, along = flat ? 0.0F : straight;
         const float to_right = dx >= 0 ? diagonal : 0.0F, to_left = dx >= 0 ? 0.0F : diagonal;
-        right[x] = dx >= 0 ? across : 0.0F;
-        left[x] = dx >= 0 ? 0.0F : across;
-        down[x] = dy >= 0 ? along : 0.0F;
-        up[x] = dy >= 0 ? 0.0F : along;
-        right_down[x] = dy >= 0 ? to_right : 0.0F;
-        right_up[x] = dy >= 0 ? 0.0F : to_right;
-        left_down[x] = dy >= 0 ? to_left : 0.0F;
-        left_up[x] = dy >= 0 ? 0.0F : to_left;
+        put(right[x], dx >= 0 ? across : 0.0F);
+        put(left[x], dx >= 0 ? 0.0F : across);
+        put(down[x], dy >= 0 ? along : 0.0F);
+        put(up[x], dy >= 0 ? 0.0F : along);
+        put(right_down[x], dy >= 0 ? to_right : 0.0F);
+        put(right_up[x], dy >= 0 ? 0.0F : to_right);
+        put(left_down[x], dy >= 0 ? to_left : 0.0F);
+        put(left_up[x], dy >= 0 ? 0.0F : to_left);
     }
+}
+
+/// Sums over two rows.
+TRICUE_MULTIVERSION
+void share_rows(const Neighbours& upper, const Neighbours& lower, int n, float* out) {
+    share_row<false>(upper, n, out);
+    share_row<true>(lower, n, out);
+}
+
+TRICUE_MULTIVERSION
+void sum_pairs(const float* __restrict pairs, int n, float* __restrict sums) {
+    for (int x = 0; x < n; ++x) sums[x] = pairs[2 * x] + pairs[2 * x + 1];
 }
 
 /// Sums of 2 x 2 of two rows of 2 n.
 TRICUE_MULTIVERSION
 void sum_cells(const float* __restrict upper, const float* __restrict lower, int n, float* __restrict cells) {
-    for (int x = 0; x < n; ++x) cells[x] = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
+    for (int x = 0; x < n; ++x)
+        cells[x] = (upper[2 * x] + lower[2 * x]) + (upper[2 * x + 1] + lower[2 * x + 1]);
 }
 
+/// Of kBins rows of n.
 TRICUE_MULTIVERSION
 void add_squares(const float* __restrict cells, int n, float* __restrict energy) {
-    for (int x = 0; x < n; ++x) energy[x] += cells[x] * cells[x];
+    for (int k = 0; k < kBins; ++k, cells += n)
+        for (int x = 0; x < n; ++x) energy[x] += cells[x] * cells[x];
+}
+
+/// Whole numbers.
+TRICUE_MULTIVERSION
+void sum_whole(const float* __restrict numbers, std::ptrdiff_t n, std::int64_t* sum) {
+    std::int64_t total = 0;
+    for (std::ptrdiff_t i = 0; i < n; ++i) total += static_cast<std::int32_t>(numbers[i]);
+    *sum = total;
 }
 
 /// Out of the energy of three rows of cells; `column` holds n + 2 numbers.
@@ -91,13 +115,15 @@ void find_scales(const float* __restrict above, const float* __restrict here, co
         scales[x] = 1.0F / std::sqrt(column[x] + column[x + 1] + column[x + 2] + kFaint * kFaint);
 }
 
+/// kBins rows of n, which go to planes that are `plane` numbers apart.
 TRICUE_MULTIVERSION
-void normalize(const float* __restrict scales, const float* __restrict taper, int n,
-               float* __restrict cells) {
-    for (int x = 0; x < n; ++x) {
-        const float normal = cells[x] * scales[x];
-        cells[x] = (normal < kMost ? normal : kMost) * taper[x];
-    }
+void normalize(const float* __restrict sums, const float* __restrict scales, const float* __restrict taper,
+               int n, std::ptrdiff_t plane, float* __restrict cells) {
+    for (int k = 0; k < kBins; ++k, sums += n, cells += plane)
+        for (int x = 0; x < n; ++x) {
+            const float normal = sums[x] * scales[x];
+            cells[x] = (normal < kMost ? normal : kMost) * taper[x];
+        }
 }
 
 TRICUE_MULTIVERSION
@@ -105,59 +131,53 @@ void center(float mean, const float* __restrict taper, int n, float* __restrict 
     for (int x = 0; x < n; ++x) cells[x] = (cells[x] / 1020.0F - mean) * taper[x];
 }
 
-/// The mean of a plane of sums of four levels, in [0, 1]; a sum of whole numbers, so exact in any order.
+/// The mean of a plane of sums of four levels, in [0, 1].
 float mean_color(const float* cells, Eigen::Index count) {
-    double sum = 0;
-    for (Eigen::Index i = 0; i < count; ++i) sum += cells[i];
-    return static_cast<float>(sum / (1020.0 * static_cast<double>(count)));
+    std::int64_t sum = 0;
+    sum_whole(cells, count, &sum);
+    return static_cast<float>(static_cast<double>(sum) / (1020.0 * static_cast<double>(count)));
 }
 
-/// All planes as sums over cells.
-Floats sum_planes(RimmedPlanes& levels, int rows, int cols) {
-    Floats cells(kBins * rows + kColors * rows, cols);
-    const auto row = [&](int plane, int y) { return cells.data() + std::ptrdiff_t{plane * rows + y} * cols; };
-    std::vector<float> upper(static_cast<std::size_t>(kBins * 2 * cols)), lower(upper.size());
-    const auto share = [&](int y, float* out) {
-        Neighbours around;
+/// Orientations as sums over cells, a row of cells a row: kBins times as many numbers.
+Floats sum_orientations(RimmedPlanes& levels, int rows, int cols) {
+    const auto around = [&](int y) {
+        Neighbours near;
         for (int c = 0; c < kColors; ++c) {
-            around.above[c] = levels.row(c, y - 1);
-            around.here[c] = levels.row(c, y);
-            around.below[c] = levels.row(c, y + 1);
+            near.above[c] = levels.row(c, y - 1);
+            near.here[c] = levels.row(c, y);
+            near.below[c] = levels.row(c, y + 1);
         }
-        share_row(around, 2 * cols, out);
+        return near;
     };
+    Floats sums(rows, kBins * cols);
+    std::vector<float> shares(static_cast<std::size_t>(kBins * 2 * cols));
     for (int y = 0; y < rows; ++y) {
-        share(2 * y, upper.data());
-        share(2 * y + 1, lower.data());
-        for (int k = 0; k < kBins; ++k)
-            sum_cells(upper.data() + 2 * k * cols, lower.data() + 2 * k * cols, cols, row(k, y));
-        for (int c = 0; c < kColors; ++c)
-            sum_cells(levels.row(c, 2 * y), levels.row(c, 2 * y + 1), cols, row(kBins + c, y));
+        share_rows(around(2 * y), around(2 * y + 1), 2 * cols, shares.data());
+        sum_pairs(shares.data(), kBins * cols, &sums(y, 0));
     }
-    return cells;
+    return sums;
 }
 
-void normalize_orientations(FloatsRef taper, Floats& cells) {
+void write_orientations(const Floats& sums, FloatsRef taper, float* cells) {
     const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols());
-    const auto row = [&](int plane, int y) { return cells.data() + std::ptrdiff_t{plane * rows + y} * cols; };
     RimmedPlanes energy(1, rows, cols);
-    for (int y = 0; y < rows; ++y)
-        for (int k = 0; k < kBins; ++k) add_squares(row(k, y), cols, energy.row(0, y));
+    for (int y = 0; y < rows; ++y) add_squares(&sums(y, 0), cols, energy.row(0, y));
     energy.fill_rim(0);
     std::vector<float> column(static_cast<std::size_t>(cols + 2)), scales(column.size());
     for (int y = 0; y < rows; ++y) {
         find_scales(energy.row(0, y - 1), energy.row(0, y), energy.row(0, y + 1), cols, column.data(),
                     scales.data());
-        const float* weights = taper.data() + std::ptrdiff_t{y} * cols;
-        for (int k = 0; k < kBins; ++k) normalize(scales.data(), weights, cols, row(k, y));
+        const std::ptrdiff_t at = std::ptrdiff_t{y} * cols;
+        normalize(&sums(y, 0), scales.data(), taper.data() + at, cols, taper.size(), cells + at);
     }
 }
 
-void center_colors(FloatsRef taper, Floats& cells) {
-    const Eigen::Index count = taper.size();
-    for (int c = 0; c < kColors; ++c) {
-        float* plane = cells.data() + (kBins + c) * count;
-        center(mean_color(plane, count), taper.data(), static_cast<int>(count), plane);
+void write_colors(RimmedPlanes& levels, FloatsRef taper, float* cells) {
+    const int rows = static_cast<int>(taper.rows()), cols = static_cast<int>(taper.cols());
+    for (int c = 0; c < kColors; ++c, cells += taper.size()) {
+        for (int y = 0; y < rows; ++y)
+            sum_cells(levels.row(c, 2 * y), levels.row(c, 2 * y + 1), cols, cells + std::ptrdiff_t{y} * cols);
+        center(mean_color(cells, taper.size()), taper.data(), static_cast<int>(taper.size()), cells);
     }
 }
 
@@ -179,9 +199,10 @@ Floats gradient_color_cells(const ImageView& patch, FloatsRef taper) {
     for (int y = 0; y < patch.rows; ++y)
         split_row(patch.row(y), patch.cols, levels.row(0, y), levels.row(1, y), levels.row(2, y));
     for (int c = 0; c < kColors; ++c) levels.fill_rim(c);
-    Floats cells = sum_planes(levels, patch.rows / 2, patch.cols / 2);
-    normalize_orientations(taper, cells);
-    center_colors(taper, cells);
+    const int rows = patch.rows / 2, cols = patch.cols / 2;
+    Floats cells((kBins + kColors) * rows, cols);
+    write_orientations(sum_orientations(levels, rows, cols), taper, cells.data());
+    write_colors(levels, taper, cells.data() + kBins * taper.size());
     return cells;
 }
 

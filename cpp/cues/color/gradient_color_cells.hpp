@@ -17,7 +17,7 @@ namespace tricue {
 ///
 /// Planes 8 to 10: blue, green, red in [0, 1], minus their means over the patch. All are multiplied by the taper.
 ///
-/// All in float32 in this order: sums over a cell row by row; over bins upwards; over 3 x 3 cells the columns first.
+/// All in float32 in this order: sums over a cell, and over 3 x 3 cells, the columns first; over bins upwards.
 ///
 /// @param patch uint8 BGR, 2 R x 2 C
 /// @param taper R x C, at least one cell

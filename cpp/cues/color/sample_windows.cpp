@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "check.hpp"
@@ -27,25 +28,29 @@ struct Sample {
         if (*count == 0 || pixels[*count - 1] != pixel) pixels[(*count)++] = pixel;
         weights[*count - 1] += static_cast<float>(weight);
     }
-    std::uint16_t share(int k) const { return static_cast<std::uint16_t>(weights[k]); }
 };
 
 struct Axis {
     std::vector<Sample> samples;
     int readings;    ///< of each sample
     int pixels = 0;  ///< that each sample has at most, rounded up to pairs
+
+    int first() const { return samples.front().pixels[0]; }
+    int last() const { return *std::max_element(samples.back().pixels, samples.back().pixels + kMostPixels); }
 };
 
 Axis find_samples(double start, double length, int count, int size) {
     const double step = length / count;
     Axis axis{std::vector<Sample>(static_cast<std::size_t>(count)),
               static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMostReadings}))};
-    for (int i = 0; i < count; ++i) {
-        Sample& sample = axis.samples[static_cast<std::size_t>(i)];
+    const int readings = axis.readings;
+    const double apart = step / readings, most = size - 1.0;
+    int reading = 0;
+    for (Sample& sample : axis.samples) {
         int used = 0;
-        for (int j = 0; j < axis.readings; ++j) {
-            const double place = start + (i * axis.readings + j + 0.5) * (step / axis.readings) - 0.5;
-            const double inside = std::min(std::max(place, 0.0), size - 1.0);
+        for (int j = 0; j < readings; ++j, ++reading) {
+            const double place = start + (reading + 0.5) * apart - 0.5;
+            const double inside = std::min(std::max(place, 0.0), most);
             const int fixed = static_cast<int>(inside * kUnit + 0.5), low = fixed / kUnit;
             sample.add(low, kUnit - fixed % kUnit, &used);
             sample.add(std::min(low + 1, size - 1), fixed % kUnit, &used);
@@ -56,32 +61,45 @@ Axis find_samples(double start, double length, int count, int size) {
     return axis;
 }
 
-/// Two rows of n bytes more in a blend of rows: at most 255 times the sum of weights, 4 kUnit, so it fits.
-TRICUE_MULTIVERSION
-void add_rows(const std::uint8_t* __restrict one, const std::uint8_t* __restrict two, std::uint16_t share_one,
-              std::uint16_t share_two, bool first, int n, std::uint16_t* __restrict sums) {
-    if (first) {
-        for (int x = 0; x < n; ++x)
-            sums[x] = static_cast<std::uint16_t>(one[x] * share_one + two[x] * share_two);
-    } else {
-        for (int x = 0; x < n; ++x)
-            sums[x] = static_cast<std::uint16_t>(sums[x] + one[x] * share_one + two[x] * share_two);
+/// Rows of bytes and how much of each is in a blend of them.
+struct Rows {
+    const std::uint8_t* bytes[kMostPixels];
+    std::uint16_t shares[kMostPixels];
+};
+
+/// A sum is at most 255 times that of the shares, 4 kUnit, so 16 bits hold it.
+template <int kRows>
+inline void blend_all(const Rows& rows, int n, float* blend) {
+    const Rows own = rows;
+    TRICUE_INDEPENDENT
+    for (int x = 0; x < n; ++x) {
+        std::uint16_t sum = 0;
+        for (int k = 0; k < kRows; ++k)
+            sum = static_cast<std::uint16_t>(sum + own.bytes[k][x] * own.shares[k]);
+        blend[x] = sum;
     }
 }
 
 TRICUE_MULTIVERSION
-void widen(const std::uint16_t* __restrict sums, int n, float* __restrict blend) {
-    for (int x = 0; x < n; ++x) blend[x] = sums[x];
+void blend_rows(const Rows& rows, int count, int n, float* blend) {
+    if (count == 2)
+        blend_all<2>(rows, n, blend);
+    else if (count == 4)
+        blend_all<4>(rows, n, blend);
+    else if (count == 6)
+        blend_all<6>(rows, n, blend);
+    else
+        blend_all<kMostPixels>(rows, n, blend);
 }
 
-/// `blend` begins at pixel `left` and has a number more than its pixels, `sums` one more than 3 a sample.
+/// `blend` begins at the first pixel and has a number more than its pixels, `sums` one more than 3 a sample.
 TRICUE_MULTIVERSION
-void add_columns(const Sample* samples, int count, int pixels, const float* blend, int left, float* sums) {
+void add_columns(const Sample* samples, int count, int pixels, const float* blend, float* sums) {
     for (int i = 0; i < count; ++i) {
         Four sum = {0, 0, 0, 0};
         for (int k = 0; k < pixels; ++k) {
             Four color;
-            __builtin_memcpy(&color, blend + 3 * (samples[i].pixels[k] - left), sizeof color);
+            __builtin_memcpy(&color, blend + samples[i].pixels[k], sizeof color);
             sum += color * samples[i].weights[k];
         }
         __builtin_memcpy(sums + 3 * i, &sum, sizeof sum);
@@ -95,21 +113,22 @@ void divide(const float* __restrict sums, float whole, int n, std::uint8_t* __re
         bytes[x] = static_cast<std::uint8_t>(static_cast<int>(sums[x] / whole + 0.5F));
 }
 
-void sample_window(const ImageView& image, const Axis& down, const Axis& across, std::uint8_t* bytes) {
-    const auto& columns = across.samples;
-    const int left = columns.front().pixels[0];
-    int right = left;
-    for (const int pixel : columns.back().pixels) right = std::max(right, pixel);
-    const int width = 3 * (right + 1 - left), count = static_cast<int>(columns.size());
-    std::vector<std::uint16_t> sums(static_cast<std::size_t>(width));
-    std::vector<float> blend(sums.size() + 1), row(3 * columns.size() + 1);
+void sample_window(const ImageView& image, const Axis& down, Axis across, std::uint8_t* bytes) {
+    const int left = across.first(), width = 3 * (across.last() + 1 - left);
+    auto& columns = across.samples;
+    const int count = static_cast<int>(columns.size());
+    for (Sample& column : columns)
+        for (int& pixel : column.pixels) pixel = 3 * (pixel - left);  // where in a row of numbers
+    std::vector<float> blend(static_cast<std::size_t>(width) + 1), row(3 * columns.size() + 1);
     const auto whole = static_cast<float>(down.readings * across.readings * kUnit * kUnit);
     for (const Sample& sample : down.samples) {
-        for (int k = 0; k < down.pixels; k += 2)
-            add_rows(image.row(sample.pixels[k]) + 3 * left, image.row(sample.pixels[k + 1]) + 3 * left,
-                     sample.share(k), sample.share(k + 1), k == 0, width, sums.data());
-        widen(sums.data(), width, blend.data());
-        add_columns(columns.data(), count, across.pixels, blend.data(), left, row.data());
+        Rows rows;
+        for (int k = 0; k < kMostPixels; ++k) {
+            rows.bytes[k] = image.row(sample.pixels[k]) + 3 * left;
+            rows.shares[k] = static_cast<std::uint16_t>(sample.weights[k]);
+        }
+        blend_rows(rows, down.pixels, width, blend.data());
+        add_columns(columns.data(), count, across.pixels, blend.data(), row.data());
         divide(row.data(), whole, 3 * count, bytes);
         bytes += 3 * count;
     }
@@ -133,9 +152,9 @@ WindowBytes sample_windows(const ImageView& image, StatesRef windows, int rows, 
     const Eigen::Index each = Eigen::Index{3} * rows * columns;
     WindowBytes samples(windows.rows() * each);
     for (Eigen::Index i = 0; i < windows.rows(); ++i) {
-        const Axis across = find_samples(windows(i, 0), windows(i, 2), columns, image.cols);
+        Axis across = find_samples(windows(i, 0), windows(i, 2), columns, image.cols);
         const Axis down = find_samples(windows(i, 1), windows(i, 3), rows, image.rows);
-        sample_window(image, down, across, samples.data() + i * each);
+        sample_window(image, down, std::move(across), samples.data() + i * each);
     }
     return samples;
 }

@@ -74,6 +74,6 @@ def _normalized(cells: Planes) -> Planes:
 
 def _cells(planes: Planes) -> Planes:
     """(K, 2R, 2C) summed in cells of 2x2: (K, R, C)."""
-    upper, lower = planes[:, ::2], planes[:, 1::2]
-    sums: Planes = upper[:, :, ::2] + upper[:, :, 1::2] + lower[:, :, ::2] + lower[:, :, 1::2]
+    columns = planes[:, ::2] + planes[:, 1::2]
+    sums: Planes = columns[:, :, ::2] + columns[:, :, 1::2]
     return sums
