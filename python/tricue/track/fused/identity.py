@@ -10,9 +10,9 @@ from tricue.track.fused.experts.color import BINS
 from tricue.track.fused.sight import Image, Plane
 from tricue.track.fused.view import View
 
-# Log-odds of "the overlap is above 0.3" against "under 0.1", by logistic regression with signs as they have to be,
-# over six recorded videos and scenes with other seeds than those of the tables, where the tracker was and at
-# random places and look-alikes: for color alone, color with depth, and depth alone.
+# Log-odds of "the overlap is above 0.3" against "under 0.1", by logistic regression with signs as they
+# have to be, over six recorded videos and scenes with other seeds than those of the tables, where the tracker
+# was and at random places and look-alikes: for color alone, color with depth, and depth alone.
 WEIGHTS: dict[str, tuple[float, ...]] = {
     "color": (0.32, -15.64, 7.33, 11.19, 12.29, 0.0, -10.6),
     "both": (0.57, 0.0, 5.49, 2.03, 4.47, 0.0, -11.28),
@@ -76,4 +76,5 @@ def colors_of(view: View, right: float, down: float) -> Plane:
     """(4096,) histogram of the middle of a target's box."""
     pixels: Image = view.patch[view.inner(right, down, share=0.8)]
     samples = np.ascontiguousarray(pixels.reshape(-1, 3).T)[None]
-    return view.sight.k.joint_histogram(samples, BINS)[0]
+    histogram: Plane = view.sight.k.joint_histogram(samples, BINS)[0]
+    return histogram

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.fused.examine import Found
 from tricue.track.fused.experts import posterior, size
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.depth import DepthExpert, Measured, measure
@@ -14,10 +15,10 @@ from tricue.track.fused.experts.filter import FilterExpert
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.identity import Identity
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.places import Known, best_place
 from tricue.track.fused.reading import Seen
-from tricue.track.fused.search import Found, Known, best_place
 from tricue.track.fused.sight import Expected, Sight
-from tricue.track.fused.space import Space
+from tricue.track.fused.space import Space, locate
 from tricue.track.fused.state import Models, State
 from tricue.track.fused.view import Target, View, look
 
@@ -25,7 +26,6 @@ Floats = NDArray[np.float64]
 
 EVERY = 2  # frames from one in which the looks are learnt to the next
 STARTING = 0.1  # metres, of a target's relief that isn't known yet
-LATERAL = 0.05  # of the target's side, standard deviation of its place
 
 
 def begin(k: Kernels, seen: Seen, target: Target, p: FusedParams) -> State:
@@ -33,7 +33,7 @@ def begin(k: Kernels, seen: Seen, target: Target, p: FusedParams) -> State:
     measured = measure(seen.sight(k, None), target, None)
     expected = None if measured is None else Expected(measured.z, STARTING)
     sight = seen.sight(k, expected)
-    depth, space = _located(seen, sight, target, measured, p)
+    depth, space = _located(sight, target, measured, p)
     models = first_models(sight, target, p)
     known = Known(models, depth, None, target.side, p)
     view = look(sight, [target], p.context)[0]
@@ -72,11 +72,11 @@ def first_models(sight: Sight, target: Target, p: FusedParams) -> Models:
     )
 
 
-def learnt(state: State, seen: Seen, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
+def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
     """With what was found blended in; its looks only where it was surely recognised, every second frame at
     twice the rate, which costs half. again: it had been lost.
     """
-    state = _ranged(state, seen, sight, found, again, p)
+    state = _ranged(state, sight, found, again, p)
     if state.score < p.learn_above or state.count % EVERY:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
@@ -94,17 +94,17 @@ def _blended(models: Models, view: View, p: FusedParams) -> Models:
     )
 
 
-def _ranged(state: State, seen: Seen, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
+def _ranged(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
     """With the depth that was measured in the 3-D filter."""
     if sight.ranger is None:
         return state
     if state.depth is None or state.space is None:
         measured = measure(sight, state.target, None)
-        depth, space = _located(seen, sight, state.target, measured, p)
+        depth, space = _located(sight, state.target, measured, p)
         return replace(state, depth=depth, space=space)
     if found.measured is None:
         return state
-    point, noise = _point(seen, sight, state.target, found.measured)
+    point, noise = locate(sight, state.target, found.measured)
     if again:
         return replace(state, space=Space.start(point, noise, p))
     depth = state.depth.learnt(found.measured, state.target.side * found.measured.z, p.depth_rate)
@@ -112,25 +112,11 @@ def _ranged(state: State, seen: Seen, sight: Sight, found: Found, again: bool, p
 
 
 def _located(
-    seen: Seen, sight: Sight, target: Target, measured: Measured | None, p: FusedParams
+    sight: Sight, target: Target, measured: Measured | None, p: FusedParams
 ) -> tuple[DepthExpert, Space] | tuple[None, None]:
     """What is known of depth after its first measurement."""
     if measured is None:
         return None, None
-    point, noise = _point(seen, sight, target, measured)
+    point, noise = locate(sight, target, measured)
     start = DepthExpert(STARTING, target.side * measured.z)
     return start.learnt(measured, target.side * measured.z, 1.0), Space.start(point, noise, p)
-
-
-def _point(seen: Seen, sight: Sight, target: Target, measured: Measured) -> tuple[Floats, Floats]:
-    """A target's point (3,), metres in the camera's frame, and its covariance (3, 3)."""
-    assert sight.ranger is not None, "it was measured"
-    camera = seen.camera
-    disparity = camera.fx / measured.z  # of a pair with a baseline of 1 m, which says the same as z
-    z_noise = sight.ranger.noise(measured.z, target.side / size.GRID)
-    at = np.array([[target.x - 0.5, target.y - 0.5, disparity]])
-    lateral = (LATERAL * target.side) ** 2
-    variances = np.array([lateral, lateral, (disparity / measured.z * z_noise) ** 2])
-    intrinsics = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
-    points, covariances = sight.k.back_project(at, variances, intrinsics, 1.0)
-    return points[0], covariances[0].reshape(3, 3)

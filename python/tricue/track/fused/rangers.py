@@ -31,7 +31,8 @@ class DepthImage(NamedTuple):
         height, width = self.depth.shape
         inside = ((rows >= 0) & (rows < height))[:, None] & ((columns >= 0) & (columns < width))
         sampled = self.depth[rows.clip(0, height - 1)[:, None], columns.clip(0, width - 1)]
-        return np.where(inside, sampled, np.float32(np.nan))
+        metres: Plane = np.where(inside, sampled, np.float32(np.nan))
+        return metres
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float
@@ -71,10 +72,9 @@ class Pair(NamedTuple):
         region = (last, 0, width, side)
         found = self.k.sad_disparity(left, right, region, False, first, last, WINDOW, 5, True, 1)
         disparity = found * np.float32(unit) + np.float32(shift)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(disparity > 0, np.float32(product) / disparity, np.float32(np.inf)).astype(
-                np.float32
-            )
+        disparity[~(disparity > 0)] = np.nan  # beyond infinity, or not found
+        metres: Plane = np.float32(product) / disparity
+        return metres
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float

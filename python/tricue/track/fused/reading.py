@@ -28,10 +28,10 @@ class Seen(NamedTuple):
         expected.
         """
         if self.color is not None:
-            return Sight(k, self.color, "color", self.ranger, expected)
+            return Sight(k, self.color, "color", self.camera, self.ranger, expected)
         assert self.depth is not None, "a frame has color or depth"
         middle = expected.z if expected else 0.0
-        return Sight(k, shades(self.depth, middle), "depth", self.ranger, expected, self.depth)
+        return Sight(k, shades(self.depth, middle), "depth", self.camera, self.ranger, expected, self.depth)
 
 
 def read(

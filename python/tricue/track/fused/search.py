@@ -1,217 +1,88 @@
 # SPDX-License-Identifier: MIT
 """Where the target is: in the window round its last place, in those beside it, and in the whole frame."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from tricue.track.fused.experts import PixelExpert, posterior, size
-from tricue.track.fused.experts.depth import DepthExpert, Measured, measure
-from tricue.track.fused.experts.flow import Glance, growth
-from tricue.track.fused.experts.size import Looks
-from tricue.track.fused.identity import Marks, probability
+from tricue.track.fused.examine import Found, examine
+from tricue.track.fused.experts.depth import measure
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.sight import Expected, Plane, Sight
-from tricue.track.fused.state import Models
-from tricue.track.fused.view import CELLS, PIXELS, Target, View, look
+from tricue.track.fused.places import Known, Place, best_place
+from tricue.track.fused.sight import Expected, Sight
+from tricue.track.fused.space import Space, locate
+from tricue.track.fused.view import CELLS, Target, View, look
 
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame
 BY_COLOR, BY_TURNS = 6, 6  # windows of the whole frame that are looked at in a frame
-OFF = 6  # cells from a window's middle beyond which it is looked at again, from nearer
-MIDDLE = CELLS // 2
-LEAP = 1.25  # times, that a target grows or shrinks in a frame
 
 
-class Known(NamedTuple):
-    """What the search goes by. glance: at the target in the last frame."""
-
-    models: Models
-    depth: DepthExpert | None
-    glance: Glance | None
-    first_side: float
-    p: FusedParams
-
-
-class Place(NamedTuple):
-    """Where something like the target was found, and the evidence for it.
-
-    right, down: patch pixels off the view's middle. answers: of the learnt and the first frame's filter.
+class Lost(NamedTuple):
+    """Where a target was that isn't where it should be. missed: frames since. turn: whose it is, of the whole
+    frame's windows.
     """
 
     target: Target
-    view: View
-    right: float
-    down: float
-    evidence: float
-    answers: tuple[float, float]
-    sharpness: float
-    contrast: float
-    own: Plane | None
+    space: Space | None
+    missed: int
+    turn: int
 
 
-class Found(NamedTuple):
-    """A place looked at closely: its size and depth measured, its identity judged. hidden: share of its box
-    before which something nearer is.
-    """
-
-    target: Target
-    marks: Marks
-    answer: float
-    measured: Measured | None
-    hidden: float
-    glance: Glance | None
-
-    log_odds: float  # of its being the target
-
-    @property
-    def score(self) -> float:
-        """Probability of its being the target."""
-        return probability(self.log_odds)
+def near(known: Known, sight: Sight, guess: Target, usual: float) -> Found:
+    """Look where the target should be; where its answer surprises, beside that, too."""
+    p = known.p
+    place = best_place(known, look(sight, [guess], p.context)[0])
+    if place.answers[0] < p.doubt * usual:
+        places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
+        place = max([place, *places], key=lambda each: each.evidence)
+    return examine(known, place)
 
 
-def best_place(known: Known, view: View) -> Place:
-    """The place in a view that has most evidence, between cells by a parabola."""
-    models, p = known.models, known.p
-    answers = models.filter.evidence(view)
-    total = np.float32(p.filter_weight if "filter" in p.cues else 0.0) * answers[0]
-    own = posterior([each.opinion(view) for each in _pixel_experts(known)])
-    contrast = None
-    if own is not None:
-        contrast = view.sight.k.box_contrast(own, *view.size, p.frame, p.around)
-        total += np.float32(p.color_weight) * contrast
-    i, j = divmod(int(total.argmax()), CELLS)
-    down, right = i + peak(total[:, j], i) - MIDDLE, j + peak(total[i], j) - MIDDLE
-    target = _inside(view.target.moved(2 * view.unit * right, 2 * view.unit * down), view)
-    near = slice(max(i - 1, 0), i + 2), slice(max(j - 1, 0), j + 2)
-    answer = answers[0]
-    return Place(
-        target,
-        view,
-        2 * right,
-        2 * down,
-        float(total[i, j]),
-        (float(answer[i, j]), float(answers[1][near].max())),
-        float((answer[near].max() - answer.mean()) / max(float(answer.std()), 1e-6)),
-        0.0 if contrast is None else float(contrast[i, j]),
-        own,
-    )
+def _farther(known: Known, view: View, guess: Target) -> Place:
+    """The best of a view, by evidence less what its distance from the guess takes off."""
+    half = known.p.context * guess.side / 2
+    far = (view.target.x - guess.x) ** 2 + (view.target.y - guess.y) ** 2
+    place = best_place(known, view)
+    return place._replace(evidence=place.evidence - known.p.far * far / half**2)
 
 
-def _pixel_experts(known: Known) -> list[PixelExpert]:
-    experts: list[PixelExpert] = [known.models.color] if "color" in known.p.cues else []
-    return [*experts, known.depth] if known.depth is not None else experts
-
-
-def _inside(target: Target, view: View) -> Target:
-    height, width = view.sight.picture.shape[:2]
-    return Target(
-        min(max(target.x, 0.0), width), min(max(target.y, 0.0), height), target.width, target.height
-    )
-
-
-def closer(known: Known, place: Place) -> Place:
-    """The place itself, or what is there seen from nearer, if it was at the edge of its view."""
-    if max(abs(place.right), abs(place.down)) <= 2 * OFF:
-        return place
-    return best_place(known, look(place.view.sight, [place.target], known.p.context)[0])
-
-
-def examine(known: Known, place: Place) -> Found:
-    """Measure the size of what is at a place, and judge whether it is the target."""
-    place = closer(known, place)
-    models, p, view = known.models, known.p, place.view
-    measured = None if known.depth is None else measure(view.sight, place.target, view.sight.expected)
-    glance = Glance.at(view, place.right, place.down) if "flow" in p.cues else None
-    expected = _foreseen(known, place, measured, glance)
-    looks = size.looks(view.sight, place.target.scaled(expected), models.color.table, p)
-    step, factor = _factor(known, place, looks, expected)
-    low, high = (bound * known.first_side / place.target.side for bound in p.size_range)
-    at_depth, hidden = _depths(place)
-    marks = Marks(
-        sharpness=place.sharpness,
-        order=models.identity.order(looks.ranks[step]),
-        colors=models.identity.likeness(view, place.right, place.down),
-        contrast=place.contrast,
-        first=place.answers[1],
-        depth=at_depth,
-    )
-    target = place.target.scaled(min(max(factor, low), high))
-    return Found(
-        target, marks, place.answers[0], measured, hidden, glance, marks.log_odds(_channels(known, view))
-    )
-
-
-def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Glance | None) -> float:
-    """How many times as large as before the target should be: as much as it came nearer, or its pixels moved
-    apart.
-    """
-    if measured is not None and known.depth is not None:
-        grown = known.depth.length / (measured.z * place.target.side)
-    elif known.glance is not None and glance is not None:
-        grown = growth(known.glance, glance, place.view) or 1.0
-    else:
-        return 1.0
-    return min(max(grown, 1 / LEAP), LEAP)
-
-
-def _channels(known: Known, view: View) -> str:
-    if view.sight.kind == "depth":
-        return "depth"
-    return "color" if known.depth is None or view.depth is None else "both"
-
-
-def _depths(place: Place) -> tuple[float, float]:
-    """Mean P(target | depth) in the box, less its prior, and the share that something nearer hides."""
-    view = place.view
-    if view.depth is None:
-        return 0.0, 0.0
-    box = view.inner(place.right, place.down, 0.8)
-    return float(view.depth[0][box].mean()) - 0.5, float(view.depth[1][box].mean())
-
-
-def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[int, float]:
-    """The step of scale for which there is most evidence, and the factor that it stands for."""
-    models, p, k = known.models, known.p, place.view.sight.k
-    offset = np.arange(p.scales) - p.scales // 2.0
-    total = -p.scale_prior * offset * offset
-    if "ranks" in p.cues:
-        total += p.rank_weight * models.size.evidence(k, looks)
-    if "edges" in p.cues and place.own is not None:
-        middle = _centred(place.own, place.right, place.down)
-        across, down = (expected * each for each in place.view.size)
-        total += p.edge_weight * size.edges(k, middle, (across, down), size.factors(p), models.edge)
-    best = int(total.argmax())
-    return best, expected * float(p.scale_step ** (offset[best] + peak(total, best)))
-
-
-def _centred(plane: Plane, right: float, down: float) -> Plane:
-    """The plane moved by whole pixels so that a place off its middle comes to lie there; 0 comes in."""
-    i, j = round(down), round(right)
-    moved = np.zeros_like(plane)
-    rows, columns = PIXELS - abs(i), PIXELS - abs(j)
-    from_i, from_j, to_i, to_j = max(i, 0), max(j, 0), max(-i, 0), max(-j, 0)
-    moved[to_i : to_i + rows, to_j : to_j + columns] = plane[
-        from_i : from_i + rows, from_j : from_j + columns
-    ]
-    return moved
-
-
-def beside(sight: Sight, target: Target, context: float) -> list[View]:
+def _beside(sight: Sight, target: Target, context: float) -> list[View]:
     """The eight windows round a target's own, half a window away."""
     half = context * target.side / 2
     return look(sight, [target.moved(i * half, j * half) for i, j in AROUND], context)
 
 
-def elsewhere(known: Known, sight: Sight, target: Target, count: int) -> list[View]:
+def anywhere(known: Known, sight: Sight, lost: Lost, near: Found) -> Found:
+    """Look in the whole frame; something else than what is near has to be recognised for sure."""
+    p = known.p
+    views = _elsewhere(known, sight, lost)
+    places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
+    others = [_unlikely(known, lost, examine(known, place)) for place in places[: p.candidates]]
+    best = max(others, key=lambda each: each.log_odds)
+    return best if best.score >= p.found_above and best.log_odds > near.log_odds else near
+
+
+def _unlikely(known: Known, lost: Lost, found: Found) -> Found:
+    """What was found, less sure the farther it is from where the target can be by now."""
+    if lost.space is not None and found.measured is not None:
+        point, noise = locate(found.sight, found.target, found.measured)
+        far = lost.space.distance(point, noise)
+    else:
+        reach = lost.target.side * known.p.reach * (1 + lost.missed)
+        far = math.hypot(found.target.x - lost.target.x, found.target.y - lost.target.y) / reach
+    return found._replace(log_odds=found.log_odds - 0.5 * far * far)
+
+
+def _elsewhere(known: Known, sight: Sight, lost: Lost) -> list[View]:
     """Windows of the whole frame: where the target's colors are, and some of all, by turns. With depth each
     is as large as the target would be there.
     """
-    by_color = _colored(known, sight, target)
-    every = _lattice(sight, target, known.p)
-    first = count * BY_TURNS
+    by_color = _colored(known, sight, lost.target)
+    every = _lattice(sight, lost.target, known.p)
+    first = lost.turn * BY_TURNS
     by_turns = [every[(first + i) % len(every)] for i in range(min(BY_TURNS, len(every)))]
     if known.depth is None or sight.ranger is None:
         return look(sight, by_color + by_turns, known.p.context)
@@ -264,12 +135,3 @@ def _lattice(sight: Sight, target: Target, p: FusedParams) -> list[Target]:
         for i in range(rows)
         for j in range(columns)
     ]
-
-
-def peak(values: NDArray[np.floating], index: int) -> float:
-    """Offset from the largest value of the top of the parabola through it and its neighbours."""
-    if not 0 < index < len(values) - 1:
-        return 0.0
-    before, top, after = values[index - 1 : index + 2].tolist()
-    bend = before - 2 * top + after
-    return 0.5 * (before - after) / bend if bend < 0 else 0.0

@@ -8,6 +8,7 @@ from typing import Any, Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 
 Image = NDArray[np.uint8]
@@ -51,13 +52,14 @@ class Ranger(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Sight:
-    """picture: (H, W, 3) BGR, of color, or of depth where there is no color. ranger: None without depth.
-    expected: None where the target's depth isn't known. depth: (H, W) metres, if the picture is made of it.
+    """picture: (H, W, 3) BGR, of color, or of depth where there is no color. camera: that took it. ranger: None
+    without depth. expected: None where the target's depth isn't known. depth: (H, W) metres, if the picture is made of it.
     """
 
     k: Kernels
     picture: Image
     kind: Kind
+    camera: Intrinsics
     ranger: Ranger | None
     expected: Expected | None
     depth: Plane | None = None

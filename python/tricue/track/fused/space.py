@@ -8,10 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.fused.experts.depth import GRID, Measured
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.sight import Sight
+from tricue.track.fused.view import Target
 
 Floats = NDArray[np.float64]
 
+LATERAL = 0.05  # of the target's side, standard deviation of its place
 POSITION = np.eye(3, 6)
 SLOWING = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
@@ -49,6 +53,11 @@ class Space(NamedTuple):
         mean, covariance = k.kalman_predict(self.mean, self.covariance, *_dynamics(seconds, p.agility))
         return Space(mean, covariance)
 
+    def distance(self, point: Floats, noise: Floats) -> float:
+        """Standard deviations from a measured point (3,) with its covariance (3, 3)."""
+        off = point - self.mean[:3]
+        return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
+
     def corrected(self, k: Kernels, point: Floats, noise: Floats) -> "Space":
         """With a measured point (3,) and its covariance (3, 3)."""
         mean, covariance, *_ = k.kalman_update(self.mean, self.covariance, point, POSITION, noise)
@@ -63,3 +72,17 @@ def _dynamics(seconds: float, agility: float) -> tuple[Floats, Floats]:
     quarter, half = seconds**4 / 4 * one, seconds**3 / 2 * one
     noise = agility**2 * np.block([[quarter, half], [half, seconds**2 * one]])
     return transition, noise
+
+
+def locate(sight: Sight, target: Target, measured: Measured) -> tuple[Floats, Floats]:
+    """A target's point (3,), metres in the camera's frame, and its covariance (3, 3)."""
+    assert sight.ranger is not None, "it was measured"
+    camera, z = sight.camera, measured.z
+    disparity = camera.fx / z  # of a pair with a baseline of 1 m, which says the same as z
+    depth = disparity / z * sight.ranger.noise(z, target.side / GRID)
+    lateral = LATERAL * target.side
+    k, at = sight.k, np.array([[target.x - 0.5, target.y - 0.5, disparity]])
+    variances = np.array([lateral**2, lateral**2, depth**2])
+    intrinsics = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
+    points, covariances = k.back_project(at, variances, intrinsics, 1.0)
+    return points[0], covariances[0].reshape(3, 3)

@@ -13,12 +13,14 @@ from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track import lifecycle
 from tricue.track.fused import learn
+from tricue.track.fused.examine import Found
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.places import Known
 from tricue.track.fused.reading import Seen, read
-from tricue.track.fused.search import Found, Known, Place, beside, best_place, elsewhere, examine
+from tricue.track.fused.search import Lost, anywhere, near
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.state import State
-from tricue.track.fused.view import Target, View, look
+from tricue.track.fused.view import Target
 from tricue.track.track import Status, Track
 
 USUAL_RATE = 0.05  # per frame, of the filter's usual answer
@@ -85,13 +87,11 @@ class FusedTracker:
         state = self._ahead(before, seen)
         sight = seen.sight(self._k, _expected(state))
         state = learn.met(state, sight, self.params)
-        found = self._near(state, sight)
-        if state.missed:
-            found = self._anywhere(state, sight, found)
+        found = self._found(state, sight)
         again = before.missed >= self.params.lost_after
         state = self._accepted(state, sight, found)
         if state.missed == 0:
-            state = learn.learnt(state, seen, sight, found, again, self.params)
+            state = learn.learnt(state, sight, found, again, self.params)
         self._state = state
         return self._track(state)
 
@@ -106,41 +106,15 @@ class FusedTracker:
             space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)
         return replace(state, space=space, timestamp=seen.timestamp, count=state.count + 1)
 
-    def _near(self, state: State, sight: Sight) -> Found:
-        """Look where the target should be; where its answer surprises, beside that, too."""
-        p, known = self.params, self._known(state, sight)
-        guess = state.target.moved(p.drift * state.velocity[0], p.drift * state.velocity[1])
-        place = best_place(known, look(sight, [guess], p.context)[0])
-        if place.answers[0] < p.doubt * state.usual:
-            views = beside(sight, guess, p.context)
-            place = max([place, *self._places(known, views, guess)], key=lambda each: each.evidence)
-        return examine(known, place)
-
-    def _anywhere(self, state: State, sight: Sight, near: Found) -> Found:
-        """Look in the whole frame; something else than what is near has to be recognised for sure."""
-        p, known = self.params, self._known(state, sight)
-        views = elsewhere(known, sight, state.target, state.count)
-        places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
-        others = [self._unlikely(state, examine(known, place)) for place in places[: p.candidates]]
-        best = max(others, key=lambda each: each.log_odds)
-        sure = best.score >= p.found_above
-        return best if sure and best.log_odds > near.log_odds else near
-
-    def _unlikely(self, state: State, found: Found) -> Found:
-        """What was found, less sure the farther it is from where the target can be by now."""
-        reach = state.target.side * (self.params.reach * (1 + state.missed))
-        far = math.hypot(found.target.x - state.target.x, found.target.y - state.target.y) / reach
-        return found._replace(log_odds=found.log_odds - 0.5 * far * far)
-
-    def _places(self, known: Known, views: list[View], guess: Target) -> list[Place]:
-        """The best of each view, by evidence less what its distance from the guess takes off."""
-        half = known.p.context * guess.side / 2
-        found = []
-        for view in views:
-            far = (view.target.x - guess.x) ** 2 + (view.target.y - guess.y) ** 2
-            place = best_place(known, view)
-            found.append(place._replace(evidence=place.evidence - known.p.far * far / half**2))
-        return found
+    def _found(self, state: State, sight: Sight) -> Found:
+        """The target near where it should be; if it wasn't there in the last frame, anywhere."""
+        known = Known(state.models[sight.kind], state.depth, state.glance, state.first_side, self.params)
+        share = self.params.drift
+        guess = state.target.moved(share * state.velocity[0], share * state.velocity[1])
+        found = near(known, sight, guess, state.usual)
+        if not state.missed:
+            return found
+        return anywhere(known, sight, Lost(state.target, state.space, state.missed, state.count), found)
 
     def _accepted(self, state: State, sight: Sight, found: Found) -> State:
         """Make what was found the state; what is surely something else only counts as missed."""
@@ -162,9 +136,6 @@ class FusedTracker:
         return replace(
             state, target=found.target, velocity=velocity, missed=missed, usual=usual, glance=glance
         )
-
-    def _known(self, state: State, sight: Sight) -> Known:
-        return Known(state.models[sight.kind], state.depth, state.glance, state.first_side, self.params)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:

@@ -39,4 +39,5 @@ def posterior(opinions: Sequence[Plane | None]) -> Plane | None:
     for_it, against = heard[0], 1 - heard[0]
     for each in heard[1:]:
         for_it, against = for_it * each, against * (1 - each)
-    return for_it / np.maximum(for_it + against, np.float32(1e-9))
+    share: Plane = for_it / np.maximum(for_it + against, np.float32(1e-9))
+    return share

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: MIT
+"""What is at a place: how large, how far away, how much of it hidden, and whether it is the target."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.track.fused.experts import size
+from tricue.track.fused.experts.depth import Measured, measure
+from tricue.track.fused.experts.flow import Glance, growth
+from tricue.track.fused.experts.size import Looks
+from tricue.track.fused.identity import Marks, probability
+from tricue.track.fused.places import Known, Place, closer, peak
+from tricue.track.fused.sight import Plane, Sight
+from tricue.track.fused.view import PIXELS, Target, View
+
+LEAP = 1.25  # times, that a target grows or shrinks in a frame
+
+
+class Found(NamedTuple):
+    """A place looked at closely: its size and depth measured, its identity judged.
+
+    log_odds: of its being the target. answer: the filter's. hidden: share of its box before which something
+    nearer is.
+    """
+
+    target: Target
+    sight: Sight
+    marks: Marks
+    log_odds: float
+    answer: float
+    measured: Measured | None
+    hidden: float
+    glance: Glance | None
+
+    @property
+    def score(self) -> float:
+        """Probability of its being the target."""
+        return probability(self.log_odds)
+
+
+def examine(known: Known, place: Place) -> Found:
+    """Measure the size of what is at a place, and judge whether it is the target."""
+    place = closer(known, place)
+    models, p, view = known.models, known.p, place.view
+    measured = None if known.depth is None else measure(view.sight, place.target, view.sight.expected)
+    glance = Glance.at(view, place.right, place.down) if "flow" in p.cues else None
+    expected = _foreseen(known, place, measured, glance)
+    looks = size.looks(view.sight, place.target.scaled(expected), models.color.table, p)
+    step, factor = _factor(known, place, looks, expected)
+    low, high = (bound * known.first_side / place.target.side for bound in p.size_range)
+    at_depth, hidden = _depths(place)
+    marks = Marks(
+        sharpness=place.sharpness,
+        order=models.identity.order(looks.ranks[step]),
+        colors=models.identity.likeness(view, place.right, place.down),
+        contrast=place.contrast,
+        first=place.answers[1],
+        depth=at_depth,
+    )
+    target = place.target.scaled(min(max(factor, low), high))
+    odds = marks.log_odds(_channels(known, view))
+    return Found(target, view.sight, marks, odds, place.answers[0], measured, hidden, glance)
+
+
+def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Glance | None) -> float:
+    """How many times as large as before the target should be: as much as it came nearer, or its pixels moved
+    apart.
+    """
+    if measured is not None and known.depth is not None:
+        grown = known.depth.length / (measured.z * place.target.side)
+    elif known.glance is not None and glance is not None:
+        grown = growth(known.glance, glance, place.view) or 1.0
+    else:
+        return 1.0
+    return min(max(grown, 1 / LEAP), LEAP)
+
+
+def _channels(known: Known, view: View) -> str:
+    if view.sight.kind == "depth":
+        return "depth"
+    return "color" if known.depth is None or view.depth is None else "both"
+
+
+def _depths(place: Place) -> tuple[float, float]:
+    """Mean P(target | depth) in the box, less its prior, and the share that something nearer hides."""
+    view = place.view
+    if view.depth is None:
+        return 0.0, 0.0
+    box = view.inner(place.right, place.down, 0.8)
+    return float(view.depth[0][box].mean()) - 0.5, float(view.depth[1][box].mean())
+
+
+def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[int, float]:
+    """The step of scale for which there is most evidence, and the factor that it stands for."""
+    models, p, k = known.models, known.p, place.view.sight.k
+    offset = np.arange(p.scales) - p.scales // 2.0
+    total = -p.scale_prior * offset * offset
+    if "ranks" in p.cues:
+        total += p.rank_weight * models.size.evidence(k, looks)
+    if "edges" in p.cues and place.own is not None:
+        middle = _centred(place.own, place.right, place.down)
+        across, down = (expected * each for each in place.view.size)
+        total += p.edge_weight * size.edges(k, middle, (across, down), size.factors(p), models.edge)
+    best = int(total.argmax())
+    return best, expected * float(p.scale_step ** (offset[best] + peak(total, best)))
+
+
+def _centred(plane: Plane, right: float, down: float) -> Plane:
+    """The plane moved by whole pixels so that a place off its middle comes to lie there; 0 comes in."""
+    i, j = round(down), round(right)
+    moved = np.zeros_like(plane)
+    rows, columns = PIXELS - abs(i), PIXELS - abs(j)
+    from_i, from_j, to_i, to_j = max(i, 0), max(j, 0), max(-i, 0), max(-j, 0)
+    moved[to_i : to_i + rows, to_j : to_j + columns] = plane[
+        from_i : from_i + rows, from_j : from_j + columns
+    ]
+    return moved
