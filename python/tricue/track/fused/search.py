@@ -6,6 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.track.depth_particle.foreground import NO_FLOOR, foreground, numbers
+from tricue.track.depth_particle.objects import segment
+from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.fused.examine import Found, examine
 from tricue.track.fused.experts.depth import measure
 from tricue.track.fused.params import FusedParams
@@ -14,6 +17,7 @@ from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.space import Space, locate
 from tricue.track.fused.view import CELLS, Target, View, look
 
+SEGMENTS = DepthParticleParams()
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame
@@ -62,6 +66,7 @@ def anywhere(known: Known, sight: Sight, lost: Lost, near: Found) -> Found:
     places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
     others = [_unlikely(known, lost, examine(known, place)) for place in places[: p.candidates]]
     best = max(others, key=lambda each: each.log_odds)
+    near = _unlikely(known, lost, near)
     return best if best.score >= p.found_above and best.log_odds > near.log_odds else near
 
 
@@ -80,7 +85,8 @@ def _elsewhere(known: Known, sight: Sight, lost: Lost) -> list[View]:
     """Windows of the whole frame: where the target's colors are, and some of all, by turns. With depth each
     is as large as the target would be there.
     """
-    by_color = _colored(known, sight, lost.target)
+    marked = _colored if sight.depth is None else _apart
+    by_color = marked(known, sight, lost.target)
     every = _lattice(sight, lost.target, known.p)
     first = lost.turn * BY_TURNS
     by_turns = [every[(first + i) % len(every)] for i in range(min(BY_TURNS, len(every)))]
@@ -101,6 +107,24 @@ def _there(known: Known, sight: Sight, target: Target) -> tuple[Sight, list[Targ
     factor = known.depth.length / (measured.z * target.side)
     expected = Expected(measured.z, known.depth.relief)
     return sight.expecting(expected), [target.scaled(min(max(factor, low), high))]
+
+
+def _apart(known: Known, sight: Sight, target: Target) -> list[Target]:
+    """The target where something stands apart in depth, those of its size first (Sabeti, Parvizi and Wu
+    2008, section IV.A).
+    """
+    assert sight.depth is not None, "the picture is made of depth"
+    camera, rng = numbers(sight.camera), np.random.default_rng(0)
+    seen, plane = foreground(sight.k, sight.depth, camera, NO_FLOOR, rng, SEGMENTS)
+    objects = segment(sight.k, seen, plane, SEGMENTS)
+    found = []
+    for state, box in zip(objects.states.tolist(), objects.boxes(camera), strict=True):
+        side = Target.of(box).side
+        off = abs(math.log(side * state[2] / known.depth.length)) if known.depth else 0.0
+        x, y = box.center
+        found.append((off, target._replace(x=x, y=y)))
+    found.sort(key=lambda each: each[0])
+    return [each for _, each in found[:BY_COLOR]]
 
 
 def _colored(known: Known, sight: Sight, target: Target) -> list[Target]:

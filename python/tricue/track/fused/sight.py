@@ -52,8 +52,9 @@ class Ranger(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Sight:
-    """picture: (H, W, 3) BGR, of color, or of depth where there is no color. camera: that took it. ranger: None
-    without depth. expected: None where the target's depth isn't known. depth: (H, W) metres, if the picture is made of it.
+    """picture: (H, W, 3) BGR, of color, or of depth where there is no color, by a camera. ranger: None
+    where there is no depth. expected: None where the target's isn't known. depth: (H, W) metres, if the
+    picture is made of it.
     """
 
     k: Kernels
