@@ -49,18 +49,16 @@ def examine(known: Known, place: Place) -> Found:
     looks = size.looks(view.sight, place.target.scaled(expected), models.color.table, p)
     step, factor = _factor(known, place, looks, expected)
     low, high = (bound * known.first_side / place.target.side for bound in p.size_range)
-    at_depth, hidden = _depths(place)
     marks = Marks(
         sharpness=place.sharpness,
         order=models.identity.order(looks.ranks[step]),
         colors=models.identity.likeness(view, place.right, place.down),
         contrast=place.contrast,
         first=place.answers[1],
-        depth=at_depth,
     )
     target = place.target.scaled(min(max(factor, low), high))
     odds = marks.log_odds(_channels(known, view))
-    return Found(target, view.sight, marks, odds, place.answers[0], measured, hidden, glance)
+    return Found(target, view.sight, marks, odds, place.answers[0], measured, _hidden(place), glance)
 
 
 def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Glance | None) -> float:
@@ -82,13 +80,10 @@ def _channels(known: Known, view: View) -> str:
     return "color" if known.depth is None or view.depth is None else "both"
 
 
-def _depths(place: Place) -> tuple[float, float]:
-    """Mean P(target | depth) in the box, less its prior, and the share that something nearer hides."""
-    view = place.view
-    if view.depth is None:
-        return 0.0, 0.0
-    box = view.inner(place.right, place.down, 0.8)
-    return float(view.depth[0][box].mean()) - 0.5, float(view.depth[1][box].mean())
+def _hidden(place: Place) -> float:
+    """The share of the box that something nearer hides."""
+    depth = place.view.depth
+    return 0.0 if depth is None else float(depth[1][place.view.inner(place.right, place.down, 0.8)].mean())
 
 
 def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[int, float]:

@@ -77,7 +77,7 @@ def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams
     twice the rate, which costs half. again: it had been lost.
     """
     state = _ranged(state, sight, found, again, p)
-    if state.score < p.learn_above or state.count % EVERY:
+    if state.missed or state.score < p.learn_above or state.count % EVERY:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
     return replace(state, models={**state.models, sight.kind: models})

@@ -64,7 +64,7 @@ class FusedParams(Params):
         high=1,
         doc="covered by what is nearer, it counts as hidden",
     )
-    agility: float = parameter(8.0, unit="m/s²", source=OURS, above=0, doc="standard deviation")
+    agility: float = parameter(4.0, unit="m/s²", source=OURS, above=0, doc="standard deviation")
     fastest: float = parameter(2.0, unit="m/s", source=OURS, above=0)
     rate: float = parameter(30.0, unit="frames/s", source=OURS, above=0, doc="where timestamps tell nothing")
 

@@ -16,6 +16,7 @@ from tricue.track.fused.view import Target
 Floats = NDArray[np.float64]
 
 LATERAL = 0.05  # of the target's side, standard deviation of its place
+SURPRISING = 2.0  # standard deviations of a measurement from what was foreseen
 POSITION = np.eye(3, 6)
 SLOWING = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
@@ -59,8 +60,11 @@ class Space(NamedTuple):
         return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
 
     def corrected(self, k: Kernels, point: Floats, noise: Floats) -> "Space":
-        """With a measured point (3,) and its covariance (3, 3)."""
-        mean, covariance, *_ = k.kalman_update(self.mean, self.covariance, point, POSITION, noise)
+        """With a measured point (3,) and its covariance (3, 3); what surprises shows that the target does what
+        wasn't foreseen, and widens the state to that.
+        """
+        wider = max(self.distance(point, noise) / SURPRISING, 1.0) ** 2
+        mean, covariance, *_ = k.kalman_update(self.mean, wider * self.covariance, point, POSITION, noise)
         return Space(mean, covariance)
 
 

@@ -90,7 +90,7 @@ class FusedTracker:
         found = self._found(state, sight)
         again = before.missed >= self.params.lost_after
         state = self._accepted(state, sight, found)
-        if state.missed == 0:
+        if state.target is found.target:
             state = learn.learnt(state, sight, found, again, self.params)
         self._state = state
         return self._track(state)
