@@ -10,10 +10,13 @@ from tricue.track.fused.experts.depth import Measured, measure
 from tricue.track.fused.experts.flow import Glance, growth
 from tricue.track.fused.experts.size import Looks
 from tricue.track.fused.identity import Marks, probability
+from tricue.track.fused.outline import Outline, outline
 from tricue.track.fused.places import Known, Place, closer, peak
 from tricue.track.fused.sight import Plane, Sight
 from tricue.track.fused.view import PIXELS, Target, View
 
+INNER, OUTER = 0.8, 2.0  # of the box, inside of it and round it
+VAGUE = 0.25  # metres, an expectation of depth that tells little
 LEAP = 1.25  # times, that a target grows or shrinks in a frame
 
 
@@ -32,6 +35,7 @@ class Found(NamedTuple):
     measured: Measured | None
     hidden: float
     glance: Glance | None
+    outline: Outline | None
 
     @property
     def score(self) -> float:
@@ -57,8 +61,19 @@ def examine(known: Known, place: Place) -> Found:
         first=place.answers[1],
     )
     target = place.target.scaled(min(max(factor, low), high))
+    hidden = _hidden(place)
     odds = marks.log_odds(_channels(known, view))
-    return Found(target, view.sight, marks, odds, place.answers[0], measured, _hidden(place), glance)
+    return Found(
+        target,
+        view.sight,
+        marks,
+        odds,
+        place.answers[0],
+        measured,
+        hidden,
+        glance,
+        outline(view, place.right, place.down, hidden),
+    )
 
 
 def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Glance | None) -> float:
@@ -72,6 +87,20 @@ def _foreseen(known: Known, place: Place, measured: Measured | None, glance: Gla
     else:
         return 1.0
     return min(max(grown, 1 / LEAP), LEAP)
+
+
+def continuous(place: Place) -> float:
+    """How much what is at a place stands apart at the depth that is expected: mean P(target | depth) in its
+    box less that round it, in [0, 1], less the vaguer the expectation; 0 without depth.
+    """
+    view = place.view
+    expected = view.sight.expected
+    if view.depth is None or expected is None:
+        return 0.0
+    own, every = (view.depth[0][view.inner(place.right, place.down, share)] for share in (INNER, OUTER))
+    inside, outside = float(own.sum()), float(every.sum()) - float(own.sum())
+    contrast = inside / own.size - outside / max(every.size - own.size, 1)
+    return max(contrast, 0.0) * min(VAGUE / expected.sigma, 1.0) ** 2
 
 
 def _channels(known: Known, view: View) -> str:

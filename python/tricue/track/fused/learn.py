@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the fused tracker learns of a target: at the start, of a new channel, and of every second frame."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -76,7 +77,7 @@ def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams
     """With what was found blended in; its looks only where it was surely recognised, every second frame at
     twice the rate, which costs half. again: it had been lost.
     """
-    state = _ranged(state, sight, found, again, p)
+    state = _outlined(_ranged(state, sight, found, again, p), found, p)
     if state.missed or state.score < p.learn_above or state.count % EVERY:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
@@ -92,6 +93,14 @@ def _blended(models: Models, view: View, p: FusedParams) -> Models:
         size=models.size.learnt(sight.k, looks, filter_rate),
         identity=models.identity.learnt(looks.ranks[p.scales // 2], filter_rate),
     )
+
+
+def _outlined(state: State, found: Found, p: FusedParams) -> State:
+    """With the outline that was seen."""
+    if found.outline is None or state.missed:
+        return state
+    rate = 1 - math.exp(-state.seconds / p.outline_time)
+    return replace(state, outline=state.outline.moved(found.outline, rate))
 
 
 def _ranged(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:

@@ -56,6 +56,9 @@ class FusedParams(Params):
     depth_rate: float = parameter(
         0.02, unit="per frame", source=OURS, low=0, high=1, doc="of relief and length"
     )
+    outline_time: float = parameter(
+        0.5, unit="s", source=OURS, above=0, doc="in which the box's sides follow"
+    )
     hidden_above: float = parameter(
         0.5,
         unit="of the box",
@@ -63,6 +66,9 @@ class FusedParams(Params):
         low=0,
         high=1,
         doc="covered by what is nearer, it counts as hidden",
+    )
+    continuity: float = parameter(
+        8.0, unit="log-odds", source=OURS, low=0, doc="for what stands apart at the depth that is expected"
     )
     agility: float = parameter(4.0, unit="m/s²", source=OURS, above=0, doc="standard deviation")
     fastest: float = parameter(2.0, unit="m/s", source=OURS, above=0)

@@ -9,7 +9,7 @@ import numpy as np
 from tricue.track.depth_particle.foreground import NO_FLOOR, foreground, numbers
 from tricue.track.depth_particle.objects import segment
 from tricue.track.depth_particle.params import DepthParticleParams
-from tricue.track.fused.examine import Found, examine
+from tricue.track.fused.examine import Found, continuous, examine
 from tricue.track.fused.experts.depth import measure
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.places import Known, Place, best_place
@@ -42,7 +42,9 @@ def near(known: Known, sight: Sight, guess: Target, usual: float) -> Found:
     if place.answers[0] < p.doubt * usual:
         places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
         place = max([place, *places], key=lambda each: each.evidence)
-    return examine(known, place)
+    found = examine(known, place)
+    bonus = p.continuity * continuous(place)
+    return found._replace(log_odds=found.log_odds + bonus)
 
 
 def _farther(known: Known, view: View, guess: Target) -> Place:

@@ -60,8 +60,8 @@ class Space(NamedTuple):
         return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
 
     def corrected(self, k: Kernels, point: Floats, noise: Floats) -> "Space":
-        """With a measured point (3,) and its covariance (3, 3); what surprises shows that the target does what
-        wasn't foreseen, and widens the state to that.
+        """With a measured point (3,) and its covariance (3, 3); what surprises shows that the target does
+        what wasn't foreseen, and widens the state to that.
         """
         wider = max(self.distance(point, noise) / SURPRISING, 1.0) ** 2
         mean, covariance, *_ = k.kalman_update(self.mean, wider * self.covariance, point, POSITION, noise)

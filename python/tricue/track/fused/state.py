@@ -10,6 +10,7 @@ from tricue.track.fused.experts.filter import FilterExpert
 from tricue.track.fused.experts.flow import Glance
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.identity import Identity, Marks
+from tricue.track.fused.outline import WHOLE, Outline
 from tricue.track.fused.sight import Kind
 from tricue.track.fused.space import Space
 from tricue.track.fused.view import Target
@@ -40,7 +41,9 @@ class State:
     depth: DepthExpert | None = None
     space: Space | None = None
     glance: Glance | None = None
+    outline: Outline = WHOLE
     hidden: bool = False  # behind something nearer
     missed: int = 0  # frames in a row in which it was not recognised
+    seconds: float = 0.0  # since the frame before
     count: int = 0  # frames since init
     timestamp: float | None = field(default=None)

@@ -104,7 +104,8 @@ class FusedTracker:
         space = state.space
         if space is not None:
             space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)
-        return replace(state, space=space, timestamp=seen.timestamp, count=state.count + 1)
+        now = state.count + 1
+        return replace(state, space=space, timestamp=seen.timestamp, seconds=seconds, count=now)
 
     def _found(self, state: State, sight: Sight) -> Found:
         """The target near where it should be; if it wasn't there in the last frame, anywhere."""
@@ -146,7 +147,7 @@ class FusedTracker:
             status = Status.LOST
         space = state.space
         where = (None, None) if space is None else (space.position, space.uncertainty)
-        return Track(state.target.box, state.score, status, *where)
+        return Track(state.outline.around(state.target).box, state.score, status, *where)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_k"}
