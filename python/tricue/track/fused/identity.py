@@ -64,7 +64,7 @@ class Identity(NamedTuple):
 
     def order(self, ranks: Plane) -> float:
         """Mean distance of ranks (3, n)."""
-        return float(np.abs(ranks - self.ranks).mean())
+        return float(np.abs(ranks - self.ranks).sum()) / ranks.size
 
     def learnt(self, ranks: Plane, rate: float) -> "Identity":
         """With the ranks of a found target blended in."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The place in a view for which there is most evidence."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -67,10 +68,17 @@ def best_place(known: Known, view: View) -> Place:
         2 * down,
         float(total[i, j]),
         (float(answer[i, j]), float(answers[1][near].max())),
-        float((answer[near].max() - answer.mean()) / max(float(answer.std()), 1e-6)),
+        _sharpness(answer, float(answer[near].max())),
         0.0 if contrast is None else float(contrast[i, j]),
         own,
     )
+
+
+def _sharpness(answer: Plane, top: float) -> float:
+    """Standard deviations by which the top of an answer stands above its mean."""
+    mean = float(answer.sum()) / answer.size
+    power = float(np.vdot(answer, answer)) / answer.size
+    return (top - mean) / max(math.sqrt(max(power - mean * mean, 0.0)), 1e-6)
 
 
 def _pixel_experts(known: Known) -> list[PixelExpert]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What a frame brings: checked, and made into a picture and a way to measure depth."""
 
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import cv2
@@ -54,17 +55,17 @@ def read(
     if given.depth is not None and given.depth.shape != size:
         hint = "it has to be that of the color image's pixels"
         raise ValueError(f"frame.depth: expected shape {size}, got {given.depth.shape}; {hint}")
-    rig, camera = _described(cameras, size)
+    rig, camera = _described(*cameras, size)
     ranger = _ranger(k, given, rig) if with_depth else None
     color = None if given.color is None else _bgr(given.color)
     return Seen(size, color, given.depth, ranger, camera, given.timestamp)
 
 
+@lru_cache(maxsize=8)
 def _described(
-    cameras: tuple[StereoRig | None, Intrinsics | None], size: tuple[int, int]
+    rig: StereoRig | None, camera: Intrinsics | None, size: tuple[int, int]
 ) -> tuple[StereoRig, Intrinsics]:
     """The rig and its camera; usual ones where nothing is known."""
-    rig, camera = cameras
     if rig is None:
         rig = StereoRig(lifecycle.camera_for(camera, size), lifecycle.USUAL_BASELINE)
     rig = lifecycle.rig_for(rig, size)

@@ -45,27 +45,33 @@ def growth(before: Glance, now: Glance, view: View) -> float | None:
     u, v, _, _ = view.sight.k.pyramid_flow(
         before.gray, now.gray, SIGMA, LEVELS, MIN_ANGLE, MIN_CONTRAST, region, POOL
     )
-    x, y = _places(*region)
-    known = np.isfinite(u) & np.isfinite(v)
-    shrunk = _slope(x[known], y[known], x[known] - u[known], y[known] - v[known])
+    places = _places(*region)
+    moved = places - np.array([u.ravel(), v.ravel()])
+    known = np.isfinite(moved[0])
+    shrunk = _slope(np.concatenate([places, moved])[:, known])
     return None if shrunk is None else now.unit / before.unit / shrunk
 
 
-def _slope(x: Plane, y: Plane, u: Plane, v: Plane) -> float | None:
-    """a of u = a x + b, v = a y + c by least squares, twice: the second time without outliers."""
+def _slope(points: Plane) -> float | None:
+    """a of u = a x + b, v = a y + c, of (4, n) x, y, u, v, by least squares, twice: the second time without
+    outliers.
+    """
     for _ in range(2):
-        if len(x) < LEAST:
+        count = points.shape[1]
+        if count < LEAST:
             return None
-        x0, y0, u0, v0 = (each - each.mean() for each in (x, y, u, v))
-        a = float((x0 @ u0 + y0 @ v0) / (x0 @ x0 + y0 @ y0))
-        off = (u0 - a * x0) ** 2 + (v0 - a * y0) ** 2
-        spread = float(off.mean())
-        near = off <= OUTLIERS**2 * spread
-        x, y, u, v = x[near], y[near], u[near], v[near]
+        points = points - points.sum(axis=1, keepdims=True) / count
+        place, moved = points[:2], points[2:]
+        a = float(np.vdot(place, moved) / np.vdot(place, place))
+        off = moved - a * place
+        off = (off * off).sum(axis=0)
+        spread = float(off.sum()) / count
+        points = points[:, off <= OUTLIERS**2 * spread]
     return a if 0.5 < a < 2 and spread < 2 * LOOSE**2 else None
 
 
 @lru_cache(maxsize=64)
-def _places(left: int, top: int, right: int, bottom: int) -> tuple[Plane, Plane]:
+def _places(left: int, top: int, right: int, bottom: int) -> Plane:
+    """(2, n) x, y of a region's pixels."""
     x, y = np.meshgrid(np.arange(left, right, dtype=np.float32), np.arange(top, bottom, dtype=np.float32))
-    return x, y
+    return np.array([x.ravel(), y.ravel()])

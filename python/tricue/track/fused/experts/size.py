@@ -62,18 +62,24 @@ class SizeExpert(NamedTuple):
         return SizeExpert(now, self.first, asked, self.label, self.params)
 
 
-@lru_cache(maxsize=8)
 def factors(p: FusedParams) -> NDArray[np.float64]:
     """(S,) of the size, 1 in the middle."""
-    steps: NDArray[np.float64] = np.power(p.scale_step, np.arange(p.scales) - p.scales // 2.0)
-    return steps
+    return _powers(p.scale_step, p.scales)
+
+
+@lru_cache(maxsize=8)
+def _powers(step: float, count: int) -> NDArray[np.float64]:
+    powers: NDArray[np.float64] = np.power(step, np.arange(count) - count // 2.0)
+    return powers
 
 
 def looks(sight: Sight, target: Target, table: Plane, p: FusedParams) -> Looks:
     """A target's place at every step of scale; table: (16, 16, 16) P(target | color)."""
     k, steps = sight.k, factors(p)
-    width, height = p.scale_reach * target.width * steps, p.scale_reach * target.height * steps
-    windows = np.stack([target.x - width / 2, target.y - height / 2, width, height], axis=1)
+    windows = np.empty((len(steps), 4))
+    windows[:, 2] = p.scale_reach * target.width * steps
+    windows[:, 3] = p.scale_reach * target.height * steps
+    windows[:, :2] = (target.x, target.y) - windows[:, 2:] / 2
     samples = k.sample_windows(sight.picture, windows, GRID, GRID)
     flat = np.ascontiguousarray(samples.reshape(len(samples), -1, 3).transpose(0, 2, 1))
     ranks = k.color_ranks(flat)
