@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the fused tracker learns of a target: at the start, of a new channel, and of every second frame."""
+"""What the fused tracker learns of a target: at the start, of a new channel, and on its way."""
 
 import math
 from dataclasses import replace
@@ -25,7 +25,6 @@ from tricue.track.fused.view import Target, View, look
 
 Floats = NDArray[np.float64]
 
-EVERY = 2  # frames from one in which the looks are learnt to the next
 STARTING = 0.1  # metres, of a target's relief that isn't known yet
 
 
@@ -74,22 +73,22 @@ def first_models(sight: Sight, target: Target, p: FusedParams) -> Models:
 
 
 def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
-    """With what was found blended in; its looks only where it was surely recognised, every second frame at
-    twice the rate, which costs half. again: it had been lost.
+    """With what was found blended in; its looks only where it was surely recognised, and only in some
+    frames, at rates that are higher for it. again: it had been lost.
     """
     state = _outlined(_ranged(state, sight, found, again, p), found, p)
-    if state.missed or state.score < p.learn_above or state.count % EVERY:
+    if state.missed or state.score < p.learn_above or state.count % p.learn_every:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
     return replace(state, models={**state.models, sight.kind: models})
 
 
 def _blended(models: Models, view: View, p: FusedParams) -> Models:
-    sight, filter_rate = view.sight, EVERY * p.filter_rate
+    sight, filter_rate = view.sight, p.learn_every * p.filter_rate
     looks = size.looks(sight, view.target, models.color.table, p)
     return models._replace(
         filter=models.filter.learnt(view, filter_rate),
-        color=models.color.learnt(view, EVERY * p.color_rate),
+        color=models.color.learnt(view, p.learn_every * p.color_rate),
         size=models.size.learnt(sight.k, looks, filter_rate),
         identity=models.identity.learnt(looks.ranks[p.scales // 2], filter_rate),
     )

@@ -79,6 +79,9 @@ class FusedParams(Params):
     doubt: float = parameter(0.6, unit="of the usual", source=OURS, low=0, high=1)
     far: float = parameter(0.05, unit="-", source=OURS, low=0)
 
+    learn_every: int = parameter(
+        3, unit="frames", source=OURS, low=1, high=30, doc="from one in which looks are learnt to the next"
+    )
     learn_above: float = parameter(
         0.4, unit="score", source=OURS, low=0, high=1, doc="no learning under this score"
     )

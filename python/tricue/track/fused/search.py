@@ -21,7 +21,7 @@ SEGMENTS = DepthParticleParams()
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame
-BY_COLOR, BY_TURNS = 6, 6  # windows of the whole frame that are looked at in a frame
+BY_COLOR, BY_TURNS = 4, 4  # windows of the whole frame that are looked at in a frame
 
 
 class Lost(NamedTuple):
@@ -35,11 +35,13 @@ class Lost(NamedTuple):
     turn: int
 
 
-def near(known: Known, sight: Sight, guess: Target, usual: float) -> Found:
-    """Look where the target should be; where its answer surprises, beside that, too."""
+def near(known: Known, sight: Sight, guess: Target, usual: float | None) -> Found:
+    """Look where the target should be; where its answer isn't as usual, beside that, too. usual: None for
+    one that is looked for anywhere, anyway.
+    """
     p = known.p
     place = best_place(known, look(sight, [guess], p.context)[0])
-    if place.answers[0] < p.doubt * usual:
+    if usual is not None and place.answers[0] < p.doubt * usual:
         places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
         place = max([place, *places], key=lambda each: each.evidence)
     found = examine(known, place)

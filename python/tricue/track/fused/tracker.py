@@ -112,7 +112,7 @@ class FusedTracker:
         known = Known(state.models[sight.kind], state.depth, state.glance, state.first_side, self.params)
         share = self.params.drift
         guess = state.target.moved(share * state.velocity[0], share * state.velocity[1])
-        found = near(known, sight, guess, state.usual)
+        found = near(known, sight, guess, None if state.missed else state.usual)
         if not state.missed:
             return found
         return anywhere(known, sight, Lost(state.target, state.space, state.missed, state.count), found)
