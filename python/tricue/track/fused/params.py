@@ -94,6 +94,14 @@ class FusedParams(Params):
     lost_after: int = parameter(
         3, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
     )
+    again: float = parameter(
+        0.3,
+        unit="of the usual log-odds",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="of a missed target, to be taken up",
+    )
     reach: float = parameter(
         0.5, unit="target per frame", source=OURS, above=0, doc="standard deviation of where a lost target is"
     )

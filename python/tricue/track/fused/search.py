@@ -21,6 +21,7 @@ SEGMENTS = DepthParticleParams()
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame
+SIZES = 1.0, 0.7, 1.0, 1.4  # of the last one, of a target that is looked for, by turns
 BY_COLOR, BY_TURNS = 4, 4  # windows of the whole frame that are looked at in a frame
 
 
@@ -95,7 +96,8 @@ def _elsewhere(known: Known, sight: Sight, lost: Lost) -> list[View]:
     first = lost.turn * BY_TURNS
     by_turns = [every[(first + i) % len(every)] for i in range(min(BY_TURNS, len(every)))]
     if known.depth is None or sight.ranger is None:
-        return look(sight, by_color + by_turns, known.p.context)
+        factor = SIZES[lost.turn % len(SIZES)]
+        return look(sight, [each.scaled(factor) for each in by_color + by_turns], known.p.context)
     views = []
     for each in by_color + by_turns:
         views += look(*_there(known, sight, each), known.p.context)

@@ -37,6 +37,7 @@ class State:
     usual: float  # the filter's answer where the target is
     marks: Marks | None = None
     score: float = 1.0
+    sure: float = 0.0  # log-odds of its being the target, usually
     velocity: tuple[float, float] = (0.0, 0.0)  # pixels a frame
     depth: DepthExpert | None = None
     space: Space | None = None

@@ -120,23 +120,26 @@ class FusedTracker:
     def _accepted(self, state: State, sight: Sight, found: Found) -> State:
         """Make what was found the state; what is surely something else only counts as missed."""
         p = self.params
-        score = found.score
         hidden = found.hidden > p.hidden_above
+        recognised = found.score >= p.lost_below and not hidden
+        if state.missed:  # a look-alike is never as sure as the target was
+            recognised = recognised and found.log_odds >= p.again * state.sure
+        score = found.score if recognised else min(found.score, p.lost_below)
         state = replace(state, marks=found.marks, score=score, hidden=hidden, glance=None)
         if score < p.hopeless or hidden:
             slower = (0.5 * state.velocity[0], 0.5 * state.velocity[1])
-            return replace(state, velocity=slower, missed=state.missed + 1, score=min(score, p.lost_below))
+            return replace(state, velocity=slower, missed=state.missed + 1)
         right, down = found.target.x - state.target.x, found.target.y - state.target.y
         jumped = math.hypot(right, down) > p.context / 2 * state.target.side
         rate = p.velocity_rate
         u, v = state.velocity
         velocity = (0.0, 0.0) if jumped else (u + rate * (right - u), v + rate * (down - v))
-        missed = state.missed + 1 if score < p.lost_below else 0
-        usual = state.usual if missed else state.usual + USUAL_RATE * (found.answer - state.usual)
-        glance = None if missed or jumped else found.glance
-        return replace(
-            state, target=found.target, velocity=velocity, missed=missed, usual=usual, glance=glance
-        )
+        state = replace(state, target=found.target, velocity=velocity)
+        if not recognised:
+            return replace(state, missed=state.missed + 1)
+        usual = state.usual + USUAL_RATE * (found.answer - state.usual)
+        sure = state.sure + USUAL_RATE * (found.log_odds - state.sure)
+        return replace(state, missed=0, usual=usual, sure=sure, glance=None if jumped else found.glance)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:
