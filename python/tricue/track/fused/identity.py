@@ -15,6 +15,8 @@ from tricue.track.fused.view import View
 # was and at random places and look-alikes. Depth makes contrasts higher, so that they tell less.
 WEIGHTS = 0.32, -15.64, 7.33, 11.19, 12.29  # of the marks
 OFFSET = -10.6
+STRUCTURE = 0.44, -7.19, 0.0, 0.0, 11.07  # the same of what light leaves as it is
+CAUTION = -6.9  # its offset, less 2: another of the same structure is not the target
 TRUST = {"color": (1.0, 0.0), "both": (1.0, -1.0), "depth": (0.36, -4.7)}  # slope, offset
 
 
@@ -35,9 +37,16 @@ class Marks(NamedTuple):
 
     def log_odds(self, channels: str) -> float:
         """Of the target being there; above 0 it rather is. channels: a key of TRUST."""
-        odds = OFFSET + sum(weight * value for weight, value in zip(WEIGHTS, self, strict=True))
         slope, offset = TRUST[channels]
-        return slope * odds + offset
+        return slope * (OFFSET + self._weighed(WEIGHTS)) + offset
+
+    @property
+    def in_any_light(self) -> float:
+        """The same by its structure alone, as whatever is where the target was may be lit otherwise now."""
+        return CAUTION + self._weighed(STRUCTURE)
+
+    def _weighed(self, weights: tuple[float, ...]) -> float:
+        return sum(weight * value for weight, value in zip(weights, self, strict=True))
 
 
 def probability(log_odds: float) -> float:

@@ -46,8 +46,8 @@ def near(known: Known, sight: Sight, guess: Target, usual: float | None) -> Foun
         places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
         place = max([place, *places], key=lambda each: each.evidence)
     found = examine(known, place)
-    bonus = p.continuity * continuous(place)
-    return found._replace(log_odds=found.log_odds + bonus)
+    likely = max(found.log_odds, found.marks.in_any_light)
+    return found._replace(log_odds=likely + p.continuity * continuous(place))
 
 
 def _farther(known: Known, view: View, guess: Target) -> Place:
