@@ -23,13 +23,14 @@ LEAP = 1.25  # times, that a target grows or shrinks in a frame
 class Found(NamedTuple):
     """A place looked at closely: its size and depth measured, its identity judged.
 
-    log_odds: of its being the target. answer: the filter's. hidden: share of its box before which something
-    nearer is.
+    by_look, log_odds: of its being the target by its look, and by all that is known. answer: the filter's.
+    hidden: share of its box before which something nearer is.
     """
 
     target: Target
     sight: Sight
     marks: Marks
+    by_look: float
     log_odds: float
     answer: float
     measured: Measured | None
@@ -67,6 +68,7 @@ def examine(known: Known, place: Place) -> Found:
         target,
         view.sight,
         marks,
+        odds,
         odds,
         place.answers[0],
         measured,

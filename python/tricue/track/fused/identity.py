@@ -16,7 +16,7 @@ from tricue.track.fused.view import View
 WEIGHTS = 0.32, -15.64, 7.33, 11.19, 12.29  # of the marks
 OFFSET = -10.6
 STRUCTURE = 0.44, -7.19, 0.0, 0.0, 11.07  # the same of what light leaves as it is
-CAUTION = -6.9  # its offset, less 2: another of the same structure is not the target
+STRUCTURE_OFFSET = -4.91
 TRUST = {"color": (1.0, 0.0), "both": (1.0, -1.0), "depth": (0.36, -4.7)}  # slope, offset
 
 
@@ -41,9 +41,9 @@ class Marks(NamedTuple):
         return slope * (OFFSET + self._weighed(WEIGHTS)) + offset
 
     @property
-    def in_any_light(self) -> float:
-        """The same by its structure alone, as whatever is where the target was may be lit otherwise now."""
-        return CAUTION + self._weighed(STRUCTURE)
+    def by_structure(self) -> float:
+        """The same by what light leaves as it is alone."""
+        return STRUCTURE_OFFSET + self._weighed(STRUCTURE)
 
     def _weighed(self, weights: tuple[float, ...]) -> float:
         return sum(weight * value for weight, value in zip(weights, self, strict=True))

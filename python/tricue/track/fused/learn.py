@@ -110,7 +110,7 @@ def _ranged(state: State, sight: Sight, found: Found, again: bool, p: FusedParam
         measured = measure(sight, state.target, None)
         depth, space = _located(sight, state.target, measured, p)
         return replace(state, depth=depth, space=space)
-    if found.measured is None:
+    if found.measured is None or (again and state.missed):
         return state
     point, noise = locate(sight, state.target, found.measured)
     if again:

@@ -21,6 +21,7 @@ SEGMENTS = DepthParticleParams()
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame
+CAUTION = 2.0  # log-odds that structure alone tells less
 SIZES = 1.0, 0.7, 1.0, 1.4  # of the last one, of a target that is looked for, by turns
 BY_COLOR, BY_TURNS = 4, 4  # windows of the whole frame that are looked at in a frame
 
@@ -46,8 +47,12 @@ def near(known: Known, sight: Sight, guess: Target, usual: float | None) -> Foun
         places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
         place = max([place, *places], key=lambda each: each.evidence)
     found = examine(known, place)
-    likely = max(found.log_odds, found.marks.in_any_light)
-    return found._replace(log_odds=likely + p.continuity * continuous(place))
+    likely = found.log_odds + p.continuity * continuous(place)
+    if (
+        sight.kind == "color"
+    ):  # its colors may be lit otherwise now, or parts of it be hidden: either is enough
+        likely = max(likely, found.marks.by_structure - CAUTION)
+    return found._replace(log_odds=likely)
 
 
 def _farther(known: Known, view: View, guess: Target) -> Place:
@@ -69,21 +74,28 @@ def anywhere(known: Known, sight: Sight, lost: Lost, near: Found) -> Found:
     p = known.p
     views = _elsewhere(known, sight, lost)
     places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
-    others = [_unlikely(known, lost, examine(known, place)) for place in places[: p.candidates]]
+    others = [_elsewhere_sure(known, lost, examine(known, place)) for place in places[: p.candidates]]
     best = max(others, key=lambda each: each.log_odds)
-    near = _unlikely(known, lost, near)
+    near = near._replace(log_odds=near.log_odds - 0.5 * _distance(known, lost, near) ** 2)
     return best if best.score >= p.found_above and best.log_odds > near.log_odds else near
 
 
-def _unlikely(known: Known, lost: Lost, found: Found) -> Found:
-    """What was found, less sure the farther it is from where the target can be by now."""
+def _elsewhere_sure(known: Known, lost: Lost, found: Found) -> Found:
+    """What was found away from where the target should be, less sure the farther. Without its depth both color and
+    structure have to agree, since look-alikes share one of them.
+    """
+    likely = found.log_odds
+    if found.measured is None:
+        likely = min(likely, found.marks.by_structure)
+    return found._replace(log_odds=likely - 0.5 * _distance(known, lost, found) ** 2)
+
+
+def _distance(known: Known, lost: Lost, found: Found) -> float:
+    """Standard deviations from where the target can be by now."""
     if lost.space is not None and found.measured is not None:
-        point, noise = locate(found.sight, found.target, found.measured)
-        far = lost.space.distance(point, noise)
-    else:
-        reach = lost.target.side * known.p.reach * (1 + lost.missed)
-        far = math.hypot(found.target.x - lost.target.x, found.target.y - lost.target.y) / reach
-    return found._replace(log_odds=found.log_odds - 0.5 * far * far)
+        return lost.space.distance(*locate(found.sight, found.target, found.measured))
+    reach = lost.target.side * known.p.reach * (1 + lost.missed)
+    return math.hypot(found.target.x - lost.target.x, found.target.y - lost.target.y) / reach
 
 
 def _elsewhere(known: Known, sight: Sight, lost: Lost) -> list[View]:

@@ -138,7 +138,7 @@ class FusedTracker:
         if not recognised:
             return replace(state, missed=state.missed + 1)
         usual = state.usual + USUAL_RATE * (found.answer - state.usual)
-        sure = state.sure + USUAL_RATE * (found.log_odds - state.sure)
+        sure = state.sure + USUAL_RATE * (found.by_look - state.sure)
         return replace(state, missed=0, usual=usual, sure=sure, glance=None if jumped else found.glance)
 
     def _track(self, state: State) -> Track:
