@@ -81,8 +81,8 @@ def anywhere(known: Known, sight: Sight, lost: Lost, near: Found) -> Found:
 
 
 def _elsewhere_sure(known: Known, lost: Lost, found: Found) -> Found:
-    """What was found away from where the target should be, less sure the farther. Without its depth both color and
-    structure have to agree, since look-alikes share one of them.
+    """What was found away from where the target should be, less sure the farther. Without its depth both
+    color and structure have to agree, since look-alikes share one of them.
     """
     likely = found.log_odds
     if found.measured is None:
