@@ -115,7 +115,7 @@ def test_an_expected_wall_is_where_it_is(disparity, off):
     assert np.mean(np.abs(found - disparity) < 0.5) > 0.9
 
 
-@pytest.mark.xfail(strict=True, reason=CHANCE)
+@pytest.mark.xfail(strict=True, raises=AssertionError, reason=CHANCE)
 def test_only_what_is_near_the_expected_is_found():
     """A wall 30 samples of disparity away from what is expected is hardly ever taken for anything."""
     metres = pair(4.0).metres((130.0, 70.0, 1.0), 40, Expected(PRODUCT / 34, 0.1))
