@@ -551,12 +551,12 @@ def test_degenerate_rigs_are_sane(camera, rig):
 
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
 def test_long_lost_is_sane(camera):
-    """Three hundred frames without the target leave a sane track, which is LOST: no number runs away."""
+    """150 frames without the target leave a sane track, which is LOST: no number runs away."""
     tracker = started(camera)
     gone = Frame(np.zeros_like(LEFT), right=np.zeros_like(LEFT))
     if camera in ("rgbd", "depth"):
         gone = Frame(None if camera == "depth" else gone.color, np.full_like(DEPTH, np.nan))
-    for _ in range(300):
+    for _ in range(150):
         track = tracker.update(gone)
     assert_sane(track)
     assert track.status is Status.LOST
