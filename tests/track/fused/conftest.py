@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""Scenes with everything, each drawn once, with whatever channels a test asks for."""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+
+import pytest
+from tricue import Frame
+
+CHANNELS = {
+    "color": ("color",),
+    "rgbd": ("color", "depth"),
+    "pair": ("color", "right"),
+    "depth": ("depth",),
+    "all": ("color", "depth", "right"),
+}
+
+
+@pytest.fixture(scope="session")
+def drawn() -> Callable[..., object]:
+    """A scene by its kind, seed and channels; "stereo" knows the rig, and all have the same truth."""
+    pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+    from tricue.scenes.everything import everything
+
+    return cache(lambda kind, seed=0, channels="stereo": everything(kind, seed, channels=channels))
+
+
+@pytest.fixture(scope="session")
+def shoot(drawn: Callable[..., object]) -> Callable[..., list[Frame]]:
+    """The first frames of a scene, each with the channels of that name, or all of one."""
+
+    def frames(kind: str, names: Sequence[str] | str, seed: int = 0) -> list[Frame]:
+        pairs, depths = (drawn(kind, seed, channels).frames for channels in ("stereo", "depth"))
+        named = len(pairs) * [names] if isinstance(names, str) else names
+        made = []
+        for name, pair, depth in zip(named, pairs, depths, strict=False):
+            images = {"color": pair.color, "right": pair.right, "depth": depth.depth}
+            made.append(Frame(**{each: images[each] for each in CHANNELS[name]}, timestamp=pair.timestamp))
+        return made
+
+    return frames

@@ -1,0 +1,284 @@
+# SPDX-License-Identifier: MIT
+"""How right the fused tracker is in metres, and what it makes of what hides, leaves and looks alike: with
+color and depth, with a pair, and with depth alone.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Box, Frame, FusedTracker, Intrinsics, Status, Track
+from tricue.scenes.everything import Scene
+
+CHANNELS = ("rgbd", "pair", "depth")
+SLOW = {"rgbd": 0.02, "pair": 0.04, "depth": 0.02}  # of the distance, bound of the median error
+CERTAIN = 16.3  # the 99.9 % quantile of chi-square with 3 degrees of freedom
+STILL = ("plain", "scale")
+
+
+class Run:
+    """A scene and the tracks of a tracker that knows its cameras."""
+
+    def __init__(self, scene: Scene, frames: list[Frame]) -> None:
+        tracker = FusedTracker(rig=scene.rig)
+        self.scene = scene
+        self.tracks: list[Track] = [tracker.init(frames[0], scene.boxes[0])]
+        self.tracks += map(tracker.update, frames[1:])
+        self.tracked = np.array([track.status is Status.TRACKED for track in self.tracks])
+        self.overlap = self.overlaps(scene.boxes)
+
+    def overlaps(self, boxes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(N,) with boxes (N, 4), 0 where there is none."""
+        pairs = zip(self.tracks, boxes, strict=True)
+        return np.array([track.box.iou(Box(*box)) if np.isfinite(box).all() else 0.0 for track, box in pairs])
+
+    @property
+    def errors(self) -> NDArray[np.float64]:
+        """(N, 3) metres from the truth."""
+        return np.array([track.position for track in self.tracks]) - self.scene.positions
+
+    @property
+    def covariances(self) -> NDArray[np.float64]:
+        """(N, 3, 3) metres²."""
+        return np.array([track.covariance for track in self.tracks])
+
+    @property
+    def surprises(self) -> NDArray[np.float64]:
+        """(N,) normalised squared errors, 3 on average of one who is as sure as he is right."""
+        off = self.errors[..., None]
+        return np.asarray(off.transpose(0, 2, 1) @ np.linalg.solve(self.covariances, off)).ravel()
+
+
+@pytest.fixture(scope="module")
+def run(drawn, shoot) -> Callable[..., Run]:
+    """What a tracker makes of a scene, by kind, channels and seed; each is run once."""
+    return cache(lambda kind, name, seed=0: Run(drawn(kind, seed), shoot(kind, name, seed)))
+
+
+def failing(reason: str) -> pytest.MarkDecorator:
+    """What is known to fail, and why."""
+    return pytest.mark.xfail(strict=True, raises=AssertionError, reason=reason)
+
+
+@pytest.mark.parametrize("kind", STILL)
+@pytest.mark.parametrize("name", CHANNELS)
+def test_positions_are_right(name, kind, run):
+    """Every position is within 5 % of the distance, at least 5 cm, and half of them within 2 % by a depth
+    image, 4 % by a pair.
+    """
+    done = run(kind, name)
+    off = np.linalg.norm(done.errors, axis=1)
+    z = done.scene.positions[:, 2]
+    assert (off < np.maximum(0.05 * z, 0.05)).all()
+    assert np.median(off / z) < SLOW[name]
+
+
+@pytest.mark.parametrize("kind", [*STILL, "hidden", "leaving"])
+@pytest.mark.parametrize("name", CHANNELS)
+def test_covariances_are_ones(name, kind, run):
+    """In every frame, seen or not, they are symmetric to the last bit and positive definite, and below a
+    thousand kilometres.
+    """
+    covariances = run(kind, name).covariances
+    np.testing.assert_array_equal(covariances, covariances.transpose(0, 2, 1))
+    values = np.linalg.eigvalsh(covariances)
+    assert values.min() > 0
+    assert values.max() < 1e12
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_it_is_not_surer_than_right(name, run):
+    """While it is TRACKED the mean normalised squared error is at most 6, twice what chi-square asks for, and
+    one frame of fifty, at most, is beyond its 99.9 % quantile.
+    """
+    surprises = np.concatenate([run(kind, name).surprises[run(kind, name).tracked] for kind in STILL])
+    assert surprises.mean() < 6
+    assert np.mean(surprises > CERTAIN) < 0.02
+
+
+HUMBLE = failing("a depth image's noise counts as 1 % of the distance, of the median over hundreds of pixels")
+
+
+@pytest.mark.parametrize("name", ["rgbd", "pair", pytest.param("depth", marks=HUMBLE)])
+def test_it_is_not_much_less_sure_than_right(name, run):
+    """While it is TRACKED the mean normalised squared error is above 0.12: the standard deviations are at
+    most five times the errors.
+    """
+    surprises = np.concatenate([run(kind, name).surprises[run(kind, name).tracked] for kind in STILL])
+    assert surprises.mean() > 3 / 5**2
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_it_gets_less_sure_while_nothing_is_seen(name, run):
+    """The covariance grows in every frame in which the target isn't recognised."""
+    done = run("hidden", name)
+    assert (~done.tracked).sum() > 10
+    grows = np.diff(np.trace(done.covariances, axis1=1, axis2=2)) > 0
+    assert grows[~done.tracked[1:]].all()
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_the_size_follows_the_distance(name, run):
+    """Of a target that comes and goes 1:4 the overlap is above 0.5 in every frame, the side right to 15 %."""
+    done = run("scale", name)
+    assert done.overlap.min() > 0.5
+    true = np.sqrt(done.scene.boxes[:, 2] * done.scene.boxes[:, 3])
+    assert true.max() / true.min() > 3.5
+    side = np.array([np.sqrt(track.box.area) for track in done.tracks])
+    assert np.abs(side / true - 1).max() < 0.15
+
+
+WRONG = failing("with depth alone something else is taken for the target while it is hidden")
+SAYS_LOST = failing("the share that is covered is that of the best place in the window, not of the predicted")
+ELSEWHERE = pytest.param("depth", marks=WRONG)
+
+
+@pytest.mark.parametrize("name", ["rgbd", "pair", ELSEWHERE])
+def test_the_hidden_is_not_tracked(name, run):
+    """Of the 20 frames in which it is wholly hidden none is TRACKED but the first two."""
+    done = run("hidden", name)
+    gone = np.flatnonzero(done.scene.visible == 0)
+    assert len(gone) == 20
+    assert not done.tracked[gone[2:]].any()
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=SAYS_LOST) for name in CHANNELS])
+def test_the_hidden_is_occluded(name, run):
+    """Behind something nearer it is OCCLUDED, not LOST, in four of five frames at least."""
+    done = run("hidden", name)
+    gone = np.flatnonzero(done.scene.visible == 0)
+    occluded = [done.tracks[index].status is Status.OCCLUDED for index in gone]
+    assert np.mean(occluded) >= 0.8
+
+
+@pytest.mark.parametrize("name", ["rgbd", "pair", ELSEWHERE])
+def test_it_gets_surer_when_it_is_seen_again(name, run):
+    """Ten frames after it was hidden it is as sure of the position as before, to a half."""
+    done = run("hidden", name)
+    spread = np.trace(done.covariances, axis1=1, axis2=2)
+    last = np.flatnonzero(done.scene.visible == 0)[-1]
+    assert spread[last] > 10 * spread[20]
+    assert spread[last + 10] < 1.5 * spread[20]
+
+
+@pytest.mark.parametrize("name", ["rgbd", "pair", ELSEWHERE])
+def test_the_hidden_is_found_again(name, run):
+    """Within 10 frames of its being seen again it is TRACKED where it is, and stays so."""
+    done = run("hidden", name)
+    back = np.flatnonzero(done.scene.visible == 0)[-1] + 10
+    assert done.tracked[back:].all()
+    assert done.overlap[back:].min() > 0.5
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_what_left_is_lost(name, run):
+    """Of the 30 frames in which it is out of the picture none is TRACKED but the first two, all are LOST but
+    the first five; when all of it has been back for 10 frames it is TRACKED where it is.
+    """
+    done = run("leaving", name)
+    gone = np.flatnonzero(done.scene.visible == 0)
+    assert len(gone) == 30
+    statuses = [done.tracks[index].status for index in gone]
+    assert Status.TRACKED not in statuses[2:]
+    assert set(statuses[5:]) == {Status.LOST}
+    whole = np.flatnonzero(done.scene.visible[gone[-1] :] > 0.99)[0] + gone[-1]
+    assert done.tracked[whole + 10 :].all()
+    assert done.overlap[whole + 10 :].min() > 0.5
+
+
+COLORS = failing("it takes the one of the same colors for the target, for 28 frames")
+SHAPES = failing("depth alone tells cards of about the same size only by where they were")
+MET = [("rgbd", 0), ("pair", 0), *(pytest.param(name, 1, marks=COLORS) for name in ("rgbd", "pair"))]
+MET += [pytest.param("depth", seed, marks=SHAPES) for seed in (0, 1)]
+
+
+@pytest.mark.parametrize(("name", "seed"), MET)
+def test_a_lookalike_is_not_tracked(name, seed, run):
+    """Nobody who looks like the target is TRACKED in its place for over 5 frames in a row."""
+    done = run("lookalike", name, seed)
+    for boxes in done.scene.lookalikes:
+        other = done.overlaps(boxes)
+        taken = done.tracked & (other > 0.3) & (other > done.overlap)
+        assert longest(taken) <= 5
+
+
+def longest(true: NDArray[np.bool_]) -> int:
+    """The length of the longest run of True."""
+    length = best = 0
+    for each in true:
+        length = length + 1 if each else 0
+        best = max(best, length)
+    return best
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_positions_are_in_the_cameras_frame(name, drawn, shoot):
+    """A camera whose principal point lies 40 px farther to the right and 25 px farther up sees everything as
+    much farther left and lower, at the same depth.
+    """
+    scene, frames = drawn("plain"), shoot("plain", name)[:10]
+    camera = scene.intrinsics
+    moved = replace(camera, cx=camera.cx + 40, cy=camera.cy - 25)
+    here, there = (last_position(frames, scene, replace(scene.rig, intrinsics=c)) for c in (camera, moved))
+    assert there[2] == pytest.approx(here[2], rel=1e-3)
+    shift = np.array([-40, 25]) * here[2] / camera.fx
+    assert there[:2] - here[:2] == pytest.approx(shift, rel=0.02)
+
+
+@pytest.mark.parametrize("name", CHANNELS)
+def test_positions_scale_with_the_baseline(name, drawn, shoot):
+    """With twice the baseline a pair's target is twice as far away; a depth image's isn't."""
+    scene, frames = drawn("plain"), shoot("plain", name)[:10]
+    wide = replace(scene.rig, baseline=2 * scene.rig.baseline)
+    here, there = (last_position(frames, scene, rig) for rig in (scene.rig, wide))
+    assert there == pytest.approx((2 if name == "pair" else 1) * here, rel=0.02)
+
+
+def last_position(frames: list[Frame], scene: Scene, rig) -> NDArray[np.float64]:
+    """(3,) metres, after the last of the frames."""
+    tracker = FusedTracker(rig=rig)
+    tracker.init(frames[0], scene.boxes[0])
+    return [tracker.update(frame) for frame in frames[1:]][-1].position
+
+
+@pytest.mark.parametrize("name", ["rgbd", "depth"])
+def test_intrinsics_are_as_good_as_a_rig(name, drawn, shoot):
+    """A depth image's camera may be described by ``intrinsics`` alone, and the usual one sees 60 degrees."""
+    scene, frames = drawn("plain"), shoot("plain", name)[:10]
+    assert scene.intrinsics == Intrinsics.from_fov(320, 240, 60)
+    runs = []
+    for cameras in ({"rig": scene.rig}, {"intrinsics": scene.intrinsics}, {}):
+        tracker = FusedTracker(**cameras)
+        runs.append([tracker.init(frames[0], scene.boxes[0]), *map(tracker.update, frames[1:])])
+    assert runs[0] == runs[1] == runs[2]
+
+
+def test_longer_gaps_are_less_sure(drawn, shoot):
+    """After half a second without a measurement it is less sure of the position than after a thirtieth."""
+    spreads = []
+    for seconds in (1 / 30, 0.5):
+        tracker = FusedTracker(rig=drawn("plain").rig)
+        *frames, last = shoot("plain", 10 * ["rgbd"] + ["color"])
+        tracker.init(frames[0], drawn("plain").boxes[0])
+        for frame in frames[1:]:
+            tracker.update(frame)
+        track = tracker.update(Frame(last.color, timestamp=frames[-1].timestamp + seconds))
+        spreads.append(np.trace(track.covariance))
+    assert spreads[1] > 10 * spreads[0]
+
+
+def test_what_is_given_out_is_the_callers(drawn, shoot):
+    """What is done to a track's arrays doesn't reach the tracker."""
+    frames, kept = shoot("plain", 10 * ["rgbd"]), []
+    for spoil in (False, True):
+        tracker = FusedTracker(rig=drawn("plain").rig)
+        track = tracker.init(frames[0], drawn("plain").boxes[0])
+        for frame in frames[1:]:
+            if spoil:
+                track.position[:] = track.covariance[:] = np.nan
+            track = tracker.update(frame)
+        kept.append(track)
+    assert kept[0] == kept[1]
