@@ -2,7 +2,6 @@
 """What the fused tracker learns of a target: at the start, of a new channel, and on its way."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +52,7 @@ def met(state: State, sight: Sight, p: FusedParams) -> State:
     """With models of a kind of picture that wasn't there before, learnt where the target should be now."""
     if sight.kind in state.models:
         return state
-    return replace(state, models={**state.models, sight.kind: first_models(sight, state.target, p)})
+    return state._replace(models={**state.models, sight.kind: first_models(sight, state.target, p)})
 
 
 def first_models(sight: Sight, target: Target, p: FusedParams) -> Models:
@@ -80,7 +79,7 @@ def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams
     if state.missed or state.score < p.learn_above or state.count % p.learn_every:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
-    return replace(state, models={**state.models, sight.kind: models})
+    return state._replace(models={**state.models, sight.kind: models})
 
 
 def _blended(models: Models, view: View, p: FusedParams) -> Models:
@@ -99,7 +98,7 @@ def _outlined(state: State, found: Found, p: FusedParams) -> State:
     if found.outline is None or state.missed:
         return state
     rate = 1 - math.exp(-state.seconds / p.outline_time)
-    return replace(state, outline=state.outline.moved(found.outline, rate))
+    return state._replace(outline=state.outline.moved(found.outline, rate))
 
 
 def _ranged(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
@@ -109,14 +108,14 @@ def _ranged(state: State, sight: Sight, found: Found, again: bool, p: FusedParam
     if state.depth is None or state.space is None:
         measured = measure(sight, state.target, None)
         depth, space = _located(sight, state.target, measured, p)
-        return replace(state, depth=depth, space=space)
+        return state._replace(depth=depth, space=space)
     if found.measured is None or (again and state.missed):
         return state
     point, noise = locate(sight, state.target, found.measured)
     if again:
-        return replace(state, space=Space.start(point, noise, p))
+        return state._replace(space=Space.start(point, noise, p))
     depth = state.depth.learnt(found.measured, state.target.side * found.measured.z, p.depth_rate)
-    return replace(state, depth=depth, space=state.space.corrected(sight.k, point, noise))
+    return state._replace(depth=depth, space=state.space.corrected(sight.k, point, noise))
 
 
 def _located(

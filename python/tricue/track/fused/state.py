@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """All that the fused tracker keeps from frame to frame."""
 
-from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from tricue.track.fused.experts.color import ColorExpert
@@ -26,8 +25,7 @@ class Models(NamedTuple):
     edge: float  # P(target | pixel) along the target's edge, in the first frame
 
 
-@dataclass(frozen=True, slots=True)
-class State:
+class State(NamedTuple):
     """After a frame. models: by the kind of picture that they are of."""
 
     shape: tuple[int, int]
@@ -47,4 +45,4 @@ class State:
     missed: int = 0  # frames in a row in which it was not recognised
     seconds: float = 0.0  # since the frame before
     count: int = 0  # frames since init
-    timestamp: float | None = field(default=None)
+    timestamp: float | None = None

@@ -2,7 +2,6 @@
 """The fused tracker: color, depth and motion in one."""
 
 import math
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -105,7 +104,7 @@ class FusedTracker:
         if space is not None:
             space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)
         now = state.count + 1
-        return replace(state, space=space, timestamp=seen.timestamp, seconds=seconds, count=now)
+        return state._replace(space=space, timestamp=seen.timestamp, seconds=seconds, count=now)
 
     def _found(self, state: State, sight: Sight) -> Found:
         """The target near where it should be; if it wasn't there in the last frame, anywhere."""
@@ -125,21 +124,21 @@ class FusedTracker:
         if state.missed:  # a look-alike is never as sure as the target was
             recognised = recognised and found.log_odds >= p.again * state.sure
         score = found.score if recognised else min(found.score, p.lost_below)
-        state = replace(state, marks=found.marks, score=score, hidden=hidden, glance=None)
+        state = state._replace(marks=found.marks, score=score, hidden=hidden, glance=None)
         if score < p.hopeless or hidden:
             slower = (0.5 * state.velocity[0], 0.5 * state.velocity[1])
-            return replace(state, velocity=slower, missed=state.missed + 1)
+            return state._replace(velocity=slower, missed=state.missed + 1)
         right, down = found.target.x - state.target.x, found.target.y - state.target.y
         jumped = math.hypot(right, down) > p.context / 2 * state.target.side
         rate = p.velocity_rate
         u, v = state.velocity
         velocity = (0.0, 0.0) if jumped else (u + rate * (right - u), v + rate * (down - v))
-        state = replace(state, target=found.target, velocity=velocity)
+        state = state._replace(target=found.target, velocity=velocity)
         if not recognised:
-            return replace(state, missed=state.missed + 1)
+            return state._replace(missed=state.missed + 1)
         usual = state.usual + USUAL_RATE * (found.answer - state.usual)
         sure = state.sure + USUAL_RATE * (found.by_look - state.sure)
-        return replace(state, missed=0, usual=usual, sure=sure, glance=None if jumped else found.glance)
+        return state._replace(missed=0, usual=usual, sure=sure, glance=None if jumped else found.glance)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:
