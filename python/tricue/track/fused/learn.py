@@ -76,7 +76,7 @@ def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams
     frames, at rates that are higher for it. again: it had been lost.
     """
     state = _outlined(_ranged(state, sight, found, again, p), found, p)
-    if state.missed or state.score < p.learn_above or state.count % p.learn_every:
+    if state.missed or state.score < p.learn_above or state.frames % p.learn_every:
         return state
     models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
     return state._replace(models={**state.models, sight.kind: models})

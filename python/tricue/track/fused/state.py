@@ -44,5 +44,5 @@ class State(NamedTuple):
     hidden: bool = False  # behind something nearer
     missed: int = 0  # frames in a row in which it was not recognised
     seconds: float = 0.0  # since the frame before
-    count: int = 0  # frames since init
+    frames: int = 0  # since init
     timestamp: float | None = None

@@ -103,8 +103,8 @@ class FusedTracker:
         space = state.space
         if space is not None:
             space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)
-        now = state.count + 1
-        return state._replace(space=space, timestamp=seen.timestamp, seconds=seconds, count=now)
+        frames = state.frames + 1
+        return state._replace(space=space, timestamp=seen.timestamp, seconds=seconds, frames=frames)
 
     def _found(self, state: State, sight: Sight) -> Found:
         """The target near where it should be; if it wasn't there in the last frame, anywhere."""
@@ -114,7 +114,7 @@ class FusedTracker:
         found = near(known, sight, guess, None if state.missed else state.usual)
         if not state.missed:
             return found
-        return anywhere(known, sight, Lost(state.target, state.space, state.missed, state.count), found)
+        return anywhere(known, sight, Lost(state.target, state.space, state.missed, state.frames), found)
 
     def _accepted(self, state: State, sight: Sight, found: Found) -> State:
         """Make what was found the state; what is surely something else only counts as missed."""
