@@ -94,6 +94,13 @@ class FusedParams(Params):
     lost_after: int = parameter(
         3, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
     )
+    collapse: float = parameter(
+        5.0,
+        unit="log-odds",
+        source=OURS,
+        low=0,
+        doc="of its structure, at which what is there may be another",
+    )
     again: float = parameter(
         0.3,
         unit="of the usual log-odds",

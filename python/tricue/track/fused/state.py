@@ -36,6 +36,7 @@ class State(NamedTuple):
     marks: Marks | None = None
     score: float = 1.0
     sure: float = 0.0  # log-odds of its being the target, usually
+    structure: float = 0.0  # the same by its structure alone
     velocity: tuple[float, float] = (0.0, 0.0)  # pixels a frame
     depth: DepthExpert | None = None
     space: Space | None = None

@@ -120,7 +120,10 @@ class FusedTracker:
         """Make what was found the state; what is surely something else only counts as missed."""
         p = self.params
         hidden = found.hidden > p.hidden_above
+        structure = found.marks.by_structure
         recognised = found.score >= p.lost_below and not hidden
+        if found.measured is None:  # another of the same colors may have come before it
+            recognised = recognised and structure >= state.structure - p.collapse
         if state.missed:  # a look-alike is never as sure as the target was
             recognised = recognised and found.log_odds >= p.again * state.sure
         score = found.score if recognised else min(found.score, p.lost_below)
@@ -138,7 +141,9 @@ class FusedTracker:
             return state._replace(missed=state.missed + 1)
         usual = state.usual + USUAL_RATE * (found.answer - state.usual)
         sure = state.sure + USUAL_RATE * (found.by_look - state.sure)
-        return state._replace(missed=0, usual=usual, sure=sure, glance=None if jumped else found.glance)
+        structure = state.structure + USUAL_RATE * (structure - state.structure)
+        glance = None if jumped else found.glance
+        return state._replace(missed=0, usual=usual, sure=sure, structure=structure, glance=glance)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:
