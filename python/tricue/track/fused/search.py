@@ -48,9 +48,7 @@ def near(known: Known, sight: Sight, guess: Target, usual: float | None) -> Foun
         place = max([place, *places], key=lambda each: each.evidence)
     found = examine(known, place)
     likely = found.log_odds + p.continuity * continuous(place)
-    if (
-        sight.kind == "color"
-    ):  # its colors may be lit otherwise now, or parts of it be hidden: either is enough
+    if sight.kind == "color":  # it may be lit otherwise now: its structure is enough
         likely = max(likely, found.marks.by_structure - CAUTION)
     return found._replace(log_odds=likely)
 
@@ -74,13 +72,13 @@ def anywhere(known: Known, sight: Sight, lost: Lost, near: Found) -> Found:
     p = known.p
     views = _elsewhere(known, sight, lost)
     places = sorted((best_place(known, view) for view in views), key=lambda each: -each.evidence)
-    others = [_elsewhere_sure(known, lost, examine(known, place)) for place in places[: p.candidates]]
+    others = [_elsewhere_judged(known, lost, examine(known, place)) for place in places[: p.candidates]]
     best = max(others, key=lambda each: each.log_odds)
     near = near._replace(log_odds=near.log_odds - 0.5 * _distance(known, lost, near) ** 2)
     return best if best.score >= p.found_above and best.log_odds > near.log_odds else near
 
 
-def _elsewhere_sure(known: Known, lost: Lost, found: Found) -> Found:
+def _elsewhere_judged(known: Known, lost: Lost, found: Found) -> Found:
     """What was found away from where the target should be, less sure the farther. Without its depth both
     color and structure have to agree, since look-alikes share one of them.
     """
