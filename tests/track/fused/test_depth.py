@@ -132,7 +132,10 @@ def test_the_size_follows_the_distance(name, run):
 
 
 WRONG = failing("with depth alone something else is taken for the target while it is hidden")
-SAYS_LOST = failing("the share that is covered is that of the best place in the window, not of the predicted")
+SAYS_LOST = failing(
+    "what is covered is asked of the best place in the window, not of the target's; and the margin for what is"
+    " nearer grows with the doubt about the depth, until nothing is nearer"
+)
 ELSEWHERE = pytest.param("depth", marks=WRONG)
 
 
