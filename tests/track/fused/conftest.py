@@ -14,6 +14,7 @@ CHANNELS = {
     "depth": ("depth",),
     "all": ("color", "depth", "right"),
 }
+ALONE = ("leaving", "lookalike")  # kinds that are drawn without a right image, which takes a while
 
 
 @pytest.fixture(scope="session")
@@ -22,7 +23,12 @@ def drawn() -> Callable[..., object]:
     pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
     from tricue.scenes.everything import everything
 
-    return cache(lambda kind, seed=0, channels="stereo": everything(kind, seed, channels=channels))
+    draw = cache(lambda kind, seed, channels: everything(kind, seed, channels=channels))
+
+    def scene(kind: str, seed: int = 0, channels: str = "") -> object:
+        return draw(kind, seed, channels or ("rgbd" if kind in ALONE else "stereo"))
+
+    return scene
 
 
 @pytest.fixture(scope="session")
@@ -30,7 +36,8 @@ def shoot(drawn: Callable[..., object]) -> Callable[..., list[Frame]]:
     """The first frames of a scene, each with the channels of that name, or all of one."""
 
     def frames(kind: str, names: Sequence[str] | str, seed: int = 0) -> list[Frame]:
-        pairs, depths = (drawn(kind, seed, channels).frames for channels in ("stereo", "depth"))
+        channels = ("rgbd", "rgbd") if kind in ALONE else ("stereo", "depth")
+        pairs, depths = (drawn(kind, seed, each).frames for each in channels)
         named = len(pairs) * [names] if isinstance(names, str) else names
         made = []
         for name, pair, depth in zip(named, pairs, depths, strict=False):
