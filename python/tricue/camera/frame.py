@@ -120,7 +120,7 @@ def _right(value: Any, color: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
 
 
 def _depth(value: Any, scale: float | None) -> NDArray[np.float32]:
-    metres: NDArray[np.float32] = _measurements(value, scale).astype(np.float32)
+    metres: NDArray[np.float32] = _measurements(value, scale).astype(np.float32, order="C")
     if scale is not None:
         metres *= np.float32(positive(scale, "depth_scale", "metres per unit"))
     metres[~((metres > 0) & (metres < np.inf))] = np.nan

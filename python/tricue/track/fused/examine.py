@@ -62,7 +62,7 @@ def examine(known: Known, place: Place) -> Found:
         first=place.answers[1],
     )
     target = place.target.scaled(min(max(factor, low), high))
-    hidden = _hidden(place)
+    covered = hidden(view, place.right, place.down)
     odds = marks.log_odds(_channels(known, view))
     return Found(
         target,
@@ -72,9 +72,9 @@ def examine(known: Known, place: Place) -> Found:
         odds,
         place.answers[0],
         measured,
-        hidden,
+        covered,
         glance,
-        outline(view, place.right, place.down, hidden),
+        outline(view, place.right, place.down, covered),
     )
 
 
@@ -111,10 +111,9 @@ def _channels(known: Known, view: View) -> str:
     return "color" if known.depth is None or view.depth is None else "both"
 
 
-def _hidden(place: Place) -> float:
-    """The share of the box that something nearer hides."""
-    depth = place.view.depth
-    return 0.0 if depth is None else float(depth[1][place.view.inner(place.right, place.down, 0.8)].mean())
+def hidden(view: View, right: float = 0.0, down: float = 0.0) -> float:
+    """The share of a target's box, so many patch pixels off the middle, that something nearer hides."""
+    return 0.0 if view.depth is None else float(view.depth[1][view.inner(right, down, INNER)].mean())
 
 
 def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[int, float]:

@@ -55,6 +55,15 @@ def met(state: State, sight: Sight, p: FusedParams) -> State:
     return state._replace(models={**state.models, sight.kind: first_models(sight, state.target, p)})
 
 
+def located(state: State, seen: Seen, k: Kernels, p: FusedParams) -> State:
+    """With the depth of where the target was in the last frame, if it was never measured before."""
+    if state.depth is not None or seen.ranger is None or state.missed:
+        return state
+    sight = seen.sight(k, None)
+    depth, space = _located(sight, state.target, measure(sight, state.target, None), p)
+    return state._replace(depth=depth, space=space)
+
+
 def first_models(sight: Sight, target: Target, p: FusedParams) -> Models:
     """Of one view."""
     view = look(sight, [target], p.context)[0]
@@ -103,13 +112,7 @@ def _outlined(state: State, found: Found, p: FusedParams) -> State:
 
 def _ranged(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
     """With the depth that was measured in the 3-D filter."""
-    if sight.ranger is None:
-        return state
-    if state.depth is None or state.space is None:
-        measured = measure(sight, state.target, None)
-        depth, space = _located(sight, state.target, measured, p)
-        return state._replace(depth=depth, space=space)
-    if found.measured is None or (again and state.missed):
+    if state.depth is None or state.space is None or found.measured is None or (again and state.missed):
         return state
     point, noise = locate(sight, state.target, found.measured)
     if again:

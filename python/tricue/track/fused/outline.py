@@ -43,7 +43,8 @@ def outline(view: View, right: float, down: float, hidden: float) -> Outline | N
     """What depth shows so many patch pixels off a view's middle; None where it doesn't, or something nearer
     hides a part of the box.
     """
-    if view.depth is None or hidden > COVERED:
+    ranger = view.sight.ranger
+    if view.depth is None or ranger is None or not ranger.sharp or hidden > COVERED:
         return None
     own = view.depth[0]
     rows, columns = view.inner(right, down, CENTRAL)

@@ -15,13 +15,18 @@ WINDOW = 7  # samples a side, compared in both images of a pair
 NEARER, FARTHER = 16, 8  # samples of disparity round the expected one
 WIDEST = 0.25  # of the image's width, the largest disparity that is looked for
 MATCHING = 0.3  # samples, standard deviation of a disparity
-COMMON = 0.01  # of the distance, standard deviation of a depth camera's pixel
+COMMON = 0.005  # of the distance, standard deviation of a depth camera's pixel
 
 
 class DepthImage(NamedTuple):
     """A depth camera's, (H, W) metres, NaN where nothing was measured."""
 
     depth: Plane
+
+    @property
+    def sharp(self) -> bool:
+        """As in Ranger."""
+        return True
 
     def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
         """The pixels nearest to the middles of the squares."""
@@ -52,6 +57,11 @@ class Pair(NamedTuple):
     left: Image
     right: Image
     rig: StereoRig
+
+    @property
+    def sharp(self) -> bool:
+        """Its windows reach over edges."""
+        return False
 
     def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
         """By sums of absolute differences (Moreno et al. 2002, section 3.2), between samples of both images.

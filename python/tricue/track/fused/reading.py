@@ -55,8 +55,12 @@ def read(
     if given.depth is not None and given.depth.shape != size:
         hint = "it has to be that of the color image's pixels"
         raise ValueError(f"frame.depth: expected shape {size}, got {given.depth.shape}; {hint}")
+    for known in (cameras[0].intrinsics if cameras[0] else None, cameras[1]):
+        if known is not None and (known.height, known.width) != size:
+            expected = f"the camera's size, {known.width}x{known.height}"
+            raise ValueError(f"frame.{name}: expected {expected}, got {size[1]}x{size[0]}")
     rig, camera = _described(*cameras, size)
-    ranger = _ranger(k, given, rig) if with_depth else None
+    ranger = _ranger(k, given, rig) if with_depth or given.color is None else None
     color = None if given.color is None else _bgr(given.color)
     return Seen(size, color, given.depth, ranger, camera, given.timestamp)
 
@@ -68,7 +72,6 @@ def _described(
     """The rig and its camera; usual ones where nothing is known."""
     if rig is None:
         rig = StereoRig(lifecycle.camera_for(camera, size), lifecycle.USUAL_BASELINE)
-    rig = lifecycle.rig_for(rig, size)
     return rig, rig.intrinsics
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from tricue.track.depth_particle.foreground import NO_FLOOR, foreground, numbers
 from tricue.track.depth_particle.objects import segment
 from tricue.track.depth_particle.params import DepthParticleParams
-from tricue.track.fused.examine import Found, continuous, examine
+from tricue.track.fused.examine import Found, continuous, examine, hidden
 from tricue.track.fused.experts.depth import measure
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.places import Known, Place, best_place
@@ -42,11 +42,13 @@ def near(known: Known, sight: Sight, guess: Target, usual: float | None) -> Foun
     one that is looked for anywhere, anyway.
     """
     p = known.p
-    place = best_place(known, look(sight, [guess], p.context)[0])
+    view = look(sight, [guess], p.context)[0]
+    place = best_place(known, view)
     if usual is not None and place.answers[0] < p.doubt * usual:
         places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
         place = max([place, *places], key=lambda each: each.evidence)
     found = examine(known, place)
+    found = found._replace(hidden=max(found.hidden, hidden(view)))
     likely = found.log_odds + p.continuity * continuous(place)
     if sight.kind == "color":  # it may be lit otherwise now: its structure is enough
         likely = max(likely, found.marks.by_structure - CAUTION)

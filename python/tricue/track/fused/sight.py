@@ -15,6 +15,7 @@ Image = NDArray[np.uint8]
 Plane = NDArray[np.float32]
 Kind = Literal["color", "depth"]
 
+MARGIN = 0.5  # metres before the target that are surely not its own
 RELIEF = 0.5  # metres from the target's depth to black or white, in a picture made of depth
 
 
@@ -26,15 +27,18 @@ class Expected(NamedTuple):
 
     @property
     def margin(self) -> float:
-        """Metres: what is nearer by more is something else before the target."""
-        return max(3 * self.sigma, 0.25)
+        """Metres: what is nearer by more is something else before it; nothing is, if that is vague."""
+        return max(min(3 * self.sigma, MARGIN), MARGIN / 2) if self.sigma < MARGIN else self.z
 
 
 Grid = tuple[float, float, float]  # pixels: x, y of its corner, side of a square
 
 
 class Ranger(Protocol):
-    """Measures how far away pixels are."""
+    """Measures how far away pixels are. sharp: edges are where they are in the picture."""
+
+    @property
+    def sharp(self) -> bool: ...
 
     def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
         """(side, side) of the squares of a grid; NaN where nothing is measured. Of a pair only depths round
@@ -80,7 +84,7 @@ class Sight:
             return None
         noise = self.ranger.noise(self.expected.z, unit)
         own = math.hypot(self.expected.sigma, noise)
-        margin = max(self.expected.margin, 3 * own)
+        margin = max(self.expected.margin, 3 * noise)
         return self.ranger.posterior(self.k, (x, y, unit), side, self.expected._replace(sigma=own), margin)
 
 

@@ -15,7 +15,8 @@ from tricue.track.fused.view import Target
 
 Floats = NDArray[np.float64]
 
-LATERAL = 0.05  # of the target's side, standard deviation of its place
+LATERAL = 0.02  # of the target's side, standard deviation of its place
+NEAREST = 0.05  # metres before the camera
 SURPRISING = 2.0  # standard deviations of a measurement from what was foreseen
 POSITION = np.eye(3, 6)
 SLOWING = np.array([1, 1, 1, 0.8, 0.8, 0.8])
@@ -52,6 +53,8 @@ class Space(NamedTuple):
     def predicted(self, k: Kernels, seconds: float, p: FusedParams) -> "Space":
         """That much later, by a white acceleration (Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2)."""
         mean, covariance = k.kalman_predict(self.mean, self.covariance, *_dynamics(seconds, p.agility))
+        if mean[2] < NEAREST:
+            mean[2], mean[5] = NEAREST, 0.0
         return Space(mean, covariance)
 
     def distance(self, point: Floats, noise: Floats) -> float:
