@@ -14,7 +14,7 @@ from tricue.track.fused.sight import Expected, Grid, Image, Plane
 WINDOW = 7  # samples a side, compared in both images of a pair
 NEARER, FARTHER = 16, 8  # samples of disparity round the expected one
 WIDEST = 0.25  # of the image's width, the largest disparity that is looked for
-MATCHING = 0.3  # samples, standard deviation of a disparity
+MATCHING = 0.15  # samples, standard deviation of a disparity
 COMMON = 0.005  # of the distance, standard deviation of a depth camera's pixel
 
 
@@ -80,7 +80,7 @@ class Pair(NamedTuple):
         left = _gray(self.k.sample_windows(self.left, place, side, width)[0])
         right = _gray(self.k.sample_windows(self.right, place - [[shift, 0, 0, 0]], side, width)[0])
         region = (last, 0, width, side)
-        found = self.k.sad_disparity(left, right, region, False, first, last, WINDOW, 5, True, 1)
+        found = self.k.sad_disparity(left, right, region, False, first, last, WINDOW, 15, True, 1)
         disparity = found * np.float32(unit) + np.float32(shift)
         disparity[~(disparity > 0)] = np.nan  # beyond infinity, or not found
         metres: Plane = np.float32(product) / disparity
