@@ -92,14 +92,19 @@ def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams
 
 
 def _blended(models: Models, view: View, p: FusedParams) -> Models:
-    sight, filter_rate = view.sight, p.learn_every * p.filter_rate
+    sight, filter_rate, color_rate = view.sight, _rate(p.filter_rate, p), _rate(p.color_rate, p)
     looks = size.looks(sight, view.target, models.color.table, p)
     return models._replace(
         filter=models.filter.learnt(view, filter_rate),
-        color=models.color.learnt(view, p.learn_every * p.color_rate),
+        color=models.color.learnt(view, color_rate),
         size=models.size.learnt(sight.k, looks, filter_rate),
         identity=models.identity.learnt(looks.ranks[p.scales // 2], filter_rate),
     )
+
+
+def _rate(rate: float, p: FusedParams) -> float:
+    """What a rate per frame comes to in the frames from one learning to the next."""
+    return 1 - (1 - rate) ** p.learn_every
 
 
 def _outlined(state: State, found: Found, p: FusedParams) -> State:
