@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo fused``: one target through every trouble, seen by color, color and depth, and a pair."""
+"""``tricue demo fused``: one target through every trouble, seen by color, depth, both, and a pair."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -28,6 +28,7 @@ _rgbd = lru_cache(maxsize=1)(partial(everything, "all", channels="rgbd"))  # it 
 
 ENTRIES: Mapping[str, Entry] = {
     "color alone": (_rgbd, ("color",)),
+    "depth alone": (_rgbd, ("depth",)),
     "color and depth": (_rgbd, ("color", "depth")),
     "a pair": (partial(everything, "all", channels="stereo"), ("color", "right")),
 }

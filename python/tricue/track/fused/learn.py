@@ -80,10 +80,13 @@ def first_models(sight: Sight, target: Target, p: FusedParams) -> Models:
     )
 
 
-def learnt(state: State, sight: Sight, found: Found, again: bool, p: FusedParams) -> State:
+def learnt(before: State, state: State, sight: Sight, found: Found, p: FusedParams) -> State:
     """With what was found blended in; its looks only where it was surely recognised, and only in some
-    frames, at rates that are higher for it. again: it had been lost.
+    frames, at rates that are higher for it; where it wasn't found, nothing. before: the state until now.
     """
+    if state.target is not found.target:
+        return state
+    again = before.missed >= p.lost_after
     state = _outlined(_ranged(state, sight, found, again, p), found, p)
     if state.missed or state.score < p.learn_above or state.frames % p.learn_every:
         return state

@@ -13,6 +13,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track import lifecycle
 from tricue.track.fused import learn
 from tricue.track.fused.examine import Found
+from tricue.track.fused.judge import judged
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.places import Known
 from tricue.track.fused.reading import Seen, read
@@ -22,7 +23,6 @@ from tricue.track.fused.state import State
 from tricue.track.fused.view import Target
 from tricue.track.track import Status, Track
 
-USUAL_RATE = 0.05  # per frame, of the filter's usual answer
 UNSURE = 3.0  # metres, at most, of the depth that is expected
 
 
@@ -87,11 +87,8 @@ class FusedTracker:
         sight = seen.sight(self._k, _expected(state))
         state = learn.met(state, sight, self.params)
         found = self._found(state, sight)
-        again = before.missed >= self.params.lost_after
-        state = self._accepted(state, sight, found)
-        if state.target is found.target:
-            state = learn.learnt(state, sight, found, again, self.params)
-        self._state = state
+        state = judged(state, found, self.params)
+        self._state = state = learn.learnt(before, state, sight, found, self.params)
         return self._track(state)
 
     def _read(self, frame: FrameLike, shape: tuple[int, int] | None) -> Seen:
@@ -115,35 +112,6 @@ class FusedTracker:
         if not state.missed:
             return found
         return anywhere(known, sight, Lost(state.target, state.space, state.missed, state.frames), found)
-
-    def _accepted(self, state: State, sight: Sight, found: Found) -> State:
-        """Make what was found the state; what is surely something else only counts as missed."""
-        p = self.params
-        hidden = found.hidden > p.hidden_above
-        structure = found.marks.by_structure
-        recognised = found.score >= p.lost_below and not hidden
-        if found.measured is None:  # another of the same colors may have come before it
-            recognised = recognised and structure >= state.structure - p.collapse
-        if state.missed:  # a look-alike is never as sure as the target was
-            recognised = recognised and found.log_odds >= p.again * state.sure
-        score = found.score if recognised else min(found.score, p.lost_below)
-        state = state._replace(marks=found.marks, score=score, hidden=hidden, glance=None)
-        if score < p.hopeless or hidden:
-            slower = (0.5 * state.velocity[0], 0.5 * state.velocity[1])
-            return state._replace(velocity=slower, missed=state.missed + 1)
-        right, down = found.target.x - state.target.x, found.target.y - state.target.y
-        jumped = math.hypot(right, down) > p.context / 2 * state.target.side
-        rate = p.velocity_rate
-        u, v = state.velocity
-        velocity = (0.0, 0.0) if jumped else (u + rate * (right - u), v + rate * (down - v))
-        state = state._replace(target=found.target, velocity=velocity)
-        if not recognised:
-            return state._replace(missed=state.missed + 1)
-        usual = state.usual + USUAL_RATE * (found.answer - state.usual)
-        sure = state.sure + USUAL_RATE * (found.by_look - state.sure)
-        structure = state.structure + USUAL_RATE * (structure - state.structure)
-        glance = None if jumped else found.glance
-        return state._replace(missed=0, usual=usual, sure=sure, structure=structure, glance=glance)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:
