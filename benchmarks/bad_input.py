@@ -117,7 +117,8 @@ HEAD = f"""# Bad input
 
 Written by `python benchmarks/bad_input.py`, not by hand. Each case is one `init` and one `update` in a process of its own. tricue names
 the argument, what it expected and what came, and its state stays as it was; what is in order it follows. Beside it cv2's trackers,
-OpenCV {cv2.__version__}: an error of theirs often names only a line of C++, and some cases pass silently.
+OpenCV {cv2.__version__}: an error of theirs often names only a line of C++, and some cases pass silently. The column tricue is
+`color-particle` in color, `depth-particle` in depth, `stereo-head` in stereo; `tests/track/*/test_bad_input.py` try the other trackers.
 
 """
 
