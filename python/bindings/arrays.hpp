@@ -97,10 +97,14 @@ py::array packed_rows(const py::object& object, const char* name, const char* ex
     return array;
 }
 
-inline DepthView depth_image(const py::object& object, const char* name) {
-    const auto array = packed_rows<float>(object, name, "a float32 depth image (H, W)");
+inline PlaneView plane_view(const py::object& object, const char* name, const char* expected) {
+    const auto array = packed_rows<float>(object, name, expected);
     return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
             static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
+}
+
+inline DepthView depth_image(const py::object& object, const char* name) {
+    return plane_view(object, name, "a float32 depth image (H, W)");
 }
 
 inline ImageView mask_image(const py::object& object, const char* name) {

@@ -20,9 +20,7 @@ using Box = std::tuple<int, int, int, int>;
 using Bytes = Array<std::uint8_t>;
 
 PlaneView plane(const py::object& object, const char* name) {
-    const auto array = packed_rows<float>(object, name, "a float32 plane (H, W)");
-    return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
+    return plane_view(object, name, "a float32 plane (H, W)");
 }
 
 ImageView mask_view(const py::object& object, const char* name) {

@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "cues/motion/flow_scale.hpp"
 #include "cues/motion/gradient_flow.hpp"
 #include "cues/motion/pyramid_flow.hpp"
 
@@ -51,6 +52,15 @@ Planes pyramid_flow_arrays(const Bytes& previous, const Bytes& current, double s
     }));
 }
 
+std::tuple<double, double, std::int64_t> flow_scale_arrays(const Array<float>& u, const Array<float>& v,
+                                                           double outliers, int least) {
+    constexpr const char* kFlow = "float32 flow (h, w)";
+    const auto across = plane_view(u, "u", kFlow), down = plane_view(v, "v", kFlow);
+    const auto found = unlocked(std::ptrdiff_t{across.rows} * across.cols,
+                                [&] { return flow_scale(across, down, outliers, least); });
+    return {found.a, found.spread, found.count};
+}
+
 }  // namespace
 
 void define_motion(py::module_& m) {
@@ -71,6 +81,12 @@ void define_motion(py::module_& m) {
         "the "
         "pixel in current, NaN also where the last level's step is longer than max_step pixels; angle and "
         "contrast are those of the window.");
+    m.def(
+        "flow_scale", flow_scale_arrays, py::arg("u"), py::arg("v"), py::arg("outliers"), py::arg("least"),
+        "How much a flow u, v (h, w), pixels a frame, NaN where unknown, stretches: a of x - u = a x + b, "
+        "y - v = a y + c by least squares, and once more without the pixels whose squared residual is above "
+        "outliers^2 times the mean; the mean squared residual of the last fit, pixels^2; and the count "
+        "of its pixels. a and the residual are NaN where fewer than least pixels are left, or just one.");
 }
 
 }  // namespace tricue::bindings

@@ -27,9 +27,7 @@ Array<float> gradient_color_cells_arrays(const Bytes& patch, const Array<float>&
 }
 
 PlaneView map(const Array<float>& plane) {
-    const auto array = packed_rows<float>(plane, "plane", "a float32 map (H, W)");
-    return {static_cast<const float*>(array.data()), static_cast<int>(array.shape(0)),
-            static_cast<int>(array.shape(1)), array.strides(0) / py::ssize_t{sizeof(float)}};
+    return plane_view(plane, "plane", "a float32 map (H, W)");
 }
 
 Array<float> box_contrast_arrays(const Array<float>& plane, double width, double height, double outer,

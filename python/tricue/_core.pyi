@@ -292,6 +292,16 @@ def floor_plane(
     (6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three pixels, row * cols + col.
     """
 
+def flow_scale(
+    u: numpy.typing.NDArray[numpy.float32],
+    v: numpy.typing.NDArray[numpy.float32],
+    outliers: float,
+    least: int,
+) -> tuple[float, float, int]:
+    """
+    How much a flow u, v (h, w), pixels a frame, NaN where unknown, stretches: a of x - u = a x + b, y - v = a y + c by least squares, and once more without the pixels whose squared residual is above outliers^2 times the mean; the mean squared residual of the last fit, pixels^2; and the count of its pixels. a and the residual are NaN where fewer than least pixels are left, or just one.
+    """
+
 def gradient_color_cells(
     patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -914,6 +924,13 @@ class Kernels(Protocol):
         up: numpy.typing.NDArray[numpy.float64],
         least_cosine: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def flow_scale(
+        self,
+        u: numpy.typing.NDArray[numpy.float32],
+        v: numpy.typing.NDArray[numpy.float32],
+        outliers: float,
+        least: int,
+    ) -> tuple[float, float, int]: ...
     def gradient_color_cells(
         self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...

@@ -49,6 +49,7 @@ from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.motion.flow_scale import flow_scale
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
 from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
@@ -100,6 +101,7 @@ __all__ = [
     "ellipse_search",
     "fill_gaps",
     "floor_plane",
+    "flow_scale",
     "gradient_color_cells",
     "gradient_disparity",
     "gradient_flow",

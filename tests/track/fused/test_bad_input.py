@@ -591,6 +591,7 @@ KERNELS = {
     "learn_contrast": "color",
     "joint_histogram": "color",
     "pyramid_flow": "color",
+    "flow_scale": "color",
     "depth_posterior": "rgbd",
     "kalman_predict": "rgbd",
     "kalman_update": "rgbd",

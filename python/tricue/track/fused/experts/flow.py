@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: MIT
 """How the target's own pixels moved since the last frame: how much it grew."""
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
-import numpy as np
 
-from tricue.track.fused.sight import Image, Plane
+from tricue.track.fused.sight import Image
 from tricue.track.fused.view import PIXELS, View
 
 HALF = 20  # patch pixels, of the part round the target that flow is measured in
@@ -45,33 +43,6 @@ def growth(before: Glance, now: Glance, view: View) -> float | None:
     u, v, _, _ = view.sight.k.pyramid_flow(
         before.gray, now.gray, SIGMA, LEVELS, MIN_ANGLE, MIN_CONTRAST, region, POOL
     )
-    places = _places(*region)
-    moved = places - np.array([u.ravel(), v.ravel()])
-    known = np.isfinite(moved[0])
-    shrunk = _slope(np.concatenate([places, moved])[:, known])
-    return None if shrunk is None else now.unit / before.unit / shrunk
-
-
-def _slope(points: Plane) -> float | None:
-    """a of u = a x + b, v = a y + c, of (4, n) x, y, u, v, by least squares, twice: the second time without
-    outliers.
-    """
-    for _ in range(2):
-        count = points.shape[1]
-        if count < LEAST:
-            return None
-        points = points - points.sum(axis=1, keepdims=True) / count
-        place, moved = points[:2], points[2:]
-        a = float(np.vdot(place, moved) / np.vdot(place, place))
-        off = moved - a * place
-        off = (off * off).sum(axis=0)
-        spread = float(off.sum()) / count
-        points = points[:, off <= OUTLIERS**2 * spread]
-    return a if 0.5 < a < 2 and spread < 2 * LOOSE**2 else None
-
-
-@lru_cache(maxsize=64)
-def _places(left: int, top: int, right: int, bottom: int) -> Plane:
-    """(2, n) x, y of a region's pixels."""
-    x, y = np.meshgrid(np.arange(left, right, dtype=np.float32), np.arange(top, bottom, dtype=np.float32))
-    return np.array([x.ravel(), y.ravel()])
+    shrunk, spread, _ = view.sight.k.flow_scale(u, v, OUTLIERS, LEAST)
+    rigid = 0.5 < shrunk < 2 and spread < 2 * LOOSE**2
+    return now.unit / before.unit / shrunk if rigid else None
