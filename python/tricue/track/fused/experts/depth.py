@@ -9,7 +9,7 @@ import numpy as np
 from tricue.track.fused.sight import Expected, Plane, Sight
 from tricue.track.fused.view import Target, View
 
-GRID = 24  # samples a side, of which a target's depth is measured
+GRID = 48  # samples a side, of which a target's depth is measured
 LEAST = 0.1  # of them have to be measured
 NARROW, WIDE = 0.04, 0.4  # metres, of a target's relief
 CENTRAL = 0.5  # of the box, which a target that isn't known yet surely fills
