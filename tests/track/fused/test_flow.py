@@ -6,6 +6,7 @@ from functools import cache
 import cv2
 import numpy as np
 import pytest
+from tricue import Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts.flow import HALF, Glance, growth
 from tricue.track.fused.sight import Sight
@@ -13,6 +14,7 @@ from tricue.track.fused.view import PIXELS, Target, View, look
 
 SIZE = (200, 160)
 MIDDLE = (100.0, 80.0)
+CAMERA = Intrinsics.from_fov(*SIZE, 60)
 TARGET = Target(*MIDDLE, 44.0, 36.0)
 FACTORS = [0.97, 0.985, 1.0, 1.015, 1.03]
 
@@ -34,7 +36,7 @@ def drawn(seed: int, factor: float = 1.0, right: float = 0.0, down: float = 0.0)
 def seen(image: np.ndarray, target: Target = TARGET, kernels=None) -> View:
     """A window of the image round the target."""
     k = kernels or kernel_sets.load("native")
-    return look(Sight(k, image, "color", None, None), [target], 3.0)[0]
+    return look(Sight(k, image, "color", CAMERA, None, None), [target], 3.0)[0]
 
 
 def grown(before: np.ndarray, after: np.ndarray, target: Target = TARGET, kernels=None) -> float | None:
