@@ -393,10 +393,10 @@ ODD = {
 FLAT = pytest.mark.xfail(
     strict=True,
     raises=AssertionError,
-    reason="at 1e-45 m the covariance rounds to a singular one, as all of its parts shrink with the distance",
+    reason="the noise of 1e-45 m vanishes beside the rest, so that a measurement leaves a covariance of 0",
 )
 HUGE = pytest.mark.xfail(
-    strict=True, raises=RuntimeWarning, reason="the median of depths near float32's largest number overflows"
+    strict=True, raises=RuntimeWarning, reason="a picture of depths near float32's largest number overflows"
 )
 FAILING = {"depth, huge": HUGE, "rgbd, all denormal": FLAT, "depth, all denormal": FLAT}
 
