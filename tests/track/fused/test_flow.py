@@ -6,15 +6,15 @@ from functools import cache
 import cv2
 import numpy as np
 import pytest
-from tricue import Intrinsics
 from tricue import kernels as kernel_sets
+from tricue.camera.rig import Intrinsics
 from tricue.track.fused.experts.flow import HALF, Glance, growth
 from tricue.track.fused.sight import Sight
 from tricue.track.fused.view import PIXELS, Target, View, look
 
 SIZE = (200, 160)
+CAMERA = Intrinsics(200.0, 200.0, 99.5, 79.5, *SIZE)
 MIDDLE = (100.0, 80.0)
-CAMERA = Intrinsics.from_fov(*SIZE, 60)
 TARGET = Target(*MIDDLE, 44.0, 36.0)
 FACTORS = [0.97, 0.985, 1.0, 1.015, 1.03]
 
