@@ -225,20 +225,13 @@ def test_gray_is_three_equal_channels():
 
 
 def test_calibrations_of_another_size_are_named():
-    """A first frame of another size than the rig's or the camera's is an error that says both, and so is a
-    later one.
-    """
+    """A first frame of another size than the rig's camera's or the camera's is an error that says both."""
     small, box = Frame(LEFT[::2, ::2], right=RIGHT[::2, ::2]), (24, 15, 16, 19)
-    with pytest.raises(ValueError, match=r"^frame.color: expected the rig's size, 128x96, got 64x48"):
+    with pytest.raises(ValueError, match=r"^frame.color: expected the camera's size, 128x96, got 64x48"):
         FusedTracker(rig=RIG).init(small, box)
     small = Frame(depth=DEPTH[::2, ::2])
     with pytest.raises(ValueError, match=r"^frame.depth: expected the camera's size, 128x96, got 64x48"):
         FusedTracker(intrinsics=RIG.intrinsics).init(small, box)
-
-
-NAMED = pytest.mark.xfail(
-    strict=True, raises=AssertionError, reason="the error names another channel than the one that came"
-)
 
 
 @pytest.mark.parametrize(
@@ -246,8 +239,8 @@ NAMED = pytest.mark.xfail(
     [
         ({"rig": RIG}, Frame(LEFT[::2, ::2]), "color"),
         ({"intrinsics": RIG.intrinsics}, Frame(depth=DEPTH[::2, ::2]), "depth"),
-        pytest.param({"rig": RIG}, Frame(depth=DEPTH[::2, ::2]), "depth", marks=NAMED),
-        pytest.param({"intrinsics": RIG.intrinsics}, Frame(LEFT[::2, ::2]), "color", marks=NAMED),
+        ({"rig": RIG}, Frame(depth=DEPTH[::2, ::2]), "depth"),
+        ({"intrinsics": RIG.intrinsics}, Frame(LEFT[::2, ::2]), "color"),
     ],
     ids=["rig, color", "camera, depth", "rig, depth", "camera, color"],
 )
@@ -397,13 +390,15 @@ ODD = {
     **{f"depth, {name}": lambda name=name: Frame(depth=DEPTHS[name]) for name in DEPTHS},
     **{f"color, {name}": lambda name=name: Frame(PAIRS[name][0]) for name in PAIRS},
 }
-BEHIND = pytest.mark.xfail(
-    strict=True, raises=AssertionError, reason="a position may drift to behind the camera while it is missed"
+FLAT = pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="the noise of 1e-45 m vanishes beside the rest, so that a measurement leaves a covariance of 0",
 )
 HUGE = pytest.mark.xfail(
-    strict=True, raises=RuntimeWarning, reason="the median of depths near float32's largest number overflows"
+    strict=True, raises=RuntimeWarning, reason="a picture of depths near float32's largest number overflows"
 )
-FAILING = {"pair, far apart": BEHIND, "rgbd, huge": HUGE, "depth, huge": HUGE}
+FAILING = {"depth, huge": HUGE, "rgbd, all denormal": FLAT, "depth, all denormal": FLAT}
 
 
 @pytest.mark.parametrize("name", [pytest.param(name, marks=FAILING.get(name, ())) for name in ODD])
@@ -482,14 +477,7 @@ VIEWS: dict[str, Callable[[NDArray[Any]], NDArray[Any]]] = {
 }
 
 
-ORDER = pytest.mark.xfail(
-    strict=True, raises=ValueError, reason="a frame keeps depth in Fortran order, which kernels refuse"
-)
-
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=ORDER if name == "Fortran" else ()) for name in VIEWS]
-)
+@pytest.mark.parametrize("name", VIEWS)
 def test_views_are_read_as_they_look(name):
     """Crops, mirrored, reversed and read-only arrays give the track of a packed copy, bit for bit."""
     runs = []
@@ -602,10 +590,12 @@ KERNELS = {
 
 @pytest.mark.parametrize("kernel", KERNELS)
 def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatch):
-    """An error in the middle of an update, of whatever kind, leaves the tracker as it was."""
-    camera = KERNELS[kernel]
-    tracker = started(camera)
-    expected = next_of(tracker, camera)
+    """An error in the middle of an update, of whatever kind, leaves the tracker as it was; the update is one
+    in which it learns.
+    """
+    camera, frames = KERNELS[kernel], FusedTracker.Params().learn_every - 1
+    tracker = started(camera, frames)
+    expected = next_of(tracker, camera, frames + 1)
 
     def fail(*_: Any) -> None:
         raise MemoryError
@@ -613,5 +603,5 @@ def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatc
     with monkeypatch.context() as patch:
         patch.setattr(tracker._k, kernel, fail)
         with pytest.raises(MemoryError):
-            tracker.update(seen_by(camera, 4))
-    assert tracker.update(seen_by(camera, 4)) == expected
+            tracker.update(seen_by(camera, frames + 1))
+    assert tracker.update(seen_by(camera, frames + 1)) == expected

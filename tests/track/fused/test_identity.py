@@ -5,13 +5,15 @@ import math
 
 import numpy as np
 import pytest
+from tricue import Intrinsics
 from tricue import kernels as kernel_sets
-from tricue.track.fused.identity import WEIGHTS, Identity, Marks, colors_of, probability
+from tricue.track.fused.identity import TRUST, Identity, Marks, colors_of, probability
 from tricue.track.fused.sight import Sight
 from tricue.track.fused.view import Target, View, look
 
-MIDDLING = Marks(sharpness=5.0, order=0.2, colors=0.6, contrast=0.2, first=0.3, depth=0.1)
-BETTER = {"sharpness": 1, "order": -1, "colors": 1, "contrast": 1, "first": 1, "depth": 1}
+MIDDLING = Marks(sharpness=5.0, order=0.2, colors=0.6, contrast=0.2, first=0.3)
+BETTER = {"sharpness": 1, "order": -1, "colors": 1, "contrast": 1, "first": 1}
+CAMERA = Intrinsics.from_fov(160, 120, 60)
 RED, BLUE = (20, 30, 220), (210, 40, 20)
 
 
@@ -19,31 +21,56 @@ def view_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> View:
     """A picture of two colors, looked at in its middle."""
     picture = np.full((120, 160, 3), left, np.uint8)
     picture[:, 80:] = right
-    sight = Sight(kernel_sets.load("native"), picture, "color", None, None)
+    sight = Sight(kernel_sets.load("native"), picture, "color", CAMERA, None, None)
     return look(sight, [Target(80.0, 60.0, 24.0, 24.0)], 3.0)[0]
 
 
-@pytest.mark.parametrize("channels", WEIGHTS)
+@pytest.mark.parametrize("channels", TRUST)
 @pytest.mark.parametrize("mark", Marks._fields)
 def test_odds_are_monotone(mark, channels):
-    """A mark that speaks for the target never makes it less likely, and no other way round."""
+    """A mark that speaks for the target makes it likelier, and never less likely by structure."""
     value = getattr(MIDDLING, mark)
     better = MIDDLING._replace(**{mark: value + 0.1 * BETTER[mark]})
-    assert better.log_odds(channels) >= MIDDLING.log_odds(channels)
+    assert better.log_odds(channels) > MIDDLING.log_odds(channels)
+    assert better.by_structure >= MIDDLING.by_structure
 
 
-@pytest.mark.parametrize("channels", WEIGHTS)
+@pytest.mark.parametrize("channels", TRUST)
 def test_odds_tell_both_ways(channels):
     """A perfect place is believed, and an empty one isn't, with each set of channels."""
-    perfect = Marks(sharpness=12.0, order=0.0, colors=1.0, contrast=0.6, first=1.0, depth=0.4)
-    empty = Marks(sharpness=2.0, order=0.35, colors=0.0, contrast=-0.1, first=0.0, depth=-0.4)
+    perfect = Marks(sharpness=12.0, order=0.0, colors=1.0, contrast=0.6, first=1.0)
+    empty = Marks(sharpness=2.0, order=0.35, colors=0.0, contrast=-0.1, first=0.0)
     assert probability(perfect.log_odds(channels)) > 0.9
     assert probability(empty.log_odds(channels)) < 0.1
 
 
-def test_color_alone_does_not_ask_depth():
-    """What depth says counts for nothing where there is none."""
-    assert MIDDLING._replace(depth=0.5).log_odds("color") == MIDDLING.log_odds("color")
+def test_depth_lets_marks_tell_less():
+    """The same marks are less sure with depth, whose contrasts are higher, than in color alone."""
+    assert MIDDLING.log_odds("both") < MIDDLING.log_odds("color")
+    perfect = Marks(sharpness=12.0, order=0.0, colors=1.0, contrast=0.6, first=1.0)
+    assert perfect.log_odds("depth") < perfect.log_odds("both") < perfect.log_odds("color")
+
+
+def test_structure_does_not_ask_colors():
+    """Other light changes colors and their contrast, and nothing that is told by structure."""
+    other = MIDDLING._replace(colors=0.0, contrast=-0.4)
+    assert other.by_structure == MIDDLING.by_structure
+    assert other.log_odds("color") < MIDDLING.log_odds("color")
+
+
+def test_structure_tells_both_ways():
+    """By structure alone a perfect place is believed, and an empty one isn't."""
+    perfect = Marks(sharpness=12.0, order=0.0, colors=0.0, contrast=0.0, first=1.0)
+    empty = Marks(sharpness=2.0, order=0.35, colors=1.0, contrast=0.6, first=0.0)
+    assert probability(perfect.by_structure) > 0.9
+    assert probability(empty.by_structure) < 0.1
+
+
+def test_unknown_channels_are_refused():
+    """Odds are told for color, both and depth, and for nothing else."""
+    assert set(TRUST) == {"color", "both", "depth"}
+    with pytest.raises(KeyError, match="pair"):
+        MIDDLING.log_odds("pair")
 
 
 @pytest.mark.parametrize("odds", [0.01, 0.5, 1.0, 3.0, 99.0])

@@ -3,12 +3,14 @@
 
 import numpy as np
 import pytest
+from tricue import Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts.depth import LEAST, NARROW, WIDE, DepthExpert, Measured, measure
 from tricue.track.fused.rangers import DepthImage
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.view import Target
 
+CAMERA = Intrinsics.from_fov(200, 160, 60)
 TARGET = Target(100.0, 80.0, 60.0, 60.0)
 Z = 2.0
 EXPECTED = {"unknown": None, "expected": Expected(Z, 0.1), "unsure": Expected(5.0, 3.0)}
@@ -17,7 +19,7 @@ EXPECTED = {"unknown": None, "expected": Expected(Z, 0.1), "unsure": Expected(5.
 def sight(depth: np.ndarray | None) -> Sight:
     """A frame with that depth."""
     ranger = None if depth is None else DepthImage(np.asarray(depth, np.float32))
-    return Sight(kernel_sets.load("native"), np.zeros((160, 200, 3), np.uint8), "color", ranger, None)
+    return Sight(kernel_sets.load("native"), np.zeros((160, 200, 3), np.uint8), "color", CAMERA, ranger, None)
 
 
 def flat(z: float = Z) -> np.ndarray:

@@ -3,12 +3,14 @@
 
 import numpy as np
 import pytest
-from tricue import Box
+from tricue import Box, Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts import posterior
 from tricue.track.fused.rangers import DepthImage
 from tricue.track.fused.sight import RELIEF, Expected, Sight, shades
 from tricue.track.fused.view import PIXELS, Target, View, look
+
+CAMERA = Intrinsics.from_fov(250, 200, 60)
 
 
 def depths(*metres: float) -> np.ndarray:
@@ -44,8 +46,8 @@ def test_expecting_shades_anew():
     """One who expects another depth sees another picture of depth, but the same one of color."""
     depth = np.full((10, 10), 3.0, np.float32)
     k = kernel_sets.load("native")
-    of_depth = Sight(k, shades(depth, 2.0), "depth", DepthImage(depth), Expected(2.0, 0.1), depth)
-    of_color = Sight(k, shades(depth, 2.0), "color", DepthImage(depth), Expected(2.0, 0.1))
+    of_depth = Sight(k, shades(depth, 2.0), "depth", CAMERA, DepthImage(depth), Expected(2.0, 0.1), depth)
+    of_color = Sight(k, shades(depth, 2.0), "color", CAMERA, DepthImage(depth), Expected(2.0, 0.1))
     other = Expected(3.0, 0.2)
     assert (of_depth.expecting(other).picture == 128).all()
     assert of_color.expecting(other).picture is of_color.picture
@@ -58,7 +60,9 @@ def test_depths_by_hand(kernels):
     """
     image = np.full((30, 50), 2.0, np.float32)
     image[:, 10:20], image[:, 20:30], image[:, 30:40] = 1.0, 3.0, np.nan
-    sight = Sight(kernels, np.zeros((30, 50, 3), np.uint8), "color", DepthImage(image), Expected(2.0, 0.05))
+    sight = Sight(
+        kernels, np.zeros((30, 50, 3), np.uint8), "color", CAMERA, DepthImage(image), Expected(2.0, 0.05)
+    )
     belief, nearer = sight.depths(0.0, 0.0, 1.0, 30)
     assert belief[15, 5] > 0.9
     assert max(belief[15, 15], belief[15, 25]) < 0.1
@@ -75,15 +79,31 @@ def test_no_depths_without_both(ranger, expected, kernels):
     """Without something to measure depth by, or something to expect, depth says nothing."""
     image = np.full((8, 8), 2.0, np.float32)
     sight = Sight(
-        kernels, np.zeros((8, 8, 3), np.uint8), "color", DepthImage(image) if ranger else None, expected
+        kernels,
+        np.zeros((8, 8, 3), np.uint8),
+        "color",
+        CAMERA,
+        DepthImage(image) if ranger else None,
+        expected,
     )
     assert sight.depths(0.0, 0.0, 1.0, 8) is None
 
 
-@pytest.mark.parametrize("sigma", [0.01, 0.05, 0.2, 2.0])
-def test_margin_is_over_three_deviations(sigma):
-    """What hides is nearer by three standard deviations, and by a quarter of a metre at least."""
-    assert Expected(2.0, sigma).margin == max(3 * sigma, 0.25)
+@pytest.mark.parametrize(
+    ("sigma", "margin"), [(0.01, 0.25), (0.08, 0.25), (0.1, 0.3), (0.15, 0.45), (0.2, 0.5), (0.49, 0.5)]
+)
+def test_margin_is_three_deviations(sigma, margin):
+    """What hides is nearer by three standard deviations, by a quarter of a metre at least and half of one at
+    most.
+    """
+    assert Expected(2.0, sigma).margin == pytest.approx(margin)
+
+
+@pytest.mark.parametrize("sigma", [0.5, 2.0])
+@pytest.mark.parametrize("z", [0.3, 2.0, 50.0])
+def test_nothing_hides_what_may_be_anywhere(z, sigma):
+    """Of a depth that is vague nothing is nearer: the margin reaches to the camera."""
+    assert Expected(z, sigma).margin == z
 
 
 def test_target_and_box():
@@ -101,7 +121,7 @@ def seen(target: Target, context: float = 3.0) -> View:
     """A window of an image whose pixels tell their place: blue the column, green the row."""
     rows, columns = np.indices((200, 250)).astype(np.uint8)
     picture = np.dstack([columns, rows, np.zeros_like(rows)])
-    return look(Sight(kernel_sets.load("native"), picture, "color", None, None), [target], context)[0]
+    return look(Sight(kernel_sets.load("native"), picture, "color", CAMERA, None, None), [target], context)[0]
 
 
 def test_a_window_is_where_it_should_be():

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.space import Space
+from tricue.track.fused.space import SURPRISING, Space
 
 P = FusedParams()
 START = np.array([0.4, -0.2, 2.0])
@@ -69,6 +69,29 @@ def test_covariance_grows_without_measurement(kernels):
         space = later
     after = space.corrected(kernels, START, NOISE)
     assert np.linalg.eigvalsh(NOISE - after.uncertainty).min() > 0
+
+
+def test_distance_is_in_standard_deviations():
+    """A point is as far as its offset in deviations of the state and its own together."""
+    space = Space.start(START, np.diag([0.03, 0.06, 0.08]) ** 2, P)
+    noise = np.diag([0.04, 0.08, 0.06]) ** 2  # together 5, 10 and 10 cm
+    assert space.distance(START, noise) == 0
+    assert space.distance(START + [0.1, 0, 0], noise) == pytest.approx(2)
+    assert space.distance(START + [0, -0.3, 0], noise) == pytest.approx(3)
+    assert space.distance(START + [0.15, 0.4, 0], noise) == pytest.approx(5)
+
+
+@pytest.mark.parametrize("off", [0.5, 2.0])
+def test_a_surprise_is_believed(off, kernels):
+    """A sure filter goes most of the way to a point that it didn't foresee, and is less sure after it than
+    after one that it did.
+    """
+    space = Space.start(START, NOISE / 100, P)
+    there = START + [off, 0.0, 0.0]
+    assert space.distance(there, NOISE) > 10 * SURPRISING
+    usual, surprised = (space.corrected(kernels, point, NOISE) for point in (START, there))
+    assert surprised.position[0] - START[0] > 0.5 * off
+    assert np.trace(surprised.uncertainty) > 10 * np.trace(usual.uncertainty)
 
 
 def test_one_long_step_is_as_many_short_ones(kernels):

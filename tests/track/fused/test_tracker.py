@@ -80,12 +80,7 @@ def test_found_again_elsewhere(background, stage, follow):
     assert last.box.iou(Box(*THERE, 50, 63)) > 0.5
 
 
-GHOST = pytest.mark.xfail(
-    strict=True, raises=AssertionError, reason="it takes a part of this background for the face"
-)
-
-
-@pytest.mark.parametrize("background", [pytest.param("coffee", marks=GHOST), "cat", "motorcycle"])
+@pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle"])
 def test_a_lost_face_is_not_seen_in_a_background(background, stage, follow):
     """Once lost, the target isn't found in 30 frames that show clutter alone."""
     tracker = FusedTracker()
@@ -164,9 +159,26 @@ def test_both_sets_of_kernels_agree_on_depth(name, film):
         np.testing.assert_allclose(ours.covariance, theirs.covariance, rtol=1e-3, atol=1e-6)
 
 
+UNKNOWN = pytest.mark.xfail(
+    strict=True,
+    raises=AssertionError,
+    reason="in other surroundings the face's own structure has log-odds of -0.3 to 0.6, less than the"
+    " 0.85 that are asked of what is elsewhere",
+)
+
+
+@pytest.mark.parametrize("seen", [pytest.param(2, marks=UNKNOWN), pytest.param(6, marks=UNKNOWN), 12])
+def test_found_again_after_few_frames(seen, stage, follow):
+    """A face that was seen in so few frames before it was lost is found within 10 where it comes back."""
+    frames = stage(HERE[:seen]) + 3 * [BLANK["black"]] + stage(10 * [THERE])
+    last = follow(FusedTracker(), frames, START)[-1]
+    assert last.status is Status.TRACKED
+    assert last.box.iou(Box(*THERE, 50, 63)) > 0.5
+
+
 def test_both_sets_of_kernels_search_alike(stage, follow):
     """Lost, they look at the same places: after three blank frames both find the face where it came back."""
-    frames = stage(HERE[:2]) + 3 * [BLANK["black"]] + stage(3 * [THERE])
+    frames = stage(HERE) + 3 * [BLANK["black"]] + stage(3 * [THERE])
     native, reference = (
         follow(FusedTracker(kernels=each), frames, START) for each in ("native", "reference")
     )
