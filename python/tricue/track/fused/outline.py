@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tricue.track.fused.view import PIXELS, Target, View
 
 FILLED = 0.45  # mean P(target | depth) along a line through it, as far as it reaches: half of its most
-CENTRAL = 0.5  # of the box, whose rows and columns are followed outwards
+CENTRAL = 0.25  # of the box, whose rows and columns are followed outwards
 COVERED = 0.05  # of the box, by what is nearer: then its outline isn't seen
 LEAST, MOST = 0.3, 3.0  # of the half width or height
 

@@ -92,6 +92,7 @@ def shades(depth: Plane, z: float) -> Image:
     """(H, W, 3) a picture of depth, gray at the target's, black nearer, white farther and where none is
     measured; so that the target looks the same at any distance.
     """
-    gray = np.nan_to_num((depth - np.float32(z)) * np.float32(127 / RELIEF) + np.float32(128), nan=255.0)
-    levels: Any = np.clip(gray, 0, 255).astype(np.uint8)
+    near = np.clip(depth, np.float32(z - RELIEF), np.float32(z + RELIEF)) - np.float32(z)
+    gray = np.nan_to_num(near * np.float32(127 / RELIEF) + np.float32(128), nan=255.0)
+    levels: Any = gray.astype(np.uint8)
     return np.repeat(levels[:, :, None], 3, axis=2)

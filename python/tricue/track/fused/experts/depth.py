@@ -13,7 +13,7 @@ GRID = 48  # samples a side, of which a target's depth is measured
 LEAST = 0.1  # of them have to be measured
 NARROW, WIDE = 0.04, 0.4  # metres, of a target's relief
 CENTRAL = 0.5  # of the box, which a target that isn't known yet surely fills
-FARTHEST = 1000.0  # metres; not even a pair knows more
+NEAREST, FARTHEST = 0.001, 1000.0  # metres; beyond them nothing is measured, whatever is said
 REACH = 0.5  # metres round the most common depth there
 TO_SIGMA = 1.4826  # from the median of distances, of normal noise
 
@@ -58,7 +58,7 @@ def measure(sight: Sight, target: Target, expected: Expected | None) -> Measured
     unit = side / GRID
     metres = sight.ranger.metres((target.x - side / 2, target.y - side / 2, unit), GRID, expected)
     if expected is None:
-        inside = metres < FARTHEST
+        inside = (metres > NEAREST) & (metres < FARTHEST)
         middle = float(np.median(metres[inside])) if inside.any() else math.nan
         around, reach = middle, REACH
     else:
