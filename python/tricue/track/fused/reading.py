@@ -5,13 +5,14 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import cv2
+import numpy as np
 
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.kernels import Kernels
 from tricue.track import lifecycle
 from tricue.track.fused.rangers import DepthImage, Pair
-from tricue.track.fused.sight import Expected, Image, Plane, Ranger, Sight, shades
+from tricue.track.fused.sight import Around, Expected, Image, Plane, Ranger, Sight, shades
 
 
 class Seen(NamedTuple):
@@ -24,15 +25,15 @@ class Seen(NamedTuple):
     camera: Intrinsics
     timestamp: float | None
 
-    def sight(self, k: Kernels, expected: Expected | None) -> Sight:
+    def sight(self, k: Kernels, expected: Expected | None, around: Around | None = None) -> Sight:
         """What the experts see of it. Without color a picture of the depth stands in, round the depth that is
-        expected.
+        expected, and around a place.
         """
         if self.color is not None:
             return Sight(k, self.color, "color", self.camera, self.ranger, expected)
         assert self.depth is not None, "a frame has color or depth"
-        middle = expected.z if expected else 0.0
-        return Sight(k, shades(self.depth, middle), "depth", self.camera, self.ranger, expected, self.depth)
+        picture = shades(self.depth, expected.z, around) if expected else np.zeros((*self.shape, 3), np.uint8)
+        return Sight(k, picture, "depth", self.camera, self.ranger, expected, self.depth)
 
 
 def read(

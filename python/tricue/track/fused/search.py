@@ -124,7 +124,8 @@ def _there(known: Known, sight: Sight, target: Target) -> tuple[Sight, list[Targ
     low, high = (bound * known.first_side / target.side for bound in known.p.size_range)
     factor = known.depth.length / (measured.z * target.side)
     expected = Expected(measured.z, known.depth.relief)
-    return sight.expecting(expected), [target.scaled(min(max(factor, low), high))]
+    there = target.scaled(min(max(factor, low), high))
+    return sight.expecting(expected, there.around), [there]
 
 
 def _apart(known: Known, sight: Sight, target: Target) -> list[Target]:

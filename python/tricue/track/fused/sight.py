@@ -3,8 +3,9 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, Literal, NamedTuple, Protocol
+from typing import Literal, NamedTuple, Protocol
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,6 +33,9 @@ class Expected(NamedTuple):
 
 
 Grid = tuple[float, float, float]  # pixels: x, y of its corner, side of a square
+
+
+Around = tuple[float, float, float]  # pixels: x, y of a place, and how far it is looked from there
 
 
 class Ranger(Protocol):
@@ -69,11 +73,11 @@ class Sight:
     expected: Expected | None
     depth: Plane | None = None
 
-    def expecting(self, expected: Expected) -> "Sight":
-        """The same frame for one who expects another depth."""
+    def expecting(self, expected: Expected, around: Around | None = None) -> "Sight":
+        """The same frame for one who expects another depth, and looks no farther than that around."""
         picture = self.picture
         if self.kind == "depth" and self.depth is not None:
-            picture = shades(self.depth, expected.z)
+            picture = shades(self.depth, expected.z, around)
         return replace(self, picture=picture, expected=expected)
 
     def depths(self, x: float, y: float, unit: float, side: int) -> tuple[Plane, NDArray[np.uint8]] | None:
@@ -88,11 +92,27 @@ class Sight:
         return self.ranger.posterior(self.k, (x, y, unit), side, self.expected._replace(sigma=own), margin)
 
 
-def shades(depth: Plane, z: float) -> Image:
+def shades(depth: Plane, z: float, around: Around | None = None) -> Image:
     """(H, W, 3) a picture of depth, gray at the target's, black nearer, white farther and where none is
-    measured; so that the target looks the same at any distance.
+    measured; so that the target looks the same at any distance. Black, too, is what isn't around a place.
     """
-    near = np.clip(depth, np.float32(z - RELIEF), np.float32(z + RELIEF)) - np.float32(z)
-    gray = np.nan_to_num(near * np.float32(127 / RELIEF) + np.float32(128), nan=255.0)
-    levels: Any = gray.astype(np.uint8)
-    return np.repeat(levels[:, :, None], 3, axis=2)
+    picture = np.zeros((*depth.shape, 3), np.uint8)
+    part = _part(depth.shape, around)
+    gray = np.fmin(depth[part], np.float32(z + RELIEF))  # what is NaN becomes white
+    np.maximum(gray, np.float32(z - RELIEF), out=gray)
+    gray -= np.float32(z)
+    gray *= np.float32(127 / RELIEF)
+    gray += np.float32(128)
+    picture[part] = cv2.cvtColor(gray.astype(np.uint8), cv2.COLOR_GRAY2BGR)
+    return picture
+
+
+def _part(shape: tuple[int, ...], around: Around | None) -> tuple[slice, slice]:
+    if around is None:
+        return slice(None), slice(None)
+    x, y, reach = around
+    rows, columns = (
+        slice(int(min(max(middle - reach, 0), length - 1)), int(min(max(middle + reach + 1, 1), length)))
+        for middle, length in ((y, shape[0]), (x, shape[1]))
+    )
+    return rows, columns

@@ -84,7 +84,7 @@ class FusedTracker:
         before = lifecycle.started(self._state)
         seen = self._read(frame, before.shape)
         state = learn.located(self._ahead(before, seen), seen, self._k, self.params)
-        sight = seen.sight(self._k, _expected(state))
+        sight = seen.sight(self._k, _expected(state), state.target.around)
         state = learn.met(state, sight, self.params)
         found = self._found(state, sight)
         state = judged(state, found, self.params)

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.track.fused.sight import Image, Plane, Sight
+from tricue.track.fused.sight import Around, Image, Plane, Sight
 
 CELLS = 32  # a side of the window
 PIXELS = 2 * CELLS  # a side of its patch
+AROUND = 5.0  # of a target's side
 
 
 class Target(NamedTuple):
@@ -41,6 +42,11 @@ class Target(NamedTuple):
     def moved(self, right: float, down: float) -> "Target":
         """The same elsewhere."""
         return Target(self.x + right, self.y + down, self.width, self.height)
+
+    @property
+    def around(self) -> Around:
+        """What may be looked at to find it: its window, those beside it, and their own."""
+        return self.x, self.y, AROUND * self.side
 
     def scaled(self, factor: float) -> "Target":
         """As large as that, in the same place."""
