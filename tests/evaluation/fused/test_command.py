@@ -4,7 +4,8 @@ import csv
 import math
 
 import pytest
-from tricue.evaluation.fused.command import markdown, mean, performed, seeds, write_csv
+from tricue.evaluation import peers
+from tricue.evaluation.fused.command import markdown, mean, parser, performed, seeds, write_csv
 
 
 @pytest.mark.parametrize(("text", "expected"), [("0:3", (0, 1, 2)), ("4", (4,)), ("1,5,7", (1, 5, 7))])
@@ -47,3 +48,10 @@ def test_mean_of_what_is_known():
     assert mean([1.0, float("nan"), 3.0]) == 2
     assert math.isnan(mean([float("nan")]))
     assert math.isnan(mean([]))
+
+
+def test_a_cv2_without_contrib_is_enough(monkeypatch):
+    """Without --trackers only those are compared that the installed cv2 has."""
+    monkeypatch.setattr(peers, "available", lambda: {"MIL": None})
+    options = parser("robust", "", ("fused", "fused:color", "CSRT", "MIL")).parse_args([])
+    assert options.trackers == ["fused", "fused:color", "MIL"]

@@ -10,7 +10,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from tricue.evaluation import peers
 from tricue.evaluation.schedule import NEEDED
+from tricue.track.create import names
 from tricue.verbs.verb import count
 
 Job = TypeVar("Job")
@@ -19,12 +21,15 @@ Cell = str | float
 
 
 def parser(name: str, about: str | None, trackers: Sequence[str]) -> argparse.ArgumentParser:
-    """The options that all have; trackers: who is compared without --trackers."""
+    """The options that all have; trackers: who is compared without --trackers, as far as the installed cv2
+    has them.
+    """
+    known = (*names(), *peers.available())
     made = argparse.ArgumentParser(prog=f"python -m tricue.evaluation.fused.{name}", description=about)
     made.add_argument(
         "--trackers",
         nargs="+",
-        default=list(trackers),
+        default=[each for each in trackers if each.partition(":")[0] in known],
         metavar="NAME",
         help="ours and cv2's; fused:color and fused:color+depth see these channels alone",
     )
