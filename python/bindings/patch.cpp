@@ -37,12 +37,12 @@ Array<float> box_contrast_arrays(const Array<float>& plane, double width, double
                          [&] { return box_contrast(view, {width, height, outer}, around); }));
 }
 
-Array<double> box_means_arrays(const Array<float>& plane, const Array<double>& widths,
+Array<double> box_means_arrays(const Array<float>& plane, double x, double y, const Array<double>& widths,
                                const Array<double>& heights) {
     const auto view = map(plane);
     const auto across = vector(widths, "widths"), down = vector(heights, "heights");
     return give(
-        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return box_means(view, across, down); }));
+        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return box_means(view, x, y, across, down); }));
 }
 
 }  // namespace
@@ -62,8 +62,8 @@ void define_patch(py::module_& m) {
           "(R, C) of a map (2R, 2C): its mean in a box of width by height pixels at every second place, the "
           "middle one at (R // 2, C // 2), minus around times that in the frame that reaches to outer times "
           "its size.");
-    m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("widths"), py::arg("heights"),
-          "(N,) means of a map (H, W) in boxes of N sizes round its middle, pixels; 0 lies outside.");
+    m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("x"), py::arg("y"), py::arg("widths"), py::arg("heights"),
+          "(N,) means of a map (H, W) in boxes of N sizes round (x, y), pixels; 0 lies outside.");
 }
 
 }  // namespace tricue::bindings

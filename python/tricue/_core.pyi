@@ -66,11 +66,13 @@ def box_contrast(
 
 def box_means(
     plane: numpy.typing.NDArray[numpy.float32],
+    x: float,
+    y: float,
     widths: numpy.typing.NDArray[numpy.float64],
     heights: numpy.typing.NDArray[numpy.float64],
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    (N,) means of a map (H, W) in boxes of N sizes round its middle, pixels; 0 lies outside.
+    (N,) means of a map (H, W) in boxes of N sizes round (x, y), pixels; 0 lies outside.
     """
 
 def color_bins(
@@ -770,6 +772,8 @@ class Kernels(Protocol):
     def box_means(
         self,
         plane: numpy.typing.NDArray[numpy.float32],
+        x: float,
+        y: float,
         widths: numpy.typing.NDArray[numpy.float64],
         heights: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.float64]: ...

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "check.hpp"
@@ -15,56 +14,56 @@ namespace {
 constexpr int kUnit = 64;         // parts of a pixel that places are rounded to
 constexpr int kMostReadings = 4;  // of a sample along one axis
 constexpr int kMostPixels = 2 * kMostReadings;
-constexpr int kLanes = 4;  // blue, green, red, and one that is thrown away
+constexpr int kLanes = 8;  // numbers of two neighbouring pixels, and two that are thrown away
 
-using Four [[gnu::vector_size(4 * kLanes)]] = float;
+using Eight [[gnu::vector_size(4 * kLanes)]] = float;
+using Order [[gnu::vector_size(4 * kLanes)]] = int;
 
-/// Which pixels a sample has along one axis, and how much of each, in parts of kUnit.
-struct Sample {
-    int pixels[kMostPixels];
-    float weights[kMostPixels];  // whole numbers, 0 beyond the last pixel
-
-    void add(int pixel, int weight, int* count) {
-        if (*count == 0 || pixels[*count - 1] != pixel) pixels[(*count)++] = pixel;
-        weights[*count - 1] += static_cast<float>(weight);
-    }
+/// A place along one axis, between a pixel and the next, in parts of kUnit from the first.
+struct Reading {
+    int pixel, past;
 };
 
+/// `count` samples with as many readings each.
 struct Axis {
-    std::vector<Sample> samples;
-    int readings;    ///< of each sample
-    int pixels = 0;  ///< that each sample has at most, rounded up to pairs
+    int count, each;
+    std::vector<Reading> readings;
 
-    int first() const { return samples.front().pixels[0]; }
-    int last() const { return *std::max_element(samples.back().pixels, samples.back().pixels + kMostPixels); }
+    int first() const { return readings.front().pixel; }
+    int last() const { return readings.back().pixel; }
 };
 
-Axis find_samples(double start, double length, int count, int size) {
+Axis find_readings(double start, double length, int count, int size) {
     const double step = length / count;
-    Axis axis{std::vector<Sample>(static_cast<std::size_t>(count)),
-              static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMostReadings}))};
-    const int readings = axis.readings;
-    const double apart = step / readings, most = size - 1.0;
-    int reading = 0;
-    for (Sample& sample : axis.samples) {
-        int used = 0;
-        for (int j = 0; j < readings; ++j, ++reading) {
-            const double place = start + (reading + 0.5) * apart - 0.5;
-            const double inside = std::min(std::max(place, 0.0), most);
-            const int fixed = static_cast<int>(inside * kUnit + 0.5), low = fixed / kUnit;
-            sample.add(low, kUnit - fixed % kUnit, &used);
-            sample.add(std::min(low + 1, size - 1), fixed % kUnit, &used);
-        }
-        std::fill(sample.pixels + used, sample.pixels + kMostPixels, sample.pixels[0]);
-        axis.pixels = std::max(axis.pixels, used + used % 2);
+    const int each = static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMostReadings}));
+    Axis axis{count, each, std::vector<Reading>(static_cast<std::size_t>(count * each))};
+    const double apart = step / each, most = size - 1.0;
+    for (int i = 0; i < count * each; ++i) {
+        const double place = start + (i + 0.5) * apart - 0.5;
+        const double inside = std::min(std::max(place, 0.0), most);
+        const int fixed = static_cast<int>(inside * kUnit + 0.5);
+        axis.readings[static_cast<std::size_t>(i)] = {fixed / kUnit, fixed % kUnit};
     }
     return axis;
 }
 
-/// Rows of bytes and how much of each is in a blend of them.
+/// Rows of bytes and how much of each is in a blend of them, none beyond `count`.
 struct Rows {
     const std::uint8_t* bytes[kMostPixels];
-    std::uint16_t shares[kMostPixels];
+    std::uint16_t shares[kMostPixels] = {};
+    int count = 0;
+
+    void add(const std::uint8_t* row, int share) {
+        if (share == 0) return;
+        if (count == 0 || bytes[count - 1] != row) bytes[count++] = row;
+        shares[count - 1] = static_cast<std::uint16_t>(shares[count - 1] + share);
+    }
+};
+
+/// Where in a row of numbers a reading's two pixels begin, and how much of each number is in it.
+struct Column {
+    int at;
+    float weights[kLanes];
 };
 
 /// A sum is at most 255 times that of the shares, 4 kUnit, so 16 bits hold it.
@@ -81,29 +80,44 @@ inline void blend_all(const Rows& rows, int n, float* blend) {
 }
 
 TRICUE_MULTIVERSION
-void blend_rows(const Rows& rows, int count, int n, float* blend) {
-    if (count == 2)
+void blend_rows(const Rows& rows, int n, float* blend) {
+    if (rows.count <= 2)
         blend_all<2>(rows, n, blend);
-    else if (count == 4)
+    else if (rows.count <= 4)
         blend_all<4>(rows, n, blend);
-    else if (count == 6)
+    else if (rows.count <= 6)
         blend_all<6>(rows, n, blend);
     else
         blend_all<kMostPixels>(rows, n, blend);
 }
 
-/// `blend` begins at the first pixel and has a number more than its pixels, `sums` one more than 3 a sample.
-TRICUE_MULTIVERSION
-void add_columns(const Sample* samples, int count, int pixels, const float* blend, float* sums) {
-    for (int i = 0; i < count; ++i) {
-        Four sum = {0, 0, 0, 0};
-        for (int k = 0; k < pixels; ++k) {
-            Four color;
-            __builtin_memcpy(&color, blend + samples[i].pixels[k], sizeof color);
-            sum += color * samples[i].weights[k];
+/// Samples of kEach columns. `sums` has kLanes - 3 numbers more than 3 a sample.
+template <int kEach>
+inline void add_all(const Column* columns, int count, const float* blend, float* sums) {
+    for (int i = 0; i < count; ++i, columns += kEach, sums += 3) {
+        Eight sum = {};
+        for (int j = 0; j < kEach; ++j) {
+            Eight colors, weights;
+            __builtin_memcpy(&colors, blend + columns[j].at, sizeof colors);
+            __builtin_memcpy(&weights, columns[j].weights, sizeof weights);
+            sum += colors * weights;
         }
-        __builtin_memcpy(sums + 3 * i, &sum, sizeof sum);
+        const Eight next = __builtin_shuffle(sum, Order{3, 4, 5, 3, 3, 3, 3, 3});
+        sum += next;
+        __builtin_memcpy(sums, &sum, sizeof sum);
     }
+}
+
+TRICUE_MULTIVERSION
+void add_columns(const Column* columns, int count, int each, const float* blend, float* sums) {
+    if (each == 1)
+        add_all<1>(columns, count, blend, sums);
+    else if (each == 2)
+        add_all<2>(columns, count, blend, sums);
+    else if (each == 3)
+        add_all<3>(columns, count, blend, sums);
+    else
+        add_all<kMostReadings>(columns, count, blend, sums);
 }
 
 /// Quotients are no nearer than 1 / (12 kUnit²) to a half that they aren't, further than both roundings go.
@@ -113,24 +127,39 @@ void divide(const float* __restrict sums, float whole, int n, std::uint8_t* __re
         bytes[x] = static_cast<std::uint8_t>(static_cast<int>(sums[x] / whole + 0.5F));
 }
 
-void sample_window(const ImageView& image, const Axis& down, Axis across, std::uint8_t* bytes) {
-    const int left = across.first(), width = 3 * (across.last() + 1 - left);
-    auto& columns = across.samples;
-    const int count = static_cast<int>(columns.size());
-    for (Sample& column : columns)
-        for (int& pixel : column.pixels) pixel = 3 * (pixel - left);  // where in a row of numbers
-    std::vector<float> blend(static_cast<std::size_t>(width) + 1), row(3 * columns.size() + 1);
-    const auto whole = static_cast<float>(down.readings * across.readings * kUnit * kUnit);
-    for (const Sample& sample : down.samples) {
-        Rows rows;
-        for (int k = 0; k < kMostPixels; ++k) {
-            rows.bytes[k] = image.row(sample.pixels[k]) + 3 * left;
-            rows.shares[k] = static_cast<std::uint16_t>(sample.weights[k]);
-        }
-        blend_rows(rows, down.pixels, width, blend.data());
-        add_columns(columns.data(), count, across.pixels, blend.data(), row.data());
-        divide(row.data(), whole, 3 * count, bytes);
-        bytes += 3 * count;
+Rows rows_of(const ImageView& image, const Axis& down, int sample, int left) {
+    Rows rows;
+    const Reading* reading = down.readings.data() + std::ptrdiff_t{sample} * down.each;
+    for (int j = 0; j < down.each; ++j) {
+        const auto [pixel, past] = reading[j];
+        rows.add(image.row(pixel) + 3 * left, kUnit - past);
+        rows.add(image.row(std::min(pixel + 1, image.rows - 1)) + 3 * left, past);
+    }
+    std::fill(rows.bytes + rows.count, rows.bytes + kMostPixels, rows.bytes[0]);
+    return rows;
+}
+
+std::vector<Column> columns_of(const Axis& across) {
+    std::vector<Column> columns;
+    columns.reserve(across.readings.size());
+    for (const auto [pixel, past] : across.readings) {
+        const auto next = static_cast<float>(past), own = static_cast<float>(kUnit - past);
+        columns.push_back({3 * (pixel - across.first()), {own, own, own, next, next, next, 0, 0}});
+    }
+    return columns;
+}
+
+void sample_window(const ImageView& image, const Axis& down, const Axis& across, std::uint8_t* bytes) {
+    const int left = across.first(), numbers = 3 * across.count;
+    const int width = 3 * (std::min(across.last() + 2, image.cols) - left);
+    const std::vector<Column> columns = columns_of(across);
+    std::vector<float> blend(static_cast<std::size_t>(width + kLanes)),
+        sums(static_cast<std::size_t>(numbers + kLanes));
+    const auto whole = static_cast<float>(down.each * across.each * kUnit * kUnit);
+    for (int y = 0; y < down.count; ++y, bytes += numbers) {
+        blend_rows(rows_of(image, down, y, left), width, blend.data());
+        add_columns(columns.data(), across.count, across.each, blend.data(), sums.data());
+        divide(sums.data(), whole, numbers, bytes);
     }
 }
 
@@ -152,9 +181,9 @@ WindowBytes sample_windows(const ImageView& image, StatesRef windows, int rows, 
     const Eigen::Index each = Eigen::Index{3} * rows * columns;
     WindowBytes samples(windows.rows() * each);
     for (Eigen::Index i = 0; i < windows.rows(); ++i) {
-        Axis across = find_samples(windows(i, 0), windows(i, 2), columns, image.cols);
-        const Axis down = find_samples(windows(i, 1), windows(i, 3), rows, image.rows);
-        sample_window(image, down, std::move(across), samples.data() + i * each);
+        const Axis across = find_readings(windows(i, 0), windows(i, 2), columns, image.cols);
+        const Axis down = find_readings(windows(i, 1), windows(i, 3), rows, image.rows);
+        sample_window(image, down, across, samples.data() + i * each);
     }
     return samples;
 }

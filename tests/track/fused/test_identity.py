@@ -113,5 +113,5 @@ def test_ranks_are_learnt_and_colors_are_not():
     learnt = identity.learnt(seen, 0.1)
     np.testing.assert_allclose(learnt.ranks, 0.05, rtol=1e-6)
     assert learnt.order(seen) == pytest.approx(0.45)
-    np.testing.assert_array_equal(learnt.colors, identity.colors)
+    np.testing.assert_array_equal(learnt.roots, identity.roots)
     np.testing.assert_array_equal(identity.ranks, 0)

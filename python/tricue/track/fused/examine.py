@@ -3,8 +3,6 @@
 
 from typing import NamedTuple
 
-import numpy as np
-
 from tricue.track.fused.experts import size
 from tricue.track.fused.experts.depth import Measured, measure
 from tricue.track.fused.experts.flow import Glance, growth
@@ -12,7 +10,7 @@ from tricue.track.fused.experts.size import Looks
 from tricue.track.fused.identity import Marks, probability
 from tricue.track.fused.outline import Outline, outline
 from tricue.track.fused.places import Known, Place, closer, peak
-from tricue.track.fused.sight import Plane, Sight
+from tricue.track.fused.sight import Sight
 from tricue.track.fused.view import PIXELS, Target, View
 
 INNER, OUTER = 0.8, 2.0  # of the box, inside of it and round it
@@ -119,25 +117,12 @@ def hidden(view: View, right: float = 0.0, down: float = 0.0) -> float:
 def _factor(known: Known, place: Place, looks: Looks, expected: float) -> tuple[int, float]:
     """The step of scale for which there is most evidence, and the factor that it stands for."""
     models, p, k = known.models, known.p, place.view.sight.k
-    offset = np.arange(p.scales) - p.scales // 2.0
-    total = -p.scale_prior * offset * offset
+    total = size.steps(p).prior
     if "ranks" in p.cues:
-        total += p.rank_weight * models.size.evidence(k, looks)
+        total = total + p.rank_weight * models.size.evidence(k, looks)
     if "edges" in p.cues and place.own is not None:
-        middle = _centred(place.own, place.right, place.down)
+        middle = PIXELS / 2 + place.right, PIXELS / 2 + place.down
         across, down = (expected * each for each in place.view.size)
-        total += p.edge_weight * size.edges(k, middle, (across, down), size.factors(p), models.edge)
+        total = total + p.edge_weight * size.edges(k, place.own, middle, (across, down), p, models.edge)
     best = int(total.argmax())
-    return best, expected * float(p.scale_step ** (offset[best] + peak(total, best)))
-
-
-def _centred(plane: Plane, right: float, down: float) -> Plane:
-    """The plane moved by whole pixels so that a place off its middle comes to lie there; 0 comes in."""
-    i, j = round(down), round(right)
-    moved = np.zeros_like(plane)
-    rows, columns = PIXELS - abs(i), PIXELS - abs(j)
-    from_i, from_j, to_i, to_j = max(i, 0), max(j, 0), max(-i, 0), max(-j, 0)
-    moved[to_i : to_i + rows, to_j : to_j + columns] = plane[
-        from_i : from_i + rows, from_j : from_j + columns
-    ]
-    return moved
+    return best, expected * p.scale_step ** (best - p.scales // 2 + peak(total, best))

@@ -2,6 +2,7 @@
 """Whether what was found is the target, in one number that may be read as a probability."""
 
 import math
+import operator
 from typing import NamedTuple
 
 import numpy as np
@@ -46,7 +47,7 @@ class Marks(NamedTuple):
         return STRUCTURE_OFFSET + self._weighed(STRUCTURE)
 
     def _weighed(self, weights: tuple[float, ...]) -> float:
-        return sum(weight * value for weight, value in zip(weights, self, strict=True))
+        return float(sum(map(operator.mul, weights, self)))
 
 
 def probability(log_odds: float) -> float:
@@ -55,21 +56,21 @@ def probability(log_odds: float) -> float:
 
 
 class Identity(NamedTuple):
-    """What is remembered of the target's look: colors (4096,) of the first frame, which never learn, and its
-    ranks (3, n), which do.
+    """What is remembered of the target's look: roots of its colors (4096,) in the first frame, which never
+    learn, and its ranks (3, n), which do.
     """
 
-    colors: Plane
+    roots: Plane
     ranks: Plane
 
     @classmethod
     def start(cls, view: View, ranks: Plane) -> "Identity":
         """Of the first frame."""
-        return cls(colors_of(view, 0.0, 0.0), ranks)
+        return cls(np.sqrt(colors_of(view, 0.0, 0.0)), ranks)
 
     def likeness(self, view: View, right: float, down: float) -> float:
         """Bhattacharyya coefficient of the colors so many patch pixels off the view's middle."""
-        return float(np.sqrt(colors_of(view, right, down) * self.colors).sum())
+        return float(np.vdot(np.sqrt(colors_of(view, right, down)), self.roots))
 
     def order(self, ranks: Plane) -> float:
         """Mean distance of ranks (3, n)."""
@@ -77,12 +78,11 @@ class Identity(NamedTuple):
 
     def learnt(self, ranks: Plane, rate: float) -> "Identity":
         """With the ranks of a found target blended in."""
-        return Identity(self.colors, self.ranks + np.float32(rate) * (ranks - self.ranks))
+        return Identity(self.roots, self.ranks + np.float32(rate) * (ranks - self.ranks))
 
 
 def colors_of(view: View, right: float, down: float) -> Plane:
     """(4096,) histogram of the middle of a target's box."""
     pixels: Image = view.patch[view.inner(right, down, share=0.8)]
-    samples = np.ascontiguousarray(pixels.reshape(-1, 3).T)[None]
-    histogram: Plane = view.sight.k.joint_histogram(samples, BINS)[0]
+    histogram: Plane = view.sight.k.joint_histogram(pixels.transpose(2, 0, 1).reshape(1, 3, -1), BINS)[0]
     return histogram

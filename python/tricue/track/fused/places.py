@@ -50,12 +50,12 @@ def best_place(known: Known, view: View) -> Place:
     """The place in a view that has most evidence, between cells by a parabola."""
     models, p = known.models, known.p
     answers = models.filter.evidence(view)
-    total = np.float32(p.filter_weight if "filter" in p.cues else 0.0) * answers[0]
+    total = (p.filter_weight if "filter" in p.cues else 0.0) * answers[0]
     own = posterior([each.opinion(view) for each in _pixel_experts(known)])
     contrast = None
     if own is not None:
         contrast = view.sight.k.box_contrast(own, *view.size, p.frame, p.around)
-        total += np.float32(p.color_weight) * contrast
+        total += p.color_weight * contrast
     i, j = divmod(int(total.argmax()), CELLS)
     down, right = i + peak(total[:, j], i) - MIDDLE, j + peak(total[i], j) - MIDDLE
     target = _inside(view.target.moved(2 * view.unit * right, 2 * view.unit * down), view)

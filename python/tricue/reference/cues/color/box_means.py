@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What a map has in boxes round its middle, and so along their edges: where a target ends."""
+"""What a map has in boxes round a place, and so along their edges: where a target ends."""
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,19 +11,22 @@ from tricue.reference.checks import refuse, require_finite, require_shape
 Floats = NDArray[np.float64]
 
 
-def box_means(plane: NDArray[np.float32], widths: Floats, heights: Floats) -> Floats:
-    """(N,) means of a map (H, W) in boxes of the given sizes, pixels, round its middle; 0 lies outside.
+def box_means(plane: NDArray[np.float32], x: float, y: float, widths: Floats, heights: Floats) -> Floats:
+    """(N,) means of a map (H, W) in boxes of the given sizes round (x, y), pixels; 0 lies outside.
 
     Two of them give what lies between two boxes.
     """
     if plane.size < 1:
         refuse("plane", "at least one pixel", "none")
+    for name, place in (("x", x), ("y", y)):
+        if not math.isfinite(place):
+            refuse(name, "a finite number", place)
     _require_lengths("widths", widths)
     require_shape("heights", heights, widths.shape)
     _require_lengths("heights", heights)
     require_finite("plane", plane.astype(np.float64))
     rows, columns = plane.shape
-    down, across = covered(rows, rows / 2, heights), covered(columns, columns / 2, widths)
+    down, across = covered(rows, y, heights), covered(columns, x, widths)
     sums: Floats = ((down @ plane.astype(np.float64)) * across).sum(axis=1)
     return sums / (widths * heights)
 

@@ -62,42 +62,64 @@ class SizeExpert(NamedTuple):
         return SizeExpert(now, self.first, asked, self.label, self.params)
 
 
-def factors(p: FusedParams) -> NDArray[np.float64]:
-    """(S,) of the size, 1 in the middle."""
-    return _powers(p.scale_step, p.scales)
+class _Steps(NamedTuple):
+    """Of S steps of scale: factors of the size, 1 in the middle, and of the area; windows (S, 4) of a target
+    of width and height 1 at (0, 0); the prior.
+    """
+
+    factors: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    windows: NDArray[np.float64]
+    prior: NDArray[np.float64]
 
 
 @lru_cache(maxsize=8)
-def _powers(step: float, count: int) -> NDArray[np.float64]:
-    powers: NDArray[np.float64] = np.power(step, np.arange(count) - count // 2.0)
-    return powers
+def _steps(count: int, step: float, reach: float, prior: float) -> _Steps:
+    offset = np.arange(count) - count // 2.0
+    factors: NDArray[np.float64] = np.power(step, offset)
+    sides = reach * factors
+    windows = np.stack([-sides / 2, -sides / 2, sides, sides], axis=1)
+    return _Steps(factors, factors * factors, windows, -prior * offset * offset)
+
+
+def steps(p: FusedParams) -> _Steps:
+    """The steps of scale of some parameters."""
+    return _steps(p.scales, p.scale_step, p.scale_reach, p.scale_prior)
 
 
 def looks(sight: Sight, target: Target, table: Plane, p: FusedParams) -> Looks:
     """A target's place at every step of scale; table: (16, 16, 16) P(target | color)."""
-    k, steps = sight.k, factors(p)
-    windows = np.empty((len(steps), 4))
-    windows[:, 2] = p.scale_reach * target.width * steps
-    windows[:, 3] = p.scale_reach * target.height * steps
-    windows[:, :2] = (target.x, target.y) - windows[:, 2:] / 2
+    k, sizes = sight.k, (target.width, target.height)
+    windows = steps(p).windows * (*sizes, *sizes)
+    windows += (target.x, target.y, 0, 0)
     samples = k.sample_windows(sight.picture, windows, GRID, GRID)
-    flat = np.ascontiguousarray(samples.reshape(len(samples), -1, 3).transpose(0, 2, 1))
+    flat = np.ascontiguousarray(samples.reshape(p.scales, -1, 3).transpose(0, 2, 1))
     ranks = k.color_ranks(flat)
-    colored = COLORED * (k.color_lookup(flat, table) - HALF)
-    return Looks(ranks, np.concatenate([ranks.reshape(len(ranks), -1) - HALF, colored], axis=1))
+    channels = np.empty((p.scales, 4 * GRID * GRID), np.float32)
+    np.subtract(ranks.reshape(p.scales, -1), HALF, out=channels[:, : 3 * GRID * GRID])
+    colored = np.subtract(k.color_lookup(flat, table), HALF, out=channels[:, 3 * GRID * GRID :])
+    colored *= COLORED
+    return Looks(ranks, channels)
 
 
 def edges(
-    k: Kernels, posterior: Plane, size: tuple[float, float], steps: NDArray[np.float64], level: float
+    k: Kernels,
+    posterior: Plane,
+    middle: tuple[float, float],
+    size: tuple[float, float],
+    p: FusedParams,
+    level: float,
 ) -> NDArray[np.float64]:
     """(S,) what the posterior adds up to above a level in boxes of every scale, of the first's area."""
-    means = k.box_means(posterior, size[0] * steps, size[1] * steps)
-    sums: NDArray[np.float64] = (means - level) * steps * steps
+    factors, areas, _, _ = steps(p)
+    means = k.box_means(posterior, *middle, size[0] * factors, size[1] * factors)
+    sums: NDArray[np.float64] = (means - level) * areas
     return sums
 
 
 def edge_level(k: Kernels, posterior: Plane, size: tuple[float, float], step: float) -> float:
     """The posterior along the target's edge, where boxes of both sizes next to it differ."""
-    steps = np.array([1 / step, step])
-    sums = edges(k, posterior, size, steps, 0.0)
-    return float((sums[1] - sums[0]) / (steps[1] ** 2 - steps[0] ** 2))
+    factors = np.array([1 / step, step])
+    rows, columns = posterior.shape
+    inner, outer = k.box_means(posterior, columns / 2, rows / 2, size[0] * factors, size[1] * factors)
+    return float((outer * step**2 - inner / step**2) / (step**2 - step**-2))
