@@ -169,6 +169,16 @@ def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
     return camera
 
 
+def cameras(pair: StereoRig | None, single: Intrinsics | None) -> tuple[StereoRig | None, Intrinsics | None]:
+    """A pair's rig or a single camera's intrinsics, as they are; TypeError for both at once, and for anything
+    else.
+    """
+    known = rig(pair), intrinsics(single)
+    if None not in known:
+        raise TypeError("intrinsics: expected without rig, whose intrinsics are those of the left camera")
+    return known
+
+
 def parameters(kind: type[P], params: P | None, values: dict[str, Any]) -> P:
     """The parameters given all at once or one by one; TypeError for both."""
     if params is not None and values:
