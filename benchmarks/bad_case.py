@@ -5,6 +5,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import cv2
+import tricue
+from tricue.track.track import Tracker
 
 cv2.setNumThreads(0)  # before any work: a process forked from one with a thread pool waits for it for ever
 
@@ -30,3 +32,17 @@ class Made(NamedTuple):
 def made(value: Any) -> Any:
     """What it is, or makes."""
     return value.make() if isinstance(value, Made) else value
+
+
+def with_tracker(
+    create: Callable[[Case], Tracker], framed: Callable[[Any], Any] = made
+) -> Callable[[Case], tricue.Track]:
+    """A tracker of ours on a case. framed: makes its frames of the case's."""
+
+    def follow(each: Case) -> tricue.Track:
+        tracker = create(each)
+        if each.starts:
+            tracker.init(framed(each.first), each.box)
+        return tracker.update(framed(each.second))
+
+    return follow

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Bad input of color, and our color tracker on it; run by bad_input.py."""
+"""Bad input of color, and our trackers of it; run by bad_input.py."""
 
 from typing import Any
 
 import cv2
 import numpy as np
 import tricue
-from bad_case import Case, Made, made
+from bad_case import Case, Made, with_tracker
 
 NOISE = np.random.default_rng(0).integers(0, 256, (60, 80, 3), np.uint8)
 IMAGE = cv2.GaussianBlur(cv2.resize(NOISE, (320, 240), interpolation=cv2.INTER_CUBIC), (0, 0), 2)
@@ -72,20 +72,19 @@ CASES = (
     case("saturated at init", WHITE),
     case("black at update", second=BLACK),
     case("saturated at update", second=WHITE),
-    case("noise at update", second=cv2.resize(NOISE, (320, 240), interpolation=cv2.INTER_NEAREST)),
+    case("noise at update", second=np.random.default_rng(1).integers(0, 256, IMAGE.shape, np.uint8)),
 )
 
 
-def follow(each: Case) -> tricue.Track:
-    """Our tracker's answer to a case."""
-    tracker = tricue.create("color-particle", seed=0)
-    if each.starts:
-        tracker.init(made(each.first), each.box)
-    return tracker.update(made(each.second))
-
+OURS = {
+    "color-particle": with_tracker(lambda _: tricue.create("color-particle", seed=0)),
+    "flow-depth": with_tracker(lambda _: tricue.create("flow-depth", cues=("flow",))),
+    "fused": with_tracker(lambda _: tricue.create("fused")),
+}
 
 HEAD = f"""## Color
 
-Around the case all is as it should be: a textured picture of 320x240 that moves 3 pixels to the right, and the box {BOX}.
+Around the case all is as it should be: a textured picture of 320x240 that moves 3 pixels to the right, and the box {BOX}. `flow-depth` goes
+by flow alone, which in a picture that moves as a whole doesn't tell the target from the rest.
 
 """

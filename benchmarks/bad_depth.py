@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Bad input of depth, and our depth tracker on it; run by bad_input.py."""
+"""Bad input of depth, and our trackers of it; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import tricue
-from bad_case import Case, Made, made
+from bad_case import Case, Made, made, with_tracker
 from tricue import Frame
 from tricue.scenes import walker
 
@@ -134,24 +134,28 @@ CASES = (
 )
 
 
-def follow(each: Case) -> tricue.Track:
-    """Our tracker's answer to a case; bare images of depth are put into frames."""
-    tracker = tricue.create("depth-particle", seed=0, intrinsics=each.camera)
-    if each.starts:
-        tracker.init(framed(each.first), each.box)
-    return tracker.update(framed(each.second))
-
-
 def framed(value: Any) -> Any:
     """A frame of depth, or what a case makes instead."""
     return made(value) if isinstance(value, Made) else Frame(depth=value)
 
+
+def ours(name: str, **parameters: Any) -> Callable[[Case], tricue.Track]:
+    """Our tracker of that name with the case's camera."""
+    return with_tracker(lambda case: tricue.create(name, intrinsics=case.camera, **parameters), framed)
+
+
+OURS = {
+    "depth-particle": ours("depth-particle", seed=0),
+    "flow-depth": ours("flow-depth", cues=("disparity",)),
+    "fused": ours("fused"),
+}
 
 HEAD = f"""
 ## Depth
 
 Around the case all is as it should be: `walker(0)`, somebody before a time-of-flight camera of {WIDTH}x{HEIGHT} whose intrinsics are
 known, a fifteenth of a second later, float32 metres, and the box {BOX}. cv2's trackers, which know no depth, get the same array
-where it is one.
+where it is one. `flow-depth` goes by
+the depth alone, which it calls disparity.
 
 """

@@ -115,17 +115,18 @@ def isolated(follow: Follow, case: Case) -> str:
 
 HEAD = f"""# Bad input
 
-Written by `python benchmarks/bad_input.py`, not by hand. Each case is one `init` and one `update` in a process of its own. tricue names
-the argument, what it expected and what came, and its state stays as it was; what is in order it follows. Beside it cv2's trackers,
-OpenCV {cv2.__version__}: an error of theirs often names only a line of C++, and some cases pass silently. The column tricue is
-`color-particle` in color, `depth-particle` in depth, `stereo-head` in stereo; `tests/track/*/test_bad_input.py` try the other trackers.
+Written by `python benchmarks/bad_input.py`, not by hand. Each case is one `init` and one `update` in a process of its own. Our trackers name
+the argument, what it expected and what came, and their state stays as it was; what is in order they follow. Beside them cv2's trackers,
+OpenCV {cv2.__version__}: an error of theirs often names only a line of C++, and some cases pass silently. The first three columns
+are ours; `tests/track/*/test_bad_input.py` hold many more cases. Where `flow-depth` doesn't see its target its score is 0; its status follows in a
+moment, as a single frame may be bad. With `cues=flow` it has nothing to tell by in a first update.
 
 """
 
 
 def table(ours: ModuleType) -> str:
-    """A table's lines: what a module's cases come to with our tracker and with cv2's."""
-    trackers: dict[str, Follow] = {"tricue": ours.follow, **peers()}
+    """A table's lines: what a module's cases come to with our trackers and with cv2's."""
+    trackers: dict[str, Follow] = {**ours.OURS, **peers()}
     rows = [["case", *trackers], ["---"] * (len(trackers) + 1)]
     for case in ours.CASES:
         rows.append([case.name, *(isolated(follow, case) for follow in trackers.values())])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Bad input of stereo pairs, and our stereo head tracker on it; run by bad_input.py."""
+"""Bad input of stereo pairs, and our trackers of it; run by bad_input.py."""
 
 from collections.abc import Callable
 from typing import Any
@@ -7,7 +7,7 @@ from typing import Any
 import cv2
 import numpy as np
 import tricue
-from bad_case import Case, Made, made
+from bad_case import Case, Made, with_tracker
 from tricue import Frame, Intrinsics, StereoRig
 from tricue.scenes import head
 
@@ -149,13 +149,12 @@ CASES = (
 )
 
 
-def follow(each: Case) -> tricue.Track:
-    """Our tracker's answer to a case."""
-    tracker = tricue.create("stereo-head", rig=each.camera)
-    if each.starts:
-        tracker.init(made(each.first), each.box)
-    return tracker.update(made(each.second))
+def ours(name: str) -> Callable[[Case], tricue.Track]:
+    """Our tracker of that name with the case's rig."""
+    return with_tracker(lambda case: tricue.create(name, rig=case.camera))
 
+
+OURS = {name: ours(name) for name in ("stereo-head", "flow-depth", "fused")}
 
 HEAD = f"""
 ## Stereo
@@ -163,7 +162,7 @@ HEAD = f"""
 Around the case all is as it should be: `head(0)`, somebody before a pair of cameras of {WIDTH}x{HEIGHT} whose calibration is known, two pairs a
 thirtieth of a second apart, and the box {BOX}. cv2's trackers, which know no right image, get the left one where there are two.
 
-A swapped or unrectified pair is warned of at the start and followed all the same where something in the box has a disparity, at a wrong distance: [how
+A swapped or unrectified pair is warned of by `stereo-head` at the start and followed all the same where something in the box has a disparity, at a wrong distance; the other two do not warn: [how
 often](stereo.md#a-swapped-or-unrectified-pair).
 
 """

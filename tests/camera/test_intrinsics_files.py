@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Intrinsics
-from tricue.camera.intrinsics_files import read_intrinsics
+from tricue.camera.intrinsics_files import read_intrinsics, read_registration
 
 SIZE = (640, 480)
 CAMERA = Intrinsics(500.0, 510.0, 320.0, 240.0, *SIZE)
@@ -120,3 +120,29 @@ def test_a_princeton_file_needs_scipy(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setitem(sys.modules, "scipy.io", None)
     with pytest.raises(ValueError, match=r"frames\.mat: it takes SciPy to read it, pip install scipy"):
         read_intrinsics(tmp_path / "frames.mat", SIZE, "depth")
+
+
+def test_two_cameras_are_a_registration(tmp_path: Path) -> None:
+    """It proves that the tables of a depth and a color camera tell how depth comes into the color image, each
+    for its own size; the same camera twice, one camera and other formats tell that there is nothing to do.
+    """
+    depth, color = "[depth]\nscale = 0.001\n", "[color]\n"
+    path = toml(tmp_path / "c.toml", depth, 567.9)
+    assert read_registration(path, (320, 240), SIZE) is None
+    path.write_text(path.read_text() + toml(tmp_path / "d.toml", color).read_text())
+    found = read_registration(path, (320, 240), SIZE)
+    assert found is not None
+    assert found.depth == Intrinsics(567.9, 510.0, 320.0, 240.0, 320, 240)
+    assert found.color == CAMERA
+    path.write_text(path.read_text().replace("567.9", "500.0"))
+    assert read_registration(path, SIZE, SIZE) is None
+    assert read_registration(kitti(tmp_path / "calib.txt"), SIZE, SIZE) is None
+
+
+def test_a_registration_of_another_size_is_refused(tmp_path: Path) -> None:
+    """It proves that the color camera's size is checked against the color images."""
+    path = tmp_path / "c.toml"
+    tables = [toml(path, f"[{name}]\n").read_text() for name in ("depth", "color")]
+    path.write_text("".join(tables) + "width = 1280\nheight = 960\n")
+    with pytest.raises(ValueError, match="expected a calibration for the color images of 640x480"):
+        read_registration(path, SIZE, SIZE)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 import numpy as np
 import pytest
-from tricue.camera.registration import Extrinsics, color_in_depth
+from tricue.camera.registration import Extrinsics, Registration, color_in_depth
 from tricue.camera.rig import Intrinsics
 
 DEPTH = Intrinsics(60.0, 60.0, 19.5, 14.5, 40, 30)
@@ -76,3 +76,73 @@ def test_sizes_are_checked() -> None:
         color_in_depth(image, np.ones((50, 80)), DEPTH, COLOR)
     with pytest.raises(ValueError, match=r"^color: expected its camera's size, 80x50, got 40x30"):
         color_in_depth(np.zeros((30, 40, 3), np.uint8), depth, DEPTH, COLOR)
+
+
+REGISTRATION = Registration(DEPTH, COLOR)
+
+
+def plane(camera: Intrinsics, normal: tuple[float, float, float]) -> np.ndarray:
+    """The exact depth of the plane normal . point = 1 in each pixel."""
+    u, v = np.meshgrid(np.arange(camera.width), np.arange(camera.height))
+    return 1 / (camera.back_project(u, v, 1.0) @ np.array(normal))
+
+
+def test_depth_is_that_of_the_ray() -> None:
+    """A slanted plane has, in the color camera's pixels, the depth that this camera would measure, to what it
+    changes in half a pixel of the depth image; outside of the depth image there is none.
+    """
+    normal, color = (0.05, -0.08, 0.5), Intrinsics(91.0, 93.0, 39.2, 24.7, 80, 50)
+    found, true = Registration(DEPTH, color)(plane(DEPTH, normal)), plane(color, normal)
+    assert found.shape == (color.height, color.width)
+    assert found.dtype == np.float32
+    seen = DEPTH.project(color.back_project(*np.meshgrid(np.arange(80), np.arange(50)), 1.0))
+    inside = ((seen > -0.5) & (seen < (DEPTH.width - 0.5, DEPTH.height - 0.5))).all(axis=-1)
+    np.testing.assert_array_equal(np.isnan(found), ~inside)
+    half = true**2 * (abs(normal[0]) / DEPTH.fx + abs(normal[1]) / DEPTH.fy) / 2  # of dz = z^2 n du / f
+    assert (np.abs(found - true)[inside] <= 1.01 * half[inside]).all()
+
+
+def test_both_ways_agree() -> None:
+    """What is near in the depth image is, in the color image, where color_in_depth takes its color from: to a
+    pixel of either camera.
+    """
+    depth = np.full((30, 40), 4.0, np.float32)
+    depth[8:20, 12:25] = 2.0
+    near = np.where(REGISTRATION(depth) < 3, np.uint8(255), np.uint8(0))
+    back = color_in_depth(np.dstack(3 * [near]), depth, DEPTH, COLOR)[..., 0] > 127
+    assert ((depth < 3) & ~back).sum() == 0
+    assert (back & ~(depth < 3)).sum() <= 2 * (12 + 13)
+
+
+def test_edges_stay_edges() -> None:
+    """There is no depth between two things: all that comes out was measured."""
+    depth = np.where(np.arange(40) < 20, 1.5, 4.0) * np.ones((30, 1))
+    found = REGISTRATION(depth)
+    assert set(np.unique(found[~np.isnan(found)])) == {1.5, 4.0}
+
+
+def test_depth_of_the_same_camera_is_the_same() -> None:
+    """With the same camera nothing changes, nor does what wasn't measured."""
+    depth = np.random.default_rng(0).uniform(0, 8, (30, 40)).astype(np.float32)
+    depth[::3, ::4] = np.nan
+    np.testing.assert_array_equal(Registration(DEPTH, DEPTH)(depth), depth)
+
+
+def test_boxes_go_with_the_depth() -> None:
+    """A box in the depth image's pixels is, in the color image's, round the same depth; an unknown one stays
+    unknown.
+    """
+    depth = np.full((30, 40), np.nan, np.float32)
+    depth[8:20, 12:25] = 2.0
+    found = REGISTRATION.boxes(np.array([[12.0, 8, 13, 12], 4 * [np.nan]]))
+    rows, columns = np.nonzero(REGISTRATION(depth) == 2)
+    edges = columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
+    corners = [*found[0, :2], *(found[0, :2] + found[0, 2:])]
+    np.testing.assert_allclose(corners, edges, atol=0.5 + 1e-9)
+    assert np.isnan(found[1]).all()
+
+
+def test_depth_of_another_size_is_named() -> None:
+    """Depth of another size than its camera's is an error."""
+    with pytest.raises(ValueError, match=r"^depth: expected its camera's size, 40x30, got 80x50"):
+        REGISTRATION(np.ones((50, 80), np.float32))

@@ -267,6 +267,7 @@ def test_real_depth_from_the_command_line(
     assert content["tracks"][0]["x"] == 0.0  # the first true box's
 
 
+@pytest.mark.filterwarnings("default")  # that there is no calibration is no matter here
 @pytest.mark.parametrize(
     ("more", "chosen"),
     [

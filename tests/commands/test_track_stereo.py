@@ -185,10 +185,11 @@ def test_errors_in_a_line(
 
 @pytest.mark.filterwarnings("default")  # they are to be printed
 def test_without_a_calibration_there_is_no_position(
-    pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It proves that a pair alone is tracked, and one line warns of what a missing calibration costs."""
-    content = tracked(pair, tmp_path / "o.json")
+    monkeypatch.setitem(create._TRACKERS, "stereo-head", f"{Pair.__module__}:Pair")
+    content = tracked([*pair, "--tracker", "stereo-head"], tmp_path / "o.json")
     assert [track["Z_m"] for track in content["tracks"]] == [None] * 3
     assert content["baseline"] is None
     expected = (

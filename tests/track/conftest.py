@@ -32,6 +32,8 @@ from tricue.scenes import (
 from tricue.scenes.paste import ellipse_mask, expose, paste
 from tricue.track.depth_particle.objects import SLICES, Objects
 
+pytest.register_assert_rewrite("bad_input_cases")  # its asserts tell as much as a test's
+
 Image = NDArray[np.uint8]
 Place = tuple[float, float] | None
 HEIGHT, WIDTH = 240, 320

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from tricue import toml
 from tricue.camera.calibration import princeton_intrinsics
+from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, Size, StereoRig
 
 Reader = Callable[..., Intrinsics]
@@ -33,6 +34,18 @@ def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
             f"got one for {own.width}x{own.height}"
         )
     return own
+
+
+def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
+    """What brings depth into the color image, by a TOML file with the tables of two cameras, ``depth`` and
+    ``color``; None of any other file, and of two cameras that are the same: then it is there already.
+
+    depth, color: width and height of the images, pixels. ValueError as :func:`read_intrinsics`.
+    """
+    if _format(path) != TOML or not all(_table(path, name) for name in ("depth", "color")):
+        return None
+    found = Registration(read_intrinsics(path, depth, "depth"), read_intrinsics(path, color, "color"))
+    return None if found.depth == found.color else found
 
 
 def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""A color image in the pixels of a depth camera that stands beside the color camera."""
+"""A color image in the pixels of a depth camera that stands beside the color camera, and the other way
+round.
+"""
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
@@ -47,6 +50,45 @@ def color_in_depth(
     places = np.nan_to_num(color_camera.project(seen), nan=_OUTSIDE).astype(np.float32)
     found = cv2.remap(color, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
     return np.asarray(found, np.uint8)
+
+
+@dataclass(frozen=True)
+class Registration:
+    """Brings depth into a color camera's pixels. Both cameras are taken to stand in one place and to look the
+    same way: b metres between them that nobody told are fx b / z pixels.
+
+    depth, color: the two cameras.
+    """
+
+    depth: Intrinsics
+    color: Intrinsics
+
+    def __call__(self, metres: NDArray[Any]) -> NDArray[np.float32]:
+        """The depth (H, W) in each pixel of the color image: that of the nearest pixel of the depth image
+        (h, w), as the mean over an edge is the depth of nothing. NaN outside of the depth image.
+
+        From one place both cameras see a point on the same ray, so that z stays, and a column of the one is a
+        column of the other. ValueError where the depth image has another size than its camera.
+        """
+        image = np.asarray(metres, np.float32)
+        _check("depth", image.shape, self.depth)
+        to, of = self.color, self.depth
+        columns = _nearest((np.arange(to.width) - to.cx) * (of.fx / to.fx) + of.cx, of.width)
+        rows = _nearest((np.arange(to.height) - to.cy) * (of.fy / to.fy) + of.cy, of.height)
+        return np.pad(image, 1, constant_values=np.nan)[np.ix_(rows, columns)]
+
+    def boxes(self, found: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The depth image's boxes (N, 4), x, y, width, height, in the color image's pixels; NaN stays NaN."""
+        to, of = self.color, self.depth
+        scale = np.array([to.fx / of.fx, to.fy / of.fy])
+        of_center, to_center = (np.array([each.cx, each.cy]) + 0.5 for each in (of, to))  # as boxes count
+        return np.hstack([(found[:, :2] - of_center) * scale + to_center, found[:, 2:] * scale])
+
+
+def _nearest(places: NDArray[np.floating[Any]], length: int) -> NDArray[np.intp]:
+    """The nearest of so many pixels, counted from 1; 0 or length + 1 outside of them."""
+    nearest: NDArray[np.intp] = np.clip(np.rint(places) + 1, 0, length + 1).astype(np.intp)
+    return nearest
 
 
 def _check(name: str, shape: tuple[int, ...], camera: Intrinsics) -> None:

@@ -17,6 +17,7 @@ from tricue.camera.numbers import positive
 from tricue.camera.streams import FASTEST, Stream
 
 Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
+Register = Callable[[NDArray[Any]], NDArray[Any]]
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,7 @@ class Source:
     notes: what was left out of a folder and why, a sentence each.
     rate: frames a second of images of which nothing tells the times.
     rectify: makes a raw pair of color and right a rectified one.
+    register: brings depth into the color image's pixels.
     absent: (M,) whether it is known that the target can't be seen; of the others without a box, and of frames
         behind M, nothing is known.
     positions: (K, 3) the target's true X, Y, Z in the camera's frame, metres, NaN where unknown.
@@ -47,6 +49,7 @@ class Source:
     notes: tuple[str, ...] = ()
     rate: float | None = None
     rectify: Rectify | None = None
+    register: Register | None = None
     absent: NDArray[np.bool_] | None = None
     positions: NDArray[np.float64] | None = None
     format: str = ""
@@ -116,10 +119,12 @@ class Source:
                 )
             seconds = moment[self._clock][0] if self.rate is None else number / self.rate
             images = {name: image for name, (_, image) in moment.items()}
-            color, right = images.get("color"), images.get("right")
+            color, depth, right = (images.get(name) for name in ("color", "depth", "right"))
             if self.rectify and color is not None and right is not None:
                 color, right = self.rectify(color, right)
-            yield Frame(color, images.get("depth"), right, seconds)
+            if self.register and depth is not None:
+                depth = self.register(depth)
+            yield Frame(color, depth, right, seconds)
 
     @property
     def _first(self) -> Stream:

@@ -44,6 +44,8 @@ def advice(message: str, source: Source, tracker: Tracker) -> str:
         return f"; {BOX}" if finds_by_itself(tracker) else f"; {BOX} or {FACE}"
     if message.startswith("frame: expected the channel depth"):
         return "; ".join(("", "give its depth images with --depth FOLDER", *source.notes))
+    if message.startswith("frame.depth: expected shape"):
+        return "; --calibration FILE in TOML, with the tables depth and color, brings it there"
     if message.startswith("frame: expected the channel right"):
         return "; give the right camera's images with --right PLACE"
     if message.startswith("frame: expected the channel color") and IN_DEPTH in names():

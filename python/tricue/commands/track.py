@@ -86,7 +86,7 @@ def _prepare(options: Namespace) -> tuple[Run, list[str]]:
     for place in (Path(options.input), right, options.calibration, options.params):
         _spare_the_input(place, (options.output, options.csv, options.json, options.plot))
     found = find_calibration(options, source)
-    source = found.rectified(source)
+    source = found.prepared(source)
     tracker = make_tracker(
         options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
     )

@@ -18,6 +18,7 @@ P = TypeVar("P", bound=Params)
 
 USUAL_BASELINE = 0.12  # metres, of a rig that nobody described
 LONGEST = 1.0  # s between two frames, as far as a tracker cares
+SHORTEST = 1e-6  # s; nearer to each other than clocks tell, and the velocities of it have no end
 USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
 
 
@@ -126,7 +127,7 @@ def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None 
 
 def elapsed(before: float | None, now: float | None, rate: float) -> float:
     """Seconds between two timestamps; of a frame at a rate, frames/s, where they tell nothing."""
-    if before is None or now is None or now <= before:
+    if before is None or now is None or now - before < SHORTEST:
         return min(1 / rate, LONGEST)
     return min(now - before, LONGEST)
 
@@ -167,6 +168,16 @@ def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
         hint = "the intrinsics are those of the depth image"
         raise ValueError(f"frame.depth: expected {expected}, got {width}x{height}; {hint}")
     return camera
+
+
+def cameras(pair: StereoRig | None, single: Intrinsics | None) -> tuple[StereoRig | None, Intrinsics | None]:
+    """A pair's rig or a single camera's intrinsics, as they are; TypeError for both at once, and for anything
+    else.
+    """
+    known = rig(pair), intrinsics(single)
+    if None not in known:
+        raise TypeError("intrinsics: expected without rig, whose intrinsics are those of the left camera")
+    return known
 
 
 def parameters(kind: type[P], params: P | None, values: dict[str, Any]) -> P:

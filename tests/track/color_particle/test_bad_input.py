@@ -4,89 +4,34 @@ track.
 """
 
 from collections.abc import Callable
-from typing import Any
 
+import bad_input_cases as cases
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from numpy.typing import NDArray
-from tricue import ColorParticleTracker, Frame, Status, Track
+from tricue import ColorParticleTracker, Frame
 
 Image = NDArray[np.uint8]
 IMAGE: Image = np.random.default_rng(0).integers(0, 256, (24, 32, 3), np.uint8).repeat(4, 0).repeat(4, 1)
-SIZE = (128, 96)
 BOX = (40, 30, 30, 25)
 
-BAD_FRAMES: dict[str, tuple[Any, type[Exception], str]] = {
-    "None": (None, TypeError, r"^frame: expected a BGR image .*NoneType.*cv2.imread"),
-    "list": (IMAGE.tolist(), TypeError, r"^frame: expected a BGR image or a tricue.Frame, got list"),
-    "string": ("frame.png", TypeError, r"^frame: .*got str"),
-    "uint16": (IMAGE.astype(np.uint16), TypeError, r"^frame.color: expected uint8 .*uint16"),
-    "float32 0..1": (IMAGE.astype(np.float32) / 255, TypeError, r"^frame.color: expected uint8 .*float32"),
-    "bool": (IMAGE > 9, TypeError, r"^frame.color: expected uint8 .*bool"),
-    "object": (IMAGE.astype(object), TypeError, r"^frame.color: expected uint8 .*object"),
-    "grey": (IMAGE[..., 0], ValueError, r"^frame.color: expected BGR .*grey.*cvtColor"),
-    "one channel": (IMAGE[..., :1], ValueError, r"^frame.color: expected BGR .*grey"),
-    "two channels": (IMAGE[..., :2], ValueError, r"^frame.color: expected BGR .*\(96, 128, 2\)"),
-    "RGBA": (np.dstack([IMAGE, IMAGE[..., 0]]), ValueError, r"^frame.color: expected BGR .*alpha"),
-    "batch": (IMAGE[None], ValueError, r"^frame.color: expected BGR .*\(1, 96, 128, 3\)"),
-    "scalar": (np.array(7, np.uint8), ValueError, r"^frame.color: expected BGR .*uint8 \(\)"),
-    "empty": (IMAGE[:0], ValueError, r"^frame.color: expected an image with pixels"),
-    "no columns": (IMAGE[:, :0], ValueError, r"^frame.color: expected an image with pixels"),
-    "float depth": (np.ones((96, 128), np.float32), TypeError, r"^frame.color: .*float32.*; depth comes as "),
-    "16-bit depth": (np.ones((96, 128), np.uint16), TypeError, r"^frame.color: .*uint16.*; depth comes as "),
-    "depth alone": (Frame(depth=np.ones((96, 128), np.float32)), ValueError, r"^frame: .*color.*got depth"),
+BAD_FRAMES: cases.BadFrames = {
+    **cases.NO_FRAMES,
+    **cases.NO_IMAGES,
+    **cases.BARE_DEPTHS,
+    "grey": (lambda: IMAGE[..., 0], ValueError, r"^frame.color: expected BGR .*grey.*cvtColor"),
+    "one channel": (lambda: IMAGE[..., :1], ValueError, r"^frame.color: expected BGR .*grey"),
+    "depth alone": (lambda: Frame(depth=cases.METRES), ValueError, r"^frame: .*color.*got depth"),
 }
+
+BAD_BOXES = {**cases.BAD_BOXES, "None": (None, ValueError, "expected")}
+
+GOOD_BOXES = {**cases.same_box(BOX), **cases.ODD_BOXES}
 
 VIEWS: dict[str, Callable[[Image], Image]] = {
-    "crop": lambda image: np.pad(image, ((3, 2), (5, 7), (0, 0)))[3:-2, 5:-7],
-    "mirrored": lambda image: np.ascontiguousarray(image[:, ::-1])[:, ::-1],
-    "upside down": lambda image: np.ascontiguousarray(image[::-1])[::-1],
-    "channels reversed": lambda image: np.ascontiguousarray(image[..., ::-1])[..., ::-1],
-    "Fortran": np.asfortranarray,
-    "transposed": lambda image: np.ascontiguousarray(image.transpose(1, 0, 2)).transpose(1, 0, 2),
-    "every other pixel": lambda image: image.repeat(2, 0).repeat(2, 1)[::2, ::2],
-    "first three of four channels": lambda image: np.dstack([image, image[..., 0]])[..., :3],
+    **cases.COLOR_VIEWS,
     "same row for all": lambda image: np.broadcast_to(image[:1], image.shape),
-}
-
-BAD_BOXES: dict[str, tuple[Any, type[Exception], str]] = {
-    "None": (None, ValueError, "expected"),
-    "string": ("1,2,3,4", TypeError, "expected four numbers"),
-    "strings": (["1", "2", "3", "4"], TypeError, "expected four numbers"),
-    "bools": ([True, True, True, True], TypeError, "expected four numbers"),
-    "three numbers": ((1, 2, 3), ValueError, "expected four numbers"),
-    "five numbers": ((1, 2, 3, 4, 5), ValueError, "expected four numbers"),
-    "two corners": (((1, 2), (3, 4)), TypeError, "expected four numbers"),
-    "matrix": (np.ones((1, 4)), TypeError, "expected four numbers"),
-    "number": (7, TypeError, "expected four numbers"),
-    "complex": ((1, 2, 3j, 4), TypeError, "expected four numbers"),
-    "NaN": ((1, np.nan, 3, 4), ValueError, "expected finite numbers"),
-    "infinite": ((1, 2, np.inf, 4), ValueError, "expected finite numbers"),
-    "zero width": ((1, 2, 0, 4), ValueError, "expected width and height above 0"),
-    "zero": ((0, 0, 0, 0), ValueError, "expected width and height above 0"),
-    "negative height": ((50, 50, 9, -9), ValueError, "corners swapped"),
-    "1 px": ((50, 50, 1, 1), ValueError, "at least 2 pixels"),
-    "1 px by 300": ((50, -100, 1, 300), ValueError, "at least 2 pixels"),
-    "right of the image": ((128, 10, 20, 20), ValueError, "a part inside the image of 128x96"),
-    "above the image": ((10, -20, 20, 20), ValueError, "a part inside the image of 128x96"),
-    "far away": ((1e300, 0, 10, 10), ValueError, "expected at most a million pixels"),
-    "denormal": ((50, 50, 5e-324, 5e-324), ValueError, "at least 2 pixels"),
-}
-
-GOOD_BOXES: dict[str, Any] = {
-    "list": [40, 30, 30, 25],
-    "array": np.array(BOX, np.float32),
-    "NumPy integers": tuple(np.array(BOX)),
-    "uint8": tuple(np.array(BOX, np.uint8)),
-    "2 px": (60, 40, 2, 2),
-    "2 px by 300": (60, -100, 2, 300),
-    "half outside": (-15, -12, 30, 25),
-    "a corner inside": (127.5, 95.5, 30, 30),
-    "the whole image": (0, 0, *SIZE),
-    "larger than the image": (-500, -500, 2000, 2000),
-    "a million pixels": (-5e5, -5e5, 1e6, 1e6),
 }
 
 FRAMES: dict[str, Image] = {
@@ -100,14 +45,6 @@ FRAMES: dict[str, Image] = {
     "one column": IMAGE[:, :1],
     "4000x3000": np.tile(IMAGE, (32, 32, 1))[:3000, :4000],
 }
-
-
-def assert_sane(track: Track) -> None:
-    """A finite box with an area, a score in [0, 1], a status."""
-    assert np.isfinite(track.box).all()
-    assert min(track.box.width, track.box.height) > 0
-    assert 0 <= track.score <= 1
-    assert isinstance(track.status, Status)
 
 
 def started() -> ColorParticleTracker:
@@ -130,9 +67,9 @@ def test_bad_frames_are_named(name):
     frame, error, message = BAD_FRAMES[name]
     tracker = started()
     with pytest.raises(error, match=message):
-        tracker.update(frame)
+        tracker.update(frame())
     with pytest.raises(error, match=message):
-        tracker.init(frame, BOX)
+        tracker.init(frame(), BOX)
     assert tracker.update(NEXT) == EXPECTED
 
 
@@ -148,7 +85,7 @@ def test_bad_boxes_are_named(name):
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("shape", [(48, 64), (192, 256), (96, 127), (128, 96)], ids=str)
+@pytest.mark.parametrize("shape", cases.OTHER_SHAPES, ids=str)
 def test_another_size_is_named(shape):
     """A frame of another size than the first is an error that says both, and nothing changes by it."""
     tracker = started()
@@ -162,13 +99,7 @@ def test_another_size_is_named(shape):
 
 def test_update_before_init_is_named():
     """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
-    tracker = ColorParticleTracker()
-    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
-        tracker.update(IMAGE)
-    with pytest.raises(ValueError, match=r"^box: "):
-        tracker.init(IMAGE, (0, 0, 0, 0))
-    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
-        tracker.update(IMAGE)
+    cases.assert_init_comes_first(ColorParticleTracker(), IMAGE)
 
 
 @pytest.mark.parametrize("name", VIEWS)
@@ -194,7 +125,7 @@ def test_odd_boxes_are_followed(name):
     first = tracker.init(IMAGE, GOOD_BOXES[name])
     assert first.box == pytest.approx(tuple(map(float, GOOD_BOXES[name])))
     for shift in range(8):
-        assert_sane(tracker.update(np.roll(IMAGE, shift, axis=0)))
+        cases.assert_sane(tracker.update(np.roll(IMAGE, shift, axis=0)))
 
 
 @pytest.mark.parametrize(
@@ -209,13 +140,13 @@ def test_odd_frames_are_sane(name, observation, kernels_name):
     if kernels_name == "reference" and image.size > IMAGE.size:
         pytest.skip("the twins are too slow for a huge image")
     tracker = ColorParticleTracker(seed=1, particles=20, observation=observation, kernels=kernels_name)
-    assert_sane(tracker.init(image, (0, 0, 10, 12)))
+    cases.assert_sane(tracker.init(image, (0, 0, 10, 12)))
     for _ in range(8):
-        assert_sane(tracker.update(image))
+        cases.assert_sane(tracker.update(image))
     if image.shape == IMAGE.shape:
         tracker.init(IMAGE, BOX)
         for _ in range(8):
-            assert_sane(tracker.update(image))
+            cases.assert_sane(tracker.update(image))
 
 
 @pytest.fixture(params=["native", "reference"])
@@ -224,21 +155,10 @@ def kernels_name(request: pytest.FixtureRequest) -> str:
     return str(request.param)
 
 
-anything = st.floats() | st.floats(-300, 300) | st.integers(-(10**9), 10**9)
-
-
 @settings(max_examples=300)
-@given(st.tuples(*4 * [anything]))
+@given(cases.boxes)
 def test_any_four_numbers(box):
     """Whatever four numbers the box is, it is refused by name or gives sane tracks: no crash, no warning,
     no hang.
     """
-    tracker = ColorParticleTracker(seed=1, particles=10)
-    try:
-        tracks = [tracker.init(IMAGE, box)]
-    except ValueError as error:
-        assert str(error).startswith("box: expected")  # noqa: PT017
-        return
-    tracks += [tracker.update(IMAGE), tracker.update(NEXT)]
-    for track in tracks:
-        assert_sane(track)
+    cases.sane_from(ColorParticleTracker(seed=1, particles=10), IMAGE, box, [IMAGE, NEXT])

@@ -3,22 +3,20 @@
 track.
 """
 
-import copy
 import warnings
 from collections.abc import Callable
 from typing import Any
 
+import bad_input_cases as cases
 import numpy as np
 import pytest
+from bad_input_cases import CAMERA
 from hypothesis import given, settings
-from hypothesis import strategies as st
 from numpy.typing import NDArray
-from tricue import DepthParticleTracker, Frame, Intrinsics, Status, Track
+from tricue import DepthParticleTracker, Frame, Intrinsics, Status
 
 Depth = NDArray[np.float32]
-SIZE = (128, 96)
 BOX = (40, 20, 30, 60)
-CAMERA = Intrinsics.from_fov(*SIZE, 60)
 
 
 def hall(shift: int = 0, z: float = 3.0) -> Depth:
@@ -33,20 +31,10 @@ DEPTH = hall()
 MILLIMETRES = np.nan_to_num(1000 * DEPTH).astype(np.uint16)
 COLOR = np.zeros((96, 128, 3), np.uint8)
 
-BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
-    "None": (lambda: None, TypeError, r"^frame: expected .*NoneType"),
-    "list": (DEPTH.tolist, TypeError, r"^frame: expected .*got list"),
-    "string": (lambda: "depth.png", TypeError, r"^frame: .*got str"),
-    "bare float image": (
-        lambda: DEPTH,
-        TypeError,
-        r"^frame.color: .*float32.*; depth comes as .*\(depth=image",
-    ),
-    "bare 16-bit image": (
-        lambda: MILLIMETRES,
-        TypeError,
-        r"^frame.color: .*uint16.*; depth comes as .*\(depth=",
-    ),
+BAD_FRAMES: cases.BadFrames = {
+    **cases.NO_FRAMES,
+    **cases.BARE_DEPTHS,
+    **cases.NO_DEPTHS,
     "bare grey image": (lambda: COLOR[..., 0], ValueError, r"^frame: expected the channel depth.*got color"),
     "bare color": (lambda: COLOR, ValueError, r"^frame: expected the channel depth.*got color"),
     "color alone": (lambda: Frame(color=COLOR), ValueError, r"^frame: expected the channel depth.*got color"),
@@ -55,74 +43,14 @@ BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
         ValueError,
         r"^frame: expected the channel depth.*got color and right",
     ),
-    "integers without scale": (lambda: Frame(depth=MILLIMETRES), ValueError, r"^depth: expected depth_scale"),
-    "8 bits": (lambda: Frame(depth=COLOR[..., 0]), TypeError, r"^depth: expected float32 .*uint8"),
-    "colored depth": (lambda: Frame(depth=COLOR), ValueError, r"^depth: expected one value a pixel"),
-    "bool": (lambda: Frame(depth=DEPTH > 3), TypeError, r"^depth: expected float32 .*bool"),
-    "complex": (lambda: Frame(depth=DEPTH.astype(complex)), TypeError, r"^depth: expected .*complex"),
-    "half floats": (lambda: Frame(depth=DEPTH.astype(np.float16)), TypeError, r"^depth: expected .*float16"),
-    "objects": (lambda: Frame(depth=DEPTH.astype(object)), TypeError, r"^depth: expected .*object"),
-    "lists": (lambda: Frame(depth=DEPTH.tolist()), TypeError, r"^depth: expected a NumPy array, got list"),
-    "no columns": (lambda: Frame(depth=DEPTH[:, :0]), ValueError, r"^depth: expected one value a pixel"),
-    "scale -1": (lambda: Frame(depth=MILLIMETRES, depth_scale=-1), ValueError, r"^depth_scale: expected"),
-    "scale NaN": (
-        lambda: Frame(depth=MILLIMETRES, depth_scale=np.nan),
-        ValueError,
-        r"^depth_scale: expected",
-    ),
-    "scale in words": (
-        lambda: Frame(depth=MILLIMETRES, depth_scale="mm"),
-        TypeError,
-        r"^depth_scale: expected",
-    ),
-    "seconds in words": (lambda: Frame(depth=DEPTH, timestamp="now"), TypeError, r"^timestamp: expected"),
-    "empty": (lambda: Frame(depth=DEPTH[:0]), ValueError, r"^depth: expected one value a pixel"),
-    "batch": (lambda: Frame(depth=DEPTH[None]), ValueError, r"^depth: expected one value a pixel"),
-    "nothing": (Frame, ValueError, r"^frame: expected color or depth, got neither"),
-    "scale 0": (lambda: Frame(depth=MILLIMETRES, depth_scale=0), ValueError, r"^depth_scale: expected"),
-    "NaN seconds": (lambda: Frame(depth=DEPTH, timestamp=np.nan), ValueError, r"^timestamp: expected"),
 }
 
 VIEWS: dict[str, Callable[[Depth], Depth]] = {
-    "crop": lambda depth: np.pad(depth, ((3, 2), (5, 7)))[3:-2, 5:-7],
-    "mirrored": lambda depth: np.ascontiguousarray(depth[:, ::-1])[:, ::-1],
-    "upside down": lambda depth: np.ascontiguousarray(depth[::-1])[::-1],
-    "Fortran": np.asfortranarray,
-    "every other pixel": lambda depth: depth.repeat(2, 0).repeat(2, 1)[::2, ::2],
+    **cases.VIEWS,
     "one of two channels": lambda depth: np.dstack([depth, depth + 1])[..., 0],
-    "other byte order": lambda depth: depth.astype(depth.dtype.newbyteorder()),
-    "read-only": lambda depth: np.frombuffer(depth.tobytes(), np.float32).reshape(depth.shape),
 }
 
-BAD_BOXES: dict[str, tuple[Any, type[Exception], str]] = {
-    "string": ("1,2,3,4", TypeError, "expected four numbers"),
-    "bools": ([True, True, True, True], TypeError, "expected four numbers"),
-    "three numbers": ((1, 2, 3), ValueError, "expected four numbers"),
-    "matrix": (np.ones((1, 4)), TypeError, "expected four numbers"),
-    "number": (7, TypeError, "expected four numbers"),
-    "NaN": ((1, np.nan, 3, 4), ValueError, "expected finite numbers"),
-    "infinite": ((1, 2, np.inf, 4), ValueError, "expected finite numbers"),
-    "zero": ((0, 0, 0, 0), ValueError, "expected width and height above 0"),
-    "negative height": ((50, 50, 9, -9), ValueError, "corners swapped"),
-    "1 px by 300": ((50, -100, 1, 300), ValueError, "at least 2 pixels"),
-    "right of the image": ((128, 10, 20, 20), ValueError, "a part inside the image of 128x96"),
-    "above the image": ((10, -20, 20, 20), ValueError, "a part inside the image of 128x96"),
-    "far away": ((1e300, 0, 10, 10), ValueError, "expected at most a million pixels"),
-    "denormal": ((50, 50, 5e-324, 5e-324), ValueError, "at least 2 pixels"),
-}
-
-GOOD_BOXES: dict[str, Any] = {
-    "list": list(BOX),
-    "array": np.array(BOX, np.float32),
-    "uint8": tuple(np.array(BOX, np.uint8)),
-    "2 px": (50, 40, 2, 2),
-    "2 px by 300": (50, -100, 2, 300),
-    "half outside": (-15, -12, 40, 60),
-    "the wall": (90, 10, 25, 25),
-    "the whole image": (0, 0, *SIZE),
-    "larger than the image": (-500, -500, 2000, 2000),
-    "a million pixels": (-5e5, -5e5, 1e6, 1e6),
-}
+GOOD_BOXES = {**cases.same_box(BOX), **cases.ODD_BOXES}
 
 FRAMES: dict[str, Depth] = {
     "nothing measured": np.full_like(DEPTH, np.nan),
@@ -146,18 +74,6 @@ def odd(name: str) -> Frame:
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "depth: its median", UserWarning)
         return Frame(depth=FRAMES[name])
-
-
-def assert_sane(track: Track) -> None:
-    """A finite box with an area, a score in [0, 1], a status; position and covariance both or neither."""
-    assert np.isfinite(track.box).all()
-    assert min(track.box.width, track.box.height) > 0
-    assert 0 <= track.score <= 1
-    assert isinstance(track.status, Status)
-    assert (track.position is None) == (track.covariance is None)
-    if track.covariance is not None:
-        assert np.isfinite(track.position).all()
-        assert np.linalg.eigvalsh(track.covariance).min() > 0
 
 
 def started(**parameters: Any) -> DepthParticleTracker:
@@ -184,10 +100,10 @@ def test_bad_frames_are_named(name):
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("name", BAD_BOXES)
+@pytest.mark.parametrize("name", cases.BAD_BOXES)
 def test_bad_boxes_are_named(name):
     """A box that can't be started on gets an error that names it, and the old target is followed on."""
-    box, error, message = BAD_BOXES[name]
+    box, error, message = cases.BAD_BOXES[name]
     tracker = started()
     with pytest.raises(error, match=f"^box: .*{message}"):
         tracker.init(Frame(depth=DEPTH), box)
@@ -216,7 +132,7 @@ def test_a_box_in_a_gap_is_named():
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("shape", [(48, 64), (192, 256), (96, 127), (128, 96)], ids=str)
+@pytest.mark.parametrize("shape", cases.OTHER_SHAPES, ids=str)
 def test_another_size_is_named(shape):
     """A frame of another size than the first is an error that says both, and nothing changes by it."""
     tracker = started()
@@ -235,7 +151,7 @@ def test_a_camera_of_another_size_is_named():
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("camera", [(100, 100, 64, 48), 60, "camera.yml", CAMERA.__class__, np.eye(3)])
+@pytest.mark.parametrize("camera", cases.NO_CAMERAS, ids=lambda each: type(each).__name__)
 def test_what_is_no_camera_is_named(camera):
     """Intrinsics of another type are a TypeError that names them."""
     with pytest.raises(TypeError, match=r"^intrinsics: expected tricue.Intrinsics, got "):
@@ -244,13 +160,7 @@ def test_what_is_no_camera_is_named(camera):
 
 def test_update_before_init_is_named():
     """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
-    tracker = DepthParticleTracker()
-    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
-        tracker.update(Frame(depth=DEPTH))
-    with pytest.raises(ValueError, match=r"^box: "):
-        tracker.init(Frame(depth=DEPTH), (0, 0, 0, 0))
-    with pytest.raises(RuntimeError, match=r"^update: expected init first"):
-        tracker.update(Frame(depth=DEPTH))
+    cases.assert_init_comes_first(DepthParticleTracker(), Frame(depth=DEPTH))
 
 
 GAPS = {"NaN": np.nan, "0": 0, "negative": -2.5, "infinite": np.inf, "minus infinite": -np.inf}
@@ -336,15 +246,13 @@ def test_the_color_cameras_intrinsics_are_named():
         tracker.init(Frame(np.zeros((480, 640, 3), np.uint8), DEPTH), BOX)
 
 
-@pytest.mark.parametrize(
-    "seconds", [(0.0, 0.0), (5.0, 4.0), (0.0, 1e12), (-1e300, 1e300), (None, 1.0), (1.0, None)], ids=str
-)
+@pytest.mark.parametrize("seconds", cases.ODD_TIMES, ids=str)
 def test_odd_times_are_sane(seconds):
     """Times that stand still, go back, leap or are missing give sane tracks."""
     tracker = DepthParticleTracker(intrinsics=CAMERA, seed=1, particles=30)
     tracker.init(Frame(depth=DEPTH, timestamp=seconds[0]), BOX)
     for shift in (1, 2):
-        assert_sane(tracker.update(Frame(depth=hall(shift), timestamp=seconds[1])))
+        cases.assert_sane(tracker.update(Frame(depth=hall(shift), timestamp=seconds[1])))
 
 
 def test_metres_as_millimetres_are_warned_of():
@@ -366,7 +274,7 @@ def test_millimetres_as_metres_are_warned_of():
         frame = Frame(depth=MILLIMETRES.astype(np.float32))
     tracker = started()
     track = tracker.update(frame)
-    assert_sane(track)
+    cases.assert_sane(track)
     assert track.status is Status.OCCLUDED
     with pytest.raises(ValueError, match=r"^box: expected"):
         tracker.init(frame, BOX)
@@ -393,7 +301,7 @@ def test_odd_boxes_are_followed(name):
     first = tracker.init(Frame(depth=DEPTH), GOOD_BOXES[name])
     assert first.box == pytest.approx(tuple(map(float, GOOD_BOXES[name])))
     for shift in range(8):
-        assert_sane(tracker.update(Frame(depth=hall(shift))))
+        cases.assert_sane(tracker.update(Frame(depth=hall(shift))))
 
 
 @pytest.mark.parametrize("name", FRAMES)
@@ -406,8 +314,8 @@ def test_odd_frames_are_sane(name, form, kernels):
     frame = odd(name)
     tracker = started(kernels=kernels, particles=20, lost_after=0.2, **form)
     for _ in range(6):
-        assert_sane(tracker.update(frame))
-    assert_sane(tracker.update(NEXT))
+        cases.assert_sane(tracker.update(frame))
+    cases.assert_sane(tracker.update(NEXT))
 
 
 @pytest.mark.parametrize("name", FRAMES)
@@ -415,19 +323,10 @@ def test_starts_on_odd_frames_are_sane(name):
     """A box on an odd frame is refused by name or gives sane tracks, there and on good frames."""
     frame = odd(name)
     tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=CAMERA)
-    try:
-        tracks = [tracker.init(frame, BOX)]
-    except ValueError as error:
-        assert str(error).startswith("box: expected")  # noqa: PT017
-        return
-    tracks += [tracker.update(each) for each in (frame, NEXT, NEXT, NEXT, frame, NEXT)]
-    for track in tracks:
-        assert_sane(track)
+    cases.sane_from(tracker, frame, BOX, [frame, NEXT, NEXT, NEXT, frame, NEXT])
 
 
-@pytest.mark.parametrize(
-    "shape", [(1, 1), (1, 2), (3, 3), (1, 300), (300, 1), (16, 16), (1500, 2000), (4, 5000)], ids=str
-)
+@pytest.mark.parametrize("shape", cases.ANY_SHAPES, ids=str)
 def test_images_of_any_size(shape):
     """Tiny, thin and huge images give sane tracks from a box over them, or name the box."""
     height, width = shape
@@ -435,9 +334,9 @@ def test_images_of_any_size(shape):
     depth[height // 4 : height // 4 + height // 2 + 1, width // 3 : width // 3 + width // 3 + 1] = 2.5
     tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=Intrinsics.from_fov(width, height, 60))
     box = (width / 3 - 1, height / 4 - 1, width / 3 + 2, height / 2 + 2)
-    assert_sane(tracker.init(Frame(depth=depth), box))
+    cases.assert_sane(tracker.init(Frame(depth=depth), box))
     for _ in range(3):
-        assert_sane(tracker.update(Frame(depth=depth)))
+        cases.assert_sane(tracker.update(Frame(depth=depth)))
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (3, 3), (1, 300)], ids=str)
@@ -447,33 +346,17 @@ def test_nobody_is_in_a_tiny_image(shape):
         DepthParticleTracker().init(Frame(depth=np.full(shape, 2.5)))
 
 
-def test_an_error_inside_leaves_the_state(monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.parametrize("kernel", ["depth_components", "propose", "summarize"])
+def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatch):
     """An error in the middle of an update, of whatever kind, leaves the tracker as it was, random numbers
     included.
     """
-    for kernel in ("depth_components", "propose", "summarize"):
-        tracker = started(kernels="reference")
-        expected = copy.deepcopy(tracker).update(NEXT)
-        with monkeypatch.context() as patch:
-            patch.setattr(tracker._k, kernel, lambda *_: (_ for _ in ()).throw(MemoryError()))
-            with pytest.raises(MemoryError):
-                tracker.update(NEXT)
-        assert tracker.update(NEXT) == expected
-
-
-anything = st.floats() | st.floats(-300, 300) | st.integers(-(10**9), 10**9)
+    cases.assert_errors_leave_the_state(started(kernels="reference"), kernel, NEXT, monkeypatch)
 
 
 @settings(max_examples=200)
-@given(st.tuples(*4 * [anything]))
+@given(cases.boxes)
 def test_any_four_numbers(box):
     """Whatever four numbers the box is, it is refused by name or gives sane tracks: no crash, no warning."""
     tracker = DepthParticleTracker(seed=1, particles=10, intrinsics=CAMERA)
-    try:
-        tracks = [tracker.init(Frame(depth=DEPTH), box)]
-    except ValueError as error:
-        assert str(error).startswith("box: expected")  # noqa: PT017
-        return
-    tracks += [tracker.update(Frame(depth=DEPTH)), tracker.update(NEXT)]
-    for track in tracks:
-        assert_sane(track)
+    cases.sane_from(tracker, Frame(depth=DEPTH), box, [Frame(depth=DEPTH), NEXT])

@@ -2,20 +2,19 @@
 """What the fused tracker makes of input that isn't what it expects: a named error or a sane track."""
 
 import copy
-from collections.abc import Callable
 from typing import Any
 
+import bad_input_cases as cases
 import cv2
 import numpy as np
 import pytest
+from bad_input_cases import HEIGHT, RIG, WIDTH
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from tricue import Box, Frame, FusedTracker, Intrinsics, Status, StereoRig, Track
+from tricue import Box, Frame, FusedTracker, Intrinsics, Status, Track
 
-WIDTH, HEIGHT = SIZE = (128, 96)
 BOX = (48, 29, 32, 38)
-RIG = StereoRig(Intrinsics.from_fov(*SIZE, 60), 0.12)
 OURS, FAR = 12, 4  # disparities of the target and of the wall, pixels
 
 
@@ -85,59 +84,13 @@ def next_of(tracker: FusedTracker, camera: str = "rgbd", shift: int = 4) -> Trac
     return copy.deepcopy(tracker).update(seen_by(camera, shift))
 
 
-def assert_sane(track: Track) -> None:
-    """A finite box with an area, a score in [0, 1], a status; position and covariance both or neither."""
-    assert np.isfinite(track.box).all()
-    assert min(track.box.width, track.box.height) > 0
-    assert 0 <= track.score <= 1
-    assert isinstance(track.status, Status)
-    assert (track.position is None) == (track.covariance is None)
-    if track.covariance is not None:
-        assert np.isfinite(track.position).all()
-        assert track.position[2] > 0
-        assert np.linalg.eigvalsh(track.covariance).min() > 0
-
-
-BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
-    "None": (lambda: None, TypeError, r"^frame: expected .*NoneType"),
-    "list": (LEFT.tolist, TypeError, r"^frame: expected a BGR image or a tricue.Frame, got list"),
-    "string": (lambda: "left.png", TypeError, r"^frame: .*got str"),
-    "two images": (lambda: (LEFT, RIGHT), TypeError, r"^frame: expected .*got tuple"),
-    "uint16": (lambda: LEFT.astype(np.uint16), TypeError, r"^frame.color: expected uint8 .*uint16"),
-    "float": (lambda: LEFT / 255, TypeError, r"^frame.color: expected uint8 .*float64"),
-    "bare depth": (lambda: DEPTH, TypeError, r"^frame.color: .*depth comes as tricue.Frame"),
-    "alpha": (lambda: np.dstack([LEFT, LEFT[..., 0]]), ValueError, r"^frame.color: expected BGR .*alpha"),
-    "batch": (lambda: LEFT[None], ValueError, r"^frame.color: expected BGR"),
-    "empty": (lambda: LEFT[:0], ValueError, r"^frame.color: expected an image with pixels"),
-    "right alone": (lambda: Frame(right=RIGHT), ValueError, r"^frame: .*got right alone"),
-    "right of another size": (
-        lambda: Frame(LEFT, right=RIGHT[:, 1:]),
-        ValueError,
-        r"^right: expected the shape of color, \(96, 128, 3\), got \(96, 127, 3\)",
-    ),
-    "right gray": (
-        lambda: Frame(LEFT, right=RIGHT[..., 0]),
-        ValueError,
-        r"^right: expected the shape of color",
-    ),
-    "right float": (lambda: Frame(LEFT, right=RIGHT / 255), TypeError, r"^right: expected uint8 .*float64"),
-    "right without color": (
-        lambda: Frame(depth=DEPTH, right=RIGHT),
-        ValueError,
-        r"^right: expected together with color",
-    ),
-    "depth of another size": (
-        lambda: Frame(LEFT, depth=DEPTH[::2, ::2]),
-        ValueError,
-        r"^frame.depth: expected shape \(96, 128\), got \(48, 64\); .*color image's pixels",
-    ),
-    "depth of integers": (
-        lambda: Frame(LEFT, depth=(1000 * DEPTH).astype(np.uint16)),
-        ValueError,
-        r"^depth: expected depth_scale with integers",
-    ),
-    "depth in color": (lambda: Frame(LEFT, depth=LEFT), ValueError, r"^depth: expected one value a pixel"),
-    "empty depth": (lambda: Frame(depth=DEPTH[:0]), ValueError, r"^depth: expected one value a pixel"),
+BAD_FRAMES: cases.BadFrames = {
+    **cases.NO_FRAMES,
+    **cases.NO_IMAGES,
+    **cases.BARE_DEPTHS,
+    **cases.NO_PAIRS,
+    **cases.NO_DEPTHS,
+    **cases.UNREGISTERED,
     "smaller": (
         lambda: LEFT[:-1],
         ValueError,
@@ -149,8 +102,6 @@ BAD_FRAMES: dict[str, tuple[Callable[[], Any], type[Exception], str]] = {
         r"^frame.depth: expected .* \(?(96, 128|128x96)\)?, got \(?(95, 128|128x95)",
     ),
     "turned": (lambda: LEFT.transpose(1, 0, 2).copy(), ValueError, r"^frame.color: expected .*128"),
-    "seconds in words": (lambda: Frame(LEFT, timestamp="now"), TypeError, r"^timestamp: expected"),
-    "NaN seconds": (lambda: Frame(LEFT, timestamp=np.nan), ValueError, r"^timestamp: expected"),
 }
 
 
@@ -250,9 +201,7 @@ def test_calibrations_of_another_size_name_the_channel(cameras, frame, channel):
         FusedTracker(**cameras).init(frame, (24, 15, 16, 19))
 
 
-@pytest.mark.parametrize(
-    "rig", [RIG.intrinsics, 0.12, "rig.yml", StereoRig, np.eye(3), {}], ids=lambda r: type(r).__name__
-)
+@pytest.mark.parametrize("rig", cases.NO_RIGS, ids=lambda each: type(each).__name__)
 def test_what_is_no_calibration_is_named(rig):
     """A rig or camera of another type is a TypeError that names it, and so are both at once."""
     with pytest.raises(TypeError, match=r"^rig: expected tricue.StereoRig, got "):
@@ -280,40 +229,8 @@ def test_bad_kernels_are_named():
         FusedTracker(kernels="fast")
 
 
-BAD_BOXES: dict[str, tuple[Any, type[Exception], str]] = {
-    "None": (None, ValueError, "expected"),
-    "string": ("1,2,3,4", TypeError, "expected four numbers"),
-    "bools": ([True, True, True, True], TypeError, "expected four numbers"),
-    "three numbers": ((1, 2, 3), ValueError, "expected four numbers"),
-    "matrix": (np.ones((1, 4)), TypeError, "expected four numbers"),
-    "NaN": ((1, np.nan, 3, 4), ValueError, "expected finite numbers"),
-    "infinite": ((1, 2, np.inf, 4), ValueError, "expected finite numbers"),
-    "zero": ((0, 0, 0, 0), ValueError, "expected width and height above 0"),
-    "negative height": ((50, 50, 9, -9), ValueError, "corners swapped"),
-    "1 px": ((50, 50, 1, 1), ValueError, "at least 2 pixels"),
-    "1 px by 300": ((50, -100, 1, 300), ValueError, "at least 2 pixels"),
-    "right of the image": ((128, 10, 20, 20), ValueError, "a part inside the image of 128x96"),
-    "above the image": ((10, -20, 20, 20), ValueError, "a part inside the image of 128x96"),
-    "far away": ((1e300, 0, 10, 10), ValueError, "expected at most a million pixels"),
-    "denormal": ((50, 50, 5e-324, 5e-324), ValueError, "at least 2 pixels"),
-}
-GOOD_BOXES: dict[str, Any] = {
-    "list": list(BOX),
-    "array": np.array(BOX, np.float32),
-    "uint8": tuple(np.array(BOX, np.uint8)),
-    "fractions": (47.6, 29.3, 32.7, 37.9),
-    "the wall": (90, 10, 25, 25),
-    "half outside": (-15, -12, 40, 60),
-    "the whole image": (0, 0, *SIZE),
-    "2 px": (60, 45, 2, 2),
-    "2 px by 300": (60, -100, 2, 300),
-    "300 px by 2": (-100, 45, 300, 2),
-    "2 px by a million": (60, -5e5, 2, 1e6),
-    "a corner": (-30, -30, 31, 31),
-    "a corner inside": (127.5, 95.5, 30, 30),
-    "larger than the image": (-500, -500, 2000, 2000),
-    "a million pixels": (-5e5, -5e5, 1e6, 1e6),
-}
+BAD_BOXES = {**cases.BAD_BOXES, "None": (None, ValueError, "expected")}
+GOOD_BOXES = {**cases.same_box(BOX), **cases.ODD_BOXES, "fractions": (47.6, 29.3, 32.7, 37.9)}
 
 
 @pytest.mark.parametrize("case", BAD_BOXES)
@@ -334,56 +251,22 @@ def test_unusual_boxes_are_followed(case, camera):
     tracker = FusedTracker(rig=RIG)
     first = tracker.init(seen_by(camera), GOOD_BOXES[case])
     assert first.box == pytest.approx(tuple(map(float, GOOD_BOXES[case])))
-    assert_sane(first)
+    cases.assert_sane(first)
     black = np.zeros_like(LEFT)
     for frame in (seen_by(camera, 2), Frame(black, right=black), seen_by(camera, 3), seen_by(camera, 4)):
-        assert_sane(tracker.update(frame))
-
-
-anything = st.floats() | st.floats(-300, 300) | st.integers(-(10**9), 10**9)
+        cases.assert_sane(tracker.update(frame))
 
 
 @settings(max_examples=100)
-@given(st.tuples(*4 * [anything]), st.sampled_from(["color", "rgbd", "pair", "depth"]))
+@given(cases.boxes, st.sampled_from(["color", "rgbd", "pair", "depth"]))
 def test_any_four_numbers(box, camera):
     """Whatever four numbers the box is, it is refused by name or gives sane tracks: no crash, no warning."""
-    tracker = FusedTracker(rig=RIG)
-    try:
-        tracks = [tracker.init(seen_by(camera), box)]
-    except ValueError as error:
-        assert str(error).startswith("box: expected")  # noqa: PT017
-        return
-    for track in [*tracks, tracker.update(seen_by(camera)), tracker.update(seen_by("rgbd", 3))]:
-        assert_sane(track)
+    others = [seen_by(camera), seen_by("rgbd", 3)]
+    cases.sane_from(FusedTracker(rig=RIG), seen_by(camera), box, others)
 
 
-STRIPES = np.tile(np.uint8([[[0] * 3, [255] * 3]]), (HEIGHT, WIDTH // 2, 1))
-PAIRS: dict[str, tuple[NDArray[np.uint8], NDArray[np.uint8]]] = {
-    "black": (np.zeros_like(LEFT), np.zeros_like(LEFT)),
-    "white": (np.full_like(LEFT, 255), np.full_like(LEFT, 255)),
-    "left black": (np.zeros_like(LEFT), RIGHT),
-    "right black": (LEFT, np.zeros_like(LEFT)),
-    "noise": tuple(np.random.default_rng(1).integers(0, 256, (2, *LEFT.shape), np.uint8)),
-    "the same twice": (LEFT, LEFT),
-    "swapped": (RIGHT, LEFT),
-    "far apart": (LEFT, np.roll(LEFT, -60, axis=1)),
-    "rows apart": (LEFT, np.roll(RIGHT, 5, axis=0)),
-    "stripes": (STRIPES, STRIPES),
-    "mirrored": (LEFT[:, ::-1], RIGHT[:, ::-1]),
-    "negative": (255 - LEFT, 255 - RIGHT),
-}
-DEPTHS: dict[str, NDArray[np.float32]] = {
-    "NaN": np.full_like(DEPTH, np.nan),
-    "zero": np.zeros_like(DEPTH),
-    "infinite": np.full_like(DEPTH, np.inf),
-    "negative": -DEPTH,
-    "denormal": np.where(DEPTH > 2, np.float32(1e-45), DEPTH),
-    "all denormal": np.full_like(DEPTH, 1e-45),
-    "huge": np.where(DEPTH > 2, DEPTH, np.float32(3e38)),
-    "one pixel": np.where(np.arange(WIDTH) == 60, DEPTH, np.float32(np.nan)),
-    "noise": np.random.default_rng(3).uniform(0.3, 9, DEPTH.shape).astype(np.float32),
-    "flat": np.full_like(DEPTH, 2.0),
-}
+PAIRS = cases.odd_pairs(LEFT, RIGHT)
+DEPTHS = cases.odd_depths(DEPTH)
 ODD = {
     **{f"pair, {name}": lambda name=name: Frame(PAIRS[name][0], right=PAIRS[name][1]) for name in PAIRS},
     **{f"rgbd, {name}": lambda name=name: Frame(LEFT, depth=DEPTHS[name]) for name in DEPTHS},
@@ -403,10 +286,10 @@ def test_odd_frames_are_sane(name):
         tracker = FusedTracker(rig=RIG)
         frames = [odd, odd, seen_by(camera, 2), odd]
         for track in [tracker.init(frames[0], BOX), *map(tracker.update, frames[1:])]:
-            assert_sane(track)
+            cases.assert_sane(track)
         tracker = started(camera, 2)
         for frame in [*(4 * [odd]), seen_by(camera, 2), seen_by(camera, 3)]:
-            assert_sane(tracker.update(frame))
+            cases.assert_sane(tracker.update(frame))
 
 
 @pytest.mark.parametrize("name", ["NaN", "zero"])
@@ -438,9 +321,7 @@ def test_a_frame_without_the_target_is_not_tracked(camera, name):
 
 
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
-@pytest.mark.parametrize(
-    "shape", [(1, 1), (1, 2), (2, 2), (3, 3), (1, 300), (300, 1), (16, 16), (3000, 4000), (4, 5000)], ids=str
-)
+@pytest.mark.parametrize("shape", [*cases.ANY_SHAPES, (2, 2), (3000, 4000)], ids=str)
 def test_images_of_any_size(shape, camera):
     """Tiny, thin and huge frames of all channels give sane tracks, without a warning."""
     height, width = shape
@@ -455,24 +336,14 @@ def test_images_of_any_size(shape, camera):
     box = (-2, -2, max(0.4 * width, 4), max(0.5 * height, 4))
     others = [frame, Frame(255 - left), frame]
     for track in [tracker.init(frame, box), *map(tracker.update, others)]:
-        assert_sane(track)
+        cases.assert_sane(track)
 
 
-VIEWS: dict[str, Callable[[NDArray[Any]], NDArray[Any]]] = {
-    "crop": lambda image: np.pad(image, ((5, 3), (7, 9), *(image.ndim - 2) * [(0, 0)]))[5:-3, 7:-9],
-    "mirrored": lambda image: image[:, ::-1].copy()[:, ::-1],
-    "upside down": lambda image: image[::-1].copy()[::-1],
-    "Fortran": np.asfortranarray,
-    "big endian": lambda image: image.astype(image.dtype.newbyteorder(">")),
-    "every second": lambda image: image.repeat(2, 0).repeat(2, 1)[::2, ::2],
-}
-
-
-@pytest.mark.parametrize("name", VIEWS)
+@pytest.mark.parametrize("name", cases.VIEWS)
 def test_views_are_read_as_they_look(name):
     """Crops, mirrored, reversed and read-only arrays give the track of a packed copy, bit for bit."""
     runs = []
-    for layout in (VIEWS[name], np.ascontiguousarray):
+    for layout in (cases.VIEWS[name], np.ascontiguousarray):
         frames = []
         for shift in range(3):
             images = [layout(image) for image in (*pair(shift), depth_of(shift))]
@@ -484,9 +355,7 @@ def test_views_are_read_as_they_look(name):
     assert runs[0] == runs[1]
 
 
-@pytest.mark.parametrize(
-    "seconds", [(0.0, 0.0), (5.0, 4.0), (-1e300, -1e301), (None, 1.0), (1.0, None)], ids=str
-)
+@pytest.mark.parametrize("seconds", cases.STILL_TIMES, ids=str)
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
 def test_times_that_tell_nothing(camera, seconds):
     """Times that stand still, go back or are missing count as a frame at the usual rate."""
@@ -496,28 +365,17 @@ def test_times_that_tell_nothing(camera, seconds):
     assert odd.update(seen_by(camera, 1, timestamp=seconds[1])) == usual.update(seen_by(camera, 1))
 
 
-@pytest.mark.parametrize("seconds", [(0.0, 1e12), (-1e300, 1e300), (0.0, 1e-300), (0.0, 5e-324)], ids=str)
+@pytest.mark.parametrize("seconds", cases.LEAPING_TIMES, ids=str)
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
 def test_leaping_times_are_sane(camera, seconds):
     """Times that leap or hardly move give sane tracks."""
     tracker = FusedTracker(rig=RIG)
     tracker.init(seen_by(camera, timestamp=seconds[0]), BOX)
     for shift in range(1, 4):
-        assert_sane(tracker.update(seen_by(camera, shift, timestamp=seconds[1] * shift)))
+        cases.assert_sane(tracker.update(seen_by(camera, shift, timestamp=seconds[1] * shift)))
 
 
-@pytest.mark.parametrize(
-    "rig",
-    [
-        StereoRig(Intrinsics.from_fov(*SIZE, 179.0), 0.12),
-        StereoRig(Intrinsics.from_fov(*SIZE, 0.5), 0.12),
-        StereoRig(RIG.intrinsics, 1e-6),
-        StereoRig(RIG.intrinsics, 1.9),
-        StereoRig(Intrinsics(110.0, 1e-3, 64, 48, *SIZE), 0.12),
-        StereoRig(Intrinsics(110.0, 110.0, -1e6, 1e6, *SIZE), 0.12),
-    ],
-    ids=["fisheye", "telescope", "no baseline", "wide baseline", "flat pixels", "far principal point"],
-)
+@pytest.mark.parametrize("rig", cases.DEGENERATE_RIGS.values(), ids=cases.DEGENERATE_RIGS)
 @pytest.mark.parametrize("camera", ["rgbd", "pair", "depth"])
 def test_degenerate_rigs_are_sane(camera, rig):
     """A rig of numbers that no camera has gives sane tracks."""
@@ -525,7 +383,7 @@ def test_degenerate_rigs_are_sane(camera, rig):
     black = Frame(np.zeros_like(LEFT), right=np.zeros_like(LEFT))
     frames = [seen_by(camera), seen_by(camera, 1), black, seen_by(camera, 2)]
     for track in [tracker.init(frames[0], BOX), *map(tracker.update, frames[1:])]:
-        assert_sane(track)
+        cases.assert_sane(track)
 
 
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
@@ -537,7 +395,7 @@ def test_long_lost_is_sane(camera):
         gone = Frame(None if camera == "depth" else gone.color, np.full_like(DEPTH, np.nan))
     for _ in range(60):
         track = tracker.update(gone)
-    assert_sane(track)
+    cases.assert_sane(track)
     assert track.status is Status.LOST
 
 
@@ -553,12 +411,7 @@ def test_two_times_the_same_frame():
 
 def test_update_before_init():
     """update says that init comes first, also after an init that failed."""
-    tracker = FusedTracker()
-    for _ in range(2):
-        with pytest.raises(RuntimeError, match=r"^update: expected init first"):
-            tracker.update(LEFT)
-        with pytest.raises(ValueError, match=r"^box: "):
-            tracker.init(LEFT, (0, 0, 0, 0))
+    cases.assert_init_comes_first(FusedTracker(), LEFT)
 
 
 KERNELS = {
@@ -585,14 +438,5 @@ def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatc
     in which it learns.
     """
     camera, frames = KERNELS[kernel], FusedTracker.Params().learn_every - 1
-    tracker = started(camera, frames)
-    expected = next_of(tracker, camera, frames + 1)
-
-    def fail(*_: Any) -> None:
-        raise MemoryError
-
-    with monkeypatch.context() as patch:
-        patch.setattr(tracker._k, kernel, fail)
-        with pytest.raises(MemoryError):
-            tracker.update(seen_by(camera, frames + 1))
-    assert tracker.update(seen_by(camera, frames + 1)) == expected
+    following = seen_by(camera, frames + 1)
+    cases.assert_errors_leave_the_state(started(camera, frames), kernel, following, monkeypatch)

@@ -61,10 +61,7 @@ class FlowDepthTracker:
         **values: Any,
     ) -> None:
         self.params = lifecycle.parameters(FlowDepthParams, params, values)
-        self.rig = lifecycle.rig(rig)
-        self.intrinsics = lifecycle.intrinsics(intrinsics)
-        if self.rig is not None and self.intrinsics is not None:
-            raise TypeError("intrinsics: expected without rig, whose intrinsics are those of the left camera")
+        self.rig, self.intrinsics = lifecycle.cameras(rig, intrinsics)
         self.seed = lifecycle.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
