@@ -27,6 +27,7 @@ def judged(state: State, found: Found, p: FusedParams) -> State:
         return state._replace(missed=state.missed + 1)
     return state._replace(
         missed=0,
+        side=found.target.side,
         usual=_blended(state.usual, found.answer),
         sure=_blended(state.sure, found.by_look),
         structure=_blended(state.structure, found.marks.by_structure),

@@ -41,6 +41,7 @@ def begin(k: Kernels, seen: Seen, target: Target, p: FusedParams) -> State:
         models={sight.kind: models},
         target=target,
         first_side=target.side,
+        side=target.side,
         usual=best_place(known, view).answers[0],
         depth=depth,
         space=space,

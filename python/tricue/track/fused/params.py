@@ -102,7 +102,7 @@ class FusedParams(Params):
         doc="of its structure, at which what is there may be another",
     )
     again: float = parameter(
-        0.3,
+        0.4,
         unit="of the usual log-odds",
         source=OURS,
         low=0,

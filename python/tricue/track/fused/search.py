@@ -27,8 +27,8 @@ BY_COLOR, BY_TURNS = 4, 4  # windows of the whole frame that are looked at in a 
 
 
 class Lost(NamedTuple):
-    """Where a target was that isn't where it should be. missed: frames since. turn: whose it is, of the whole
-    frame's windows.
+    """Where a target was that isn't where it should be, as large as when it was last recognised: what is seen
+    since needn't be it. missed: frames since. turn: whose it is, of the whole frame's windows.
     """
 
     target: Target

@@ -32,6 +32,7 @@ class State(NamedTuple):
     models: dict[Kind, Models]
     target: Target
     first_side: float  # pixels, of the first box
+    side: float  # the same when it was last recognised
     usual: float  # the filter's answer where the target is
     marks: Marks | None = None
     score: float = 1.0

@@ -108,7 +108,8 @@ class FusedTracker:
         found = near(known, sight, guess, None if state.missed else state.usual)
         if not state.missed:
             return found
-        return anywhere(known, sight, Lost(state.target, state.space, state.missed, state.frames), found)
+        target = state.target.scaled(state.side / state.target.side)
+        return anywhere(known, sight, Lost(target, state.space, state.missed, state.frames), found)
 
     def _track(self, state: State) -> Track:
         if state.missed == 0:
