@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the stereo head tracker makes of input that isn't what it expects: a named error or a sane track."""
 
-import contextlib
-import warnings
 from typing import Any
 
 import bad_input_cases as cases
@@ -205,33 +203,6 @@ def test_what_is_no_rig_is_named(rig):
 def test_update_before_init_is_named():
     """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
     cases.assert_init_comes_first(StereoHeadTracker(), FIRST)
-
-
-def test_swapped_images_are_warned_of():
-    """A start with left and right swapped warns, and points at the line that called init."""
-    tracker, frame = StereoHeadTracker(rig=RIG), Frame(RIGHT, right=LEFT)
-    expected = pytest.warns(UserWarning, match=r"^right: left and right seem to be swapped")
-    with expected as caught, contextlib.suppress(ValueError):
-        tracker.init(frame, BOX)
-    assert [each.filename for each in caught] == [__file__]
-
-
-def test_an_unrectified_pair_is_warned_of():
-    """A start on a pair whose rows are off warns, and says what to do."""
-    frame = Frame(LEFT, right=np.roll(RIGHT, 4, axis=0))
-    tracker = StereoHeadTracker(rig=RIG)
-    message = r"^right: .*not to be rectified.*differ by 4.0 px.*rectify"
-    with pytest.warns(UserWarning, match=message), contextlib.suppress(ValueError):
-        tracker.init(frame, BOX)
-
-
-def test_a_good_pair_is_not_warned_of():
-    """Neither a start nor an update on a rectified pair warns, nor an update on any: it is checked once."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        tracker = started()
-        tracker.update(odd("swapped"))
-        tracker.update(odd("rows apart"))
 
 
 @pytest.mark.parametrize(

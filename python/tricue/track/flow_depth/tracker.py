@@ -13,6 +13,7 @@ from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import Frame, FrameLike
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track import lifecycle
 from tricue.track.flow_depth.blocks import OCCLUDED, TARGET
 from tricue.track.flow_depth.cues import Cues, measure
@@ -71,12 +72,15 @@ class FlowDepthTracker:
         """Start, or start again, on what is in ``box``, (x, y, width, height) in pixels of the left image.
 
         ValueError without a box, where no part of it is inside, and, unless flow is the only cue, where
-        nothing in it has a disparity or depth in common.
+        nothing in it has a disparity or depth in common. UserWarning where left and right seem to be swapped,
+        or not rectified.
         """
         checked = lifecycle.moving(frame, self.params.cues)
         if box is None:
             raise ValueError("box: expected (x, y, width, height): this tracker finds nobody by itself")
         target = lifecycle.box_in(as_box(box), checked.image.shape)
+        if "disparity" in self.params.cues and checked.frame.right is not None:
+            warn_of_stereo(checked.frame)
         lens = self._lens(checked.image.shape, checked.frame)
         view = view_of(self._k, checked.frame, lens, self.params)
         return self._keep(begin(self._k, checked, view, lens, target, self.params))

@@ -8,14 +8,16 @@ import numpy as np
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike, as_box
-from tricue.camera.frame import FrameLike
+from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track import lifecycle
 from tricue.track.fused import learn
 from tricue.track.fused.examine import Found
 from tricue.track.fused.judge import judged
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.places import Known
+from tricue.track.fused.rangers import Pair
 from tricue.track.fused.reading import Seen, read
 from tricue.track.fused.search import Lost, anywhere, near
 from tricue.track.fused.sight import Expected, Sight
@@ -64,11 +66,16 @@ class FusedTracker:
         self._state: State | None = None
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on ``box``, at least 2 pixels wide and high, a part of it in the image."""
+        """Start, or start again, on ``box``, at least 2 pixels wide and high, a part of it in the image.
+
+        UserWarning where left and right seem to be swapped, or not rectified.
+        """
         seen = self._read(frame, None)
         if box is None:
             raise ValueError("box: expected (x, y, width, height), got None; this tracker needs to be told")
         target = Target.of(lifecycle.box_in(as_box(box), seen.shape))
+        if isinstance(seen.ranger, Pair):
+            warn_of_stereo(as_frame(frame))
         self._state = learn.begin(self._k, seen, target, self.params)
         return self._track(self._state)
 
