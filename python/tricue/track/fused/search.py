@@ -23,7 +23,7 @@ DETAIL = 8  # samples a side of the target, where the whole frame is searched by
 MOST_SAMPLES = 256  # a side of the frame
 CAUTION = 2.0  # log-odds that structure alone tells less
 SIZES = 1.0, 0.7, 1.0, 1.4  # of the last one, of a target that is looked for, by turns
-BY_COLOR, BY_TURNS = 4, 4  # windows of the whole frame that are looked at in a frame
+BY_COLOR, BY_TURNS = 3, 3  # windows of the whole frame that are looked at in a frame
 
 
 class Lost(NamedTuple):
