@@ -24,6 +24,7 @@ from tricue.track.fused.view import Target, View, look
 
 Floats = NDArray[np.float64]
 
+ODD = 0.5  # of what the filter usually answers
 STARTING = 0.1  # metres, of a target's relief that isn't known yet
 
 
@@ -91,12 +92,23 @@ def learnt(before: State, state: State, sight: Sight, found: Found, p: FusedPara
     state = _outlined(_ranged(state, sight, found, again, p), found, p)
     if state.missed or state.score < p.learn_above or state.frames % p.learn_every:
         return state
-    models = _blended(state.models[sight.kind], look(sight, [state.target], p.context)[0], p)
+    view = look(sight, [state.target], p.context)[0]
+    models = _blended(state.models[sight.kind], view, _caution(state, found, p), p)
     return state._replace(models={**state.models, sight.kind: models})
 
 
-def _blended(models: Models, view: View, p: FusedParams) -> Models:
-    sight, filter_rate, color_rate = view.sight, _rate(p.filter_rate, p), _rate(p.color_rate, p)
+def _caution(state: State, found: Found, p: FusedParams) -> float:
+    """The share of the rates at which looks are learnt: a smaller one where by its structure it rather isn't
+    the target, and the filter, too, answers less than usual. Something of its colors may be before it, which
+    depth would show.
+    """
+    odd = found.marks.by_structure < 0 and found.answer < ODD * state.usual
+    return p.learn_odd if odd and found.measured is None else 1.0
+
+
+def _blended(models: Models, view: View, share: float, p: FusedParams) -> Models:
+    sight = view.sight
+    filter_rate, color_rate = share * _rate(p.filter_rate, p), share * _rate(p.color_rate, p)
     looks = size.looks(sight, view.target, models.color.table, p)
     return models._replace(
         filter=models.filter.learnt(view, filter_rate),

@@ -85,6 +85,9 @@ class FusedParams(Params):
     learn_above: float = parameter(
         0.4, unit="score", source=OURS, low=0, high=1, doc="no learning under this score"
     )
+    learn_odd: float = parameter(
+        0.2, unit="of the rates", source=OURS, low=0, high=1, doc="where its structure is another"
+    )
     lost_below: float = parameter(
         0.3, unit="score", source=OURS, low=0, high=1, doc="a frame under it counts as missed"
     )
