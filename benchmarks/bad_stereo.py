@@ -162,7 +162,7 @@ HEAD = f"""
 Around the case all is as it should be: `head(0)`, somebody before a pair of cameras of {WIDTH}x{HEIGHT} whose calibration is known, two pairs a
 thirtieth of a second apart, and the box {BOX}. cv2's trackers, which know no right image, get the left one where there are two.
 
-A swapped or unrectified pair is warned of by `stereo-head` at the start and followed all the same where something in the box has a disparity, at a wrong distance; the other two do not warn: [how
+A swapped or unrectified pair is warned of at the start, and followed all the same where something in the box has a disparity, at a wrong distance: [how
 often](stereo.md#a-swapped-or-unrectified-pair).
 
 """
