@@ -48,11 +48,10 @@ def near(known: Known, sight: Sight, guess: Target, usual: float | None) -> Foun
         places = [_farther(known, view, guess) for view in _beside(sight, guess, p.context)]
         place = max([place, *places], key=lambda each: each.evidence)
     found = examine(known, place)
-    found = found._replace(hidden=max(found.hidden, hidden(view)))
     likely = found.log_odds + p.continuity * continuous(place)
     if sight.kind == "color":  # it may be lit otherwise now: its structure is enough
         likely = max(likely, found.marks.by_structure - CAUTION)
-    return found._replace(log_odds=likely)
+    return found._replace(log_odds=likely, hidden=max(found.hidden, hidden(view)))
 
 
 def _farther(known: Known, view: View, guess: Target) -> Place:
