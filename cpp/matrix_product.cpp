@@ -59,8 +59,8 @@ void multiply_all(const Factors& factors, float* product) {
 
 }  // namespace
 
-void multiply(const PaddedRows& left, const PaddedRows& right, int cols, PaddedRows& product) {
-    multiply_all({left.row(0), right.row(0), left.rows(), right.rows(), cols, left.pitch(), right.pitch(),
+void multiply(const LeftFactor& left, const PaddedRows& right, int cols, PaddedRows& product) {
+    multiply_all({left.numbers, right.row(0), left.rows, right.rows(), cols, left.pitch, right.pitch(),
                   product.pitch()},
                  product.row(0));
 }

@@ -55,15 +55,26 @@ void fold(const float* __restrict line, const float* __restrict mirror, int n, f
     }
 }
 
-/// A row of a spectrum. Imaginary parts of a line begin at `half`, with the first that isn't 0; `sign` is -1 in the mirrored half.
+/// A row of a spectrum.
+struct SpectrumRow {
+    float *re, *im;
+};
+
+/// A row and what mirrors it. Imaginary parts of a line begin at `half`, with the first that isn't 0.
 TRICUE_MULTIVERSION
-void unite(const float* __restrict cosine_part, const float* __restrict sine_part, float sign, int half,
-           int pairs, float* __restrict re, float* __restrict im) {
+void unite(const float* cosine_part, const float* sine_part, int half, int pairs, const SpectrumRow& row,
+           const SpectrumRow& mirror) {
     const float *cosine_im = cosine_part + half - 1, *sine_im = sine_part + half - 1;
+    const SpectrumRow to = row, opposite = mirror;
+    TRICUE_INDEPENDENT
     for (int v = 0; v < half; ++v) {
         const bool paired = v >= 1 && v <= pairs;
-        re[v] = cosine_part[v] - (paired ? sign * sine_im[v] : 0.0F);
-        im[v] = sign * sine_part[v] + (paired ? cosine_im[v] : 0.0F);
+        const float re = cosine_part[v], im = paired ? cosine_im[v] : 0.0F;
+        const float re_turned = paired ? sine_im[v] : 0.0F, im_turned = sine_part[v];
+        opposite.re[v] = re + re_turned;
+        opposite.im[v] = im - im_turned;
+        to.re[v] = re - re_turned;
+        to.im[v] = im + im_turned;
     }
 }
 
@@ -119,14 +130,15 @@ void SmallFourier::multiply_down(int cols) {
 }
 
 void SmallFourier::transform(const float* plane, float* re, float* im) {
-    for (int y = 0; y < rows_; ++y) std::copy_n(plane + std::ptrdiff_t{y} * cols_, cols_, plane_.row(y));
-    multiply(plane_, across_, cols_, lines_);
+    multiply({plane, cols_, rows_}, across_, cols_, lines_);
     multiply_down(cols_);
-    for (int u = 0; u < rows_; ++u, re += half_, im += half_) {
-        const int from = std::min(u, rows_ - u);
-        unite(cosine_part_.row(from), sine_part_.row(from), u == from ? 1.0F : -1.0F, half_, pairs(cols_), re,
-              im);
-    }
+    const auto row = [&](int u) {
+        return SpectrumRow{re + std::ptrdiff_t{u} * half_, im + std::ptrdiff_t{u} * half_};
+    };
+    const SpectrumRow nobodys{lines_.row(0), lines_.row(0) + half_};
+    for (int u = 0; u <= rows_ / 2; ++u)
+        unite(cosine_part_.row(u), sine_part_.row(u), half_, pairs(cols_), row(u),
+              u >= 1 && u <= pairs(rows_) ? row(rows_ - u) : nobodys);
 }
 
 void SmallFourier::invert(const float* re, const float* im, float* plane) {
