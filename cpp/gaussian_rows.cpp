@@ -96,6 +96,7 @@ int radius_of(const std::vector<float>& weights) {
 
 GaussianTaps::GaussianTaps(double sigma) : radius(static_cast<int>(std::ceil(kReach * sigma - 0.5))) {
     std::vector<double> samples(static_cast<std::size_t>(radius) + 1);
+    for (auto* weights : {&bell, &slope, &curve}) weights->reserve(samples.size());
     double sum = 0, square = 0, fourth = 0;  // of the samples on both sides, times x^0, x^2, x^4
     for (int x = 0; x <= radius; ++x) {
         const double bell_here = std::exp(-x * x / (2 * sigma * sigma)), sides = x == 0 ? 1 : 2;
@@ -140,6 +141,7 @@ RowRing::RowRing(int count, int length)
     : count_(count),
       data_(static_cast<std::size_t>(whole_blocks(length)) * static_cast<std::size_t>(count) + kRowBlock) {
     float* first = aligned(data_);
+    rows_.reserve(2 * static_cast<std::size_t>(count));
     for (int i = 0; i < 2 * count; ++i)
         rows_.push_back(first + std::ptrdiff_t{i % count} * whole_blocks(length));
 }

@@ -19,6 +19,7 @@ struct Lanes {
     using SignedBytes [[gnu::vector_size(N)]] = std::int8_t;
     using Words [[gnu::vector_size(2 * N)]] = std::uint16_t;
     using SignedWords [[gnu::vector_size(2 * N)]] = std::int16_t;
+    using Floats [[gnu::vector_size(2 * N)]] = float;  ///< N / 2
 };
 
 /// How many words one register holds: everywhere (SSE2, NEON), with AVX2, with AVX-512.

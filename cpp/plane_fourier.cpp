@@ -12,6 +12,8 @@ namespace {
 
 using Complex = std::complex<float>;
 
+constexpr int kSmall = 64;  // cells a side, up to which products of matrices are faster with AVX2
+
 void transform_plane(std::vector<Complex>& from, int rows, int cols, int flags, std::vector<Complex>& to) {
     const cv::Mat in(rows, cols, CV_32FC2, from.data());
     cv::Mat out(rows, cols, CV_32FC2, to.data());
@@ -40,6 +42,15 @@ void separate(const float* __restrict z, const float* __restrict mirror, int hal
     }
 }
 
+TRICUE_MULTIVERSION
+void part(const float* __restrict pairs, float whole, std::size_t n, float* __restrict one,
+          float* __restrict two) {
+    for (std::size_t i = 0; i < n; ++i) {
+        one[i] = whole * pairs[2 * i];
+        two[i] = whole * pairs[2 * i + 1];
+    }
+}
+
 /// A row of A + i B, and what mirrors it, conj(A) + i conj(B).
 TRICUE_MULTIVERSION
 void unite(const float* __restrict one_re, const float* __restrict one_im, const float* __restrict two_re,
@@ -62,14 +73,22 @@ float* parts(Complex* numbers) {
 
 }  // namespace
 
-PlanePair::PlanePair(int rows, int cols)
-    : rows_(rows),
-      cols_(cols),
-      pairs_(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)),
-      spectrum_(pairs_.size()) {}
+PlanePair::PlanePair(int rows, int cols) : rows_(rows), cols_(cols) {
+    if (std::max(rows, cols) <= kSmall) {
+        small_.emplace(rows, cols);
+    } else {
+        pairs_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols));
+        spectrum_.resize(pairs_.size());
+    }
+}
 
 void PlanePair::transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
                           float* two_im) {
+    if (small_) {
+        small_->transform(one, one_re, one_im);
+        if (two != one) small_->transform(two, two_re, two_im);
+        return;
+    }
     interleave(one, two, pairs_.size(), parts(pairs_.data()));
     transform_plane(pairs_, rows_, cols_, 0, spectrum_);
     const int half = this->half();
@@ -84,7 +103,13 @@ void PlanePair::transform(const float* one, const float* two, float* one_re, flo
     }
 }
 
-void PlanePair::invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im) {
+void PlanePair::invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
+                       float* one, float* two) {
+    if (small_) {
+        small_->invert(one_re, one_im, one);
+        if (two != one) small_->invert(two_re, two_im, two);
+        return;
+    }
     const int half = this->half();
     const int mirrored = (cols_ - 1) / 2;  // columns that others mirror; the first, and of an even count the
     const int middle = cols_ / 2;          // middle one, mirror themselves
@@ -106,6 +131,7 @@ void PlanePair::invert(const float* one_re, const float* one_im, const float* tw
         if (middle > mirrored) row(u)[middle] = 0.5F * (row(u)[middle] + other[static_cast<std::size_t>(u)]);
     }
     transform_plane(spectrum_, rows_, cols_, cv::DFT_INVERSE, pairs_);
+    part(parts(pairs_.data()), 1.0F / static_cast<float>(pairs_.size()), pairs_.size(), one, two);
 }
 
 }  // namespace tricue

@@ -3,13 +3,16 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
 #include <vector>
+
+#include "small_fourier.hpp"
 
 namespace tricue {
 
-/// Two-dimensional spectra of two real planes (rows, cols) by one complex transform, OpenCV's: one plane is its real part, the
-/// other its imaginary part, and symmetry tells their spectra apart again. These have `half` = cols / 2 + 1 columns, as
-/// numpy.fft.rfft2's. In float32; nothing here starts a thread.
+/// Two-dimensional spectra of two real planes (rows, cols): small ones by SmallFourier, others by one complex transform, OpenCV's,
+/// where one plane is the real part, the other the imaginary part, and symmetry tells their spectra apart again. These have
+/// `half` = cols / 2 + 1 columns, as numpy.fft.rfft2's. In float32; nothing here starts a thread.
 ///
 /// Spectra stand with real and imaginary parts apart, which compilers vectorise: rows x half numbers each, contiguous.
 class PlanePair {
@@ -24,18 +27,15 @@ public:
     void transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
                    float* two_im);
 
-    /// rows times cols times the planes of two spectra. As numpy.fft.irfft2 it ignores what has to be real in a spectrum of a real
-    /// plane and isn't.
-    void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im);
-
-    /// Row y of both planes after `invert`: cols pairs.
-    const float* pairs(int y) const {
-        return reinterpret_cast<const float*>(pairs_.data()) + std::ptrdiff_t{2} * y * cols_;
-    }
+    /// The planes of two spectra, contiguous. As numpy.fft.irfft2 it ignores what has to be real in a spectrum of a real plane and
+    /// isn't. To invert one alone give it as the second too, and the same plane.
+    void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
+                float* one, float* two);
 
 private:
     int rows_, cols_;
-    std::vector<std::complex<float>> pairs_, spectrum_;
+    std::optional<SmallFourier> small_;
+    std::vector<std::complex<float>> pairs_, spectrum_;  ///< of planes that aren't small
 };
 
 }  // namespace tricue

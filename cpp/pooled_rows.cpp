@@ -58,7 +58,7 @@ PooledRows::PooledRows(int pool, int length)
       length_(length),
       products_{products_ring(pool, length), products_ring(pool, length), products_ring(pool, length),
                 products_ring(pool, length), products_ring(pool, length)},
-      sums_(1, whole_blocks(length) + 2 * pool),
+      sums_(5, whole_blocks(length) + 2 * pool),
       result_(5, length) {}
 
 void PooledRows::push(int y, const Constraints& constraints) {
@@ -69,11 +69,11 @@ void PooledRows::push(int y, const Constraints& constraints) {
 Products PooledRows::row(int y) {
     const int side = 2 * pool_ + 1;
     const float share = 1 / static_cast<float>(side);
-    for (int i = 0; i < 5; ++i) {
-        const auto* rows = products_[static_cast<std::size_t>(i)].from(y - pool_);
-        mean_down(rows, side, share, length_ + 2 * pool_, sums_.row(0));
-        mean_across(sums_.row(0), side, share, length_, result_.row(i));
-    }
+    // Each step for all rows before the next: a load that reaches over what was just stored has to wait for it.
+    for (int i = 0; i < 5; ++i)
+        mean_down(products_[static_cast<std::size_t>(i)].from(y - pool_), side, share, length_ + 2 * pool_,
+                  sums_.row(i));
+    for (int i = 0; i < 5; ++i) mean_across(sums_.row(i), side, share, length_, result_.row(i));
     return {result_.row(0), result_.row(1), result_.row(2), result_.row(3), result_.row(4)};
 }
 

@@ -12,19 +12,21 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics, peers
 from tricue.scenes.everything import Scene, everything
+from tricue.track.track import Status
 
 SEES = ("color", "color and depth", "pair")
 CHANNELS = {"color and depth": "rgbd", "pair": "stereo"}
 PEERS = {name: make for name, make in peers.available().items() if name in ("CSRT", "KCF", "MedianFlow")}
 FRAMES = {"reference": 8}  # of those that take long
 USUAL = 60
+GROUP = "fused, 320x240, one update"
 
 
 @cache
-def scene(channels: str) -> Scene:
+def scene(channels: str, seed: int = 0) -> Scene:
     """A target that comes or goes, its size changing 1:2 in these frames; made before any clock starts."""
     pytest.importorskip("skimage", reason="needs scikit-image: pip install tricue[demo]")
-    return everything("scale", seed=0, channels=channels)
+    return everything("scale", seed=seed, channels=channels)
 
 
 def scene_of(name: str) -> Scene:
@@ -48,7 +50,7 @@ def maker(name: str) -> Callable[[], Any]:
     return lambda: tricue.create("fused", kernels=kernels, **camera)
 
 
-@pytest.mark.benchmark(group="fused, 320x240, one update")
+@pytest.mark.benchmark(group=GROUP)
 @pytest.mark.parametrize("name", [*SEES, "reference", *PEERS])
 def bench_fused(benchmark: Any, name: str) -> None:
     """A round is a frame; init is left out. Both sets of kernels give one track, within a tenth of a pixel: a
@@ -67,6 +69,29 @@ def bench_fused(benchmark: Any, name: str) -> None:
     benchmark.extra_info["overlap above 0.5"] = float(np.mean(metrics.overlaps(np.array(boxes), truth) > 0.5))
     if name == "reference":
         assert np.abs(np.array(boxes) - native_track()[: len(boxes)]).max() < 0.1
+
+
+@pytest.mark.benchmark(group=GROUP)
+def bench_fused_lost(benchmark: Any) -> None:
+    """A round is a frame in which the tracker, on color, looks for its target everywhere: another room, in
+    which the target isn't. It stays lost.
+    """
+    tracker = maker("color")()
+    tracker.init(seen("color")[0], Box(*scene("color").boxes[0].tolist()))
+    elsewhere = scene("color", seed=1).frames[:USUAL]
+    feed = iter(elsewhere)
+    while tracker.update(next(feed)).status is not Status.LOST:
+        pass
+    searched = list(feed)
+    feed = iter(searched)
+    statuses = []
+    benchmark.pedantic(
+        lambda frame: statuses.append(tracker.update(frame).status),
+        setup=lambda: ((next(feed),), {}),
+        rounds=len(searched),
+    )
+    assert len(searched) >= USUAL // 2
+    assert set(statuses) == {Status.LOST}
 
 
 def native_track() -> Any:

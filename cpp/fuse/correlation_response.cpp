@@ -31,12 +31,6 @@ void divide(const float* __restrict denominator, float lambda, std::size_t n, fl
     }
 }
 
-/// Every second number.
-TRICUE_MULTIVERSION
-void scale(const float* __restrict pairs, float whole, int n, float* __restrict numbers) {
-    for (int x = 0; x < n; ++x) numbers[x] = whole * pairs[2 * x];
-}
-
 /// Of each filter a row of real and one of imaginary parts.
 struct Spectra {
     Floats re, im;
@@ -69,15 +63,14 @@ void divide_all(const FloatStack& denominators, double ridge, Spectra& sums) {
     }
 }
 
-/// The first (0) or second (1) plane, with no shift in the middle.
-void write_shifted(const PlanePair& answers, int which, int rows, int cols, float* response) {
-    const float whole = 1.0F / static_cast<float>(rows * cols);
-    const int right = cols / 2;  // where the first column goes
-    for (int y = 0; y < rows; ++y) {
-        const float* from = answers.pairs(y) + which;
-        float* to = response + std::ptrdiff_t{(y + rows / 2) % rows} * cols;
-        scale(from, whole, cols - right, to + right);
-        scale(from + 2 * (cols - right), whole, right, to);
+/// The plane with no shift in the middle.
+void write_shifted(const Floats& plane, float* response) {
+    const Eigen::Index rows = plane.rows(), cols = plane.cols(),
+                       right = cols / 2;  // where the first column goes
+    for (Eigen::Index y = 0; y < rows; ++y) {
+        float* to = response + (y + rows / 2) % rows * cols;
+        std::copy_n(&plane(y, 0), cols - right, to + right);
+        std::copy_n(&plane(y, 0) + cols - right, right, to);
     }
 }
 
@@ -92,12 +85,14 @@ Floats correlation_response(const FloatStack& cells, const FilterStack& numerato
     PlanePair planes(rows, cols);
     Spectra sums = sum_products(cells, numerators, planes);
     divide_all(denominators, ridge, sums);
-    Floats responses(filters * rows, cols);
+    Floats responses(filters * rows, cols), first(rows, cols), second(rows, cols);
     for (int filter = 0; filter < filters; filter += 2) {
         const int last = std::min(filter + 1, filters - 1);
-        planes.invert(&sums.re(filter, 0), &sums.im(filter, 0), &sums.re(last, 0), &sums.im(last, 0));
-        for (int each = filter; each <= last; ++each)
-            write_shifted(planes, each - filter, rows, cols, &responses(each * rows, 0));
+        Floats& other = last == filter ? first : second;
+        planes.invert(&sums.re(filter, 0), &sums.im(filter, 0), &sums.re(last, 0), &sums.im(last, 0),
+                      first.data(), other.data());
+        write_shifted(first, &responses(filter * rows, 0));
+        write_shifted(other, &responses(last * rows, 0));
     }
     return responses;
 }

@@ -42,7 +42,7 @@ Eigen::ArrayXf scale_response(FloatsRef looks, ComplexesRef numerator, FloatsRef
     require_looks(looks, numerator, denominator);
     require_ridge(ridge);
     const int scales = static_cast<int>(looks.rows()), channels = static_cast<int>(looks.cols());
-    const ScaleSpectra spectra = scale_spectra(looks);
+    const ScaleSpectra spectra(looks);
     const double mean = denominator.cast<double>().mean();
     const auto lambda = static_cast<float>(ridge * std::max(mean, 1e-12));
     Eigen::ArrayXf re(spectra.half()), im(spectra.half());

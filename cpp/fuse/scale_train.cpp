@@ -40,7 +40,7 @@ ScaleFilter scale_train(FloatsRef looks, ComplexesRef label, ComplexesRef numera
     require_frequencies("label", label.cols(), numerator.rows());
     require_rate(rate);
     const int channels = static_cast<int>(looks.cols());
-    const ScaleSpectra spectra = scale_spectra(looks);
+    const ScaleSpectra spectra(looks);
     ScaleFilter filter{Complexes(spectra.half(), channels), Eigen::ArrayXf(spectra.half())};
     const auto share = static_cast<float>(rate);
     for (Eigen::Index u = 0; u < spectra.half(); ++u) {

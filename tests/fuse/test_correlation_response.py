@@ -25,6 +25,8 @@ SHAPES = [
     (4, 12, 15),
     (3, 31, 22),
     (5, 36, 24),
+    (3, 65, 10),
+    (2, 12, 75),
 ]
 
 
@@ -61,7 +63,9 @@ def test_native_is_the_twin(
     assert abs(native - twin).max() <= bound + 1e-7 * abs(twin).max()
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (2, 2), (4, 6), (5, 8), (6, 9), (1, 4), (7, 1)], ids=str)
+@pytest.mark.parametrize(
+    "shape", [(1, 1), (2, 2), (4, 6), (5, 8), (6, 9), (1, 4), (7, 1), (66, 3), (2, 70)], ids=str
+)
 def test_takes_any_spectrum(kernels: Kernels, shape: tuple[int, int]) -> None:
     """Spectra that no real plane has give what NumPy's irfft2 makes of them, with another filter's beside
     them or without: what should be real and isn't changes nothing.

@@ -15,7 +15,18 @@ from tricue.kernels import Kernels
 Floats = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
 
-SHAPES = [(1, 1, 1), (1, 1, 8), (2, 7, 1), (3, 2, 2), (2, 5, 9), (11, 32, 32), (4, 12, 15), (3, 31, 22)]
+SHAPES = [
+    (1, 1, 1),
+    (1, 1, 8),
+    (2, 7, 1),
+    (3, 2, 2),
+    (2, 5, 9),
+    (11, 32, 32),
+    (4, 12, 15),
+    (3, 31, 22),
+    (3, 65, 10),
+    (2, 12, 75),
+]
 
 
 def case(shape: tuple[int, int, int], seed: int = 0) -> dict[str, Any]:

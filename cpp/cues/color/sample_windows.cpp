@@ -14,7 +14,8 @@ namespace {
 constexpr int kUnit = 64;         // parts of a pixel that places are rounded to
 constexpr int kMostReadings = 4;  // of a sample along one axis
 constexpr int kMostPixels = 2 * kMostReadings;
-constexpr int kLanes = 8;  // numbers of two neighbouring pixels, and two that are thrown away
+constexpr int kBlock = 64;  // numbers of a row that are blended at once
+constexpr int kLanes = 8;   // numbers of two neighbouring pixels, and two that are thrown away
 
 using Eight [[gnu::vector_size(4 * kLanes)]] = float;
 using Order [[gnu::vector_size(4 * kLanes)]] = int;
@@ -66,17 +67,25 @@ struct Column {
     float weights[kLanes];
 };
 
-/// A sum is at most 255 times that of the shares, 4 kUnit, so 16 bits hold it.
+/// Numbers from `begin` to `end`. A sum is at most 255 times that of the shares, 4 kUnit, so 16 bits hold it.
 template <int kRows>
-inline void blend_all(const Rows& rows, int n, float* blend) {
+inline void blend_part(const Rows& rows, int begin, int end, float* blend) {
     const Rows own = rows;
     TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
+    for (int x = begin; x < end; ++x) {
         std::uint16_t sum = 0;
         for (int k = 0; k < kRows; ++k)
             sum = static_cast<std::uint16_t>(sum + own.bytes[k][x] * own.shares[k]);
         blend[x] = sum;
     }
+}
+
+/// What whole registers leave over would be done one by one: it is done by a last block that reaches back.
+template <int kRows>
+inline void blend_all(const Rows& rows, int n, float* blend) {
+    const int whole = n / kBlock * kBlock;
+    blend_part<kRows>(rows, 0, whole, blend);
+    if (whole < n) blend_part<kRows>(rows, std::max(n - kBlock, 0), n, blend);
 }
 
 TRICUE_MULTIVERSION

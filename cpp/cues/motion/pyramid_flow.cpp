@@ -12,6 +12,7 @@
 #include "frame_rows.hpp"
 #include "gray_pyramid.hpp"
 #include "pooled_rows.hpp"
+#include "row_block.hpp"
 #include "simd.hpp"
 
 namespace tricue {
@@ -107,10 +108,12 @@ void measure(const QuadImage& before, const ImageView& now, double sigma, int po
     ConstraintRows constraints(sigma, width + 2 * pool);
     PooledRows pooled(pool, width);
     const int radius = constraints.radius(), margin = radius + pool, length = width + 2 * margin;
-    std::vector<float> u(static_cast<std::size_t>(length)), v(u), warped(u), here(u);
+    const int whole =
+        (length + kHalfBlock - 1) / kHalfBlock * kHalfBlock;  // pixels beyond cost less than a loop's rest
+    std::vector<float> u(static_cast<std::size_t>(whole)), v(u), warped(u), here(u);
     for (int y = -margin; y < y1 - y0 + margin; ++y) {
         guess_row(guess, y, margin, u.data(), v.data());
-        before.warped_row(y0 + y, x0 - margin, u.data(), v.data(), length, warped.data());
+        before.warped_row(y0 + y, x0 - margin, u.data(), v.data(), whole, warped.data());
         frame_row(now, y0 + y, x0 - margin, length, here.data());
         constraints.push(y + pool, warped.data(), here.data());
         if (y < radius - pool) continue;

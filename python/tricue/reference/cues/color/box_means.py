@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a map has in boxes round a place, and so along their edges: where a target ends."""
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,7 +17,7 @@ def box_means(plane: NDArray[np.float32], x: float, y: float, widths: Floats, he
     if plane.size < 1:
         refuse("plane", "at least one pixel", "none")
     for name, place in (("x", x), ("y", y)):
-        if not math.isfinite(place):
+        if not np.isfinite(place):
             refuse(name, "a finite number", place)
     _require_lengths("widths", widths)
     require_shape("heights", heights, widths.shape)
