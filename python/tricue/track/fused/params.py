@@ -77,7 +77,7 @@ class FusedParams(Params):
     velocity_rate: float = parameter(0.5, unit="-", source=OURS, low=0, high=1)
     drift: float = parameter(0.5, unit="of the velocity", source=OURS, low=0, high=1)
     doubt: float = parameter(0.6, unit="of the usual", source=OURS, low=0, high=1)
-    far: float = parameter(0.05, unit="-", source=OURS, low=0)
+    far: float = parameter(0.2, unit="-", source=OURS, low=0)
 
     learn_every: int = parameter(
         3, unit="frames", source=OURS, low=1, high=30, doc="from one in which looks are learnt to the next"
