@@ -63,6 +63,14 @@ def test_a_good_pair_is_not_warned_of(name):
         tracker.update(Frame(left, right=np.roll(right, 4, axis=0)))
 
 
+def test_a_verged_pair_is_not_warned_of():
+    """Negative disparities are usual before the right image is turned back."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", UserWarning)
+        with contextlib.suppress(ValueError):  # it isn't verged by that
+            tricue.create("flow-depth", rig=RIG, vergence=5.0).init(Frame(RIGHT, right=LEFT), BOX)
+
+
 @pytest.mark.parametrize(("name", "cues"), [("flow-depth", ("flow",)), ("fused", ("filter", "color"))])
 def test_what_is_not_used_is_not_warned_of(name, cues):
     """A tracker that was told to leave depth out doesn't look at the right image."""

@@ -386,6 +386,7 @@ def test_odd_frames_are_sane(name, kernels):
 
 @pytest.mark.parametrize("cues", [{}, FLOW, DISPARITY], ids=str)
 @pytest.mark.parametrize("name", FRAMES)
+@pytest.mark.filterwarnings("ignore:right:")
 def test_starts_on_odd_frames_are_sane(name, cues):
     """A box on an odd pair is refused by name or gives sane tracks, there and on good pairs."""
     others = (odd(name), NEXT, NEXT, NEXT, odd(name), NEXT)
@@ -458,6 +459,7 @@ def test_odd_boxes_are_sane(name, cues):
 
 @pytest.mark.parametrize("cues", [{}, FLOW, DISPARITY], ids=str)
 @pytest.mark.parametrize("shape", cases.ANY_SHAPES, ids=str)
+@pytest.mark.filterwarnings("ignore:right:")
 def test_images_of_any_size(shape, cues):
     """Tiny, thin and huge pairs give sane tracks from a box over them, or name the box."""
     height, width = shape
@@ -489,6 +491,7 @@ def test_degenerate_rigs_are_sane(rig):
 
 @pytest.mark.parametrize("disparity", [3, 1, 0, -1, -4])
 @pytest.mark.parametrize("later", [2, 0, -2, -5])
+@pytest.mark.filterwarnings("ignore:right:")
 def test_disparities_of_nothing_real_are_sane(disparity, later):
     """Pairs whose disparity gets zero or less, as of badly rectified ones, give sane tracks: no box turns
     inside out, nothing is divided by zero.
@@ -566,6 +569,7 @@ def test_any_order_of_frames(names):
 
 @settings(max_examples=40)
 @given(st.integers(0, 2**32), st.integers(1, 40), st.integers(1, 40), st.integers(-20, 20))
+@pytest.mark.filterwarnings("ignore:right:")
 def test_any_picture(seed, height, width, disparity):
     """Pictures of noise of any small size, moved by any disparity, give sane tracks or name the box."""
     rng = np.random.default_rng(seed)

@@ -79,8 +79,8 @@ class FlowDepthTracker:
         if box is None:
             raise ValueError("box: expected (x, y, width, height): this tracker finds nobody by itself")
         target = lifecycle.box_in(as_box(box), checked.image.shape)
-        if "disparity" in self.params.cues and checked.frame.right is not None:
-            warn_of_stereo(checked.frame)
+        if "disparity" in self.params.cues and checked.frame.right is not None and not self.params.vergence:
+            warn_of_stereo(checked.frame)  # of a verged pair the right image is turned back first
         lens = self._lens(checked.image.shape, checked.frame)
         view = view_of(self._k, checked.frame, lens, self.params)
         return self._keep(begin(self._k, checked, view, lens, target, self.params))
