@@ -62,7 +62,8 @@ void define_patch(py::module_& m) {
           "(R, C) of a map (2R, 2C): its mean in a box of width by height pixels at every second place, the "
           "middle one at (R // 2, C // 2), minus around times that in the frame that reaches to outer times "
           "its size.");
-    m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("x"), py::arg("y"), py::arg("widths"), py::arg("heights"),
+    m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("x"), py::arg("y"), py::arg("widths"),
+          py::arg("heights"),
           "(N,) means of a map (H, W) in boxes of N sizes round (x, y), pixels; 0 lies outside.");
 }
 
