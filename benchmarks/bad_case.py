@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import cv2
 import tricue
-from tricue.track.track import Tracker
+from tricue.track.base.track import Tracker
 
 cv2.setNumThreads(0)  # before any work: a process forked from one with a thread pool waits for it for ever
 

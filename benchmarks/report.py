@@ -17,9 +17,9 @@ import numpy as np
 import tricue
 from numpy.typing import NDArray
 from tricue.camera.box import Box
-from tricue.evaluation import metrics, peers
-from tricue.evaluation.entrants import pictured
+from tricue.evaluation import baselines, metrics
 from tricue.evaluation.one_pass import Contender, Run, one_thread, run
+from tricue.evaluation.tracker_spec import pictured
 from tricue.scenes import (
     DepthScene,
     Scene,
@@ -164,7 +164,7 @@ def tracker_rows(scene: Scene) -> Iterator[str]:
     """A line a tracker, in turn over the rounds."""
     makers = {"color-particle": ours(), "color-particle, reference": ours(kernels="reference")}
     makers["fused"] = partial(tricue.create, "fused")
-    makers |= {name: (lambda make=make: make(0)) for name, make in peers.available().items()}
+    makers |= {name: (lambda make=make: make(0)) for name, make in baselines.available().items()}
     times: dict[str, list[NDArray[np.float64]]] = {name: [] for name in makers}
     overlap = {}
     for turn in range(ROUNDS):
@@ -204,7 +204,7 @@ def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
     }
     entries |= {
         name: (partial(peer, 0), pictures, SLOW)
-        for name, peer in peers.available().items()
+        for name, peer in baselines.available().items()
         if name in ("KCF", "CSRT")
     }
     return in_turn(entries, scene.boxes[0])
@@ -262,7 +262,7 @@ def stereo_runs(
     entries[f"{tracker}, reference"] = (partial(make, kernels="reference"), scene.frames[:FEW], 1)
     entries |= {
         name: (partial(peer, 0), scene.frames, SLOW)
-        for name, peer in peers.available().items()
+        for name, peer in baselines.available().items()
         if name in ("KCF", "CSRT")
     }
     return in_turn(entries, scene.boxes[0])

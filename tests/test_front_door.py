@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import tricue
-from tricue.track import create as registry
+from tricue.track.base import registry
 
 ROOT = Path(__file__).parents[1]
 

@@ -1,21 +1,32 @@
 # SPDX-License-Identifier: MIT
-"""The law of the tree: a kernel is header, source, twin, binding, stub, test and benchmark of one name."""
+"""The laws of the tree: where a kernel's parts stand, and which folder may import which."""
 
 import ast
+import re
 from pathlib import Path
 
 import pytest
 from tricue import _core, reference
 
 ROOT = Path(__file__).parents[1]
-TWINS = ROOT / "python" / "tricue" / "reference"
-AREAS = ("camera", "cues", "fuse")
-
-
-def names_under(folder: Path, suffix: str, prefix: str = "") -> list[Path]:
-    """Paths without suffix, relative to the folder, of the files in it that are named like a kernel's."""
-    files = (file for area in AREAS for file in (folder / area).rglob(f"{prefix}*{suffix}"))
-    return sorted(file.relative_to(folder).with_suffix("") for file in files if file.stem != "__init__")
+PACKAGE = ROOT / "python" / "tricue"
+TWINS = PACKAGE / "reference"
+KERNELS = sorted(name for name in dir(_core) if not name.startswith("_"))
+HELPERS = {"base", "detail"}
+"""Folders whose files serve kernels and are none."""
+TRACKERS = {"color_particle", "depth_particle", "flow_depth", "fused", "stereo_head"}
+UPPER = {"track", "evaluation", "papers", "scenes", "draw", "cli"}
+FORBIDDEN = {
+    "camera": UPPER | {"data"},
+    "data": UPPER,
+    "reference": UPPER | {"camera", "data"},
+    "track": UPPER - {"track"} | {"data"},
+    "scenes": UPPER - {"scenes"},
+    "draw": UPPER - {"draw", "track"} | {"data"},
+    "evaluation": {"papers", "scenes", "cli"},
+    "papers": {"cli"},
+}
+"""What of the package a folder may not import: a frame goes camera, data, track, then to those who use it."""
 
 
 def functions(file: Path) -> set[str]:
@@ -23,64 +34,139 @@ def functions(file: Path) -> set[str]:
     return {node.name for node in ast.parse(file.read_text()).body if isinstance(node, ast.FunctionDef)}
 
 
-SOURCES = set(names_under(ROOT / "cpp", ".cpp"))
-# Under camera lie also the types that kernels share, headers without a source.
-KERNELS = [path for path in names_under(ROOT / "cpp", ".hpp") if path.parts[0] != "camera" or path in SOURCES]
-STUB = functions(ROOT / "python" / "tricue" / "_core.pyi")
-
-
-def missing_parts(kernel: Path) -> list[str]:
-    """What the law asks for and the tree lacks."""
-    name, twin = kernel.name, (TWINS / kernel).with_suffix(".py")
-    files = [
-        Path("cpp", kernel).with_suffix(".cpp"),
-        twin.relative_to(ROOT),
-        Path("tests", kernel.parent, f"test_{name}.py"),
-        Path("benchmarks", kernel.parent, f"bench_{name}.py"),
-    ]
-    facts = {
-        f"function {name} in its twin": twin.exists() and name in functions(twin),
-        f"tricue._core.{name}": callable(getattr(_core, name, None)),
-        f"tricue.reference.{name}": name in reference.__all__ and callable(getattr(reference, name, None)),
-        f"{name} in _core.pyi (make stubs)": name in STUB,
+def files_of(folder: Path, suffix: str, prefix: str = "") -> dict[str, Path]:
+    """The places, relative to the folder, of the files in it that are named like a kernel's, by kernel."""
+    found = [file.relative_to(folder) for file in folder.rglob(f"{prefix}*{suffix}")]
+    return {
+        file.stem.removeprefix(prefix): file.parent
+        for file in found
+        if not HELPERS & set(file.parts) and file.stem != "__init__"
     }
-    return [str(f) for f in files if not (ROOT / f).exists()] + [
-        what for what, true in facts.items() if not true
-    ]
 
 
-@pytest.mark.parametrize("kernel", KERNELS, ids=str)
-def test_kernel_is_whole(kernel: Path) -> None:
-    """A kernel's header comes with source, twin, binding, stub, test and benchmark, each of its name."""
-    missing = missing_parts(kernel)
-    assert not missing, f"{kernel} lacks: " + ", ".join(missing)
+HEADERS = files_of(ROOT / "cpp", ".hpp")
+STUB = functions(PACKAGE / "_core.pyi")
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_kernel_is_whole(name: str) -> None:
+    """What is exported has header, source, twin, stub, test and benchmark of its name, in like folders."""
+    place = HEADERS.get(name)
+    assert place is not None, f"{name}: no header in cpp, outside base/ and detail/"
+    twin = TWINS / place / f"{name}.py"
+    parts = {
+        "source": ROOT / "cpp" / place / f"{name}.cpp",
+        "twin": twin,
+        "test": ROOT / "tests" / place / f"test_{name}.py",
+        "benchmark": ROOT / "benchmarks" / place / f"bench_{name}.py",
+    }
+    missing = [f"{part} {file.relative_to(ROOT)}" for part, file in parts.items() if not file.exists()]
+    missing += [f"function {name} in its twin"] * (twin.exists() and name not in functions(twin))
+    missing += ["export of its twin"] * (name not in reference.__all__)
+    missing += ["stub (make stubs)"] * (name not in STUB)
+    assert not missing, f"{name} lacks: " + ", ".join(missing)
 
 
 @pytest.mark.parametrize(
     ("folder", "suffix", "prefix"),
-    [("cpp", ".cpp", ""), ("python/tricue/reference", ".py", ""), ("benchmarks", ".py", "bench_")],
+    [
+        ("cpp", ".hpp", ""),
+        ("cpp", ".cpp", ""),
+        ("python/tricue/reference", ".py", ""),
+        ("benchmarks", ".py", "bench_"),
+    ],
 )
 def test_nothing_is_orphaned(folder: str, suffix: str, prefix: str) -> None:
-    """No source, twin or benchmark is left of a kernel that has no header any more."""
-    found = {
-        path.with_name(path.name.removeprefix(prefix)) for path in names_under(ROOT / folder, suffix, prefix)
-    }
-    assert found <= set(KERNELS), f"without header in cpp: {sorted(found - set(KERNELS))}"
+    """No header, source, twin or benchmark is left of a kernel that isn't exported any more."""
+    found = files_of(ROOT / folder, suffix, prefix)
+    of_kernels = {name for name, place in found.items() if place.parts[:1] != ("track",)}
+    assert of_kernels <= set(KERNELS), f"not exported: {sorted(of_kernels - set(KERNELS))}"
 
 
-def test_everything_bound_is_a_kernel() -> None:
-    """The extension and the twins export kernels only, and both the same."""
-    bound = {name for name in dir(_core) if not name.startswith("_")}
-    assert bound == set(reference.__all__) == {kernel.name for kernel in KERNELS}
+def test_both_sets_of_kernels_are_the_same() -> None:
+    """The extension and the twins export the same names."""
+    assert set(KERNELS) == set(reference.__all__)
 
 
-@pytest.mark.parametrize("twin", names_under(TWINS, ".py"), ids=str)
+def test_helpers_stand_beside_their_users() -> None:
+    """A helper in detail/ serves its own folder; one that several folders include is in base/."""
+    for file in [*(ROOT / "cpp").rglob("*.?pp")]:
+        here = file.relative_to(ROOT / "cpp").parent
+        home = here.parent if here.name == "detail" else here
+        for included in re.findall(r'#include "(.+)/detail/', file.read_text()):
+            assert Path(included) == home, f"{file.relative_to(ROOT)} includes a detail of {included}"
+
+
+@pytest.mark.parametrize("twin", sorted(TWINS.rglob("*.py")), ids=lambda file: file.stem)
 def test_twin_does_without_opencv(twin: Path) -> None:
     """A twin computes by itself what it is the reference of: no cv2, no native kernel."""
-    nodes = list(ast.walk(ast.parse((TWINS / twin).with_suffix(".py").read_text())))
+    nodes = list(ast.walk(ast.parse(twin.read_text())))
     imported = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
     imported |= {node.module for node in nodes if isinstance(node, ast.ImportFrom) and node.module}
-    assert all(name.split(".")[0] in {"numpy", "collections"} or "reference" in name for name in imported)
+    assert all(
+        name.split(".")[0] in {"numpy", "collections", "math", "typing"} or "reference" in name
+        for name in imported
+    )
+
+
+def imports(file: Path) -> set[str]:
+    """The package's own modules that a file of it imports, without "tricue."."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(file.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+    return {name.removeprefix("tricue.") for name in found if name.startswith("tricue.")}
+
+
+MODULES = sorted(PACKAGE.rglob("*.py"))
+
+
+@pytest.mark.parametrize("folder", FORBIDDEN)
+def test_imports_go_one_way(folder: str) -> None:
+    """No folder imports one that uses it: camera and data know no tracker, trackers no evaluation."""
+    wrong = {
+        f"{file.relative_to(PACKAGE)} imports {name}"
+        for file in (PACKAGE / folder).rglob("*.py")
+        for name in imports(file)
+        if name.split(".")[0] in FORBIDDEN[folder]
+    }
+    assert not wrong, sorted(wrong)
+
+
+@pytest.mark.parametrize("tracker", sorted(TRACKERS))
+def test_a_tracker_knows_no_other(tracker: str) -> None:
+    """What two trackers need is in track/base or a folder of its own."""
+    others = {f"track.{other}" for other in TRACKERS - {tracker}}
+    wrong = {
+        f"{file.relative_to(PACKAGE)} imports {name}"
+        for file in (PACKAGE / "track" / tracker).rglob("*.py")
+        for name in imports(file)
+        if ".".join(name.split(".")[:2]) in others
+    }
+    assert not wrong, sorted(wrong)
+
+
+def test_what_trackers_share_knows_none() -> None:
+    """track/base and track/depth_objects import no tracker."""
+    shared = [
+        *(PACKAGE / "track" / "base").rglob("*.py"),
+        *(PACKAGE / "track" / "depth_objects").rglob("*.py"),
+    ]
+    wrong = {
+        f"{file.relative_to(PACKAGE)} imports {name}"
+        for file in shared
+        for name in imports(file)
+        if name.startswith(tuple(f"track.{tracker}" for tracker in TRACKERS))
+    }
+    assert not wrong, sorted(wrong)
+
+
+def test_only_the_command_line_parses_arguments() -> None:
+    """argparse is imported in cli/ alone."""
+    parsers = {file for file in MODULES if re.search(r"(?m)^\s*(import|from) argparse", file.read_text())}
+    assert {file.relative_to(PACKAGE).parts[0] for file in parsers} == {"cli"}
 
 
 def test_files_carry_their_license() -> None:

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 import tricue
-from tricue.evaluation import metrics, peers
+from tricue.evaluation import baselines, metrics
 from tricue.evaluation.one_pass import Contender
 from tricue.scenes import Scene, face_over_clutter
 
 MAKERS: dict[str, Callable[[], Contender]] = {
     "native": lambda: tricue.create("color-particle", seed=0),
     "reference": lambda: tricue.create("color-particle", seed=0, kernels="reference"),
-    **{name: (lambda make=make: make(0)) for name, make in peers.available().items()},
+    **{name: (lambda make=make: make(0)) for name, make in baselines.available().items()},
 }
 
 

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 import tricue
 from tricue.camera.frame import Frame
-from tricue.evaluation import metrics, peers
-from tricue.evaluation.entrants import pictured
+from tricue.evaluation import baselines, metrics
+from tricue.evaluation.tracker_spec import pictured
 from tricue.scenes import DepthScene, walker
 
 SIZES = {"176x144": "tof", "640x480": "rgbd"}
 OURS = {"native": {}, "reference": {"kernels": "reference"}}
-PEERS = {name: make for name, make in peers.available().items() if name in ("KCF", "CSRT")}
+PEERS = {name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT")}
 FRAMES = {"reference": 8}  # of those that take long
 USUAL = 60
 

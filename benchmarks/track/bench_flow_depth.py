@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import tricue
 from tricue.camera.frame import Frame
-from tricue.evaluation import metrics, peers
+from tricue.evaluation import baselines, metrics
 from tricue.scenes import WalkScene, overtaking
 
 SIZES = ("160x120", "640x480")
@@ -19,7 +19,7 @@ OURS: dict[str, dict[str, Any]] = {
     "disparity alone": {"cues": ("disparity",)},
     "reference": {"kernels": "reference"},
 }
-PEERS = {name: make for name, make in peers.available().items() if name in ("KCF", "CSRT", "MedianFlow")}
+PEERS = {name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT", "MedianFlow")}
 FRAMES = {"reference": 5}  # of those that take long
 USUAL = 60
 

@@ -10,13 +10,13 @@ import pytest
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.evaluation import metrics, peers
-from tricue.scenes.everything import Scene, everything
-from tricue.track.track import Status
+from tricue.evaluation import baselines, metrics
+from tricue.scenes.stress_scene import Scene, everything
+from tricue.track.base.track import Status
 
 SEES = ("color", "color and depth", "pair")
 CHANNELS = {"color and depth": "rgbd", "pair": "stereo"}
-PEERS = {name: make for name, make in peers.available().items() if name in ("CSRT", "KCF", "MedianFlow")}
+PEERS = {name: make for name, make in baselines.available().items() if name in ("CSRT", "KCF", "MedianFlow")}
 FRAMES = {"reference": 8}  # of those that take long
 USUAL = 60
 GROUP = "fused, 320x240, one update"

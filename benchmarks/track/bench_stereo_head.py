@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import tricue
 from tricue.camera.frame import Frame
-from tricue.evaluation import metrics, peers
+from tricue.evaluation import baselines, metrics
 from tricue.scenes import StereoScene, head
 
 SIZES = ("160x120", "640x480")
 OURS = {"native": {}, "reference": {"kernels": "reference"}}
-PEERS = {name: make for name, make in peers.available().items() if name in ("KCF", "CSRT")}
+PEERS = {name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT")}
 FRAMES = {"reference": 6}  # of those that take long
 USUAL = 60
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "check.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

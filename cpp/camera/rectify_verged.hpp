@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "camera/image_view.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

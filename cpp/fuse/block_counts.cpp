@@ -7,10 +7,10 @@
 #include <limits>
 #include <string>
 
-#include "check.hpp"
-#include "lanes.hpp"
-#include "rectangle_pixels.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/lanes.hpp"
+#include "base/simd.hpp"
+#include "fuse/detail/rectangle_pixels.hpp"
 
 namespace tricue {
 namespace {

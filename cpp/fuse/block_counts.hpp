@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
-#include "camera/plane_view.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "base/plane_view.hpp"
 
 namespace tricue {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "check.hpp"
-#include "rectangle_pixels.hpp"
+#include "base/check.hpp"
+#include "fuse/detail/rectangle_pixels.hpp"
 
 namespace tricue {
 

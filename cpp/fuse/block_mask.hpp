@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "depth_pixels.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_pixels.hpp"
 
 namespace tricue {
 

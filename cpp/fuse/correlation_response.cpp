@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "correlation_checks.hpp"
-#include "plane_fourier.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
+#include "fuse/detail/correlation_checks.hpp"
+#include "fuse/detail/plane_fourier.hpp"
 
 namespace tricue {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "check.hpp"
-#include "correlation_checks.hpp"
-#include "plane_fourier.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "fuse/detail/correlation_checks.hpp"
+#include "fuse/detail/plane_fourier.hpp"
 
 namespace tricue {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/kalman_predict.hpp"
 
-#include "belief.hpp"
-#include "check.hpp"
+#include "base/check.hpp"
+#include "fuse/detail/gaussian_state.hpp"
 
 namespace tricue {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Cholesky>
 #include <limits>
 
-#include "belief.hpp"
-#include "check.hpp"
+#include "base/check.hpp"
+#include "fuse/detail/gaussian_state.hpp"
 
 namespace tricue {
 namespace {

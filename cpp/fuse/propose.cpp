@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/resample.hpp"
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "camera/arrays.hpp"
+#include "base/arrays.hpp"
 
 namespace tricue {
 

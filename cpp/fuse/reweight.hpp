@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "proposal.hpp"
+#include "base/arrays.hpp"
+#include "fuse/detail/proposal.hpp"
 
 namespace tricue {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/scale_train.hpp"
 
-#include "correlation_checks.hpp"
-#include "scale_fourier.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
+#include "fuse/detail/correlation_checks.hpp"
+#include "fuse/detail/scale_fourier.hpp"
 
 namespace tricue {
 namespace {

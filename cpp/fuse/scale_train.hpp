@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/stack_view.hpp"
+#include "base/arrays.hpp"
+#include "base/stack_view.hpp"
 
 namespace tricue {
 

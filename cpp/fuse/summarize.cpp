@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/summarize.hpp"
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

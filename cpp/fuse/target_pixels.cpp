@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <string>
 
-#include "blocks.hpp"
-#include "check.hpp"
-#include "rectangle_pixels.hpp"
-#include "simd.hpp"
-#include "value_bins.hpp"
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
+#include "fuse/detail/rectangle_pixels.hpp"
+#include "fuse/detail/value_bins.hpp"
 
 namespace tricue {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "camera/arrays.hpp"
-#include "camera/plane_view.hpp"
-#include "camera/rectangle.hpp"
-#include "depth_pixels.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/plane_view.hpp"
+#include "base/rectangle.hpp"
 
 namespace tricue {
 

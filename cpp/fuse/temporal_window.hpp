@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "camera/image_view.hpp"
-#include "camera/region.hpp"
-#include "depth_pixels.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/image_view.hpp"
+#include "base/region.hpp"
 
 namespace tricue {
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "blocks.hpp"
-#include "check.hpp"
-#include "rectangle_pixels.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
+#include "fuse/detail/rectangle_pixels.hpp"
 
 namespace tricue {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
-#include "camera/plane_view.hpp"
-#include "camera/rectangle.hpp"
-#include "value_bins.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "base/plane_view.hpp"
+#include "base/rectangle.hpp"
+#include "fuse/detail/value_bins.hpp"
 
 namespace tricue {
 

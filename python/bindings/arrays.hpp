@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "camera/arrays.hpp"
-#include "camera/depth_view.hpp"
-#include "camera/image_view.hpp"
-#include "camera/sample_view.hpp"
-#include "camera/stack_view.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+#include "base/image_view.hpp"
+#include "base/sample_view.hpp"
+#include "base/stack_view.hpp"
 
 namespace tricue::bindings {
 

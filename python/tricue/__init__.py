@@ -14,9 +14,9 @@ except ImportError as error:
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.track.create import create, tracker_class
-from tricue.track.opencv import as_opencv
-from tricue.track.track import Status, Track
+from tricue.track.base.opencv import as_opencv
+from tricue.track.base.registry import create, tracker_class
+from tricue.track.base.track import Status, Track
 
 if TYPE_CHECKING:
     from tricue.track.color_particle.tracker import ColorParticleTracker

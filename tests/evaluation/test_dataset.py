@@ -7,12 +7,12 @@ import cv2
 import numpy as np
 import pytest
 from tricue.evaluation.dataset import Entry, Reading, find_entries
-from tricue.evaluation.entrants import Entrant, entrants
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
 from tricue.evaluation.rows import judged, row_of
 from tricue.evaluation.tasks import Task, perform
-from tricue.track.track import Status
+from tricue.evaluation.tracker_spec import Entrant, entrants
+from tricue.track.base.track import Status
 
 BOX = "8,6,16,20\n"
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, one_pass, tables
+from tricue.evaluation.baselines import StillBox
 from tricue.evaluation.evaluate import RUNS, Options, evaluate
-from tricue.evaluation.peers import StillBox
 from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, perform
 

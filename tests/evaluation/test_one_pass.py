@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tricue.camera.box import Box
 from tricue.evaluation.one_pass import run
-from tricue.track.track import Status, Track
+from tricue.track.base.track import Status, Track
 
 
 class Scripted:

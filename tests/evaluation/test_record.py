@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
-from tricue.track.track import Status
+from tricue.track.base.track import Status
 
 numbers = st.floats(allow_infinity=False, allow_nan=True, width=64)
 

@@ -4,7 +4,7 @@ import pytest
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics, restarts
-from tricue.track.track import Status, Track
+from tricue.track.base.track import Status, Track
 
 FRAME = Frame(color=np.zeros((50, 50, 3), np.uint8))
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from tricue.evaluation import schedule, tables
 from tricue.evaluation.dataset import Entry
-from tricue.evaluation.entrants import Entrant
 from tricue.evaluation.evaluate import Options, evaluate
 from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task, perform
+from tricue.evaluation.tracker_spec import Entrant
 
 FEW = Options(("color-particle", "still-box"), seeds=4)
 

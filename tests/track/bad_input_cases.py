@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from tricue import Frame, Intrinsics, Status, StereoRig, Track
 from tricue.camera.frame import FrameLike
-from tricue.track.track import Tracker
+from tricue.track.base.track import Tracker
 
 Image = NDArray[np.uint8]
 Depth = NDArray[np.float32]

@@ -8,14 +8,7 @@ from typing import Protocol
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import (
-    Box,
-    ColorParticleTracker,
-    DepthParticleTracker,
-    FlowDepthTracker,
-    StereoHeadTracker,
-    Track,
-)
+from tricue import Box, ColorParticleTracker, DepthParticleTracker, FlowDepthTracker, StereoHeadTracker, Track
 from tricue.camera.frame import FrameLike
 from tricue.scenes import (
     DepthScene,
@@ -30,7 +23,7 @@ from tricue.scenes import (
     walker,
 )
 from tricue.scenes.paste import ellipse_mask, expose, paste
-from tricue.track.depth_particle.objects import SLICES, Objects
+from tricue.track.depth_objects.objects import SLICES, Objects
 
 pytest.register_assert_rewrite("bad_input_cases")  # its asserts tell as much as a test's
 

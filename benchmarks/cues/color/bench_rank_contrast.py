@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 from tricue import _core, reference
-from tricue.track.pattern import grid, ring
+from tricue.track.base.ellipse_pattern import grid, ring
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]

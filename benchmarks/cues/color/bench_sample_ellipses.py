@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
-from tricue.track.pattern import grid
+from tricue.track.base.ellipse_pattern import grid
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]

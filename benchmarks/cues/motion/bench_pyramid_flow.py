@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import _core, reference
-from tricue.evaluation.cues import flow
-from tricue.evaluation.cues.flow import Dense
+
+from benchmarks.quality.cues import flow
+from benchmarks.quality.cues.flow import Dense
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]

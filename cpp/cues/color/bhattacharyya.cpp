@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "check.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "covered_sums.hpp"
+#include "base/check.hpp"
+#include "cues/color/detail/covered_sums.hpp"
 
 namespace tricue {
 namespace {

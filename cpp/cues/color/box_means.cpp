@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "check.hpp"
-#include "covered_sums.hpp"
+#include "base/check.hpp"
+#include "cues/color/detail/covered_sums.hpp"
 
 namespace tricue {
 namespace {

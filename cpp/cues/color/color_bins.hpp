@@ -3,10 +3,10 @@
 
 #include <cstdint>
 
-#include "bins_view.hpp"
-#include "camera/image_view.hpp"
-#include "camera/region.hpp"
-#include "color_space.hpp"
+#include "base/image_view.hpp"
+#include "base/region.hpp"
+#include "cues/color/detail/bins_view.hpp"
+#include "cues/color/detail/color_space.hpp"
 
 namespace tricue {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

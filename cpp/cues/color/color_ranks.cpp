@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/color_ranks.hpp"
 
-#include "check.hpp"
-#include "rank_table.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/detail/rank_table.hpp"
 
 namespace tricue {
 namespace {

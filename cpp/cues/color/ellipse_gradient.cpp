@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "check.hpp"
-#include "ellipse_shape.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/detail/ellipse_shape.hpp"
 
 namespace tricue {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
-#include "search_grid.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "cues/color/detail/search_grid.hpp"
 
 namespace tricue {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ellipse_shape.hpp"
+#include "cues/color/detail/ellipse_shape.hpp"
 
 namespace tricue {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "bins_view.hpp"
-#include "camera/arrays.hpp"
+#include "base/arrays.hpp"
+#include "cues/color/detail/bins_view.hpp"
 
 namespace tricue {
 

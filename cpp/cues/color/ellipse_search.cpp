@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "ellipse_walker.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/detail/ellipse_walker.hpp"
 
 namespace tricue {
 namespace {

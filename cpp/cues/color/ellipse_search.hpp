@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "bins_view.hpp"
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
-#include "search_grid.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "cues/color/detail/bins_view.hpp"
+#include "cues/color/detail/search_grid.hpp"
 
 namespace tricue {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "rimmed_planes.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/detail/rimmed_planes.hpp"
 
 namespace tricue {
 namespace {

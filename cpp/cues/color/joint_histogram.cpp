@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "color_cells.hpp"
+#include "cues/color/detail/color_cells.hpp"
 
 namespace tricue {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/learn_contrast.hpp"
 
-#include "check.hpp"
-#include "color_cells.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/detail/color_cells.hpp"
 #include "cues/color/joint_histogram.hpp"
-#include "simd.hpp"
 
 namespace tricue {
 namespace {

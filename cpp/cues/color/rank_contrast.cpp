@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "check.hpp"
-#include "color_cells.hpp"
-#include "ellipse_sampler.hpp"
-#include "rank_maps.hpp"
+#include "base/check.hpp"
+#include "cues/color/detail/color_cells.hpp"
+#include "cues/color/detail/ellipse_sampler.hpp"
+#include "cues/color/detail/rank_maps.hpp"
 
 namespace tricue {
 namespace {

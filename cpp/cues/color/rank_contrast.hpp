@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

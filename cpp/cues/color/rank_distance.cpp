@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/rank_distance.hpp"
 
-#include "rank_maps.hpp"
+#include "cues/color/detail/rank_maps.hpp"
 
 namespace tricue {
 

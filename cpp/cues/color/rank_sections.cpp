@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

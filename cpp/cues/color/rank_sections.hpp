@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/sample_view.hpp"
+#include "base/arrays.hpp"
+#include "base/sample_view.hpp"
 
 namespace tricue {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/sample_ellipses.hpp"
 
-#include "check.hpp"
-#include "ellipse_sampler.hpp"
+#include "base/check.hpp"
+#include "cues/color/detail/ellipse_sampler.hpp"
 
 namespace tricue {
 

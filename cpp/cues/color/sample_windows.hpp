@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

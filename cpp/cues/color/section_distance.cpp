@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "color_space.hpp"
+#include "base/arrays.hpp"
+#include "cues/color/detail/color_space.hpp"
 
 namespace tricue {
 

@@ -7,10 +7,10 @@
 #include <tuple>
 #include <vector>
 
-#include "check.hpp"
+#include "base/check.hpp"
+#include "base/pixel_runs.hpp"
+#include "base/simd.hpp"
 #include "cues/color/skin_boundary.hpp"
-#include "runs.hpp"
-#include "simd.hpp"
 
 namespace tricue {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks.hpp"
-#include "check.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

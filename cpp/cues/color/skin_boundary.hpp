@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "camera/image_view.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "blocks.hpp"
-#include "check.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

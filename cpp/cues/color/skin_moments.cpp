@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "base/simd.hpp"
 #include "cues/color/skin_boundary.hpp"
-#include "simd.hpp"
 
 namespace tricue {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

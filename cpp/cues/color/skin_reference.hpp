@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/image_view.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "blocks.hpp"
-#include "simd.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "check.hpp"
-#include "depth_pixels.hpp"
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
 
 namespace tricue {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "check.hpp"
+#include "base/check.hpp"
 
 namespace tricue {
 namespace {

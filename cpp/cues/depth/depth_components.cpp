@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "depth_pixels.hpp"
-#include "runs.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/pixel_runs.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "camera/arrays.hpp"
-#include "camera/depth_view.hpp"
-#include "camera/image_view.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "depth_pixels.hpp"
-#include "level_counter.hpp"
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
+#include "cues/depth/detail/level_counter.hpp"
 
 namespace tricue {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/depth_view.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
 #include "cues/depth/depth_distance.hpp"
 
 namespace tricue {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "check.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
+#include "base/arrays.hpp"
 
 namespace tricue {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/depth_distance.hpp"
 
-#include "check.hpp"
-#include "depth_reader.hpp"
-#include "level_counter.hpp"
+#include "base/check.hpp"
+#include "cues/depth/detail/depth_reader.hpp"
+#include "cues/depth/detail/level_counter.hpp"
 
 namespace tricue {
 

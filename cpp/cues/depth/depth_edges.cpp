@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
-#include "blocks.hpp"
-#include "check.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/depth_view.hpp"
-#include "depth_pixels.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/depth_view.hpp"
 
 namespace tricue {
 

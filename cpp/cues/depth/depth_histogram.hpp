@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/depth_view.hpp"
-#include "camera/image_view.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+#include "base/image_view.hpp"
 
 namespace tricue {
 

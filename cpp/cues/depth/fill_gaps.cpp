@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "blocks.hpp"
-#include "check.hpp"
-#include "depth_pixels.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "depth_pixels.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

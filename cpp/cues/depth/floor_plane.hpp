@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "camera/arrays.hpp"
-#include "camera/depth_view.hpp"
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
 
 namespace tricue {
 

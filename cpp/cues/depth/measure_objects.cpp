@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "check.hpp"
-#include "depth_pixels.hpp"
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
 
 namespace tricue {
 namespace {

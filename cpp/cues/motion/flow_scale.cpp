@@ -7,10 +7,10 @@
 #include <limits>
 #include <string>
 
-#include "camera/arrays.hpp"
-#include "check.hpp"
-#include "lanes.hpp"
-#include "simd.hpp"
+#include "base/arrays.hpp"
+#include "base/check.hpp"
+#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

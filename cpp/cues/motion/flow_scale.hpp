@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "camera/plane_view.hpp"
+#include "base/plane_view.hpp"
 
 namespace tricue {
 

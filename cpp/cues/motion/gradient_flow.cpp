@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "flow_constraints.hpp"
-#include "frame_rows.hpp"
-#include "simd.hpp"
+#include "base/simd.hpp"
+#include "cues/motion/detail/flow_constraints.hpp"
+#include "cues/motion/detail/frame_rows.hpp"
 
 namespace tricue {
 namespace {

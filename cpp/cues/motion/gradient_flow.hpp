@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "camera/image_view.hpp"
-#include "camera/region.hpp"
-#include "flow_planes.hpp"
+#include "base/image_view.hpp"
+#include "base/region.hpp"
+#include "cues/motion/detail/flow_planes.hpp"
 
 namespace tricue {
 

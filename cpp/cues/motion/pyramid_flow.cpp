@@ -6,14 +6,14 @@
 #include <limits>
 #include <vector>
 
-#include "check.hpp"
-#include "flow_constraints.hpp"
-#include "flow_field.hpp"
-#include "frame_rows.hpp"
-#include "gray_pyramid.hpp"
-#include "pooled_rows.hpp"
-#include "row_block.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/motion/detail/flow_constraints.hpp"
+#include "cues/motion/detail/flow_field.hpp"
+#include "cues/motion/detail/frame_rows.hpp"
+#include "cues/motion/detail/gray_pyramid.hpp"
+#include "cues/motion/detail/pooled_rows.hpp"
+#include "cues/motion/detail/row_block.hpp"
 
 namespace tricue {
 namespace {

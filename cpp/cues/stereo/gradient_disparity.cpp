@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "check.hpp"
-#include "gradient_level.hpp"
-#include "simd.hpp"
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/stereo/detail/gradient_level.hpp"
 
 namespace tricue {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "camera/arrays.hpp"
-#include "camera/image_view.hpp"
-#include "camera/region.hpp"
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "base/region.hpp"
 
 namespace tricue {
 

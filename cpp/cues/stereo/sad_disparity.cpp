@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "block_matching.hpp"
-#include "camera/ellipse_rows.hpp"
-#include "check.hpp"
-#include "disparity_rows.hpp"
-#include "stereo_rows.hpp"
+#include "base/check.hpp"
+#include "cues/stereo/detail/block_matching.hpp"
+#include "cues/stereo/detail/disparity_rows.hpp"
+#include "cues/stereo/detail/ellipse_rows.hpp"
+#include "cues/stereo/detail/stereo_rows.hpp"
 
 namespace tricue {
 namespace {

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue import toml
+from tricue.camera import toml
 from tricue.camera.numbers import positive
 from tricue.camera.rig import Intrinsics, Path, Size, StereoRig
 

@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue import toml
-from tricue.camera.datasets import find_sequences
-from tricue.camera.intrinsics_files import read_intrinsics, read_rig
-from tricue.camera.layouts import targets
+from tricue.camera import toml
+from tricue.camera.calibration_files import read_intrinsics, read_rig
 from tricue.camera.numbers import positive
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.camera.sources import Source, open_source
-from tricue.camera.streams import Images, Stream, Video
+from tricue.data.datasets import find_sequences
+from tricue.data.layouts import targets
+from tricue.data.open_source import Source, open_source
+from tricue.data.streams import Images, Stream, Video
 
 RATES = {"KITTI tracking": 10.0}
 """Frames a second of the cameras of formats whose files don't tell them (Geiger et al. 2013)."""

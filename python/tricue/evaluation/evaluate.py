@@ -13,13 +13,13 @@ from typing import Any, NamedTuple
 
 from tricue.errors import one_line
 from tricue.evaluation.dataset import Entry, Opened, Reading, find_entries
-from tricue.evaluation.entrants import Entrant, entrants
+from tricue.evaluation.eta import Remaining
 from tricue.evaluation.record import Record
-from tricue.evaluation.remaining import Remaining
 from tricue.evaluation.rows import Judged, Row, Speed, judged, robustness_of, row_of, speed_of
 from tricue.evaluation.schedule import Perform, completed
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
+from tricue.evaluation.tracker_spec import Entrant, entrants
 
 RUNS = "runs"  # the folder of finished runs in an evaluation's
 

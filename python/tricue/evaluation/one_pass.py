@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.track.track import Status, Track
+from tricue.track.base.track import Status, Track
 
 _NOWHERE, _UNKNOWN, _UNSURE = np.full(4, np.nan), np.full(3, np.nan), np.full((3, 3), np.nan)
 _NOTHING = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)

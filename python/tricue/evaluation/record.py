@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.evaluation.one_pass import Run
-from tricue.track.track import Status
+from tricue.track.base.track import Status
 
 FORMAT = 1  # of the file
 

@@ -12,7 +12,7 @@ from tricue.evaluation import confidence, long_term, metrics, restarts
 from tricue.evaluation.dataset import Opened
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
-from tricue.track.track import Status
+from tricue.track.base.track import Status
 
 Array = NDArray[np.float64]
 

@@ -15,11 +15,11 @@ from pathlib import Path
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.camera.prefetch import prefetched
+from tricue.data.prefetch import prefetched
 from tricue.evaluation import one_pass, restarts
 from tricue.evaluation.dataset import Entry, Opened
-from tricue.evaluation.entrants import Entrant, Guarded
 from tricue.evaluation.record import Record
+from tricue.evaluation.tracker_spec import Entrant, Guarded
 
 ONE_PASS, RESTARTS = "one-pass", "restarts"
 _DECIDING = (

@@ -11,7 +11,7 @@ from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
-from tricue.track.pattern import grid
+from tricue.track.base.ellipse_pattern import grid
 
 Floats = NDArray[np.float64]
 

@@ -7,8 +7,8 @@ import sys
 import cv2
 import numpy as np
 import pytest
-from tricue import cli
-from tricue.commands.evaluate import settings_by_tracker
+from tricue.cli import program
+from tricue.cli.evaluate import settings_by_tracker
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Options, evaluate
@@ -132,7 +132,7 @@ def test_the_command_runs_the_same(options):
 
     words = shlex.split(command(options, "a data set/"))
     assert words[:3] == ["tricue", "evaluate", "a data set/"]
-    found = cli.parser().parse_args(words[1:])
+    found = program.parser(words[1]).parse_args(words[1:])
     reading = Reading(found.depth_scale, found.fps, found.unit, found.truth)
     trackers = tuple(found.trackers) if found.trackers else None
     settings = settings_by_tracker(found.set)

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tricue.evaluation import tables
-from tricue.evaluation.entrants import Entrant
-from tricue.evaluation.peers import available
+from tricue.evaluation.baselines import available
 from tricue.evaluation.report import curves, labels, strips
 from tricue.evaluation.report.columns import COLUMNS, best, shown
 from tricue.evaluation.report.looks import looks
@@ -20,8 +19,9 @@ from tricue.evaluation.report.moments import MOST, moments
 from tricue.evaluation.report.plots import Group
 from tricue.evaluation.report.summary import summary_table
 from tricue.evaluation.rows import Judged
-from tricue.track.create import names
-from tricue.track.track import Status
+from tricue.evaluation.tracker_spec import Entrant
+from tricue.track.base.registry import names
+from tricue.track.base.track import Status
 
 NAN = math.nan
 

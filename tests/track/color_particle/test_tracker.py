@@ -11,8 +11,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, ColorParticleTracker, Frame, Status, Track
-from tricue.evaluation import metrics, sequences
+from tricue.evaluation import metrics
 from tricue.scenes import Scene, face_over_clutter, light_change
+
+from benchmarks.quality import sequences
 
 SEEDS = range(4)
 

@@ -4,10 +4,10 @@
 import numpy as np
 import pytest
 from tricue import Intrinsics
+from tricue.track.depth_objects.foreground import numbers
+from tricue.track.depth_objects.metric import box_of
+from tricue.track.depth_objects.objects import SLICES
 from tricue.track.depth_particle.body import PIECE, ROOM, Body, completed, joined
-from tricue.track.depth_particle.foreground import numbers
-from tricue.track.depth_particle.metric import box_of
-from tricue.track.depth_particle.objects import SLICES
 
 CAMERA = numbers(Intrinsics.from_fov(176, 144, 47.5, 39.5))
 EXPECTED = np.array([0.0, 0.0, 3.0, 0.6, 1.8])

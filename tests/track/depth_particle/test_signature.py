@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from tricue.track.depth_particle.objects import SLICES
+from tricue.track.depth_objects.objects import SLICES
 from tricue.track.depth_particle.signature import RATE, Signature
 
 TARGET = [0.0, 0.0, 3.0, 0.6, 1.7]

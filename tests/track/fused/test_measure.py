@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from tricue import Intrinsics
 from tricue import kernels as kernel_sets
+from tricue.track.fused.depth_sources import DepthImage
 from tricue.track.fused.experts.depth import LEAST, NARROW, WIDE, DepthExpert, Measured, measure
-from tricue.track.fused.rangers import DepthImage
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.view import Target
 

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from tricue import Intrinsics, StereoRig
 from tricue import kernels as kernel_sets
+from tricue.track.fused.depth_sources import DepthImage, Pair
 from tricue.track.fused.examine import hidden
 from tricue.track.fused.outline import COVERED, LEAST, MOST, WHOLE, Outline, outline
-from tricue.track.fused.rangers import DepthImage, Pair
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.view import Target, View, look
 

@@ -12,8 +12,8 @@ from tricue.track.fused import search
 from tricue.track.fused.examine import Found
 from tricue.track.fused.experts.depth import Measured
 from tricue.track.fused.identity import Marks, probability
+from tricue.track.fused.localize import Known, Place
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.places import Known, Place
 from tricue.track.fused.search import Lost, anywhere
 from tricue.track.fused.view import Target
 

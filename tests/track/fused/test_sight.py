@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from tricue import Box, Intrinsics
 from tricue import kernels as kernel_sets
+from tricue.track.fused.depth_sources import DepthImage
 from tricue.track.fused.experts import posterior
-from tricue.track.fused.rangers import DepthImage
 from tricue.track.fused.sight import RELIEF, Expected, Sight, shades
 from tricue.track.fused.view import PIXELS, Target, View, look
 

@@ -4,14 +4,7 @@
 import numpy as np
 import pytest
 from tricue import StereoHeadTracker
-from tricue.track.stereo_head.search import (
-    LEAST,
-    best_place,
-    first_histogram,
-    histogram_of,
-    in_places,
-    score,
-)
+from tricue.track.stereo_head.search import LEAST, best_place, first_histogram, histogram_of, in_places, score
 from tricue.track.stereo_head.view import View
 
 Params = StereoHeadTracker.Params

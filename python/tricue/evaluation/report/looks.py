@@ -8,8 +8,8 @@ darkened, and a violet and a gray for yellow.
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from tricue.evaluation.entrants import Entrant
 from tricue.evaluation.report.markup import Html, tag
+from tricue.evaluation.tracker_spec import Entrant
 
 _OURS = ("#0072B2", "#D55E00", "#009E73", "#C2649A", "#000000")
 _PEERS = ("#5E3C99", "#B07800", "#2F97D4", "#767676")

@@ -8,7 +8,7 @@ from typing import Any
 
 from tricue.evaluation.evaluate import Evaluation, Options
 from tricue.evaluation.report.markup import Html, joined, scrolled, tag
-from tricue.track.create import tracker_class
+from tricue.track.base.registry import tracker_class
 
 _VERSIONS = ("tricue", "opencv", "numpy", "python", "machine")
 _READING = {"depth_scale": "--depth-scale", "fps": "--fps", "unit": "--unit", "truth": "--truth"}

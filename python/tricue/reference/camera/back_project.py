@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_covariance, require_finite, require_shape
+from tricue.reference.base.checks import refuse, require_covariance, require_finite, require_shape
 
 Floats = NDArray[np.float64]
 

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]

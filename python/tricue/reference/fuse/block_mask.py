@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_shape
-from tricue.reference.rectangle_pixels import rectangle_pixels
+from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.fuse.detail.rectangle_pixels import rectangle_pixels
 
 
 def block_mask(blocks: NDArray[np.float64], height: int, width: int) -> NDArray[np.uint8]:

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
 from tricue.reference.fuse.correlation_response import Complexes, Floats, require_filter
 
 

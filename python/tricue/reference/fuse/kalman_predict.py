@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.belief import require_belief, symmetric
-from tricue.reference.checks import require_covariance, require_finite, require_shape
+from tricue.reference.base.checks import require_covariance, require_finite, require_shape
+from tricue.reference.fuse.detail.gaussian_state import require_belief, symmetric
 
 Floats = NDArray[np.float64]
 

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference import checks
+from tricue.reference.base import checks
 
 
 def propose(

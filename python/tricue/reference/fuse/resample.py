@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_weights
+from tricue.reference.base.checks import refuse, require_weights
 
 
 def resample(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:

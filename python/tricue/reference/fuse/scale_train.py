@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
 from tricue.reference.fuse.correlation_train import require_rate
 from tricue.reference.fuse.scale_response import Complexes, Floats, require_scale_filter
 

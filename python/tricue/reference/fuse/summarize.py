@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import require_finite, require_shape, require_weights
+from tricue.reference.base.checks import require_finite, require_shape, require_weights
 
 
 def summarize(

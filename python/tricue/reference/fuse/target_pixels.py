@@ -6,9 +6,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_shape
-from tricue.reference.rectangle_pixels import Rectangle, rectangle_pixels, require_finite_corners
-from tricue.reference.value_bins import require_range, value_bins
+from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, rectangle_pixels, require_finite_corners
+from tricue.reference.fuse.detail.value_bins import require_range, value_bins
 
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
-from tricue.reference.rectangle_pixels import Rectangle, rectangle_pixels
-from tricue.reference.value_bins import require_range, value_bins
+from tricue.reference.base.checks import refuse
+from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, rectangle_pixels
+from tricue.reference.fuse.detail.value_bins import require_range, value_bins
 
 Plane = NDArray[np.float32]
 

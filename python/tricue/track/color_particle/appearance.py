@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.ellipse_pattern import grid, ring
 from tricue.track.color_particle.contrast import ColorContrast
 from tricue.track.color_particle.observation import RankSpatial, observation
 from tricue.track.color_particle.params import ColorParticleParams
-from tricue.track.pattern import grid, ring
 
 Floats = NDArray[Any]
 Image = NDArray[np.uint8]

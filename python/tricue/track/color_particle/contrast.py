@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.pattern import ring
+from tricue.track.base.ellipse_pattern import ring
 
 Samples = NDArray[np.uint8]
 Ellipses = NDArray[np.float64]

@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.prediction import Prediction
+from tricue.track.color_particle.motion import Ellipse, Motion
 from tricue.track.color_particle.params import ColorParticleParams
-from tricue.track.motion import Ellipse, Motion, Prediction
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]

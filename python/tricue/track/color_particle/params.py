@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from tricue.track.params import Params, parameter
+from tricue.track.base.params import Params, parameter
 
 OURS = "our experiment: benchmarks/README.md"
 Observation = Literal["region", "gaussian", "lookup", "histogram", "rank-sections", "rank-spatial"]

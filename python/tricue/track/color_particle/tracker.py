@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
-from tricue.track import lifecycle
+from tricue.track.base import validation
+from tricue.track.base.prediction import Prediction
+from tricue.track.base.track import Status, Track
 from tricue.track.color_particle.appearance import Appearance, Look
 from tricue.track.color_particle.detection import NOTHING, Detection, candidates, detect, reference_color
+from tricue.track.color_particle.motion import STILL, Motion, size_mixing
 from tricue.track.color_particle.params import ColorParticleParams
-from tricue.track.motion import STILL, Motion, Prediction, size_mixing
-from tricue.track.track import Status, Track
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -79,8 +80,8 @@ class ColorParticleTracker:
         params: ColorParticleParams | None = None,
         **parameters: Any,
     ) -> None:
-        self.params = lifecycle.parameters(ColorParticleParams, params, parameters)
-        self.seed = lifecycle.seed(seed)
+        self.params = validation.parameters(ColorParticleParams, params, parameters)
+        self.seed = validation.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._rng = np.random.default_rng(seed)
@@ -98,12 +99,12 @@ class ColorParticleTracker:
 
         The box may reach over the image's edge. ValueError without one, or where no part of it is inside.
         """
-        image = lifecycle.color_image(frame)
+        image = validation.color_image(frame)
         if box is None:
             raise ValueError(
                 "box: expected (x, y, width, height); the color particle tracker can't start without one"
             )
-        k, ellipse = self._k, lifecycle.box_in(as_box(box), image.shape).ellipse
+        k, ellipse = self._k, validation.box_in(as_box(box), image.shape).ellipse
         self._rng = np.random.default_rng(self.seed)
         appearance, window = Appearance(self.params), np.array([ellipse])
         look = appearance.look(k, image, window)
@@ -128,8 +129,8 @@ class ColorParticleTracker:
 
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
-        state = lifecycle.started(self._state)
-        image = lifecycle.color_image(frame, state.shape)
+        state = validation.started(self._state)
+        image = validation.color_image(frame, state.shape)
         if state.missed < self.params.lost_after:
             self._follow(state, image)
         else:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.depth_particle.objects import Objects
+from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.signature import Signature
 
 Floats = NDArray[np.float64]

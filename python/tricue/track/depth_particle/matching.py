@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.body import completed
-from tricue.track.depth_particle.objects import Objects
 from tricue.track.depth_particle.signature import Signature
 from tricue.track.depth_particle.walk import Walk
 

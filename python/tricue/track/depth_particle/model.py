@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.depth_particle.foreground import Foreground
-from tricue.track.depth_particle.metric import rectangle_of
+from tricue.track.base.ellipse_pattern import grid
+from tricue.track.depth_objects.foreground import Foreground
+from tricue.track.depth_objects.metric import rectangle_of
 from tricue.track.depth_particle.params import DepthParticleParams
-from tricue.track.pattern import grid
 
 Floats = NDArray[np.float64]
 

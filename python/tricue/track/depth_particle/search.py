@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Which of a frame's objects is the target: where it is expected, or, once it is lost, anywhere."""
 
+from tricue.track.base.prediction import Prediction
+from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.body import joined
 from tricue.track.depth_particle.matching import WORST, WORST_AGAIN, Found, best_match, same, without
-from tricue.track.depth_particle.objects import Objects
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.state import State
 from tricue.track.depth_particle.walk import LONG
-from tricue.track.motion import Prediction
 
 ANYWHERE = 10.0  # seconds; a lost target is looked for as far as it can have gone in that time
 

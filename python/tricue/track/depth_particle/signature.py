@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.depth_particle.objects import SLICES, Objects
+from tricue.track.depth_objects.objects import SLICES, Objects
 
 Floats = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.model import DepthModel
-from tricue.track.depth_particle.objects import Objects
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
 from tricue.track.depth_particle.walk import Walk

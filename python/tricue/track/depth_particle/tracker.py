@@ -11,19 +11,19 @@ from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
-from tricue.track import lifecycle
-from tricue.track.depth_particle.foreground import NO_FLOOR, Foreground, foreground, numbers
+from tricue.track.base import validation
+from tricue.track.base.prediction import Prediction
+from tricue.track.base.track import Status, Track
+from tricue.track.depth_objects.foreground import NO_FLOOR, Foreground, foreground, numbers
+from tricue.track.depth_objects.metric import box_of, rectangle_of
+from tricue.track.depth_objects.objects import segment
+from tricue.track.depth_particle.initialize import in_box, somebody
 from tricue.track.depth_particle.matching import Found, cover
-from tricue.track.depth_particle.metric import box_of, rectangle_of
 from tricue.track.depth_particle.model import NOT_MEASURED, SHARP, SIZE_TRUST, DepthModel, Measured, Seen
-from tricue.track.depth_particle.objects import segment
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
-from tricue.track.depth_particle.start import in_box, somebody
 from tricue.track.depth_particle.state import State, Swarm
 from tricue.track.depth_particle.walk import Walk
-from tricue.track.motion import Prediction
-from tricue.track.track import Status, Track
 
 Floats = NDArray[np.float64]
 
@@ -66,9 +66,9 @@ class DepthParticleTracker:
         params: DepthParticleParams | None = None,
         **parameters: Any,
     ) -> None:
-        self.params = lifecycle.parameters(DepthParticleParams, params, parameters)
-        self.intrinsics = lifecycle.intrinsics(intrinsics)
-        self.seed = lifecycle.seed(seed)
+        self.params = validation.parameters(DepthParticleParams, params, parameters)
+        self.intrinsics = validation.intrinsics(intrinsics)
+        self.seed = validation.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._rng = np.random.default_rng(seed)
@@ -95,15 +95,15 @@ class DepthParticleTracker:
         ValueError where no part of the box is inside or nothing in it has a depth in range, and, without a
         box, where nobody is found.
         """
-        depth, timestamp = lifecycle.depth_image(frame)
-        camera = numbers(lifecycle.camera_for(self.intrinsics, depth.shape))
+        depth, timestamp = validation.depth_image(frame)
+        camera = numbers(validation.camera_for(self.intrinsics, depth.shape))
         rng = np.random.default_rng(self.seed)
         fg, plane = foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
         objects = segment(self._k, fg, plane, self.params)
         if box is None:
             target = somebody(objects, self.params)
         else:
-            target = in_box(lifecycle.box_in(as_box(box), depth.shape), objects, fg, self.params)
+            target = in_box(validation.box_in(as_box(box), depth.shape), objects, fg, self.params)
         model = DepthModel.empty(self.params).learnt(self._k, fg, target.state, 1.0)
         seen = model.look(self._k, fg, target.state[None])
         self._rng = rng
@@ -129,12 +129,12 @@ class DepthParticleTracker:
         Frames' timestamps tell the time between them, ``rate`` where there are none. RuntimeError before
         ``init``. An error leaves the tracker as it was.
         """
-        before = lifecycle.started(self._state)
-        depth, timestamp = lifecycle.depth_image(frame, before.shape)
+        before = validation.started(self._state)
+        depth, timestamp = validation.depth_image(frame, before.shape)
         random = self._rng.bit_generator.state
         state = replace(before, timestamp=timestamp)
         try:
-            self._follow(state, depth, lifecycle.elapsed(before.timestamp, timestamp, self.params.rate))
+            self._follow(state, depth, validation.elapsed(before.timestamp, timestamp, self.params.rate))
         except BaseException:
             self._rng.bit_generator.state = random
             raise

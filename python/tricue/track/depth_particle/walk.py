@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.base.prediction import Prediction
 from tricue.track.depth_particle.params import DepthParticleParams
-from tricue.track.motion import Prediction
 
 Floats = NDArray[np.float64]
 

@@ -6,10 +6,10 @@ outline.
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import NOT_TARGET, OCCLUDED, TARGET
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.judge import Judged, alike, own_places
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, moved
 from tricue.track.flow_depth.state import FollowState, Velocity
+from tricue.track.flow_depth.verify import Judged, alike, own_places
 
 YOUNG, HALF = 12, 0.5  # frames learnt, before which it is also learnt while less is hidden
 OUTLINE_FREE, USUAL_FREE = 0.05, 0.15  # of the blocks occluded, up to which these are learnt

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.base.track import Status
 from tricue.track.flow_depth.blocks import Blocks
 from tricue.track.flow_depth.model import Model
 from tricue.track.flow_depth.outline import Outline
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, Region
 from tricue.track.flow_depth.view import Lens, View
-from tricue.track.track import Status
 
 Velocity = tuple[float, float]
 

@@ -14,19 +14,19 @@ from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import Frame, FrameLike
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
-from tricue.track import lifecycle
+from tricue.track.base import validation
+from tricue.track.base.track import Track
 from tricue.track.flow_depth.blocks import OCCLUDED, TARGET
 from tricue.track.flow_depth.cues import Cues, measure
-from tricue.track.flow_depth.judge import candidate, judge
+from tricue.track.flow_depth.initialize import begin
 from tricue.track.flow_depth.learn import accept
+from tricue.track.flow_depth.masks import blocks_of, mask_of
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.position import located
 from tricue.track.flow_depth.rectangles import moved, places_of
-from tricue.track.flow_depth.shown import blocks_of, mask_of
-from tricue.track.flow_depth.start import begin
 from tricue.track.flow_depth.state import FollowState
+from tricue.track.flow_depth.verify import candidate, judge
 from tricue.track.flow_depth.view import Lens, view_of
-from tricue.track.track import Track
 
 SMALLEST = 4  # places, of the region that is measured
 HALF = 0.5  # of the blocks: what isn't seen is hidden
@@ -61,9 +61,9 @@ class FlowDepthTracker:
         kernels: kernel_sets.Name = "native",
         **values: Any,
     ) -> None:
-        self.params = lifecycle.parameters(FlowDepthParams, params, values)
-        self.rig, self.intrinsics = lifecycle.cameras(rig, intrinsics)
-        self.seed = lifecycle.seed(seed)
+        self.params = validation.parameters(FlowDepthParams, params, values)
+        self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
+        self.seed = validation.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._state: FollowState | None = None
@@ -75,10 +75,10 @@ class FlowDepthTracker:
         nothing in it has a disparity or depth in common. UserWarning where left and right seem to be swapped,
         or not rectified.
         """
-        checked = lifecycle.moving(frame, self.params.cues)
+        checked = validation.moving(frame, self.params.cues)
         if box is None:
             raise ValueError("box: expected (x, y, width, height): this tracker finds nobody by itself")
-        target = lifecycle.box_in(as_box(box), checked.image.shape)
+        target = validation.box_in(as_box(box), checked.image.shape)
         if "disparity" in self.params.cues and checked.frame.right is not None and not self.params.vergence:
             warn_of_stereo(checked.frame)  # of a verged pair the right image is turned back first
         lens = self._lens(checked.image.shape, checked.frame)
@@ -91,10 +91,10 @@ class FlowDepthTracker:
         Frames' timestamps tell how long it wasn't seen, ``rate`` where there are none. RuntimeError before
         ``init``. An error leaves the tracker as it was.
         """
-        before = lifecycle.started(self._state)
-        checked = lifecycle.moving(frame, self.params.cues, before.shape)
+        before = validation.started(self._state)
+        checked = validation.moving(frame, self.params.cues, before.shape)
         view = view_of(self._k, checked.frame, before.lens, self.params)
-        seconds = lifecycle.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
+        seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
         state = replace(_ahead(before), timestamp=checked.frame.timestamp)
         region = places_of(candidate(state, self.params), view.gray.shape)
         if min(region[2] - region[0], region[3] - region[1]) < SMALLEST:
@@ -140,9 +140,9 @@ class FlowDepthTracker:
 
     def _lens(self, shape: tuple[int, ...], frame: Frame) -> Lens:
         if frame.right is not None or self.rig is not None:
-            return Lens.of(lifecycle.rig_for(self.rig, shape), self.params.vergence)
-        camera = lifecycle.camera_for(self.intrinsics, shape)
-        return Lens.of(StereoRig(camera, lifecycle.USUAL_BASELINE), 0.0)
+            return Lens.of(validation.rig_for(self.rig, shape), self.params.vergence)
+        camera = validation.camera_for(self.intrinsics, shape)
+        return Lens.of(StereoRig(camera, validation.USUAL_BASELINE), 0.0)
 
     def _keep(self, state: FollowState) -> Track:
         """The track of a state, which is kept only if there is one."""

@@ -8,8 +8,8 @@ from tricue.track.fused.experts.depth import Measured, measure
 from tricue.track.fused.experts.flow import Glance, growth
 from tricue.track.fused.experts.size import Looks
 from tricue.track.fused.identity import Marks, probability
+from tricue.track.fused.localize import Known, Place, closer, peak
 from tricue.track.fused.outline import Outline, outline
-from tricue.track.fused.places import Known, Place, closer, peak
 from tricue.track.fused.sight import Sight
 from tricue.track.fused.view import PIXELS, Target, View
 

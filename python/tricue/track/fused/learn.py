@@ -14,9 +14,9 @@ from tricue.track.fused.experts.depth import DepthExpert, Measured, measure
 from tricue.track.fused.experts.filter import FilterExpert
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.identity import Identity
+from tricue.track.fused.localize import Known, best_place
+from tricue.track.fused.observation import Seen
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.places import Known, best_place
-from tricue.track.fused.reading import Seen
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.space import Space, locate
 from tricue.track.fused.state import Models, State

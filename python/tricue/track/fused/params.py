@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from tricue.track.params import Params, parameter
+from tricue.track.base.params import Params, parameter
 
 FAST = "our experiment on sparse and shaken frames"
 OURS = "our prototype, or a choice not yet compared with others"

@@ -6,18 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.depth_particle.foreground import NO_FLOOR, foreground, numbers
-from tricue.track.depth_particle.objects import segment
-from tricue.track.depth_particle.params import DepthParticleParams
+from tricue.track.depth_objects.foreground import NO_FLOOR, foreground, numbers
+from tricue.track.depth_objects.objects import segment
+from tricue.track.depth_objects.params import SegmentationParams
 from tricue.track.fused.examine import Found, continuous, examine, hidden
 from tricue.track.fused.experts.depth import measure
+from tricue.track.fused.localize import Known, Place, best_place
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.places import Known, Place, best_place
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.space import Space, locate
 from tricue.track.fused.view import CELLS, Target, View, look
 
-SEGMENTS = DepthParticleParams()
+SEGMENTS = SegmentationParams()
 AROUND = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
 DETAIL = 8  # samples a side of the target, where the whole frame is searched by color
 MOST_SAMPLES = 256  # a side of the frame

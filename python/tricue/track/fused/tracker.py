@@ -11,19 +11,19 @@ from tricue.camera.box import BoxLike, as_box
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
-from tricue.track import lifecycle
+from tricue.track.base import validation
+from tricue.track.base.track import Status, Track
 from tricue.track.fused import learn
+from tricue.track.fused.depth_sources import Pair
 from tricue.track.fused.examine import Found
-from tricue.track.fused.judge import judged
+from tricue.track.fused.localize import Known
+from tricue.track.fused.observation import Seen, read
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.places import Known
-from tricue.track.fused.rangers import Pair
-from tricue.track.fused.reading import Seen, read
 from tricue.track.fused.search import Lost, anywhere, near
 from tricue.track.fused.sight import Expected, Sight
 from tricue.track.fused.state import State
+from tricue.track.fused.verify import judged
 from tricue.track.fused.view import Target
-from tricue.track.track import Status, Track
 
 UNSURE = 3.0  # metres, at most, of the depth that is expected
 
@@ -58,9 +58,9 @@ class FusedTracker:
         kernels: kernel_sets.Name = "native",
         **values: Any,
     ) -> None:
-        self.params = lifecycle.parameters(FusedParams, params, values)
-        self.rig, self.intrinsics = lifecycle.cameras(rig, intrinsics)
-        self.seed = lifecycle.seed(seed)
+        self.params = validation.parameters(FusedParams, params, values)
+        self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
+        self.seed = validation.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._state: State | None = None
@@ -73,7 +73,7 @@ class FusedTracker:
         seen = self._read(frame, None)
         if box is None:
             raise ValueError("box: expected (x, y, width, height), got None; this tracker needs to be told")
-        target = Target.of(lifecycle.box_in(as_box(box), seen.shape))
+        target = Target.of(validation.box_in(as_box(box), seen.shape))
         if isinstance(seen.ranger, Pair):
             warn_of_stereo(as_frame(frame))
         self._state = learn.begin(self._k, seen, target, self.params)
@@ -85,7 +85,7 @@ class FusedTracker:
         Timestamps tell the 3-D filter how long it was, ``rate`` where there are none. RuntimeError before
         ``init``. An error leaves the tracker as it was.
         """
-        before = lifecycle.started(self._state)
+        before = validation.started(self._state)
         seen = self._read(frame, before.shape)
         state = learn.located(self._ahead(before, seen), seen, self._k, self.params)
         sight = seen.sight(self._k, _expected(state), state.target.around)
@@ -100,7 +100,7 @@ class FusedTracker:
 
     def _ahead(self, state: State, seen: Seen) -> State:
         """The state when this frame was taken."""
-        seconds = lifecycle.elapsed(state.timestamp, seen.timestamp, self.params.rate)
+        seconds = validation.elapsed(state.timestamp, seen.timestamp, self.params.rate)
         space = state.space
         if space is not None:
             space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)

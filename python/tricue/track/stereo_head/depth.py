@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.stereo_head.eyes import Eyes
 from tricue.track.stereo_head.params import StereoHeadParams
+from tricue.track.stereo_head.stereo_geometry import Eyes
 from tricue.track.stereo_head.view import NO_CHECK, Ellipse, Pair
 
 Singles = NDArray[np.float32]

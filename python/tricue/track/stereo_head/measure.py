@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.depth import Depth, depth_of, span_round
-from tricue.track.stereo_head.eyes import Eyes
 from tricue.track.stereo_head.filter import INTERSECTION_NOISE, MEASURED
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.search import Place, best_place, first_histogram, histogram_of
+from tricue.track.stereo_head.stereo_geometry import Eyes
 from tricue.track.stereo_head.view import Ellipse, Pair, look
 
 Floats = NDArray[np.float64]

@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from tricue.track.params import Params, parameter
+from tricue.track.base.params import Params, parameter
 
 MOST_BINS = 65535  # that 16 bits number
 OURS = "our experiment: benchmarks/README.md"

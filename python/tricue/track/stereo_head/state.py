@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.stereo_head.eyes import Eyes
 from tricue.track.stereo_head.filter import HeadFilter
 from tricue.track.stereo_head.params import StereoHeadParams
+from tricue.track.stereo_head.stereo_geometry import Eyes
 
 Floats = NDArray[np.float64]
 

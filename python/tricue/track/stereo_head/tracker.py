@@ -9,18 +9,18 @@ from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
-from tricue.track import lifecycle
-from tricue.track.faces import find_face
+from tricue.track.base import validation
+from tricue.track.base.face_detection import find_face
+from tricue.track.base.track import Status, Track
 from tricue.track.stereo_head import filter as head_filter
 from tricue.track.stereo_head.depth import first_depth, span_between
-from tricue.track.stereo_head.eyes import Eyes
 from tricue.track.stereo_head.filter import HeadFilter
-from tricue.track.stereo_head.lost import Head, find_again
 from tricue.track.stereo_head.measure import Measured, measure
 from tricue.track.stereo_head.params import StereoHeadParams
+from tricue.track.stereo_head.search_frame import Head, find_again
 from tricue.track.stereo_head.state import HeadState
+from tricue.track.stereo_head.stereo_geometry import Eyes
 from tricue.track.stereo_head.view import Image, Pair, light_of
-from tricue.track.track import Status, Track
 
 ASIDE = 0.3  # metres, from where it was last seen, of a head that was just missed
 SOLID = 0.3  # of a head at its disparity; what is farther than `far` has chance matches
@@ -56,9 +56,9 @@ class StereoHeadTracker:
         params: StereoHeadParams | None = None,
         **parameters: Any,
     ) -> None:
-        self.params = lifecycle.parameters(StereoHeadParams, params, parameters)
-        self.rig = lifecycle.rig(rig)
-        self.seed = lifecycle.seed(seed)
+        self.params = validation.parameters(StereoHeadParams, params, parameters)
+        self.rig = validation.rig(rig)
+        self.seed = validation.seed(seed)
         self.kernels = kernels
         self._k = kernel_sets.load(kernels)
         self._state: HeadState | None = None
@@ -71,9 +71,9 @@ class StereoHeadTracker:
         far, and, without a box, where no face is found. Warns (UserWarning) of a pair that isn't rectified,
         or whose images are swapped, as far as that is seen.
         """
-        left, right, timestamp = lifecycle.stereo_pair(frame)
-        eyes = Eyes.of(lifecycle.rig_for(self.rig, left.shape))
-        head = lifecycle.box_in(_face(left) if box is None else as_box(box), left.shape)
+        left, right, timestamp = validation.stereo_pair(frame)
+        eyes = Eyes.of(validation.rig_for(self.rig, left.shape))
+        head = validation.box_in(_face(left) if box is None else as_box(box), left.shape)
         if max(head.width, head.height) > LARGEST:
             raise ValueError(f"box: expected a head of at most {LARGEST} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
@@ -103,10 +103,10 @@ class StereoHeadTracker:
         Frames' timestamps tell the time between them, ``rate`` where there are none. RuntimeError before
         ``init``. An error leaves the tracker as it was.
         """
-        before = lifecycle.started(self._state)
-        left, right, timestamp = lifecycle.stereo_pair(frame, before.shape)
+        before = validation.started(self._state)
+        left, right, timestamp = validation.stereo_pair(frame, before.shape)
         state = replace(before, timestamp=timestamp)
-        seconds = lifecycle.elapsed(before.timestamp, timestamp, self.params.rate)
+        seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._follow(state, Pair.of(left, right, state.light, self.params), seconds)
         self._state = state
         return self._track(state)

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_finite
+from tricue.reference.base.checks import refuse, require_finite
 from tricue.reference.cues.color.box_means import covered
 
 Plane = NDArray[np.float32]

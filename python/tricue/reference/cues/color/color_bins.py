@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
-from tricue.reference.color_space import indices, require_space
+from tricue.reference.base.checks import refuse
+from tricue.reference.cues.color.detail.color_space import indices, require_space
 
 NO_BIN = 65535
 

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import Floats, refuse, require_finite, require_shape
-from tricue.reference.ellipse_shape import require_ellipses
-from tricue.reference.search_grid import Grid, places, require_grid
+from tricue.reference.base.checks import Floats, refuse, require_finite, require_shape
+from tricue.reference.cues.color.detail.ellipse_shape import require_ellipses
+from tricue.reference.cues.color.detail.search_grid import Grid, places, require_grid
 
 
 def ellipse_gradient(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.ellipse_shape import count, masks_of, require_bins, require_ellipses
+from tricue.reference.cues.color.detail.ellipse_shape import count, masks_of, require_bins, require_ellipses
 
 Counts = NDArray[np.int32]
 

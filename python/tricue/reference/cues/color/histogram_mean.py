@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.color_space import mean_color, require_histogram
+from tricue.reference.cues.color.detail.color_space import mean_color, require_histogram
 
 
 def histogram_mean(

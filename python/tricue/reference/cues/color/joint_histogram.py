@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
 
 
 def joint_histogram(samples: NDArray[np.uint8], bins: int) -> NDArray[np.float32]:

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses

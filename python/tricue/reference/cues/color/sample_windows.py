@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_finite, require_shape
+from tricue.reference.base.checks import refuse, require_finite, require_shape
 
 UNIT = 64  # parts of a pixel that places are rounded to: sums of integers have the same bits in any order
 MOST_READINGS = 4  # of a sample along each axis; beyond that it skips pixels, so that its cost is bounded

@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import require_finite, require_shape
-from tricue.reference.color_space import axes, mean_color, require_histogram
+from tricue.reference.base.checks import require_finite, require_shape
+from tricue.reference.cues.color.detail.color_space import axes, mean_color, require_histogram
 
 Floats = NDArray[np.float64]
 

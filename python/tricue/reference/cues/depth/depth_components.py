@@ -6,8 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
-from tricue.reference.depth_pixels import has_depth
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.depth_pixels import has_depth
 
 Labels = NDArray[np.uint8]
 Depth = NDArray[np.float32]

@@ -4,9 +4,9 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse, require_finite, require_shape
+from tricue.reference.base.checks import refuse, require_finite, require_shape
+from tricue.reference.base.depth_pixels import require_camera
 from tricue.reference.cues.depth.depth_distance import depth_distance
-from tricue.reference.depth_pixels import require_camera
 
 Floats = NDArray[np.float64]
 

@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
-from tricue.reference.depth_pixels import has_depth, require_mask
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.depth_pixels import has_depth, require_mask
 
 
 def depth_histogram(

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
 
 Depth = NDArray[np.float32]
 CLUTTER = 0.1  # the likelihood of any depth where the target isn't; the target's is 1 at the expected one

@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
-from tricue.reference.depth_pixels import has_depth
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.depth_pixels import has_depth
 
 NEIGHBOURS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
 SMALL = 3  # pixels

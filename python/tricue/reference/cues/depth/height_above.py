@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import require_finite, require_shape
-from tricue.reference.depth_pixels import has_depth, rays
+from tricue.reference.base.checks import require_finite, require_shape
+from tricue.reference.base.depth_pixels import has_depth, rays
 
 
 def height_above(

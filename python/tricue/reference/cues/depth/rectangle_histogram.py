@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference import depth_reader
-from tricue.reference.checks import refuse, require_finite, require_shape
+from tricue.reference.base.checks import refuse, require_finite, require_shape
+from tricue.reference.cues.depth.detail import depth_reader
 
 Floats = NDArray[np.float64]
 

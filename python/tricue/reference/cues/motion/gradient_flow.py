@@ -4,8 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
-from tricue.reference.gaussian import correlate, gaussian_taps, require_sigma
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.gaussian import correlate, gaussian_taps, require_sigma
 
 Image = NDArray[np.uint8]
 Plane = NDArray[np.float32]

@@ -4,7 +4,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.checks import refuse
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.gaussian import correlate, reach, require_sigma
 from tricue.reference.cues.motion.gradient_flow import (
     ROUNDING,
     Floats,
@@ -15,7 +16,6 @@ from tricue.reference.cues.motion.gradient_flow import (
     require_frames,
     require_reliabilities,
 )
-from tricue.reference.gaussian import correlate, reach, require_sigma
 
 Ints = NDArray[np.int64]
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "base/check.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <stdexcept>
+
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+TRICUE_MULTIVERSION bool all_finite(const double* values, Eigen::Index count) {
+    long long strange = 0;
+    for (Eigen::Index i = 0; i < count; ++i)
+        strange += !(std::abs(values[i]) <= std::numeric_limits<double>::max());
+    return strange == 0;
+}
+
+void require_finite(const double* values, Eigen::Index count, const char* name) {
+    if (all_finite(values, count)) return;
+    while (std::isfinite(*values)) ++values;
+    refuse(name, "finite numbers", *values);
+}
+
+std::string shape(Eigen::Index rows, Eigen::Index cols) {
+    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+}
+
+}  // namespace
+
+void refuse(const char* name, const std::string& expected, const std::string& got) {
+    throw std::invalid_argument(std::string(name) + ": expected " + expected + ", got " + got);
+}
+
+void refuse(const char* name, const std::string& expected, double got) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", got);
+    refuse(name, expected, std::string(text));
+}
+
+void require_share(double share) {
+    if (!(share >= 0.0 && share < 1.0)) refuse("share", "a number in [0, 1)", share);
+}
+
+void require_size(VectorRef values, Eigen::Index size, const char* name) {
+    if (values.size() != size)
+        refuse(name, "shape (" + std::to_string(size) + ",)", "(" + std::to_string(values.size()) + ",)");
+}
+
+void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name) {
+    if (values.rows() != rows || values.cols() != cols)
+        refuse(name, "shape " + shape(rows, cols), shape(values.rows(), values.cols()));
+}
+
+void require_finite(VectorRef values, const char* name) {
+    require_finite(values.data(), values.size(), name);
+}
+
+void require_finite(StatesRef values, const char* name) {
+    require_finite(values.data(), values.size(), name);
+}
+
+void require_covariance(StatesRef values, Eigen::Index size, const char* name) {
+    require_shape(values, size, size, name);
+    require_finite(values, name);
+    if (size == 0) return;
+    const auto variances = values.matrix().diagonal().array();
+    if (variances.minCoeff() < 0.0) refuse(name, "no negative variance", variances.minCoeff());
+    const double skew = (values - values.transpose()).abs().maxCoeff();
+    if (skew > 1e-9 * variances.maxCoeff())
+        refuse(name, "a symmetric matrix", "entries that differ by " + std::to_string(skew));
+}
+
+double require_weights(VectorRef weights) {
+    double total = 0.0;
+    for (const double weight : weights) {
+        if (!(weight >= 0.0 && std::isfinite(weight)))
+            refuse("weights", "finite numbers, none negative", weight);
+        total += weight;
+    }
+    if (!(total > 0.0 && std::isfinite(total))) refuse("weights", "a finite sum above 0", total);
+    return total;
+}
+
+}  // namespace tricue

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/plane_view.hpp"
+
+namespace tricue {
+
+/// A depth image in metres; NaN, or anything else that isn't above 0 and finite, is no measurement.
+using DepthView = PlaneView;
+
+}  // namespace tricue

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "base/pixel_runs.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr std::size_t kUsual = 2048;  // runs, room for which is made at once
+constexpr std::size_t kWord = sizeof(std::uint64_t);
+
+std::size_t whole_words(int bytes) {
+    return (static_cast<std::size_t>(bytes) + kWord - 1) / kWord * kWord;
+}
+
+TRICUE_MULTIVERSION
+void mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
+    for (int x = 1; x < n; ++x) changes[x] = labels[x] != labels[x - 1];
+}
+
+}  // namespace
+
+Runs::Runs(int cols) : cols_(cols), changes_(whole_words(cols)), edges_(changes_.size() + 1) {
+    runs_.reserve(kUsual);
+}
+
+/// Where one run ends and the next begins. Eight pixels without a change are passed at once; of others each is written down and
+/// those without a change overwritten, as the processor can't foresee them.
+std::size_t Runs::find_edges(const std::uint8_t* labels) {
+    mark_changes(labels, cols_, changes_.data());
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < changes_.size(); first += kWord) {
+        std::uint64_t any;
+        std::memcpy(&any, changes_.data() + first, kWord);
+        if (any == 0) continue;
+        for (std::size_t x = first; x < first + kWord; ++x) {
+            edges_[count] = static_cast<int>(x);
+            count += changes_[x];
+        }
+    }
+    edges_[count] = cols_;
+    return count + 1;
+}
+
+void Runs::add_row(const std::uint8_t* labels) {
+    const std::size_t current = runs_.size();
+    const std::size_t edges = find_edges(labels);
+    int begin = 0;
+    for (std::size_t i = 0; i < edges; begin = edges_[i++])
+        if (begin < edges_[i] && labels[begin])
+            runs_.push_back({row_, begin, edges_[i], labels[begin], runs_.size()});
+    join(current);
+    above_ = current;
+    ++row_;
+}
+
+void Runs::join(std::size_t current) {
+    std::size_t above = above_;
+    for (std::size_t c = current; c < runs_.size(); ++c) {
+        while (above < current && runs_[above].end < runs_[c].begin) ++above;
+        for (std::size_t a = above; a < current && runs_[a].begin <= runs_[c].end; ++a) {
+            if (runs_[a].label != runs_[c].label) continue;
+            const auto [first, second] = std::minmax({root(a), root(c)});
+            runs_[second].parent = first;
+        }
+    }
+}
+
+std::size_t Runs::root(std::size_t i) {
+    while (runs_[i].parent != i) i = runs_[i].parent = runs_[runs_[i].parent].parent;
+    return i;
+}
+
+}  // namespace tricue

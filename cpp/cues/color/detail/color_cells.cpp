@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/detail/color_cells.hpp"
+
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+TRICUE_MULTIVERSION
+void cells_of(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green,
+              const std::uint8_t* __restrict red, std::ptrdiff_t n, int bits,
+              std::int32_t* __restrict cells) {
+    const int shift = 8 - bits;
+    in_blocks(n, [=](std::ptrdiff_t k) {
+        const std::int32_t b = blue[k] >> shift, g = green[k] >> shift, r = red[k] >> shift;
+        cells[k] = (((b << bits) | g) << bits) | r;
+    });
+}
+
+}  // namespace
+
+int bits_of_bins(std::ptrdiff_t bins, const char* name) {
+    for (int bits = 0; bits <= 6; ++bits)
+        if (bins == 1 << bits) return bits;
+    refuse(name, "a power of two from 1 to 64", std::to_string(bins));
+}
+
+int bits_of_cube(FloatsRef cube, const char* name) {
+    for (int bits = 0; bits <= 6; ++bits)
+        if (cube.cols() == 1 << bits && cube.rows() == 1 << (2 * bits)) return bits;
+    refuse(name, "shape (B, B, B), B a power of two up to 64", "B = " + std::to_string(cube.cols()));
+}
+
+void color_cells(const SampleView& samples, std::ptrdiff_t ellipse, int bits, std::int32_t* cells) {
+    cells_of(samples.plane(ellipse, 0), samples.plane(ellipse, 1), samples.plane(ellipse, 2), samples.n, bits,
+             cells);
+}
+
+}  // namespace tricue

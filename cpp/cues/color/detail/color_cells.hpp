@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "base/arrays.hpp"
+#include "base/sample_view.hpp"
+
+namespace tricue {
+
+/// log2 of the bins a channel; throws std::invalid_argument that names the argument unless they are a power of two up to 64.
+int bits_of_bins(std::ptrdiff_t bins, const char* name);
+
+/// log2 of the side of a cube (B^2, B); throws std::invalid_argument unless that is a power of two up to 64.
+int bits_of_cube(FloatsRef cube, const char* name);
+
+/// The cell of every sample of one ellipse in a cube of 2^bits bins a channel: index (b bins + g) bins + r.
+void color_cells(const SampleView& samples, std::ptrdiff_t ellipse, int bits, std::int32_t* cells);
+
+}  // namespace tricue

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/detail/ellipse_sampler.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+/// The places of one ellipse as byte offsets into the image. Clamping comes first, so truncation is the floor.
+TRICUE_MULTIVERSION
+void place(const float* __restrict u, const float* __restrict v, std::ptrdiff_t n, const double* ellipse,
+           int cols, int rows, std::int32_t stride, std::int32_t* __restrict offsets) {
+    const auto x = static_cast<float>(ellipse[0]), y = static_cast<float>(ellipse[1]);
+    const auto minor = static_cast<float>(ellipse[2]), major = static_cast<float>(ellipse[3]);
+    const auto right = static_cast<float>(cols - 1), bottom = static_cast<float>(rows - 1);
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const float column = std::min(std::max(x + minor * u[k], 0.0f), right);
+        const float row = std::min(std::max(y + major * v[k], 0.0f), bottom);
+        offsets[k] = static_cast<std::int32_t>(row) * stride + static_cast<std::int32_t>(column) * 3;
+    }
+}
+
+/// Each pixel as one word of four bytes, the fourth of the next pixel. The image's last pixel has no next: it is read one byte
+/// early, and shifted. Not multiversioned: gathers are slower than loads on processors that had to be mended.
+void gather(const std::uint8_t* pixels, std::int32_t last, const std::int32_t* offsets, std::ptrdiff_t n,
+            std::uint32_t* words) {
+    std::int32_t furthest = 0;
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        std::memcpy(words + k, pixels + std::min(offsets[k], last), sizeof *words);
+        furthest = std::max(furthest, offsets[k]);
+    }
+    if (furthest <= last) return;
+    for (std::ptrdiff_t k = 0; k < n; ++k)
+        if (offsets[k] > last) words[k] >>= 8 * (offsets[k] - last);
+}
+
+TRICUE_MULTIVERSION
+void split(const std::uint32_t* __restrict words, std::ptrdiff_t n, std::uint8_t* __restrict blue,
+           std::uint8_t* __restrict green, std::uint8_t* __restrict red) {
+    in_blocks(n, [=](std::ptrdiff_t k) {
+        blue[k] = static_cast<std::uint8_t>(words[k]);
+        green[k] = static_cast<std::uint8_t>(words[k] >> 8);
+        red[k] = static_cast<std::uint8_t>(words[k] >> 16);
+    });
+}
+
+}  // namespace
+
+EllipseSampler::EllipseSampler(const ImageView& image, StatesRef pattern, const char* name) : image_(image) {
+    require_shape(pattern, pattern.rows(), 2, name);
+    if (image.rows < 1 || image.cols < 1) refuse("image", "at least one pixel", "none");
+    require_finite(pattern, name);
+
+    u_ = pattern.col(0).cast<float>();
+    v_ = pattern.col(1).cast<float>();
+    offsets_.resize(kBatch * pattern.rows());
+    words_.resize(kBatch * pattern.rows());
+    const std::ptrdiff_t bytes = (image.rows - 1) * image.stride + 3 * std::ptrdiff_t{image.cols};
+    last_ = static_cast<std::int32_t>(std::max<std::ptrdiff_t>(bytes - 4, 0));
+    if (bytes < 4) std::memcpy(one_, image.data, 3);
+}
+
+void EllipseSampler::read(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes) {
+    for (; count > 0; count -= kBatch, ellipses += 4 * kBatch, planes += 3 * size() * kBatch)
+        read_batch(ellipses, std::min(count, kBatch), planes);
+}
+
+/// Each step is done for the whole batch before the next: wide loads have to wait for the narrow stores before them.
+void EllipseSampler::read_batch(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes) {
+    const std::ptrdiff_t n = size();
+    const bool single = image_.rows == 1 && image_.cols == 1;
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+        place(u_.data(), v_.data(), n, ellipses + 4 * i, image_.cols, image_.rows,
+              static_cast<std::int32_t>(image_.stride), offsets_.data() + n * i);
+    gather(single ? one_ : image_.data, last_, offsets_.data(), n * count, words_.data());
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        std::uint8_t* out = planes + 3 * n * i;
+        split(words_.data() + n * i, n, out, out + n, out + 2 * n);
+    }
+}
+
+}  // namespace tricue

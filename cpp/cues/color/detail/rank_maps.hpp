@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "base/arrays.hpp"
+#include "base/sample_view.hpp"
+
+namespace tricue {
+
+/// M rank maps that the samples of one ellipse after the other are compared with: what rank_distance is made of.
+class RankMaps {
+public:
+    /// @param models M x 3n ranks in [0, 1], n >= 1
+    /// @throws std::invalid_argument on ranks outside [0, 1], another size, or n < 1, naming `models` and `samples`
+    RankMaps(FloatsRef models, std::ptrdiff_t n);
+
+    std::ptrdiff_t size() const { return size_; }
+
+    /// Writes the distances between one ellipse's n samples and each map: size() numbers in [0, 1].
+    void compare(const SampleView& samples, std::ptrdiff_t ellipse, double* distances);
+
+private:
+    /// Ranks in units of 1/2n, in the smallest type that holds them: those of the maps, and room for an ellipse's.
+    template <typename Count>
+    struct Counts {
+        std::vector<Count> models, ranks;
+    };
+
+    std::ptrdiff_t size_, n_;
+    std::variant<Counts<std::uint8_t>, Counts<std::uint16_t>, Counts<std::uint32_t>> counts_;
+};
+
+}  // namespace tricue

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "base/region.hpp"
+
+namespace tricue {
+
+/// Of one row.
+struct FlowRow {
+    float *u, *v;     ///< pixels a frame, NaN where not reliable
+    float* angle;     ///< equation (5), 0 to 1
+    float* contrast;  ///< equation (6), (gray levels per pixel squared) squared
+};
+
+/// u, v, angle and contrast (rows, cols) one below the other. One piece of memory is given back and got again faster than four.
+struct FlowPlanes {
+    FlowPlanes(Eigen::Index height, Eigen::Index width) : rows(height), planes(4 * height, width) {}
+
+    FlowRow row(Eigen::Index y) {
+        return {&planes(y, 0), &planes(rows + y, 0), &planes(2 * rows + y, 0), &planes(3 * rows + y, 0)};
+    }
+
+    Eigen::Index rows;
+    Floats planes;
+};
+
+/// The least reliabilities of a flow that is kept.
+struct FlowMinima {
+    double angle, contrast;
+};
+
+constexpr float kNoFlow = std::numeric_limits<float>::quiet_NaN();
+constexpr float kRoundingContrast = 1e-6F;  ///< what 32-bit sums of gray levels leave where there is none
+
+/// Throw std::invalid_argument unless frames have pixels and one size, at most 16384 a side, a region's corners are in order and
+/// within them, an angle is 0 to 1 and a contrast finite and not negative.
+void require_frames(const ImageView& previous, const ImageView& current, const std::optional<Region>& region);
+void require_minima(const FlowMinima& minima);
+
+/// The region, or all of the frame.
+Region region_or_all(const std::optional<Region>& region, const ImageView& frame);
+
+}  // namespace tricue

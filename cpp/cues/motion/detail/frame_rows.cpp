@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "cues/motion/detail/frame_rows.hpp"
+
+#include <algorithm>
+
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+TRICUE_MULTIVERSION
+void to_floats(const std::uint8_t* __restrict from, int n, float* __restrict to) {
+    for (int x = 0; x < n; ++x) to[x] = from[x];
+}
+
+}  // namespace
+
+void frame_row(const ImageView& image, int y, int x0, int n, float* out) {
+    const std::uint8_t* row = image.row(std::clamp(y, 0, image.rows - 1));
+    const int begin = std::clamp(-x0, 0, n), end = std::clamp(image.cols - x0, begin, n);
+    std::fill(out, out + begin, static_cast<float>(row[0]));
+    to_floats(row + x0 + begin, end - begin, out + begin);
+    std::fill(out + end, out + n, static_cast<float>(row[image.cols - 1]));
+}
+
+}  // namespace tricue

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/image_view.hpp"
+#include "base/region.hpp"
+
+namespace tricue {
+
+/// The rows of a gray image that block matching compares, filtered or as they are, over a region that may reach beyond the
+/// image: there the image's last row or column goes on. Only what the region shows is filtered.
+class StereoRows {
+public:
+    static constexpr int kClip = 31;
+
+    /// @param sobel   the x-Sobel filter clipped at ±kClip, as 0 to 2 kClip, else the gray levels themselves
+    /// @param padding readable bytes after each row
+    StereoRows(const ImageView& image, const Region& region, bool sobel, int padding);
+
+    /// Its first byte is at column region.x0; any y.
+    const std::uint8_t* row(int y) const;
+
+private:
+    int first_, last_;  ///< the rows that are stored
+    std::size_t stride_;
+    std::vector<std::uint8_t> rows_;
+};
+
+}  // namespace tricue

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/detail/correlation_checks.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "base/check.hpp"
+
+namespace tricue {
+namespace {
+
+std::string shape(int planes, int rows, int cols) {
+    return "(" + std::to_string(planes) + ", " + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+}
+
+std::string shape(const FilterStack& numerators) {
+    return "(" + std::to_string(numerators.filters) + ", " + std::to_string(numerators.planes) + ", " +
+           std::to_string(numerators.rows) + ", " + std::to_string(numerators.cols) + ")";
+}
+
+std::string shape(Eigen::Index rows, Eigen::Index cols) {
+    return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+}
+
+}  // namespace
+
+void require_cells(const FloatStack& cells) {
+    if (cells.planes < 1 || cells.rows < 1 || cells.cols < 1)
+        refuse("cells", "at least one channel and cell", shape(cells.planes, cells.rows, cells.cols));
+}
+
+void require_filters(const FilterStack& numerators, const FloatStack& denominators, const FloatStack& cells) {
+    const FilterStack expected{nullptr, numerators.filters, cells.planes, cells.rows, cells.cols / 2 + 1};
+    if (numerators.filters < 1) refuse("numerators", "at least one filter", shape(numerators));
+    if (numerators.planes != expected.planes || numerators.rows != expected.rows ||
+        numerators.cols != expected.cols)
+        refuse("numerators", "shape " + shape(expected), shape(numerators));
+    if (denominators.planes != expected.filters || denominators.rows != expected.rows ||
+        denominators.cols != expected.cols)
+        refuse("denominators", "shape " + shape(expected.filters, expected.rows, expected.cols),
+               shape(denominators.planes, denominators.rows, denominators.cols));
+}
+
+void require_numerator(const ComplexStack& numerator, const FloatStack& cells) {
+    const int half = cells.cols / 2 + 1;
+    if (numerator.planes != cells.planes || numerator.rows != cells.rows || numerator.cols != half)
+        refuse("numerator", "shape " + shape(cells.planes, cells.rows, half),
+               shape(numerator.planes, numerator.rows, numerator.cols));
+}
+
+void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
+                   int expected_cols) {
+    if (rows != expected_rows || cols != expected_cols)
+        refuse(name, "shape " + shape(expected_rows, expected_cols), shape(rows, cols));
+}
+
+void require_denominator(FloatsRef denominator, const FloatStack& cells) {
+    require_plane("denominator", denominator.rows(), denominator.cols(), cells.rows, cells.cols / 2 + 1);
+}
+
+void require_looks(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator) {
+    if (looks.size() < 1)
+        refuse("looks", "at least one scale and channel", shape(looks.rows(), looks.cols()));
+    const Eigen::Index half = looks.rows() / 2 + 1;
+    if (numerator.rows() != half || numerator.cols() != looks.cols())
+        refuse("numerator", "shape " + shape(half, looks.cols()), shape(numerator.rows(), numerator.cols()));
+    require_frequencies("denominator", denominator.cols(), half);
+}
+
+void require_frequencies(const char* name, Eigen::Index count, Eigen::Index expected) {
+    if (count != expected)
+        refuse(name, "shape (" + std::to_string(expected) + ",)", "(" + std::to_string(count) + ",)");
+}
+
+void require_rate(double rate) {
+    if (!(rate >= 0.0 && rate <= 1.0)) refuse("rate", "a number in [0, 1]", rate);
+}
+
+void require_ridge(double ridge) {
+    if (!(ridge > 0.0 && std::isfinite(ridge))) refuse("ridge", "a finite number above 0", ridge);
+}
+
+}  // namespace tricue

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/stack_view.hpp"
+
+namespace tricue {
+
+/// Each throws std::invalid_argument that names the argument, what was expected and what came.
+void require_cells(const FloatStack& cells);
+/// Of the spectra (planes, rows, cols / 2 + 1) of such cells.
+/// Of filters for such cells, at least one: numerators (filters, planes, rows, cols / 2 + 1), denominators without the planes.
+void require_filters(const FilterStack& numerators, const FloatStack& denominators, const FloatStack& cells);
+void require_numerator(const ComplexStack& numerator, const FloatStack& cells);
+void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
+                   int expected_cols);
+/// One plane of such spectra.
+void require_denominator(FloatsRef denominator, const FloatStack& cells);
+/// Of S scales with D channels: both at least 1, the numerator of S / 2 + 1 x D, the denominator of S / 2 + 1.
+void require_looks(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator);
+void require_frequencies(const char* name, Eigen::Index count, Eigen::Index expected);
+void require_rate(double rate);
+void require_ridge(double ridge);
+
+}  // namespace tricue

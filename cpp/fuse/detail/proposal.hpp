@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+
+namespace tricue {
+
+/// How particles move, equation (30) with the velocity in the mean: p(x' | x) = N(x + drift, diag(scale²)).
+struct Dynamics {
+    VectorRef drift;  ///< D, a frame's displacement, in the units of the state
+    VectorRef
+        scale;  ///< D, standard deviations, none negative; those that a detection is about above 0 where a density is needed
+};
+
+/// Where low-level vision sees the target: N(mean, root rootᵀ) over a state's first K numbers: the position, or all of it.
+struct Detection {
+    VectorRef mean;  ///< K, at least 1, at most D
+    StatesRef
+        root;  ///< KxK, lower triangle (Cholesky), diagonal above 0; what is above the diagonal is not read
+    double share;  ///< of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
+};
+
+/// @throws std::invalid_argument on a wrong size or value for states of so many dimensions
+void require_valid(const Dynamics& dynamics, Eigen::Index dimensions);
+void require_valid(const Detection& detection, Eigen::Index dimensions);
+
+}  // namespace tricue

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/rectangle.hpp"
+#include "base/region.hpp"
+
+namespace tricue {
+
+/// The pixels of an image whose centres lie in a rectangle; never x1 < x0 nor y1 < y0.
+///
+/// @throws std::invalid_argument on corners that aren't finite; `name` is the argument's
+Region rectangle_pixels(const Rectangle& rectangle, int rows, int cols, const char* name);
+
+/// @throws std::invalid_argument likewise
+void require_corners(const Rectangle& rectangle, const char* name);
+
+}  // namespace tricue

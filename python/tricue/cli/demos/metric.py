@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""What the demos in metres measure in a scene, whatever the cameras: errors, overlaps, what was said."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.cli.progress import Progress
+from tricue.cli.steps import Clock
+from tricue.draw.overlays import OverlayWriter
+from tricue.evaluation import metrics
+from tricue.papers.depth_curves import HALF, HIDDEN
+from tricue.scenes import DepthScene, StereoScene, WalkScene
+from tricue.scenes.stress_scene import Scene
+from tricue.track.base.track import Status, Track
+
+Floats = NDArray[np.float64]
+S = TypeVar("S", DepthScene, StereoScene, WalkScene, Scene)
+
+
+@dataclass(frozen=True)
+class Result(Generic[S]):
+    """What came out of one scene."""
+
+    scene: S
+    tracks: list[Track] = field(default_factory=list)
+    clock: Clock = field(default_factory=Clock)
+
+    @property
+    def errors(self) -> Floats:
+        """(M,) distances of the positions from the true ones, metres; NaN without a position."""
+        places = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
+        distances: Floats = np.linalg.norm(places - self.scene.positions, axis=1)
+        return distances
+
+    @property
+    def overlaps(self) -> Floats:
+        """(M,) with the box round the whole target; NaN where it has none."""
+        return metrics.overlaps([track.box for track in self.tracks], self.scene.boxes)
+
+    @property
+    def seen(self) -> NDArray[np.bool_]:
+        """(M,) where at least half of the target is visible."""
+        return np.asarray(self.scene.visible >= HALF)
+
+    def said(self, *statuses: Status) -> str:
+        """In how many of the frames in which the target is hidden the tracker says one of the statuses."""
+        hidden = np.flatnonzero(self.scene.visible < HIDDEN)
+        said = sum(self.tracks[index].status in statuses for index in hidden)
+        return f"{said}/{len(hidden)}"
+
+    @property
+    def speed(self) -> float:
+        """Frames a second."""
+        return self.clock.updates / self.clock.tracking
+
+
+def follow_all(
+    scenes: Mapping[str, Callable[..., S]],
+    seed: int,
+    video: OverlayWriter,
+    follow: Callable[[str, S, OverlayWriter], Result[S]],
+) -> dict[str, Result[S]]:
+    """Make each scene by its name, and follow it into the one video, which is closed then."""
+    results: dict[str, Result[S]] = {}
+    with video, Progress(len(scenes)) as progress:
+        for done, (name, make) in enumerate(scenes.items()):
+            progress(done, f"scenes, now {name}")
+            results[name] = follow(name, make(seed=seed), video)
+    return results

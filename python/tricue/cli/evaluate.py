@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: MIT
+"""``tricue evaluate DATASET``: trackers over many sequences, tables and a report."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from tricue.cli.arguments import count, words
+from tricue.cli.progress import Progress
+from tricue.evaluation import tables
+from tricue.evaluation.dataset import Reading
+from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
+from tricue.evaluation.report import vector
+from tricue.evaluation.report.page import write_report
+from tricue.evaluation.tasks import perform
+from tricue.track.base.settings import read_settings
+
+EXAMPLES = """\
+examples:
+  tricue evaluate sequences/                                  everything; see evaluation/report.html
+  tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
+  tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
+  tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
+  tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimetres, no times
+  tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
+"""
+FAILED = 1
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    command.add_argument(
+        "dataset", type=Path, metavar="DATASET", help="a sequence with true boxes, or a folder of them"
+    )
+    command.add_argument(
+        "--trackers", type=words, metavar="NAMES", help="ours and cv2's, with commas between; all without it"
+    )
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="TRACKER.NAME=VALUE",
+        help="a parameter of one of our trackers",
+    )
+    command.add_argument(
+        "--seeds",
+        type=count,
+        default=3,
+        metavar="N",
+        help="runs of those that draw random numbers, default %(default)s",
+    )
+    command.add_argument(
+        "--no-restarts", action="store_true", help="leave out the runs that start again after a failure"
+    )
+    where = command.add_mutually_exclusive_group()
+    where.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
+    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, tcp://HOST:PORT")
+    command.add_argument(
+        "--ahead",
+        type=count,
+        default=0,
+        metavar="N",
+        help="frames to read ahead, for slow disks; takes part of another core",
+    )
+    command.add_argument("--fresh", action="store_true", help="run again what was run before")
+    command.add_argument(
+        "--output", type=Path, default=Path("evaluation"), metavar="FOLDER", help="default %(default)s/"
+    )
+    command.add_argument(
+        "--depth-scale",
+        type=float,
+        metavar="M",
+        help="metres per unit of depth, where the format doesn't say",
+    )
+    command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
+    command.add_argument(
+        "--unit", type=float, metavar="M", help="metres per unit of the board in OpenCV's calibrations"
+    )
+    command.add_argument(
+        "--truth",
+        choices=("color", "depth"),
+        help="the channel whose pixels the true boxes count, if both are there",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command: progress on stderr, the table on stdout; the exit code is 1 if a sequence couldn't be
+    read.
+    """
+    vector.require()  # now, not after hours
+    folder: Path = options.output
+    chosen = Options(
+        trackers=tuple(options.trackers) if options.trackers else None,
+        settings=settings_by_tracker(options.set),
+        seeds=options.seeds,
+        restarts=not options.no_restarts,
+        reading=Reading(options.depth_scale, options.fps, options.unit, options.truth),
+    )
+    with Progress() as progress:
+
+        def tell(told: Told) -> None:
+            progress.total = told.total
+            progress(told.done, _left(told))
+
+        try:
+            evaluation = evaluate(
+                options.dataset,
+                folder,
+                chosen,
+                jobs=options.jobs,
+                fresh=options.fresh,
+                scheduler=options.scheduler,
+                tell=tell,
+                work=partial(perform, ahead=options.ahead),
+            )
+        except KeyboardInterrupt:
+            print(f"what is finished is in {folder}; the same command goes on", file=sys.stderr)
+            raise
+    return _report(evaluation, folder, options)
+
+
+def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Parameters by tracker from strings tracker.name=value."""
+    found: dict[str, list[str]] = {}
+    for setting in settings:
+        tracker, dot, rest = setting.partition(".")
+        if not dot or "=" in tracker:
+            raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
+        found.setdefault(tracker, []).append(rest)
+    return {tracker: read_settings(tracker, None, each) for tracker, each in found.items()}
+
+
+def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
+    about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs)
+    written = [*tables.write(evaluation, folder, about), write_report(evaluation, folder, about)]
+    print(tables.markdown(evaluation))
+    for each in evaluation.results:
+        if each.row.trouble:
+            print(f"{each.row.tracker} on {each.row.sequence}, seed {each.row.seed}: {each.row.trouble}")
+    for name, error in evaluation.failed.items():
+        print(f"failed: {name}: {error}", file=sys.stderr)
+    for path in written:
+        print(f"wrote {path}")
+    return FAILED if evaluation.failed else 0
+
+
+def _left(told: Told) -> str:
+    if told.last is None or told.seconds_left is None:
+        return ""
+    minutes, seconds = divmod(round(told.seconds_left), 60)
+    return f"{minutes}:{seconds:02d} left, {told.last.entrant.name} {told.last.entry.name}"

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: MIT
+"""``tricue info PLACE``: what was found there, or below it where it is a folder of sequences."""
+
+import argparse
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tricue.data import layouts
+from tricue.data.datasets import find_sequences
+from tricue.data.open_source import Source, open_source
+from tricue.data.streams import Camera
+from tricue.data.summary import Facts, calibration_facts, channel_facts, depth_facts, seconds, truth_facts
+
+EXAMPLES = """\
+examples:
+  tricue info sequences/David
+  tricue info sequences/                                      a line for each sequence below
+  tricue info depth/ --depth-scale 0.001 --fps 15
+  tricue info left.mp4 --right right.mp4 --calibration stereo.yml
+  tricue info kitti/ --target "Car 31" --json
+"""
+COLUMN = 13  # characters, where the values begin
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    command.add_argument("place", metavar="PLACE", help="video file, sequence folder, or folder of sequences")
+    command.add_argument("--depth-scale", type=float, metavar="M", help="metres per unit of depth")
+    command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
+    command.add_argument("--right", metavar="PLACE", help="the right camera's; PLACE is the left one's")
+    command.add_argument("--target", metavar="NAME", help="one of a folder's several targets")
+    command.add_argument("--calibration", type=Path, metavar="FILE", help="not the one beside the images")
+    command.add_argument("--json", action="store_true", help="the same as one JSON object")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command and print what was found; the exit code."""
+    try:
+        source = _open(options)
+    except ValueError:
+        root = Path(options.place)
+        below = [path for path in find_sequences(root) if path != root] if root.is_dir() else []
+        if not below:
+            raise
+        return _list(root, below, options)
+    facts = _facts(source, options)
+    _print(facts, _lines(facts), options.json)
+    return 0
+
+
+def _open(options: argparse.Namespace) -> Source:
+    source = open_source(
+        options.place,
+        depth_scale=options.depth_scale,
+        fps=options.fps,
+        right=options.right,
+        target=options.target,
+    )
+    if any(isinstance(stream, Camera) for stream in source.channels.values()):
+        raise ValueError(f"{source.name}: expected a recording, of which the frames can be counted")
+    return source
+
+
+def _facts(source: Source, options: argparse.Namespace) -> Facts:
+    channels = {name: channel_facts(stream) for name, stream in source.channels.items()}
+    frames = min(each["frames"] for each in channels.values())
+    unit = f"{source.format.split()[0]}'s format" if options.depth_scale is None else "--depth-scale"
+    depth = source.channels.get("depth")
+    return {
+        "name": source.name,
+        "format": source.format,
+        "frames": frames,
+        "fps": source.fps,
+        "fps_known": source.rate is not None or source.clock.timed,
+        "seconds": seconds(source, frames),
+        "channels": channels,
+        "depth": None if depth is None else depth_facts(depth, unit),
+        "truth": truth_facts(source, frames),
+        "targets": _targets(Path(options.place)),
+        "calibration": calibration_facts(source, options.calibration),
+        "notes": list(source.notes),
+    }
+
+
+def _targets(place: Path) -> list[str]:
+    return list(layouts.targets(place)) if place.is_dir() else []
+
+
+def _lines(facts: Facts) -> Iterator[str]:
+    """The same for people."""
+    yield f"{facts['name']}: {facts['format']}"
+    assumed = "" if facts["fps_known"] else " (assumed, nothing tells the times)"
+    yield _line(
+        "frames", f"{facts['frames']}, {facts['fps']:.4g} a second{assumed}, {facts['seconds']:.2f} s"
+    )
+    for name, each in facts["channels"].items():
+        other = f", {each['frames']} images" if each["frames"] != facts["frames"] else ""
+        yield _line(name, f"{each['width']}x{each['height']}, {each['type']}{other}")
+    if facts["depth"]:
+        yield from _depth_lines(facts["depth"], facts["frames"])
+    yield from _truth_lines(facts["truth"])
+    if facts["targets"]:
+        yield _line("targets", f"{len(facts['targets'])}, by --target: {', '.join(facts['targets'])}")
+    yield from _calibration_lines(facts["calibration"])
+    for note in facts["notes"]:
+        yield _line("note", note)
+
+
+def _depth_lines(depth: Facts, frames: int) -> Iterator[str]:
+    yield _line("", f"{depth['metres_per_unit']:g} m per unit, by {depth['unit_from']}")
+    looked = depth["frames_looked_at"]
+    sample = "all frames" if looked >= frames else f"{looked} frames, evenly spaced"
+    if depth["near_m"] is None:
+        yield _line("", f"no valid pixel in {sample}")
+        return
+    middle = f"{depth['near_m']:.3f} m to {depth['far_m']:.3f} m, 5th to 95th percentile"
+    yield _line("", f"{middle}; {100 * depth['invalid']:.1f} % invalid pixels; of {sample}")
+
+
+def _truth_lines(truth: Facts | None) -> Iterator[str]:
+    if truth is None:
+        yield _line("truth", "none")
+        return
+    yield _line("truth", f"{truth['boxes']} boxes, {truth['absent']} absent, {truth['unknown']} unknown")
+    if truth["boxes"]:
+        width, height = (f"{low:.4g} to {high:.4g} px" for low, high in (truth["width"], truth["height"]))
+        yield _line("", f"{width} wide, {height} high")
+    if positions := truth["positions"]:
+        metres = f"{positions['near_m']:.2f} m to {positions['far_m']:.2f} m"
+        yield _line("", f"{positions['known']} positions, {positions['depth_known']} depths, {metres}")
+    if truth["behind_the_end"]:
+        yield _line("", f"{truth['behind_the_end']} rows more than there are frames")
+
+
+def _calibration_lines(camera: Facts | None) -> Iterator[str]:
+    if camera is None:
+        yield _line("calibration", "none found")
+        return
+    yield _line("calibration", camera["file"])
+    if "error" in camera:
+        yield _line("", f"of no use: {camera['error']}")
+        return
+    yield _line("", ", ".join(f"{name} {camera[name]:.2f}" for name in ("fx", "fy", "cx", "cy")) + " px")
+    across, down = camera["fov_deg"]
+    yield _line("", f"field of view {across:.1f} x {down:.1f} degrees")
+    if "baseline_m" in camera:
+        yield _line("", f"baseline {camera['baseline_m']:.4f} m")
+    if "warning" in camera:
+        yield _line("warning", camera["warning"])
+
+
+def _line(name: str, text: str) -> str:
+    return f"  {name:{COLUMN}}{text}"
+
+
+def _list(root: Path, places: list[Path], options: argparse.Namespace) -> int:
+    """A line a sequence; ValueError at the end where some can't be opened."""
+    found = [_short(root, place, options.depth_scale) for place in places]
+    _print({"sequences": found}, map(_short_line, found), options.json)
+    if bad := sum("error" in each for each in found):
+        raise ValueError(f"{root}: {bad} of {len(found)} sequences can't be opened")
+    return 0
+
+
+def _short(root: Path, place: Path, scale: float | None) -> Facts:
+    name = place.relative_to(root).as_posix()
+    try:
+        source, names = _opened(place, scale), _targets(place)
+    except (OSError, ValueError) as error:
+        return {"place": name, "error": str(error)}
+    boxes = None if source.truth is None else int(np.isfinite(source.truth).all(axis=1).sum())
+    return {
+        "place": name,
+        "format": source.format,
+        "frames": source.length,
+        "channels": list(source.channels),
+        "boxes": boxes,
+        "targets": names,
+    }
+
+
+def _opened(place: Path, scale: float | None) -> Source:
+    """The source; the scale is for those alone whose format doesn't say it."""
+    try:
+        return open_source(place)
+    except ValueError:
+        if scale is None:
+            raise
+        return open_source(place, depth_scale=scale)
+
+
+def _short_line(facts: Facts) -> str:
+    if "error" in facts:
+        return f"{facts['place']}: can't be opened: {facts['error']}"
+    frames = "frames not counted" if facts["frames"] is None else f"{facts['frames']} frames"
+    truth = [f"{facts['boxes']} boxes"] if facts["boxes"] is not None else []
+    targets = [f"{len(facts['targets'])} targets"] if facts["targets"] else []
+    what = ", ".join([facts["format"], frames, " and ".join(facts["channels"]), *truth, *targets])
+    return f"{facts['place']}: {what}"
+
+
+def _print(facts: Any, lines: Iterator[str], as_json: bool) -> None:
+    print(json.dumps(facts, indent=1, allow_nan=False) if as_json else "\n".join(lines))

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""Where a run's tracks go, frame by frame: CSV, JSON, an overlay video. Each is whole once it is closed."""
+
+import csv
+import json
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.frame import Frame
+from tricue.camera.rig import StereoRig
+from tricue.draw.flow_depth import flow_depth_overlay
+from tricue.draw.overlays import Image, OverlayWriter, depth_overlay, depth_picture, depth_range, overlay
+from tricue.draw.stereo import stereo_overlay
+from tricue.track.base.track import Track
+
+CALM = 0.1  # a frame's share in the range of the video's shades
+COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")  # the upper triangle, row by row
+COLUMNS = (
+    *("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
+    *COVARIANCE,
+)
+
+
+class Step(NamedTuple):
+    """One tracked frame: its number from 0, what was seen, what the tracker said, and its seconds.
+
+    particles, objects, mask, blocks: the tracker's own, where it has them.
+    """
+
+    number: int
+    frame: Frame
+    track: Track
+    seconds: float
+    particles: Any = None
+    objects: Any = None
+    mask: Any = None
+    blocks: Any = None
+
+
+class Output(AbstractContextManager[Any], Protocol):
+    """Something that takes the steps of a run; used in ``with``."""
+
+    @property
+    def path(self) -> Path: ...
+
+    def write(self, step: Step) -> None: ...
+
+
+def row(step: Step) -> list[Any]:
+    """The values of COLUMNS, None where absent; six decimals, of covariances six digits."""
+    track, position = step.track, step.track.position
+    metres = [None] * 3 if position is None else np.asarray(position).tolist()
+    numbers = [step.frame.timestamp, track.score, *track.box, *metres]
+    time, *others = [None if number is None else round(float(number), 6) for number in numbers]
+    return [step.number, time, str(track.status), *others, *_covariance(track)]
+
+
+def _covariance(track: Track) -> list[float | None]:
+    if track.covariance is None:
+        return [None] * len(COVARIANCE)
+    return [float(f"{value:.6g}") for value in track.covariance[np.triu_indices(3)]]
+
+
+class CsvOutput:
+    """A line a frame under a line of COLUMNS; absent values are empty."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._file = _created(path)
+        self._writer = csv.writer(self._file, lineterminator="\n")
+        self._writer.writerow(COLUMNS)
+
+    def write(self, step: Step) -> None:
+        self._writer.writerow(row(step))
+
+    def __enter__(self) -> "CsvOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+
+class JsonOutput:
+    """One object: what ``about`` says, and "tracks", a list of objects with COLUMNS as keys, a line each."""
+
+    def __init__(self, path: Path, about: dict[str, Any]) -> None:
+        self.path = path
+        head = json.dumps(about, indent=1, allow_nan=False)
+        self._file = _created(path)
+        self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        self._separator = "\n"
+
+    def write(self, step: Step) -> None:
+        values = dict(zip(COLUMNS, row(step), strict=True))
+        self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+        self._separator = ",\n"
+
+    def __enter__(self) -> "JsonOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.write("\n ]\n}\n")
+        self._file.close()
+
+
+class VideoOutput:
+    """The overlay video: on the depth where the tracker segments it or there is nothing else.
+
+    rig: the stereo pair's, where the tracker knows it; then the disparity is shown, or the target's pixels
+    where the tracker has a mask of them.
+    """
+
+    def __init__(self, path: Path, fps: float, rig: StereoRig | None = None) -> None:
+        self._writer = OverlayWriter(path, fps)
+        self._rig = rig
+        self._range: tuple[float, float] | None = None
+
+    @property
+    def path(self) -> Path:
+        return self._writer.path
+
+    def write(self, step: Step) -> None:
+        speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
+        self._writer.write(self._picture(step, f"frame {step.number}{speed}"))
+
+    def _picture(self, step: Step, note: str) -> Image:
+        color, depth = step.frame.color, step.frame.depth
+        if step.mask is not None:
+            image = color
+            if image is None:
+                assert depth is not None  # a frame has one of the two
+                image = depth_picture(depth, *self._shades(depth))
+            return flow_depth_overlay(image, step.track, step.mask, step.blocks, note=note)
+        if depth is not None and (color is None or step.objects is not None):
+            near, far = self._shades(depth)
+            return depth_overlay(
+                depth,
+                step.track,
+                particles=step.particles,
+                objects=step.objects or (),
+                note=note,
+                near=near,
+                far=far,
+            )
+        if self._rig is not None and step.frame.right is not None:
+            return stereo_overlay(step.frame, step.track, self._rig, note=note)
+        assert color is not None  # a frame has one of the two
+        return overlay(color, step.track, particles=step.particles, note=note)
+
+    def _shades(self, depth: NDArray[np.float32]) -> tuple[float, float]:
+        """The range of depths shown, metres; it follows the frames' slowly, so that nothing flickers."""
+        now = depth_range(depth) or self._range or (0.0, 1.0)
+        before = self._range or now
+        near, far = (b + CALM * (n - b) for b, n in zip(before, now, strict=True))
+        self._range = near, max(far, near + 0.01)  # a wall has no range
+        return self._range
+
+    def __enter__(self) -> "VideoOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._writer.close()
+
+
+def _created(path: Path) -> Any:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path.open("w", encoding="utf-8", newline="")

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""The command line: finds the command, parses its arguments, calls it, and prints errors in a line."""
+
+import argparse
+import importlib
+import os
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import NoReturn
+
+import tricue
+from tricue.errors import one_line
+
+USAGE, INTERRUPTED = 2, 130
+
+# What the help says of each command; its arguments and its body are in the module of its name.
+COMMANDS = {
+    "demo": "track a scene with known truth",
+    "track": "track in a video, a folder, a camera",
+    "info": "say what is in a video, a folder, a sequence",
+    "evaluate": "trackers beside OpenCV's over a data set",
+    "reproduce": "redo an experiment of the papers",
+    "vot-workspace": "let the VOT toolkit run trackers",
+}
+
+
+class Parser(argparse.ArgumentParser):
+    """Errors in one line, without the usage in front."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(USAGE, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; the exit code: 0, 2 for an error (one line on stderr), 130 after Ctrl-C."""
+    silence_opencv()
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    options = parser(words[0] if words else "").parse_args(words)
+    try:
+        with _warnings_in_a_line(options.command):
+            code: int = options.run(options)
+        return code
+    except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
+        print(f"tricue {options.command}: {one_line(error)}", file=sys.stderr)
+        return USAGE
+    except KeyboardInterrupt:
+        print(f"tricue {options.command}: interrupted", file=sys.stderr)
+        return INTERRUPTED
+
+
+def parser(chosen: str = "") -> argparse.ArgumentParser:
+    """The commands, with the options of the chosen one, whose module alone is imported."""
+    top = Parser(prog="tricue", description=tricue.__doc__)
+    top.add_argument("--version", action="version", version=f"tricue {tricue.__version__}")
+    commands = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, about in COMMANDS.items():
+        command = commands.add_parser(
+            name, help=about, description=about, formatter_class=argparse.RawDescriptionHelpFormatter
+        )
+        if name == chosen:
+            module = importlib.import_module(f"tricue.cli.{name.replace('-', '_')}")
+            command.epilog = module.EXAMPLES
+            module.add_options(command)
+            command.set_defaults(run=module.run)
+    return top
+
+
+@contextmanager
+def _warnings_in_a_line(command: str) -> Iterator[None]:
+    """Warnings as short as errors; a place in the code warns once, for the next frames would say the same."""
+    shown: set[tuple[str, int]] = set()
+
+    def show(message: Warning | str, _category: object, filename: str, lineno: int, *_: object) -> None:
+        if (filename, lineno) not in shown:
+            shown.add((filename, lineno))
+            print(f"tricue {command}: warning: {message}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = show  # type: ignore[assignment]  # it takes all that it is given
+        yield
+
+
+def silence_opencv() -> None:
+    """OpenCV and FFmpeg write to stderr by themselves; what matters of it comes as an exception."""
+    os.environ.setdefault("OPENCV_LOG_LEVEL", "SILENT")
+    os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")

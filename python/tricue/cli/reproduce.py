@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: MIT
+"""``tricue reproduce EXPERIMENT``: an experiment of the papers, again."""
+
+import argparse
+from pathlib import Path
+
+from tricue.cli.progress import Progress
+
+EXAMPLES = """\
+examples:
+  tricue reproduce sabeti-fig1
+  tricue reproduce sabeti-depth --jobs 2
+  tricue reproduce moreno-fig3 --jobs 2
+  tricue reproduce okada-fig8 --jobs 2
+  tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
+"""
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    command.add_argument(
+        "experiment",
+        metavar="EXPERIMENT",
+        help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3, okada-fig8",
+    )
+    command.add_argument(
+        "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"
+    )
+    command.add_argument("--jobs", type=int, default=1, help="processes, default %(default)s")
+    command.add_argument(
+        "--output", type=Path, default=Path("results"), metavar="FOLDER", help="default %(default)s/"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command and print the summary; the exit code."""
+    from tricue.papers.reproduce import run
+
+    with Progress() as progress:
+
+        def show(done: int, total: int) -> None:
+            progress.total = total
+            progress(done, "scenes")
+
+        report = run(
+            options.experiment, seeds=options.seeds, output=options.output, jobs=options.jobs, progress=show
+        )
+    print(report.summary)
+    print(f"wrote {report.figure}\nwrote {report.table}")
+    return 0

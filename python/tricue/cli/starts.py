@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+"""How a tracker starts: on a given box, on a face, on a sequence's first true box, or by itself."""
+
+from argparse import Namespace
+from typing import Any
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.cli.steps import Start, finds_by_itself
+from tricue.data.open_source import Source
+from tricue.track.base.registry import names
+from tricue.track.base.track import Tracker
+
+USUAL, IN_DEPTH = "fused", "depth-particle"  # trackers where none is chosen
+BOX, FACE = "give --box x,y,width,height", "--detect face"
+
+
+def usual_tracker(options: Namespace, source: Source) -> str:
+    """The tracker where none is chosen: the one of all channels, but where nothing tells on what to start and
+    depth is there, the one that finds people in it.
+    """
+    told = options.box is not None or options.detect == "face"
+    told = told or (options.detect is None and source.first_box is not None)
+    return IN_DEPTH if "depth" in source.channels and not told else USUAL
+
+
+def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:
+    """What gives the first box; None where the tracker finds its target by itself."""
+    if options.detect == "person" and not finds_by_itself(tracker):
+        raise ValueError(f"--detect person: {options.tracker} doesn't look for people; {BOX} or {FACE}")
+    if options.detect == "face":
+        from tricue.track.base.face_detection import find_face
+
+        return lambda frame: _face(frame, find_face)
+    box = options.box or (None if options.detect else source.first_box)
+    return None if box is None else lambda _: box
+
+
+def advice(message: str, source: Source, tracker: Tracker) -> str:
+    """What to do about an error on the first frame; "" where the error says enough."""
+    if message.startswith("box: expected a head with a disparity"):
+        return "; --set near=METRES and --set far=METRES change what is looked for"
+    if message.startswith("box:"):
+        return f"; {BOX}" if finds_by_itself(tracker) else f"; {BOX} or {FACE}"
+    if message.startswith("frame: expected the channel depth"):
+        return "; ".join(("", "give its depth images with --depth FOLDER", *source.notes))
+    if message.startswith("frame.depth: expected shape"):
+        return "; --calibration FILE in TOML, with the tables depth and color, brings it there"
+    if message.startswith("frame: expected the channel right"):
+        return "; give the right camera's images with --right PLACE"
+    if message.startswith("frame: expected the channel color") and IN_DEPTH in names():
+        return f"; --tracker {IN_DEPTH} tracks in depth"
+    return ""
+
+
+def _face(frame: Frame, find: Any) -> Box | None:
+    if frame.color is None:
+        raise ValueError("--detect face: expected color images")
+    face: Box | None = find(frame.color)
+    return face

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""A tracker over a source, step by step, with its clock, and the way to stop it."""
+
+import signal
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from time import perf_counter
+from types import FrameType
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.cli.outputs import Step
+from tricue.track.base.track import Status, Track, Tracker
+
+SHOWN = ("particles", "objects", "mask", "blocks")  # of a tracker, to be drawn
+Start = Callable[[Frame], Box | None]
+"""The box to start on, asked of every frame until there is one."""
+
+
+def finds_by_itself(tracker: object) -> bool:
+    """Whether the tracker looks for its target: those do that segment the frame into ``objects``."""
+    return hasattr(tracker, "objects")
+
+
+@dataclass
+class Clock:
+    """Seconds spent on decoding and on tracking, told apart, and what the tracker said.
+
+    waiting: why a tracker that looks for its target didn't start on the last frame before it started.
+    """
+
+    decoding: float = 0.0
+    tracking: float = 0.0
+    decoded: int = 0
+    updates: int = 0
+    waiting: str = ""
+    statuses: dict[Status, int] = field(default_factory=lambda: dict.fromkeys(Status, 0))
+
+    @property
+    def speeds(self) -> str:
+        """Both in frames a second; the first frame, on which the tracker starts, isn't in the tracking's."""
+        tracking = f"tracking {self.updates / self.tracking:,.0f} frames/s, " if self.tracking else ""
+        return f"{tracking}decoding {self.decoded / max(self.decoding, 1e-9):,.0f} frames/s"
+
+
+def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: Clock) -> Iterator[Step]:
+    """Start the tracker on the first box that ``start`` gives, and follow.
+
+    Without ``start`` the tracker starts by itself, on the first frame in which it finds somebody.
+    """
+    started = False
+    for index, frame in enumerate(_decoded(frames, clock)):
+        box = start(frame) if start and not started else None
+        if start and not started and box is None:
+            continue
+        before = perf_counter()
+        track = tracker.update(frame) if started else _started(tracker, frame, box, clock)
+        seconds = perf_counter() - before
+        if track is None:
+            continue
+        clock.statuses[track.status] += 1
+        if started:
+            clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
+        started = True
+        seen = (getattr(tracker, name, None) for name in SHOWN)
+        yield Step(index, frame, track, seconds, *seen)
+
+
+@contextmanager
+def stoppable() -> Iterator[Callable[[], bool]]:
+    """A question "stop?" that Ctrl-C answers with yes after the frame at hand. A second one breaks off."""
+    asked = False
+
+    def ask(_number: int, _frame: FrameType | None) -> None:
+        nonlocal asked
+        if asked:
+            raise KeyboardInterrupt
+        asked = True
+
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield lambda: asked
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: Clock) -> Track | None:
+    """The first track, or None where a tracker that looks for its target hasn't found it yet."""
+    try:
+        return tracker.init(frame, box)
+    except ValueError as error:
+        if box is not None or not finds_by_itself(tracker) or not _nobody_found(str(error)):
+            raise
+        clock.waiting = str(error)
+        return None
+
+
+def _nobody_found(message: str) -> bool:
+    """Whether an error of a start without a box says that: it is about the box, or what the frame shows."""
+    return message.startswith(("box:", "frame:")) and not message.startswith("frame: expected the channel")
+
+
+def _decoded(frames: Iterable[Frame], clock: Clock) -> Iterator[Frame]:
+    iterator = iter(frames)
+    while True:
+        before = perf_counter()
+        frame = next(iterator, None)
+        clock.decoding += perf_counter() - before
+        if frame is None:
+            return
+        clock.decoded += 1
+        yield frame

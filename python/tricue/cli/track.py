@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: MIT
+"""``tricue track INPUT``: follow a target through a video and write down where it is."""
+
+import argparse
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack
+from itertools import takewhile
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+import tricue
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.cli.arguments import add_common, angles, box
+from tricue.cli.calibrations import find_calibration
+from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
+from tricue.cli.progress import Progress
+from tricue.cli.starts import BOX, IN_DEPTH, USUAL, advice, choose_start, usual_tracker
+from tricue.cli.steps import Clock, Start, steps, stoppable
+from tricue.data.open_source import Source, open_source
+from tricue.track.base.registry import names
+from tricue.track.base.settings import make_tracker
+from tricue.track.base.track import Status, Track, Tracker
+
+EXAMPLES = """\
+examples:
+  tricue track video.mp4 --box 120,80,64,78 --output overlay.mp4 --csv track.csv
+  tricue track 0 --detect face --output overlay.mp4           the first camera, until Ctrl-C
+  tricue track sequences/David --json track.json              starts on the sequence's first true box
+  tricue track images/ --box 10,20,30,40 --tracker color-particle --set particles=300 --seed 7
+  tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
+  tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
+  tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
+  tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
+  tricue track kitti/ --tracker stereo-head --box 560,170,30,60 --set near=5 --set far=40
+  tricue track pair/ --tracker flow-depth --box 60,30,25,74 --calibration stereo.yml --output overlay.mp4
+  tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
+  tricue track video.mp4 --tracker flow-depth --set cues=flow --box 60,30,25,74   without any depth
+"""
+INTERRUPTED = 130
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    command.add_argument(
+        "input", metavar="INPUT", help="video file, folder of images, sequence folder, camera number"
+    )
+    command.add_argument(
+        "--tracker",
+        choices=names(),
+        help=f"default {USUAL}; {IN_DEPTH} where there is depth and nothing tells where to start",
+    )
+    start = command.add_mutually_exclusive_group()
+    start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
+    start.add_argument(
+        "--detect",
+        choices=("face", "person"),
+        help="start on the largest face, or on whom a depth tracker finds, as soon as there is one",
+    )
+    command.add_argument(
+        "--fps",
+        type=float,
+        metavar="N",
+        help="frames a second of images that tell no times (default 30); videos, cameras, VOT, TUM and "
+        "Princeton have their own",
+    )
+    _add_stereo(command)
+    _add_depth(command)
+    command.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
+    command.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
+    command.add_argument(
+        "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
+    )
+    command.add_argument("--plot", type=Path, metavar="FILE", help="the path in metres from above, .png")
+    command.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
+    )
+    command.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
+    add_common(command)
+
+
+def _add_stereo(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"
+    )
+    command.add_argument(
+        "--rectify", action="store_true", help="the pairs are raw: rectify them by OpenCV's --calibration"
+    )
+    command.add_argument(
+        "--unit", type=float, metavar="M", help="metres per unit of the board in OpenCV's --calibration"
+    )
+
+
+def _add_depth(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images beside a color INPUT"
+    )
+    command.add_argument(
+        "--depth-scale", type=float, metavar="M", help="metres per unit of depth, 0.001 for millimetres"
+    )
+    camera = command.add_mutually_exclusive_group()
+    camera.add_argument(
+        "--calibration",
+        type=Path,
+        metavar="FILE",
+        help="the camera's or the pair's, by OpenCV, KITTI, Princeton or in TOML",
+    )
+    camera.add_argument(
+        "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
+    )
+
+
+class Run(NamedTuple):
+    """What is run: the source, the tracker, and the camera's intrinsics, or the pair's rig, where known."""
+
+    source: Source
+    tracker: Tracker
+    intrinsics: Intrinsics | None
+    start: Start | None
+    rig: StereoRig | None = None
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command and print what came out; the exit code."""
+    run, notes = _prepare(options)
+    clock, tracks = Clock(), {}
+    with ExitStack() as files:
+        outputs = [files.enter_context(output) for output in _outputs(options, run)]
+        stop = files.enter_context(stoppable())
+        progress = files.enter_context(Progress(run.source.length))
+        frames = takewhile(lambda _: not stop(), run.source)
+        for step in _advised(steps(run.tracker, frames, run.start, clock), run, clock):
+            for output in outputs:
+                output.write(step)
+            tracks[step.number] = step.track
+            progress(step.number + 1, clock.speeds)
+        interrupted = stop()
+    if not tracks and not interrupted:
+        raise ValueError(_not_started(run, clock))
+    _report(run.source, clock, tracks, interrupted)
+    notes += [f"wrote {output.path}" for output in outputs]
+    if options.plot:
+        notes.append(_plot(options.plot, run, tracks))
+    for note in notes:
+        print(note)
+    return INTERRUPTED if interrupted else 0
+
+
+def _spare_the_input(place: Path | None, outputs: Sequence[Path | None]) -> None:
+    for path in outputs:
+        if path and place and path.exists() and place.exists() and path.samefile(place):
+            raise ValueError(f"{path}: expected another file than the input to write to")
+
+
+def _prepare(options: argparse.Namespace) -> tuple[Run, list[str]]:
+    """Open the source and make the tracker; what the user should know about them."""
+    if options.plot:
+        from tricue.draw.paths import check_format
+
+        check_format(options.plot)
+    source = open_source(
+        options.input,
+        depth=options.depth,
+        depth_scale=options.depth_scale,
+        fps=options.fps,
+        right=options.right,
+    )
+    options.tracker = options.tracker or usual_tracker(options, source)
+    right = Path(options.right) if options.right else None
+    for place in (Path(options.input), right, options.calibration, options.params):
+        _spare_the_input(place, (options.output, options.csv, options.json, options.plot))
+    found = find_calibration(options, source)
+    source = found.prepared(source)
+    tracker = make_tracker(
+        options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
+    )
+    # A tracker that wasn't told may assume a camera of its own.
+    rig = found.rig
+    known = rig.intrinsics if rig else found.intrinsics or getattr(tracker, "intrinsics", None)
+    run = Run(source, tracker, known, choose_start(options, source, tracker), rig)
+    return run, [*source.notes, *([found.note] if found.note else [])]
+
+
+def _outputs(options: argparse.Namespace, run: Run) -> Iterator[Output]:
+    """One after the other, so that the first is closed if the second can't be opened."""
+    if options.output:
+        yield VideoOutput(options.output, run.source.fps, run.rig)
+    if options.csv:
+        yield CsvOutput(options.csv)
+    if options.json:
+        yield JsonOutput(options.json, _about(options, run))
+
+
+def _advised(found: Iterator[Step], run: Run, clock: Clock) -> Iterator[Step]:
+    """The steps; where the tracker doesn't even start, the error says what to give it."""
+    try:
+        yield from found
+    except ValueError as error:
+        if clock.decoded == 1 and not any(clock.statuses.values()):
+            raise ValueError(f"{error}{advice(str(error), run.source, run.tracker)}") from None
+        raise
+
+
+def _not_started(run: Run, clock: Clock) -> str:
+    if clock.waiting:
+        reason = f"the tracker started in none of {clock.decoded} frames: {clock.waiting}"
+    else:
+        reason = f"found no face in {clock.decoded} frames"
+    return f"{run.source.name}: {reason}; {BOX}"
+
+
+def _about(options: argparse.Namespace, run: Run) -> dict[str, Any]:
+    return {
+        "tricue": tricue.__version__,
+        "source": run.source.name,
+        "fps": run.source.fps,
+        "tracker": options.tracker,
+        "seed": options.seed,
+        "kernels": options.kernels,
+        "params": {name: _plain(value) for name, value in dataclasses.asdict(run.tracker.params).items()},
+        "intrinsics": None if run.intrinsics is None else dataclasses.asdict(run.intrinsics),
+        "baseline": None if run.rig is None else run.rig.baseline,
+    }
+
+
+def _plain(value: Any) -> Any:
+    """JSON has no infinity."""
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _report(source: Source, clock: Clock, tracks: Mapping[int, Track], interrupted: bool) -> None:
+    counts = ", ".join(f"{clock.statuses[status]} {status}" for status in Status)
+    print(f"{source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}, {counts}")
+    print(clock.speeds)
+    if first := min(tracks, default=0):
+        print(f"started in frame {first}")
+    if source.truth is not None and np.isfinite(source.truth[1:]).any():
+        print(_score(source.truth, tracks, clock.decoded))
+
+
+def _score(truth: Any, tracks: Mapping[int, Track], frames: int) -> str:
+    """AUC and precision over the frames that were read and have a true box."""
+    from tricue.evaluation import metrics
+
+    count = min(len(truth), frames)
+    found = np.full((count, 4), np.nan)
+    for index, track in tracks.items():
+        if index < count:
+            found[index] = track.box
+    score = metrics.score(found, truth[:count])
+    return f"against the true boxes: AUC {score.auc:.3f}, precision at 20 px {score.precision:.3f}"
+
+
+def _plot(path: Path, run: Run, tracks: Mapping[int, Track]) -> str:
+    """Write the path seen from above; what came of it."""
+    from tricue.draw.paths import save_path
+
+    if all(track.position is None for track in tracks.values()):
+        return f"{path}: not written, no track has a position in metres"
+    save_path(path, tracks.values(), run.intrinsics)
+    return f"wrote {path}"

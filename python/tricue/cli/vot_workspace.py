@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: MIT
+"""``tricue vot-workspace FOLDER``: all that the VOT toolkit needs to run our trackers on own sequences."""
+
+import argparse
+import shlex
+import sys
+from pathlib import Path
+
+from tricue.cli.arguments import words
+from tricue.data.datasets import find_sequences
+from tricue.evaluation.toolkits.vot_workspace import TRACKERS, write_workspace
+
+EXAMPLES = """\
+examples:
+  tricue vot-workspace vot --trackers color-particle --sequences data/
+  tricue vot-workspace vot --trackers color-particle,flow-depth --sequences rgbd/
+  tricue vot-workspace vot --trackers depth-particle          another tracker, into the same workspace
+"""
+TOOLKIT = "pip install vot-toolkit==0.7.4 vot-trax==4.0.2 attributee==0.1.9"
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    command.add_argument("folder", type=Path, metavar="FOLDER", help="new, or a workspace to add to")
+    command.add_argument("--trackers", type=words, required=True, metavar="NAMES", help="with commas between")
+    command.add_argument(
+        "--sequences",
+        type=Path,
+        metavar="DATA",
+        help="folder of sequences with true boxes, of any known layout",
+    )
+    command.add_argument(
+        "--python",
+        default=sys.executable,
+        metavar="PATH",
+        help="the interpreter with tricue[vot], default this one; the toolkit may be in another environment",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run the command and print what to run next; the exit code."""
+    folder, trackers = options.folder, list(dict.fromkeys(options.trackers))
+    report = write_workspace(folder, trackers, _recordings(options.sequences), options.python)
+    for note in report.notes:
+        print(note)
+    for name in report.added:
+        print(f"wrote {folder / 'sequences' / name}")
+    print(f"wrote {folder}: {', '.join(trackers)} on {', '.join(report.sequences)}")
+    print(f"run in the toolkit's environment ({TOOLKIT}):")
+    for command in commands(folder, trackers, report.sequences[0]):
+        print(f"  {command}")
+    print(
+        "these exit with 0 even where they fail; the last words of what worked are successfuly or successful"
+    )
+    return 0
+
+
+def commands(folder: Path, trackers: list[str], sequence: str) -> list[str]:
+    """The toolkit's, to test the first tracker on a sequence, to evaluate all, and to analyse."""
+    place, every = shlex.quote(str(folder)), " ".join(trackers)
+    registry, recording = (shlex.quote(str(folder / name)) for name in (TRACKERS, f"sequences/{sequence}"))
+    return [
+        f"vot --registry {registry} test -s {recording} {trackers[0]}",
+        f"vot evaluate --workspace {place} {every}",
+        f"vot analysis --workspace {place} --format json {every}",
+    ]
+
+
+def _recordings(root: Path | None) -> list[Path]:
+    """The sequence folders under ``root``."""
+    if root is None:
+        return []
+    if not root.is_dir():
+        raise FileNotFoundError(f"{root}: there is no such folder")
+    if not (found := find_sequences(root)):
+        raise ValueError(f"{root}: expected folders of sequences with true boxes in it, found none")
+    return found

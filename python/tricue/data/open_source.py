@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: MIT
+"""Whatever can be tracked in: a video, a folder of images, a sequence of a benchmark, a camera."""
+
+from dataclasses import replace
+from pathlib import Path
+
+from tricue.data.box_table import read_table, video_table
+from tricue.data.files import image_paths, is_image
+from tricue.data.layouts import depth_images, read_layout, table_note
+from tricue.data.source import Source
+from tricue.data.streams import Camera, Stream, Video
+from tricue.data.truth import Truth, check_target
+
+__all__ = ["Source", "open_source"]
+
+CALIBRATION = "intrinsics.toml"  # looked for in a sequence's folder, and in the folder of all sequences
+PRINCETON = "frames.mat"  # the same of the Princeton benchmark, in the sequence's folder
+
+
+def open_source(
+    place: str | Path,
+    *,
+    depth: str | Path | None = None,
+    depth_scale: float | None = None,
+    fps: float | None = None,
+    right: str | Path | None = None,
+    target: str | None = None,
+) -> Source:
+    """Open a video file, a folder of images, a sequence folder, or a camera by its number.
+
+    A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
+    benchmark's (``rgb/r-0-1.png``), or one video, with a file of true boxes. 16-bit images are depth. Stereo
+    pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
+
+    depth: a folder of 16-bit images, or a sequence folder with depth, beside the color of ``place``; they are
+        paired by order.
+    depth_scale: metres per unit of depth; needed but for VOT's, TUM's and Princeton's, whose format says it.
+    fps: frames a second of images of which nothing tells the times, 30 without it; ValueError beside times.
+    right: the right camera's video, folder or number, where ``place`` is the left one's; paired by order.
+    target: one of :func:`tricue.data.layouts.targets` of a folder with several; of KITTI's, the frames are
+        those in which it is labelled.
+    Raises ValueError or OSError that names the place and what is wrong with it.
+    """
+    source = _opened(place, depth_scale, target)
+    if right is not None:
+        source = _with_right(source, place, right)
+    if depth is not None:
+        source = _with_depth(source, place, Path(depth), depth_scale)
+    if depth_scale is not None and "depth" not in source.channels:
+        raise ValueError(f"{place}: expected depth images where --depth-scale is given, found only color")
+    return source if fps is None else replace(source, rate=fps)
+
+
+def _opened(place: str | Path, scale: float | None, target: str | None = None) -> Source:
+    if isinstance(place, str) and place.isdecimal():
+        return Source(f"camera {place}", {"color": Camera(int(place))}, format="camera")
+    path = _existing(Path(place))
+    if path.is_dir():
+        layout = read_layout(path, scale, target)
+        name = path.resolve().name if target is None else f"{path.resolve().name} {target}"
+        return _with_truth(
+            Source(
+                name,
+                layout.channels,
+                calibration=_calibration(path) or layout.calibration,
+                notes=layout.notes,
+                format=layout.format,
+            ),
+            layout.truth,
+        )
+    if is_image(path):
+        raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
+    if target is not None:
+        check_target(target, (), path)
+    video = Source(path.stem, {"color": Video(path)}, format="video")
+    table = video_table(path)
+    return (
+        video if table is None else replace(_with_truth(video, read_table(table)), notes=(table_note(table),))
+    )
+
+
+def _with_truth(source: Source, truth: Truth | None) -> Source:
+    if truth is None:
+        return source
+    return replace(source, truth=truth.boxes, absent=truth.absent, positions=truth.positions)
+
+
+def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
+    """The source's color as the left image, with another place's color as the right one."""
+    streams = [opened.channels.get("color") for opened in (source, _opened(right, None))]
+    for stream, at in zip(streams, (place, f"--right {right}"), strict=True):
+        if stream is None:
+            raise ValueError(f"{at}: expected color images of a stereo pair, found only depth")
+    left, other = streams
+    assert left
+    assert other
+    if isinstance(left, Camera) != isinstance(other, Camera):
+        raise ValueError(f"--right {right}: expected two cameras or two recordings, got one of each")
+    note = "the two cameras are read one after the other; what moves fast isn't at one place in both"
+    notes = (*source.notes, note) if isinstance(left, Camera) else source.notes
+    rest = {name: stream for name, stream in source.channels.items() if name not in ("color", "right")}
+    channels = {"color": left, "right": other, **rest}
+    return replace(source, channels=channels, notes=notes, format="stereo pair")
+
+
+def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | None) -> Source:
+    """The source's color with another place's depth."""
+    color = source.channels.get("color")
+    if color is None:
+        raise ValueError(f"{place}: expected color images beside --depth {depth}, found only depth")
+    if isinstance(color, Camera):
+        raise ValueError(f"--depth {depth}: expected with a video or a folder, got {source.name}")
+    channels = {**source.channels, "depth": _depth_stream(_existing(depth), scale)}
+    return replace(source, channels=channels, calibration=source.calibration or _calibration(depth))
+
+
+def _depth_stream(place: Path, scale: float | None) -> Stream:
+    if not place.is_dir():
+        raise ValueError(f"{place}: expected a folder of 16-bit images of depth, got a file")
+    if paths := image_paths(place):
+        return depth_images(paths, scale)
+    stream = read_layout(place, scale).channels.get("depth")
+    if stream is None:
+        raise ValueError(f"{place}: expected a folder of 16-bit images of depth, found only color")
+    return stream
+
+
+def _calibration(folder: Path) -> Path | None:
+    places = (folder / CALIBRATION, folder.resolve().parent / CALIBRATION, folder / PRINCETON)
+    return next((path for path in places if path.is_file()), None)
+
+
+def _existing(path: Path) -> Path:
+    if not path.exists():
+        raise FileNotFoundError(f"{path}: there is no such file or folder")
+    return path

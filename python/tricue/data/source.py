@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: MIT
+"""Frames in order, of several channels, and what is known about them."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import count, pairwise
+from operator import index
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.camera.numbers import positive
+from tricue.data.streams import FASTEST, Stream
+
+Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
+Register = Callable[[NDArray[Any]], NDArray[Any]]
+
+
+@dataclass(frozen=True)
+class Source:
+    """Frames in order, made of one stream a channel, with what is known about them.
+
+    channels: "color", "right", "depth"; images that belong together are at the same place of each. Times and
+        frame rate are those of the first channel that has its own.
+    truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where absent or unknown; M may differ
+        from the number of frames.
+    calibration: a file with the cameras' intrinsics that lies beside the images.
+    notes: what was left out of a folder and why, a sentence each.
+    rate: frames a second of images of which nothing tells the times.
+    rectify: makes a raw pair of color and right a rectified one.
+    register: brings depth into the color image's pixels.
+    absent: (M,) whether it is known that the target can't be seen; of the others without a box, and of frames
+        behind M, nothing is known.
+    positions: (K, 3) the target's true X, Y, Z in the camera's frame, metres, NaN where unknown.
+    format: the name of the layout that was recognised, such as "VOT RGB-D".
+
+    ValueError where the channels are known to differ in length, also while iterating, and for a ``rate``
+    beside times of their own.
+    """
+
+    name: str
+    channels: Mapping[str, Stream]
+    truth: NDArray[np.float64] | None = None
+    calibration: Path | None = None
+    notes: tuple[str, ...] = ()
+    rate: float | None = None
+    rectify: Rectify | None = None
+    register: Register | None = None
+    absent: NDArray[np.bool_] | None = None
+    positions: NDArray[np.float64] | None = None
+    format: str = ""
+
+    def __post_init__(self) -> None:
+        if self.truth is not None and self.absent is None:
+            object.__setattr__(self, "absent", np.zeros(len(self.truth), np.bool_))
+        if self.rate is not None:
+            self._check_rate(self.rate)
+        known = {name: stream.length for name, stream in self.channels.items() if stream.length is not None}
+        if len(set(known.values())) > 1:
+            got = " and ".join(f"{length} {name}" for name, length in known.items())
+            raise ValueError(f"{self.name}: expected as many {' as '.join(known)} images, got {got}")
+
+    @property
+    def fps(self) -> float:
+        """Frames a second, by which a video is written."""
+        return self.clock.fps if self.rate is None else self.rate
+
+    @property
+    def clock(self) -> Stream:
+        """The channel whose times count, unless there is a ``rate``."""
+        return self.channels[self._clock]
+
+    @property
+    def length(self) -> int | None:
+        """The number of frames, None where only reading them tells."""
+        lengths = (stream.length for stream in self.channels.values())
+        return next((length for length in lengths if length is not None), None)
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height, pixels, that a calibration has to fit: the depth images', else the color's."""
+        return self.channels.get("depth", self._first).size
+
+    @property
+    def first_box(self) -> Box | None:
+        """The true box in the first frame, if it is known."""
+        if self.truth is None or len(self.truth) == 0 or np.isnan(self.truth[0]).any():
+            return None
+        return Box(*self.truth[0].tolist())
+
+    def __iter__(self) -> Iterator[Frame]:
+        return self._frames({name: iter(stream) for name, stream in self.channels.items()}, count())
+
+    def frames(self, indices: Iterable[int]) -> Iterator[Frame]:
+        """The frames of these rising numbers from 0 only. Of image files only theirs are read.
+
+        ValueError for other numbers, and where there is no such frame.
+        """
+        wanted = _rising(indices)
+        return self._frames({name: stream.at(wanted) for name, stream in self.channels.items()}, wanted)
+
+    def _frames(
+        self, streams: Mapping[str, Iterator[tuple[float, NDArray[Any]]]], numbers: Iterable[int]
+    ) -> Iterator[Frame]:
+        for number in numbers:
+            found = {name: next(stream, None) for name, stream in streams.items()}
+            moment = {name: image for name, image in found.items() if image is not None}
+            if not moment:
+                return
+            if len(moment) < len(streams):
+                ended = next(name for name in streams if name not in moment)
+                raise ValueError(
+                    f"{self.name}: expected as many {' as '.join(streams)} images, "
+                    f"got {number} {ended} and more {next(iter(moment))}"
+                )
+            seconds = moment[self._clock][0] if self.rate is None else number / self.rate
+            images = {name: image for name, (_, image) in moment.items()}
+            color, depth, right = (images.get(name) for name in ("color", "depth", "right"))
+            if self.rectify and color is not None and right is not None:
+                color, right = self.rectify(color, right)
+            if self.register and depth is not None:
+                depth = self.register(depth)
+            yield Frame(color, depth, right, seconds)
+
+    @property
+    def _first(self) -> Stream:
+        return next(iter(self.channels.values()))
+
+    @property
+    def _clock(self) -> str:
+        """Its name."""
+        return next(
+            (name for name, stream in self.channels.items() if stream.timed), next(iter(self.channels))
+        )
+
+    def _check_rate(self, rate: float) -> None:
+        if not positive(rate, "--fps", "frames a second") <= FASTEST:
+            raise ValueError(f"--fps: expected at most {FASTEST:.0f} frames a second, got {rate}")
+        clock = self.clock
+        if clock.timed:
+            raise ValueError(
+                f"--fps {rate:g}: expected with images that tell no times, but {self.name} has its own, "
+                f"{clock.fps:.4g} frames a second; leave it out"
+            )
+
+
+def _rising(indices: Iterable[int]) -> list[int]:
+    """The numbers, checked."""
+    numbers = list(map(index, indices))
+    if any(low >= high for low, high in pairwise([-1, *numbers])):
+        raise ValueError(f"indices: expected rising numbers of frames from 0, got {numbers!r:.60}")
+    return numbers

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""What all figures share: colors, style, a file (matplotlib, from the ``demo`` extra)."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+C = TypeVar("C")
+S = TypeVar("S")
+
+Draw = Callable[[Any, Sequence[C], Mapping[str, S]], None]
+"""Fills an empty matplotlib figure with curves C; the scenes S, from seed 0, illustrate them."""
+
+# Okabe and Ito's colors, which color-blind readers can tell apart.
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")
+STYLE: dict[Any, Any] = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titlesize": 9,
+    "figure.labelsize": 9,
+    "savefig.dpi": 120,
+}
+
+
+def require() -> None:
+    """Raise ImportError that names the extra where matplotlib is missing."""
+    try:
+        import matplotlib.figure  # noqa: F401
+    except ImportError:
+        raise ImportError("figure: expected matplotlib to be installed: pip install tricue[demo]") from None
+
+
+def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: Path) -> None:
+    """Draw a figure into a file."""
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    with rc_context(STYLE):
+        figure = Figure(layout="constrained")
+        draw(figure, curves, scenes)
+        figure.savefig(path)
+
+
+def draw_box(axes: Any, box: ArrayLike, color: str) -> None:
+    """Outline a box (x, y, width, height) over an image; pixel (i, j) has its centre at (j, i)."""
+    from matplotlib.patches import Rectangle
+
+    x, y, width, height = np.asarray(box, np.float64).tolist()
+    axes.add_patch(Rectangle((x - 0.5, y - 0.5), width, height, fill=False, edgecolor=color, linewidth=1.2))

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""Where a target went, in metres, seen from above (matplotlib, from the ``demo`` extra)."""
+
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tricue.camera.rig import Intrinsics
+from tricue.draw.figures import COLORS, STYLE, require
+from tricue.track.base.track import Status, Track
+
+STATUS_COLORS = {Status.TRACKED: COLORS[2], Status.OCCLUDED: COLORS[4], Status.LOST: COLORS[1]}
+_CAMERA = 0.05  # of the depth shown: how large the camera is drawn
+_MARGIN = 1.1  # of the farthest point: how deep the field of view is drawn
+
+
+def path_from_above(
+    tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
+) -> Any:
+    """A matplotlib figure of the tracks' positions, x against z in metres, at one scale, from above.
+
+    The camera is at (0, 0) and looks up the page, over its field of view where ``intrinsics`` are known. The
+    color of a point is its status. truth: (N, 3) true positions, metres in the camera frame, a thin line; NaN
+    where unknown. ValueError where no track has a position.
+    """
+    require()
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
+
+    with rc_context(STYLE):
+        figure = Figure(figsize=(6, 6), layout="constrained")
+        draw_path(figure.subplots(), tracks, intrinsics, truth)
+    return figure
+
+
+def draw_path(
+    axes: Any, tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
+) -> None:
+    """The same into the axes of a figure that has others beside."""
+    placed = [track for track in tracks if track.position is not None]
+    if not placed:
+        raise ValueError("tracks: expected one with a position, got none")
+    points = np.array([track.position for track in placed])
+    _draw_camera(axes, intrinsics, _MARGIN * float(np.nanmax(points[:, 2])))
+    if truth is not None:
+        x, _, z = _positions(truth).T
+        axes.plot(x, z, color="black", linewidth=0.8, label="truth")
+    _draw_path(axes, points, [track.status for track in placed])
+    axes.set(xlabel="x, m (right of the camera)", ylabel="z, m (in front of it)")
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.legend(frameon=False, loc="best")
+
+
+def save_path(
+    path: Path, tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
+) -> None:
+    """Write the figure of :func:`path_from_above` to a file."""
+    figure = path_from_above(tracks, intrinsics, truth)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=STYLE["savefig.dpi"])
+
+
+def check_format(path: Path) -> None:
+    """Raise ImportError where matplotlib is missing, ValueError where it can't write such a file."""
+    require()
+    from matplotlib.figure import Figure
+
+    known = Figure().canvas.get_supported_filetypes()
+    if path.suffix.lower().removeprefix(".") not in known:
+        raise ValueError(f"{path}: expected a picture's name that ends in .png, .svg or .pdf")
+
+
+def _positions(truth: ArrayLike) -> NDArray[np.float64]:
+    positions = np.asarray(truth, np.float64)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        raise ValueError(f"truth: expected positions (N, 3), metres, got {positions.shape}")
+    return positions
+
+
+def _draw_camera(axes: Any, intrinsics: Intrinsics | None, depth: float) -> None:
+    side = _CAMERA * depth
+    axes.fill([0, -side / 2, side / 2], [0, -side, -side], color="0.3", label="camera")
+    if intrinsics is not None:
+        # The outer edges of the first and of the last pixel, whose centres are at 0 and width - 1.
+        edges = [(u - intrinsics.cx) / intrinsics.fx for u in (-0.5, intrinsics.width - 0.5)]
+        angle = math.degrees(math.atan(edges[1]) - math.atan(edges[0]))
+        left, right = (edge * depth for edge in edges)
+        axes.fill([0, left, right], [0, depth, depth], color="0.95", label=f"field of view, {angle:.0f}°")
+
+
+def _draw_path(axes: Any, points: NDArray[np.float64], statuses: list[Status]) -> None:
+    axes.plot(points[:, 0], points[:, 2], color="0.6", linewidth=0.8)
+    for status, color in STATUS_COLORS.items():
+        chosen = points[[other is status for other in statuses]]
+        if len(chosen):
+            axes.plot(chosen[:, 0], chosen[:, 2], "o", color=color, markersize=4, label=str(status))
+    axes.annotate(" start", points[0, ::2])

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: MIT
+"""What users would take instead: OpenCV's trackers, a scripted particle filter, and a box that never moves.
+
+All run in the same loop as tricue's trackers. Where a peer reports failure its last box stands, and the
+status is LOST.
+"""
+
+import ctypes
+import os
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.evaluation.one_pass import Contender
+from tricue.track.base.track import Status, Track
+
+Image = NDArray[np.uint8]
+Maker = Callable[[int], Contender]
+"""Makes a tracker from a seed."""
+
+
+class StillBox:
+    """The floor: the first box for ever."""
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        self._track = Track(box, 1.0, Status.TRACKED)
+        return self._track
+
+    def update(self, frame: Frame) -> Track:
+        return self._track
+
+
+class OpenCvTracker:
+    """A ``cv2.Tracker``, made anew by ``make`` at every init."""
+
+    def __init__(self, make: Callable[[], Any]) -> None:
+        self._make = make
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        self._tracker = self._make()
+        self._tracker.init(bgr(frame), box.as_int())
+        self._box = box
+        return Track(box, 1.0, Status.TRACKED)
+
+    def update(self, frame: Frame) -> Track:
+        try:
+            found, box = self._tracker.update(bgr(frame))
+        except cv2.error:  # some raise where their box has left the image
+            found = False
+        if not found or min(box[2:]) <= 0:
+            return Track(self._box, 0.0, Status.LOST)
+        self._box = Box(*map(float, box))
+        return Track(self._box, 1.0, Status.TRACKED)
+
+
+class HueShift:
+    """meanShift or CamShift on the back-projected hue histogram, as in OpenCV's tutorial."""
+
+    def __init__(self, shift: Callable[..., Any]) -> None:
+        self._shift = shift
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        patch = crop(cv2.cvtColor(bgr(frame), cv2.COLOR_BGR2HSV), box)
+        colorful = cv2.inRange(patch, np.array([0, 60, 32]), np.array([180, 255, 255]))
+        histogram = cv2.calcHist([patch], [0], colorful, [180], [0, 180])
+        self._histogram = cv2.normalize(histogram, None, 0, 255, cv2.NORM_MINMAX)  # type: ignore[call-overload]
+        self._window = box.as_int()
+        return Track(box, 1.0, Status.TRACKED)
+
+    def update(self, frame: Frame) -> Track:
+        hsv = cv2.cvtColor(bgr(frame), cv2.COLOR_BGR2HSV)
+        share = cv2.calcBackProject([hsv], [0], self._histogram, [0, 180], 1)
+        stop = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_COUNT, 10, 1)
+        _, window = self._shift(share, self._window, stop)
+        found = min(window[2:]) > 0
+        self._window = window if found else self._window
+        return Track(Box(*map(float, self._window)), float(found), Status.TRACKED if found else Status.LOST)
+
+
+class ScriptedParticleFilter:
+    """The particle filter that a user writes in twenty lines: HS histograms by cv2, the rest by NumPy."""
+
+    def __init__(self, seed: int = 0, particles: int = 100) -> None:
+        self._rng, self._count = np.random.default_rng(seed), particles
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        self._size = np.array(box[2:])
+        self._model = self._histogram(cv2.cvtColor(bgr(frame), cv2.COLOR_BGR2HSV), box)
+        self._states = np.tile([*box.center, 1.0], (self._count, 1))  # x, y, scale
+        return Track(box, 1.0, Status.TRACKED)
+
+    def update(self, frame: Frame) -> Track:
+        hsv = cv2.cvtColor(bgr(frame), cv2.COLOR_BGR2HSV)
+        self._states += self._rng.normal(0, [8, 8, 0.02], self._states.shape)
+        self._states = np.clip(self._states, [0, 0, 0.3], [hsv.shape[1] - 1, hsv.shape[0] - 1, 3])
+        histograms = [self._histogram(hsv, self._box(state)) for state in self._states]
+        distances = np.array(
+            [cv2.compareHist(self._model, each, cv2.HISTCMP_BHATTACHARYYA) for each in histograms]
+        )
+        weights = np.exp(-20 * distances**2)
+        weights /= weights.sum()
+        box = self._box(weights @ self._states)
+        self._states = self._states[self._rng.choice(self._count, self._count, p=weights)]
+        return Track(box, float(1 - weights @ distances), Status.TRACKED)
+
+    def _box(self, state: NDArray[np.float64]) -> Box:
+        x, y, scale = state.tolist()
+        width, height = (self._size * scale).tolist()
+        return Box(x - width / 2, y - height / 2, width, height)
+
+    def _histogram(self, hsv: Any, box: Box) -> Any:
+        histogram = cv2.calcHist([crop(hsv, box)], [0, 1], None, [16, 8], [0, 180, 0, 256])
+        return cv2.normalize(histogram, None, 1, 0, cv2.NORM_L1)  # type: ignore[call-overload]
+
+
+def bgr(frame: Frame) -> Any:
+    """The color image; peers need no other channel. ValueError where it isn't there."""
+    frame.require("color")
+    return frame.color
+
+
+def crop(image: Any, box: Box) -> Any:
+    """The pixels of a box, at least one, the part outside the image cut off."""
+    x, y, width, height = box.as_int()
+    left, top = min(max(x, 0), image.shape[1] - 1), min(max(y, 0), image.shape[0] - 1)
+    return image[top : max(y + height, top + 1), left : max(x + width, left + 1)]
+
+
+def _opencv_makers() -> dict[str, Callable[[], Any]]:
+    """How to make each cv2 tracker; parameters are built here, as cv2 takes long for the first ones."""
+    legacy = getattr(cv2, "legacy", None)
+    makers: dict[str, Callable[[], Any]] = {}
+    csrt, kcf = getattr(cv2, "TrackerCSRT", None), getattr(cv2, "TrackerKCF", None)
+    if csrt:
+        makers["CSRT"] = csrt.create
+    if kcf:
+        eager = kcf.Params()
+        eager.detect_thresh = 0.1
+        makers["KCF"] = kcf.create
+        makers["KCF-0.1"] = lambda: kcf.create(eager)
+    if mil := getattr(cv2, "TrackerMIL", None):
+        makers["MIL"] = mil.create
+    for name in ("MOSSE", "MedianFlow"):
+        if hasattr(legacy, f"Tracker{name}"):
+            makers[name] = getattr(legacy, f"Tracker{name}").create
+    return makers
+
+
+def seed(value: int) -> None:
+    """Seed what OpenCV's trackers draw from: its own generator and, for MIL, the C library's ``rand``."""
+    cv2.setRNGSeed(value)
+    if os.name == "posix":
+        ctypes.CDLL(None).srand(value)
+
+
+def available() -> dict[str, Maker]:
+    """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
+
+    def opencv(make: Callable[[], Any]) -> Maker:
+        return lambda seed: OpenCvTracker(make)
+
+    return {
+        **{name: opencv(make) for name, make in _opencv_makers().items()},
+        "CamShift": lambda seed: HueShift(cv2.CamShift),
+        "meanShift": lambda seed: HueShift(cv2.meanShift),
+        "script-pf": ScriptedParticleFilter,
+        "still-box": lambda seed: StillBox(),
+    }

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Other people's evaluation tools run our trackers."""

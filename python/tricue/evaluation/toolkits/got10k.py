@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""Our trackers in the shape of got10k's, so that its experiments run them.
+
+    from got10k.experiments import ExperimentOTB
+    from tricue.evaluation.toolkits.got10k import as_got10k
+
+    ExperimentOTB("data/OTB").run(as_got10k(tricue.create("color-particle", seed=0), "color-particle"))
+
+It gives images in color alone: what needs depth or a right image says so at its first ``init``.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.track.base.track import Tracker
+
+try:
+    from got10k.trackers import Tracker as _Got10kTracker
+    from PIL.Image import Image
+except ImportError as error:
+    raise ImportError(
+        f"{__name__}: got10k can't be loaded ({error}); install it: pip install 'tricue[got10k]'"
+    ) from error
+
+
+class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no types
+    """``init`` and ``update`` as ``got10k.trackers.Tracker`` has them, round a tracker.
+
+    Boxes are (4,) arrays x, y, width, height as the data set has them: whether its first pixel is 0 or 1 is
+    nothing that a tracker changes.
+    """
+
+    def __init__(self, tracker: Tracker, name: str) -> None:
+        # Ours are seeded: got10k needn't repeat them.
+        super().__init__(name=name, is_deterministic=True)
+        self.tracker = tracker
+
+    def init(self, image: Image, box: NDArray[np.float64]) -> None:
+        """Start, or start again, on the box."""
+        self.tracker.init(_bgr(image), box)
+
+    def update(self, image: Image) -> NDArray[np.float64]:
+        """The box in the next image, (4,), not rounded."""
+        return np.array(self.tracker.update(_bgr(image)).box, dtype=np.float64)
+
+
+def as_got10k(tracker: Tracker, name: str | None = None) -> Got10kTracker:
+    """The tracker with the interface of got10k's; TypeError for what isn't one of our trackers.
+
+    ``name`` names got10k's folders of results; without it the tracker's class does.
+    """
+    if not all(callable(getattr(tracker, each, None)) for each in ("init", "update")):
+        raise TypeError(f"tracker: expected a tricue tracker, got {type(tracker).__name__}")
+    return Got10kTracker(tracker, type(tracker).__name__ if name is None else name)
+
+
+def _bgr(image: Image) -> NDArray[np.uint8]:
+    """A PIL image of any mode as our (H, W, 3) uint8 BGR; a gray one has three equal channels."""
+    return np.ascontiguousarray(np.asarray(image.convert("RGB"))[:, :, ::-1])

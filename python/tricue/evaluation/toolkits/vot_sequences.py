@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+"""Any recording that tricue reads, written as a sequence of VOT.
+
+Source: the layout is what vot-toolkit 0.7.4 reads, vot/dataset/common.py.
+"""
+
+import shutil
+from collections.abc import Iterable
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.data.depth_images import MILLIMETRES, DepthReader
+from tricue.data.open_source import Source
+from tricue.data.streams import Images, Stream, read_color
+
+ANCHORS = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
+DEEPEST = 65535  # millimetres in 16 bits
+ABSENT = "nan,nan,nan,nan"
+_SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's name of images that it reads
+_AS_THEY_ARE = {"color": read_color, "depth": DepthReader(MILLIMETRES)}
+
+
+def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
+    """Which of color and depth can be VOT's, and a note about one that is left out.
+
+    Depth of another size than the color images isn't that of their pixels, in which the true boxes count.
+    """
+    there = tuple(name for name in ("color", "depth") if name in source.channels)
+    sizes = [source.channels[name].size for name in there]
+    if len(set(sizes)) < 2:
+        return there, ""
+    color, depth = (f"{width}x{height}" for width, height in sizes)
+    return ("color",), f"left out the depth of {source.name}: it is {depth} pixels, not the color's {color}"
+
+
+def write_sequence(source: Source, folder: Path) -> int:
+    """Write the channels of :func:`vot_channels`, the true boxes, anchors and tags; the number of frames.
+
+    Images that the toolkit and our tracker read as they are, are linked, or copied where links can't be;
+    others become PNG, depth 16 bits of millimetres. The folder must not exist; an error leaves none.
+    ValueError for fewer than two frames, and for channels of different length.
+    """
+    folder.mkdir(parents=True)
+    try:
+        return _write(source, folder)
+    except BaseException:
+        shutil.rmtree(folder)
+        raise
+
+
+def _write(source: Source, folder: Path) -> int:
+    names, _ = vot_channels(source)
+    written = {name: _write_channel(source.channels[name], name, folder / name) for name in names}
+    counts = {name: count for name, (_, count) in written.items()}
+    count = min(counts.values())
+    if count < 2 or count != max(counts.values()):
+        raise ValueError(f"{source.name}: expected two frames or more, of each channel as many, got {counts}")
+    width, height = source.channels[names[0]].size
+    patterns = [f"channels.{name}={name}/%08d{suffix}" for name, (suffix, _) in written.items()]
+    about = {
+        "name": folder.name,
+        "fps": max(1, round(source.fps)),  # the toolkit takes whole numbers only
+        "format": "default",
+        "channel.default": names[0],
+        "width": width,
+        "height": height,
+        "length": count,
+    }
+    _write_lines(folder / "sequence", [*(f"{key}={value}" for key, value in about.items()), *patterns])
+    boxes = _boxes(source.truth, count)
+    visible = np.asarray(np.isfinite(boxes).all(axis=1))
+    _write_lines(folder / "groundtruth.txt", map(_line, boxes))
+    _write_lines(folder / "anchor.value", anchors(visible))
+    _write_lines(folder / "absent.tag", (~visible).astype(int))
+    return count
+
+
+def anchors(visible: NDArray[np.bool_]) -> list[int]:
+    """Where the multistart experiment starts: 1 forward, -1 backward, 0 elsewhere, a number a frame.
+
+    One in each ANCHORS frames, the first in which the target is visible, towards the longer part.
+    """
+    values = [0] * len(visible)
+    for first in range(0, len(visible), ANCHORS):
+        seen = np.flatnonzero(visible[first : first + ANCHORS])
+        if seen.size:
+            frame = first + int(seen[0])
+            values[frame] = 1 if len(visible) - 1 - frame > frame else -1
+    return values
+
+
+def _boxes(truth: NDArray[np.float64] | None, count: int) -> NDArray[np.float64]:
+    """(count, 4): the true boxes, NaN in frames without."""
+    boxes = np.full((count, 4), np.nan)
+    if truth is not None:
+        boxes[: len(truth)] = truth[:count]
+    return boxes
+
+
+def _line(box: NDArray[np.float64]) -> str:
+    """The protocol has four decimals; more would only differ between the toolkit's run and another."""
+    return ABSENT if np.isnan(box).any() else ",".join(f"{number:.4f}" for number in box.tolist())
+
+
+def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
+    """The images' suffix and number."""
+    folder.mkdir()
+    suffix, count = _linked_suffix(stream, name), 0
+    if isinstance(stream, Images) and suffix:
+        for count, path in enumerate(stream.paths, 1):
+            _link(path, folder / f"{count:08}{suffix}")
+        return suffix, count
+    for count, (_, image) in enumerate(stream, 1):
+        path = folder / f"{count:08}.png"
+        if not cv2.imwrite(str(path), _millimetres(image) if name == "depth" else image):
+            raise OSError(f"{path}: can't be written")
+    return ".png", count
+
+
+def _linked_suffix(stream: Stream, name: str) -> str:
+    """The suffix of images that can be linked; "" where they have to be written anew."""
+    if not isinstance(stream, Images) or stream.read != _AS_THEY_ARE[name]:
+        return ""
+    suffixes = {_SUFFIXES.get(path.suffix.lower(), "") for path in stream.paths}
+    suffix = suffixes.pop()
+    return "" if suffixes or (name == "depth" and suffix != ".png") else suffix
+
+
+def _link(path: Path, link: Path) -> None:
+    if not path.is_file():
+        raise FileNotFoundError(f"{path}: there is no such file")
+    try:
+        link.symlink_to(path.resolve())
+    except (NotImplementedError, OSError):  # a file system without links, Windows without the right to
+        shutil.copyfile(path, link)
+
+
+def _millimetres(depth: NDArray[np.float32]) -> NDArray[np.uint16]:
+    """Metres in 16 bits; 0, not measured, where they don't fit."""
+    units = np.rint(1000 * depth.astype(np.float64))
+    return np.where((units > 0) & (units <= DEEPEST), units, 0).astype(np.uint16)
+
+
+def _write_lines(path: Path, lines: Iterable[object]) -> None:
+    path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")

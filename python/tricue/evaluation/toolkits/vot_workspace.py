@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: MIT
+"""A workspace in which the VOT toolkit, version 0.7.4, runs our trackers on local sequences, offline.
+
+``vot initialize`` isn't used: it wants a stack of a challenge, whose sequences it downloads.
+"""
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tricue.data.open_source import Source, open_source
+from tricue.evaluation.toolkits.trax_server import channels_of
+from tricue.evaluation.toolkits.vot_sequences import vot_channels, write_sequence
+from tricue.track.base.registry import tracker_class
+
+OTHER = 1.5  # times the frame rate that a tracker assumes
+TRACKERS, SEQUENCES, LIST = "trackers.ini", "sequences", "list.txt"
+CONFIG = """\
+registry: [./trackers.ini]
+sequences: sequences
+stack: ./stack.yaml
+"""
+# A supervised run must not start again in a frame without a true box: the toolkit stops there. The bounds of
+# the expected overlap are for clips of some dozens of frames.
+STACK = """\
+title: tricue
+experiments:
+  longterm:
+    type: unsupervised
+    repetitions: 1
+    analyses: [{type: average_accuracy, name: accuracy, burnin: 1}, {type: average_tpr}]
+  baseline:
+    type: multistart
+    analyses:
+    - {type: multistart_average_ar, name: ar}
+    - {type: multistart_eao_score, name: eao, low: 10, high: 30}
+  supervised:
+    type: supervised
+    repetitions: 1
+    skip_initialize: 5
+    skip_tags: [absent]
+    analyses: [{type: supervised_average_ar, sensitivity: 30, burnin: 10}]
+"""
+_FILES = {"config.yaml": CONFIG, "stack.yaml": STACK}
+
+
+@dataclass
+class Report:
+    """What became of a workspace: all its sequences, what was added now, and what its user should know."""
+
+    sequences: list[str]
+    added: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+
+def write_workspace(
+    folder: Path, trackers: Sequence[str], recordings: Iterable[Path] = (), python: str = sys.executable
+) -> Report:
+    """Write a workspace for ``trackers`` with ``recordings``, or add both to one that was written before.
+
+    recordings: what ``open_source`` opens, with true boxes. Those without one in their
+        first frame, and without a channel that one of the trackers needs, are left out with a note.
+    python: the interpreter that has tricue and vot-trax; the toolkit may be in another environment.
+
+    What is there stays as it is, sequences as well as trackers of the same name. ValueError for a folder that
+    holds something else, for a tracker that VOT can't run, and where no sequence is left.
+    """
+    _check_folder(folder)
+    needs = {name: channels_of(name) for name in trackers}
+    interpreter = checked_python(python)
+    report = Report(_listed(folder))
+    for name in report.sequences:
+        if reason := _unfit(open_source(folder / SEQUENCES / name), needs):
+            raise ValueError(f"{folder}: its sequence {name} {reason}")
+    fit = list(_fit(recordings, needs, report))
+    if not (fit or report.sequences):
+        raise ValueError(
+            "; ".join(["--sequences: expected one that VOT can start on, found none", *report.notes])
+        )
+    (folder / SEQUENCES).mkdir(parents=True, exist_ok=True)
+    for file, text in _FILES.items():
+        _write_new(folder / file, text)
+    _add_trackers(folder / TRACKERS, {name: _section(name, interpreter) for name in trackers}, report)
+    for name, source in fit:
+        write_sequence(source, folder / SEQUENCES / name)
+        report.added.append(name)
+        report.sequences.append(name)
+        (folder / SEQUENCES / LIST).write_text(
+            "".join(f"{each}\n" for each in report.sequences), encoding="utf-8"
+        )
+    return report
+
+
+def checked_python(python: str) -> str:
+    """The interpreter's whole path; ValueError where it can't run our trackers for VOT."""
+    found = shutil.which(python)
+    if found is None:
+        raise ValueError(f"--python: expected an interpreter, found none at {python}")
+    path = str(Path(found).absolute())  # a virtual environment's is a link that must not be followed
+    done = subprocess.run(
+        [path, "-c", "import trax, tricue.cli.trax"], capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        last = (done.stderr.strip() or f"exit code {done.returncode}").splitlines()[-1]
+        raise ValueError(f"{path}: can't run tricue for VOT: {last}; pip install tricue[vot] there")
+    return path
+
+
+def _check_folder(folder: Path) -> None:
+    """That the folder is new, empty, or was written here; and that the toolkit can read images in it."""
+    if "%" in str(folder.resolve()):
+        raise ValueError(f"{folder}: expected a path without %, which the toolkit takes for a pattern")
+    if not folder.exists() or not any(folder.iterdir()):
+        return
+    config = folder / "config.yaml"
+    if not config.is_file() or config.read_text(encoding="utf-8", errors="replace") != CONFIG:
+        raise ValueError(f"{folder}: expected a new folder, or a workspace that this command wrote before")
+
+
+def _section(tracker: str, python: str) -> str:
+    """The toolkit splits the interpreter as a shell does, and the file's format takes % for its own."""
+    return f"""\
+[{tracker}]
+label = tricue {tracker}
+protocol = traxpython
+command = tricue.cli.trax
+python = {shlex.quote(python).replace("%", "%%")}
+env_TRICUE_TRACKER = {tracker}
+"""
+
+
+def _add_trackers(path: Path, sections: dict[str, str], report: Report) -> None:
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    for name, section in sections.items():
+        if f"[{name}]" in text.splitlines():
+            report.notes.append(f"kept {name} in {path} as it is")
+        else:
+            text = f"{text}\n{section}" if text else section
+    path.write_text(text, encoding="utf-8")
+
+
+def _listed(folder: Path) -> list[str]:
+    path = folder / SEQUENCES / LIST
+    return path.read_text(encoding="utf-8").split("\n")[:-1] if path.is_file() else []
+
+
+def _fit(
+    recordings: Iterable[Path], needs: dict[str, tuple[str, ...]], report: Report
+) -> Iterator[tuple[str, Source]]:
+    """Names and sources of those that can be added; the report tells of the others."""
+    taken = set(report.sequences)
+    for place in recordings:
+        try:
+            source = open_source(place)
+        except (OSError, ValueError) as error:
+            report.notes.append(f"left out {place}: {error}")
+            continue
+        name = re.sub(r"[^\w.-]+", "_", source.name)
+        if name in taken:
+            report.notes.append(f"left out {place}: the workspace has a sequence {name}")
+        elif reason := _unfit(source, needs):
+            report.notes.append(f"left out {place}: it {reason}")
+        else:
+            taken.add(name)
+            report.notes += [*source.notes, *filter(None, vot_channels(source)[1:]), *_rates(source, needs)]
+            yield name, source
+
+
+def _unfit(source: Source, needs: dict[str, tuple[str, ...]]) -> str:
+    """Why trackers can't run on a recording; "" where they can."""
+    if source.first_box is None:
+        return "has no true box in its first frame, on which trackers start"
+    channels, note = vot_channels(source)
+    for tracker, needed in needs.items():
+        for channel in needed:
+            if channel not in channels:
+                why = f" ({note})" if note else ""
+                return f"has no {channel}, which {tracker} needs{why}"
+    return ""
+
+
+def _rates(source: Source, trackers: Iterable[str]) -> Iterator[str]:
+    """What to set for trackers that assume another frame rate, for the protocol tells them no times."""
+    if not any(stream.timed for stream in source.channels.values()):
+        return
+    for name in trackers:
+        rate = getattr(tracker_class(name).Params(), "rate", None)
+        if rate is not None and not 1 / OTHER < source.fps / rate < OTHER:
+            hint = f"env_TRICUE_SET = rate={source.fps:.3g} in {TRACKERS} tells it"
+            yield f"{source.name} has {source.fps:.3g} frames/s, {name} assumes {rate:g}; {hint}"
+
+
+def _write_new(path: Path, text: str) -> None:
+    if not path.exists():
+        path.write_text(text, encoding="utf-8")

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""What every experiment is: models on scenes from many seeds, and what becomes of their curves."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Generic, NamedTuple, TypeVar
+
+from tricue.draw import figures
+from tricue.evaluation.one_pass import Contender
+
+S = TypeVar("S")  # a scene
+C = TypeVar("C")  # a curve: what one model did in one scene
+
+Maker = Callable[..., Contender]
+"""Makes a tracker, called with ``seed=``, and with ``intrinsics=`` or ``rig=`` where the scene has one."""
+
+Models = Mapping[str, Maker]
+"""How to make each model's tracker."""
+
+Scenes = Mapping[str, Callable[..., S]]
+"""How to make each scene, called with ``seed=``."""
+
+
+class Case(NamedTuple):
+    """One run: the names of the model and of the scene, and the seed of both."""
+
+    model: str
+    scene: str
+    seed: int
+
+
+@dataclass(frozen=True)  # slots and type parameters don't go together in Python 3.11
+class Experiment(Generic[S, C]):
+    """Which models run on which scenes, what is measured, and how it is written down."""
+
+    models: Models
+    scenes: Scenes[S]
+    measure: Callable[[Case, Maker, S], C]
+    """Runs one model in one scene; a function of a module, so that another process finds it."""
+    summarize: Callable[[Sequence[C]], str]
+    write_csv: Callable[[Path, Iterable[C]], None]
+    draw: figures.Draw[C, S]
+    at_most: Mapping[str, int] = field(default_factory=dict)
+    """The seeds of scenes that take too long for all of them."""

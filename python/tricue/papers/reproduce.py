@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""The papers' experiments, run again: curves over many seeds, as a figure, a CSV and a table."""
+
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from tricue.draw import figures
+from tricue.papers import color_experiments, depth_experiments, stereo_experiments, walk_experiments
+from tricue.papers.experiment import C, Case, Experiment, Maker, Models, S
+
+Task = tuple[str, Callable[..., S], int]
+"""A scene's name, how to make it, and the seed."""
+
+EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
+    **color_experiments.EXPERIMENTS,
+    **depth_experiments.EXPERIMENTS,
+    **stereo_experiments.EXPERIMENTS,
+    **walk_experiments.EXPERIMENTS,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What an experiment found, and where it is written."""
+
+    summary: str
+    figure: Path
+    table: Path
+
+
+def run(
+    name: str,
+    seeds: int = 20,
+    output: Path = Path(),
+    jobs: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+    models: Models | None = None,
+) -> Report:
+    """Run an experiment and write ``output/NAME.png`` and ``output/NAME.csv``, a line per frame.
+
+    Every model runs on every scene from ``seeds`` seeds, on slow scenes from fewer.
+    ``progress(done, total)`` is called after each scene, ``jobs`` scenes run at once. ``models`` takes the
+    place of the paper's. ValueError for an unknown name, ImportError that names the extra where scikit-image
+    or matplotlib is missing.
+    """
+    if name not in EXPERIMENTS:
+        raise ValueError(f"experiment: expected one of {', '.join(EXPERIMENTS)}, got {name!r}")
+    if seeds < 1 or jobs < 1:
+        raise ValueError(f"seeds, jobs: expected 1 or more, got {seeds}, {jobs}")
+    experiment = EXPERIMENTS[name]
+    figures.require()
+    curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))
+    output.mkdir(parents=True, exist_ok=True)
+    report = Report(experiment.summarize(curves), output / f"{name}.png", output / f"{name}.csv")
+    experiment.write_csv(report.table, curves)
+    scenes = {scene: make(seed=0) for scene, make in experiment.scenes.items()}
+    figures.save(experiment.draw, curves, scenes, report.figure)
+    return report
+
+
+def _all_curves(
+    experiment: Experiment[S, C],
+    models: Models,
+    seeds: int,
+    jobs: int,
+    progress: Callable[[int, int], None] | None,
+) -> Iterator[C]:
+    tasks = [
+        (scene, make, seed)
+        for seed in range(seeds)
+        for scene, make in experiment.scenes.items()
+        if seed < experiment.at_most.get(scene, seeds)
+    ]
+    work = partial(_curves, experiment.measure, models)
+    for done, curves in enumerate(_mapped(work, tasks, jobs), start=1):
+        if progress:
+            progress(done, len(tasks))
+        yield from curves
+
+
+def _mapped(work: Callable[[Task[S]], list[C]], tasks: list[Task[S]], jobs: int) -> Iterator[list[C]]:
+    if jobs == 1:
+        yield from map(work, tasks)
+        return
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        yield from pool.map(work, tasks)
+
+
+def _curves(measure: Callable[[Case, Maker, S], C], models: Mapping[str, Maker], task: Task[S]) -> list[C]:
+    """Every model on one scene, which is made once."""
+    name, make, seed = task
+    scene = make(seed=seed)
+    return [measure(Case(model, name, seed), tracker, scene) for model, tracker in models.items()]

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""Which pixels are inside an axis-aligned ellipse: what the twins of the head's color search share."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import Floats, refuse, require_finite, require_shape
+
+NO_BIN = 65535
+Bins = NDArray[np.uint16]
+Mask = NDArray[np.bool_]
+
+
+def require_ellipses(name: str, ellipses: Floats, margin: float) -> None:
+    """Refuse other than N finite ellipses, semi-axes in (0, 4096 / margin], and a margin outside [1, 16]."""
+    require_shape(name, ellipses, (len(ellipses), 4))
+    require_finite(name, ellipses)
+    if not 1 <= margin <= 16:
+        refuse("margin", "1 to 16", float(margin))
+    if len(ellipses) == 0:
+        return
+    if not ellipses[:, 2:].min() > 0:
+        refuse(name, "semi-axes above 0", float(ellipses[:, 2:].min()))
+    if margin * ellipses[:, 2:].max() > 4096:
+        longest = float(margin * ellipses[:, 2:].max())
+        refuse(name, "semi-axes of at most 4096 pixels with the margin", longest)
+
+
+def require_bins(bins: Bins, size: int) -> None:
+    """Refuse a size outside 1 to 65535, and bins that are neither below it nor NO_BIN."""
+    if not 1 <= size <= 65535:
+        refuse("size", "1 to 65535 bins", size)
+    strange = bins[(bins >= size) & (bins != NO_BIN)]
+    if strange.size:
+        refuse("bins", f"bins below {size}, or 65535 for none", int(strange.max()))
+
+
+def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
+    """(H, W): the pixels whose centres are inside (x, y, minor, major).
+
+    Measured from the pixel that the centre lies in, as an ellipse moved by whole pixels keeps its shape.
+    """
+    x, y, minor, major = ellipse
+    columns = np.arange(shape[1]) - np.floor(x)
+    rows = np.arange(shape[0]) - np.floor(y)
+    x, y = x - np.floor(x), y - np.floor(y)
+    mask = np.zeros(shape, np.bool_)
+    for i, row in enumerate(rows):
+        if np.ceil(y - major - 0.5) <= row <= np.floor(y + major - 0.5):
+            v = (row + 0.5 - y) / major
+            reach = minor * np.sqrt(max(1 - v * v, 0))
+            mask[i] = (columns >= np.ceil(x - reach - 0.5)) & (columns <= np.floor(x + reach - 0.5))
+    return mask
+
+
+def masks_of(ellipse: Floats, margin: float, shape: tuple[int, ...]) -> tuple[Mask, Mask]:
+    """Which pixels are inside an ellipse, and which in the ring round it."""
+    inside = mask_of(ellipse, shape)
+    larger = ellipse * np.array([1, 1, margin, margin])
+    return inside, mask_of(larger, shape) & ~inside
+
+
+def count(bins: Bins, mask: Mask, size: int) -> NDArray[np.int64]:
+    """(size,): how many pixels under the mask each bin has."""
+    found = bins[mask]
+    return np.bincount(found[found != NO_BIN], minlength=size)

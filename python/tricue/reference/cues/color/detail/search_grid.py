@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+"""The places at which an ellipse is searched: what the twins of the head's search share."""
+
+import numpy as np
+
+from tricue.reference.base.checks import Floats, refuse
+
+Grid = tuple[int, int, int]
+
+
+def require_grid(grid: Grid) -> None:
+    """Refuse a grid that isn't 1 to 1024 rows, cols and pixels from one to the next, or reaches too far."""
+    if min(grid) < 1 or max(grid) > 1024 or max(grid[:2]) * grid[2] > 16384:
+        refuse("grid", "rows, cols and a step of 1 to 1024, over at most 16384 pixels", grid)
+
+
+def places(ellipse: Floats, grid: Grid) -> Floats:
+    """(rows, cols, 4): the ellipse at every place of the grid."""
+    rows, cols, step = grid
+    moved = np.tile(ellipse, (rows, cols, 1))
+    moved[..., 0] += (np.arange(cols) - cols // 2) * step
+    moved[..., 1] += (np.arange(rows)[:, None] - rows // 2) * step
+    return moved

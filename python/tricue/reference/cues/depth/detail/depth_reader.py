@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: MIT
+"""The depths that a rectangle shows, by level relative to its own depth: for the kernels of rectangles."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse, require_finite, require_shape
+from tricue.reference.base.depth_pixels import has_depth
+
+Depth = NDArray[np.float32]
+Floats = NDArray[np.float64]
+
+
+def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
+    """The depths at the places (u, v) of the pattern, in halves of width and height from the centre, that are
+    seen: inside the image, and measured.
+    """
+    x, y, width, height, _ = rectangle
+    columns, rows = np.floor(x + width / 2 * pattern[:, 0]), np.floor(y + height / 2 * pattern[:, 1])
+    inside = (rows >= 0) & (rows < depth.shape[0]) & (columns >= 0) & (columns < depth.shape[1])
+    seen = depth[rows[inside].astype(np.intp), columns[inside].astype(np.intp)]
+    measured: Floats = seen[has_depth(seen)].astype(np.float64)
+    return measured
+
+
+def count(seen: Floats, z: float, levels: int, reach: float) -> NDArray[np.intp]:
+    """(levels,) how many depths are in each level of [-reach, reach) round z."""
+    level = np.floor(((seen - z) + reach) * (levels / (2 * reach)))
+    level = level[(level >= 0) & (level < levels)]
+    return np.bincount(level.astype(np.intp), minlength=levels)
+
+
+def require(pattern: Floats, reach: float) -> None:
+    """Refuse a pattern without places, or that isn't finite, and a reach that isn't above 0."""
+    require_shape("pattern", pattern, (len(pattern), 2))
+    if len(pattern) < 1:
+        refuse("pattern", "at least one place", "none")
+    require_finite("pattern", pattern)
+    if not 0 < reach < np.inf:
+        refuse("reach", "a finite number above 0", float(reach))

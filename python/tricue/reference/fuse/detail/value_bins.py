@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+"""In which bin a flow or a disparity lies: what histograms and the look-up of a density share."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+
+MOST = 65536
+
+
+def value_bins(values: NDArray[np.float32], low: float, high: float, bins: int) -> NDArray[np.intp]:
+    """floor((value - low) (bins / (high - low))) in float32, at most bins - 1; ``bins`` for what isn't in
+    [low, high), decided exactly, and for NaN.
+    """
+    exact = values.astype(np.float64)
+    inside = (exact >= low) & (exact < high)
+    with np.errstate(over="ignore", invalid="ignore"):  # where high and low are neighbours
+        place = (values - np.float32(low)) * np.float32(np.divide(bins, high - low))
+    return np.where(inside, np.where(place < bins - 1, place, bins - 1), bins).astype(np.intp)
+
+
+def require_range(low: float, high: float, bins: int) -> None:
+    """Refuse what is no range of a histogram."""
+    if not np.isfinite(low):
+        refuse("low", "a finite number", float(low))
+    if not (np.isfinite(high) and high > low):
+        refuse("high", "a finite number above low", float(high))
+    if not 1 <= bins <= MOST:
+        refuse("bins", f"1 to {MOST}", bins)

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+"""Our trackers in the shape of OpenCV's, for loops written for ``cv2.Tracker``."""
+
+from tricue.camera.box import BoxLike
+from tricue.camera.frame import FrameLike
+from tricue.track.base.track import Status, Track, Tracker
+
+
+class OpenCVTracker:
+    """``init``, ``update`` and ``getTrackingScore`` as ``cv2.Tracker`` has them, round a tracker."""
+
+    def __init__(self, tracker: Tracker) -> None:
+        self.tracker = tracker
+        self._track: Track | None = None
+
+    def init(self, image: FrameLike, boundingBox: BoxLike) -> None:  # noqa: N803 (as cv2 names it)
+        """Start, or start again, on the box (x, y, width, height)."""
+        self._track = self.tracker.init(image, boundingBox)
+
+    def update(self, image: FrameLike) -> tuple[bool, tuple[int, int, int, int]]:
+        """Whether the target is still followed (False when lost), and its box in whole pixels."""
+        self._track = self.tracker.update(image)
+        return self._track.status is not Status.LOST, self._track.box.as_int()
+
+    def getTrackingScore(self) -> float:  # noqa: N802 (as cv2 names it)
+        """The last track's score in [0, 1]; RuntimeError before ``init``."""
+        if self._track is None:
+            raise RuntimeError("getTrackingScore: expected init first")
+        return self._track.score
+
+
+def as_opencv(tracker: Tracker) -> OpenCVTracker:
+    """The tracker with the interface of ``cv2.Tracker``; TypeError for what isn't one of our trackers."""
+    if not all(callable(getattr(tracker, name, None)) for name in ("init", "update")):
+        raise TypeError(f"tracker: expected a tricue tracker, got {type(tracker).__name__}")
+    return OpenCVTracker(tracker)

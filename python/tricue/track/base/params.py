@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""Parameters: one frozen dataclass a tracker, every default with its unit and its source.
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MyParams(Params):
+    particles: int = parameter(100, unit="particles", source="section V", low=1)
+"""
+
+import dataclasses
+import difflib
+import functools
+import math
+import types
+import typing
+from dataclasses import dataclass, field
+from numbers import Integral, Real
+from pathlib import Path
+from typing import Any
+
+from tricue.camera import toml
+
+if typing.TYPE_CHECKING:
+    from typing_extensions import Self
+
+_BOUNDS = {"low": "at least", "above": "above", "high": "at most", "below": "below"}
+_WORDS = {int: "an integer", float: "a number", bool: "True or False", str: "a string"}
+
+
+def parameter(
+    default: Any,
+    *,
+    unit: str,
+    source: str,
+    doc: str = "",
+    low: float | None = None,
+    high: float | None = None,
+    above: float | None = None,
+    below: float | None = None,
+    choices: tuple[Any, ...] | None = None,
+) -> Any:
+    """A field of :class:`Params`. ``low`` and ``high`` are allowed themselves, ``above`` and ``below`` not.
+
+    In a tuple the bounds and the choices hold for each element. None is allowed only where it is the default.
+    """
+    bounds = {"low": low, "above": above, "high": high, "below": below}
+    words = {"unit": unit, "source": source, "doc": doc}
+    return field(default=default, metadata={**words, "choices": choices, **bounds})
+
+
+@dataclass(frozen=True, slots=True)
+class Params:
+    """Base of every tracker's parameters: checks types and ranges, reads and writes TOML, describes itself.
+
+    TypeError for an unknown name or a wrong type, ValueError for a value out of range, NaN or infinity.
+    An int is kept as a float where a float is expected.
+    """
+
+    def __new__(cls, *_: Any, **values: Any) -> "Self":
+        known = [f.name for f in dataclasses.fields(cls)]
+        for name in values.keys() - set(known):
+            near = difflib.get_close_matches(name, known, n=3)
+            hint = f"did you mean {' or '.join(near)}?" if near else f"expected one of {', '.join(known)}"
+            raise TypeError(f"{name}: unknown parameter of {cls.__qualname__}; {hint}")
+        return object.__new__(cls)  # not super(): slots=True makes another class of the same name
+
+    def __post_init__(self) -> None:
+        cls: Any = type(self)
+        kinds = _kinds(cls)
+        for f in dataclasses.fields(self):
+            value = getattr(self, f.name)
+            if value is not None or f.default is not None:
+                object.__setattr__(self, f.name, _checked(value, kinds[f.name], f))
+
+    def to_toml(self, path: str | Path) -> None:
+        """Write every parameter, a line each, its unit and source as a comment; None is left out."""
+        values = {name: value for name, value in dataclasses.asdict(self).items() if value is not None}
+        comments = {f.name: f"{_meta(f, 'unit')}; {_meta(f, 'source')}" for f in dataclasses.fields(self)}
+        Path(path).write_text(toml.dumps(values, comments), encoding="utf-8")
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> "Self":
+        """Read parameters; those that the file lacks keep their default, unknown names are errors."""
+        try:
+            return cls(**toml.read(path))
+        except (TypeError, ValueError) as error:
+            raise type(error)(str(error) if str(path) in str(error) else f"{path}: {error}") from None
+
+    @classmethod
+    def describe(cls) -> str:
+        """A table in plain text: name, default, unit, source, and what the parameter does."""
+        titles = ("name", "default", "unit", "source", "meaning")
+        rows = [titles, *(_row(f) for f in dataclasses.fields(cls))]
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = ("  ".join(map(str.ljust, row, widths)) for row in rows)
+        return "\n".join(line.rstrip() for line in lines)
+
+
+def _row(f: "dataclasses.Field[Any]") -> tuple[str, ...]:
+    return (f.name, str(f.default), *(_meta(f, key) for key in ("unit", "source", "doc")))
+
+
+def _meta(f: "dataclasses.Field[Any]", key: str) -> str:
+    return str(f.metadata.get(key, ""))
+
+
+@functools.cache
+def _kinds(cls: Any) -> dict[str, Any]:
+    """The type of each field, without its "or None"."""
+    return {name: _without_none(hint) for name, hint in typing.get_type_hints(cls).items()}
+
+
+def _without_none(hint: Any) -> Any:
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return next(kind for kind in typing.get_args(hint) if kind is not type(None))
+    return hint
+
+
+def _checked(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
+    if typing.get_origin(kind) is tuple:
+        return _checked_tuple(value, typing.get_args(kind), f)
+    if typing.get_origin(kind) is typing.Literal:
+        _check_choice(value, typing.get_args(kind), f.name)
+        return value
+    value = _converted(value, kind, f)
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{f.name}: expected a finite number, got {value}")
+    _check_choice(value, f.metadata.get("choices"), f.name)
+    _check_bounds(value, f)
+    return value
+
+
+def _checked_tuple(value: Any, kinds: tuple[Any, ...], f: "dataclasses.Field[Any]") -> tuple[Any, ...]:
+    if not isinstance(value, (tuple, list)):
+        raise TypeError(f"{f.name}: expected a tuple, got {value!r:.80}")
+    if kinds[-1] is Ellipsis:
+        kinds = kinds[:1] * len(value)
+    if len(value) != len(kinds):
+        raise ValueError(f"{f.name}: expected {len(kinds)} values, got {len(value)}: {value!r:.80}")
+    return tuple(_checked(element, kind, f) for element, kind in zip(value, kinds, strict=True))
+
+
+def _converted(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
+    abstract = {int: Integral, float: Real}.get(kind, kind)
+    if not isinstance(value, abstract) or (isinstance(value, bool) and kind is not bool):
+        raise TypeError(f"{f.name}: expected {_WORDS.get(kind, kind)}, got {value!r:.80}")
+    return kind(value)
+
+
+def _check_choice(value: Any, choices: tuple[Any, ...] | None, name: str) -> None:
+    if choices is not None and value not in choices:
+        raise ValueError(f"{name}: expected one of {', '.join(map(repr, choices))}, got {value!r:.80}")
+
+
+def _check_bounds(value: Any, f: "dataclasses.Field[Any]") -> None:
+    bounds = {key: f.metadata[key] for key in _BOUNDS if f.metadata.get(key) is not None}
+    within = {
+        "low": lambda bound: value >= bound,
+        "above": lambda bound: value > bound,
+        "high": lambda bound: value <= bound,
+        "below": lambda bound: value < bound,
+    }
+    if not all(within[key](bound) for key, bound in bounds.items()):
+        expected = " and ".join(f"{_BOUNDS[key]} {bound}" for key, bound in bounds.items())
+        raise ValueError(f"{f.name}: expected {expected}, got {value!r}")

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: MIT
+"""Trackers from what users write: parameters in a TOML file, overridden by settings such as particles=300."""
+
+import ast
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from tricue.track.base.registry import create, tracker_class
+from tricue.track.base.track import Tracker
+
+
+def make_tracker(
+    name: str, params_file: Path | None, settings: Sequence[str], seed: int, kernels: str, **camera: Any
+) -> Tracker:
+    """The tracker with parameters of a TOML file, overridden by settings "name=value"."""
+    return create(name, **read_settings(name, params_file, settings), seed=seed, kernels=kernels, **camera)
+
+
+def read_settings(name: str, params_file: Path | None, settings: Sequence[str]) -> dict[str, Any]:
+    """The same parameters alone, as keywords; those of the file are checked, the settings not yet."""
+    kind = tracker_class(name).Params
+    values: dict[str, Any] = {}
+    if params_file is not None:
+        values = dataclasses.asdict(kind.from_toml(params_file))
+    return values | _split(parse_settings(settings), kind)
+
+
+def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
+    """Keywords from strings name=value: numbers, true, false, tuples such as 16,20; the rest as text."""
+    pairs = [setting.partition("=") for setting in settings]
+    for name, equals, _ in pairs:
+        if not (equals and name.isidentifier()):
+            raise ValueError(f"--set: expected name=value, got {name + equals!r}")
+    return {name: _literal(text.strip()) for name, _, text in pairs}
+
+
+def _split(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
+    """The values; text for a parameter that takes a tuple is one of words, such as cues=flow,disparity."""
+    tuples = {field.name for field in dataclasses.fields(kind) if isinstance(field.default, tuple)}
+    return {
+        name: tuple(word.strip() for word in value.split(",") if word.strip())
+        if name in tuples and isinstance(value, str)
+        else value
+        for name, value in values.items()
+    }
+
+
+def _literal(text: str) -> Any:
+    try:
+        return ast.literal_eval(text.title() if text in ("true", "false") else text)
+    except (ValueError, SyntaxError):
+        return text

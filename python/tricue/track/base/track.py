@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""What every tracker takes and returns."""
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box, BoxLike
+from tricue.camera.frame import FrameLike
+from tricue.track.base.params import Params
+
+
+class Status(str, Enum):
+    """TRACKED: seen. OCCLUDED: hidden, the box is a prediction. LOST: gone, the tracker is searching."""
+
+    TRACKED = "tracked"
+    OCCLUDED = "occluded"
+    LOST = "lost"
+
+    def __str__(self) -> str:
+        return self.value
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Track:
+    """Where the target is in one frame.
+
+    box: pixels; it may reach over the image's edge.
+    score: confidence in [0, 1].
+    position: (3,) float64, metres in the camera frame (x right, y down, z forward), or None without depth.
+    covariance: (3, 3) of the position, square metres, or None.
+    """
+
+    box: Box
+    score: float
+    status: Status
+    position: NDArray[np.float64] | None = None
+    covariance: NDArray[np.float64] | None = None
+
+    __hash__ = None  # type: ignore[assignment]  # arrays have none
+
+    def __eq__(self, other: object) -> bool:
+        """Equal to the last bit, arrays included, so that runs can be compared."""
+        if not isinstance(other, Track):
+            return NotImplemented
+        plain = (self.box, self.score, self.status) == (other.box, other.score, other.status)
+        return plain and _same(self.position, other.position) and _same(self.covariance, other.covariance)
+
+
+class Tracker(Protocol):
+    """The shape of a tracker: start it with ``init``, then one ``update`` a frame."""
+
+    @property
+    def params(self) -> Params: ...
+
+    def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
+        """Start, or start again, on ``box``; without it the tracker finds a target or raises ValueError."""
+
+    def update(self, frame: FrameLike) -> Track:
+        """Follow the target into the next frame; RuntimeError before ``init``."""
+
+
+def _same(a: NDArray[np.float64] | None, b: NDArray[np.float64] | None) -> bool:
+    return a is b if a is None or b is None else np.array_equal(a, b, equal_nan=True)

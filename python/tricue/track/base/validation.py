@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: MIT
+"""What every tracker checks before it touches its state."""
+
+from collections.abc import Sequence
+from numbers import Integral
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame, FrameLike, as_frame
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.track.base.params import Params
+
+State = TypeVar("State")
+P = TypeVar("P", bound=Params)
+
+USUAL_BASELINE = 0.12  # metres, of a rig that nobody described
+LONGEST = 1.0  # s between two frames, as far as a tracker cares
+SHORTEST = 1e-6  # s; nearer to each other than clocks tell, and the velocities of it have no end
+USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
+
+
+def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArray[np.uint8]:
+    """The frame's BGR image, (H, W, 3). ValueError for a grey one, or for another shape than the first
+    frame's.
+    """
+    channels = as_frame(frame)
+    channels.require("color")
+    image: Any = channels.color
+    if image.ndim != 3:
+        hint = "cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) makes one"
+        raise ValueError(f"frame.color: expected BGR (H, W, 3), got grey {image.shape}; {hint}")
+    if shape is not None and image.shape != shape:
+        hint = "init starts again on another size"
+        raise ValueError(f"frame.color: expected the first frame's shape {shape}, got {image.shape}; {hint}")
+    return image  # type: ignore[no-any-return]
+
+
+def seed(value: int) -> int:
+    """The seed itself; TypeError for what isn't a whole number, ValueError for one below 0."""
+    if not isinstance(value, Integral) or isinstance(value, bool):
+        raise TypeError(f"seed: expected a whole number, got {value!r:.80}")
+    if value < 0:
+        raise ValueError(f"seed: expected 0 or more, got {value}")
+    return int(value)
+
+
+def box_in(box: Box, shape: tuple[int, ...]) -> Box:
+    """The box itself; ValueError where no part of it is in an image of that shape, or it is under 2 pixels
+    wide or high.
+    """
+    height, width = shape[:2]
+    if min(box.width, box.height) < 2:
+        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
+    if box.clip(width, height).area <= 0:
+        raise ValueError(
+            f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}"
+        )
+    return box
+
+
+def started(state: State | None) -> State:
+    """The state; RuntimeError where there is none, before ``init``."""
+    if state is None:
+        raise RuntimeError("update: expected init first, with a frame and a box")
+    return state
+
+
+def depth_image(
+    frame: FrameLike, shape: tuple[int, ...] | None = None
+) -> tuple[NDArray[np.float32], float | None]:
+    """The frame's depth, (H, W) float32 metres with NaN, and its timestamp. ValueError for another shape than
+    the first frame's.
+    """
+    channels = as_frame(frame)
+    channels.require("depth")
+    depth: Any = channels.depth
+    if shape is not None and depth.shape != shape:
+        hint = "init starts again on another size"
+        raise ValueError(f"frame.depth: expected the first frame's shape {shape}, got {depth.shape}; {hint}")
+    return depth, channels.timestamp
+
+
+def stereo_pair(
+    frame: FrameLike, shape: tuple[int, ...] | None = None
+) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float | None]:
+    """The frame's left image, BGR (H, W, 3), its right one, BGR or grey, and its timestamp. ValueError as
+    :func:`color_image`, and without a right image.
+    """
+    channels = as_frame(frame)
+    channels.require("color", "right")
+    right: Any = channels.right
+    return color_image(channels, shape), right, channels.timestamp
+
+
+class Moving(NamedTuple):
+    """A frame with all that the cues need, and the image whose pixels the box counts."""
+
+    frame: Frame
+    image: NDArray[Any]
+
+
+def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None = None) -> Moving:
+    """The frame for flow, disparity or both. ValueError without a channel that they need, for a depth of
+    another shape than the color image's, which it has to be registered to, and for another shape than the
+    first frame's.
+    """
+    channels = as_frame(frame)
+    if "flow" in cues or channels.depth is None:
+        channels.require("color")
+    if "disparity" in cues and channels.depth is None and channels.right is None:
+        hint = "cues=('flow',) needs neither"
+        raise ValueError(f"frame: expected the channel right or depth, got color; {hint}")
+    image: Any = channels.depth if channels.color is None else channels.color
+    name = "depth" if channels.color is None else "color"
+    if shape is not None and image.shape != shape:
+        hint = "init starts again on another size"
+        raise ValueError(f"frame.{name}: expected the first frame's shape {shape}, got {image.shape}; {hint}")
+    depth: Any = channels.depth
+    if "disparity" in cues and channels.right is None and depth.shape != image.shape[:2]:
+        hint = "it has to be that of the color image's pixels"
+        raise ValueError(f"frame.depth: expected shape {image.shape[:2]}, got {depth.shape}; {hint}")
+    return Moving(channels, image)
+
+
+def elapsed(before: float | None, now: float | None, rate: float) -> float:
+    """Seconds between two timestamps; of a frame at a rate, frames/s, where they tell nothing."""
+    if before is None or now is None or now - before < SHORTEST:
+        return min(1 / rate, LONGEST)
+    return min(now - before, LONGEST)
+
+
+def rig(value: StereoRig | None) -> StereoRig | None:
+    """The rig itself; TypeError for anything else."""
+    if value is not None and not isinstance(value, StereoRig):
+        raise TypeError(f"rig: expected tricue.StereoRig, got {type(value).__name__}")
+    return value
+
+
+def rig_for(value: StereoRig | None, shape: tuple[int, ...]) -> StereoRig:
+    """The rig, or a usual one where none is given. ValueError where it has another size than the image."""
+    height, width = shape[:2]
+    if value is None:
+        return StereoRig(Intrinsics.from_fov(width, height, USUAL_VIEW), USUAL_BASELINE)
+    camera = value.intrinsics
+    if (camera.width, camera.height) != (width, height):
+        expected = f"the rig's size, {camera.width}x{camera.height}"
+        raise ValueError(f"frame.color: expected {expected}, got {width}x{height}")
+    return value
+
+
+def intrinsics(value: Intrinsics | None) -> Intrinsics | None:
+    """The camera itself; TypeError for anything else."""
+    if value is not None and not isinstance(value, Intrinsics):
+        raise TypeError(f"intrinsics: expected tricue.Intrinsics, got {type(value).__name__}")
+    return value
+
+
+def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
+    """The camera, or a usual one where none is given. ValueError where it has another size than the image."""
+    height, width = shape[:2]
+    if camera is None:
+        return Intrinsics.from_fov(width, height, USUAL_VIEW)
+    if (camera.width, camera.height) != (width, height):
+        expected = f"the camera's size, {camera.width}x{camera.height}"
+        hint = "the intrinsics are those of the depth image"
+        raise ValueError(f"frame.depth: expected {expected}, got {width}x{height}; {hint}")
+    return camera
+
+
+def cameras(pair: StereoRig | None, single: Intrinsics | None) -> tuple[StereoRig | None, Intrinsics | None]:
+    """A pair's rig or a single camera's intrinsics, as they are; TypeError for both at once, and for anything
+    else.
+    """
+    known = rig(pair), intrinsics(single)
+    if None not in known:
+        raise TypeError("intrinsics: expected without rig, whose intrinsics are those of the left camera")
+    return known
+
+
+def parameters(kind: type[P], params: P | None, values: dict[str, Any]) -> P:
+    """The parameters given all at once or one by one; TypeError for both."""
+    if params is not None and values:
+        raise TypeError(f"params: expected alone, got also {', '.join(values)}")
+    if params is not None and not isinstance(params, kind):
+        raise TypeError(f"params: expected {kind.__name__}, got {type(params).__name__}")
+    return kind(**values) if params is None else params

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: MIT
+"""What ``tricue track`` says and does about cameras, with the trackers themselves."""
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Frame, Intrinsics
+from tricue.camera.box import Box
+from tricue.cli.calibrations import GUESSING
+from tricue.cli import main
+from tricue.track.base.registry import names
+
+FRAMES = 4
+PAIR, RGBD = ("fused", "flow-depth", "stereo-head"), ("fused", "flow-depth", "depth-particle")
+MM = ("--depth-scale", "0.001")
+
+
+def written(folder: Path, frames: Sequence[Frame], box: Box) -> Path:
+    """The frames as folders of images, and the first true box."""
+    images = {"left": "color", "right": "right"} if frames[0].right is not None else {"color": "color"}
+    for index, frame in enumerate(frames):
+        for name, channel in images.items():
+            save(folder / name / f"{index}.png", getattr(frame, channel))
+        if frame.depth is not None:
+            save(folder / "depth" / f"{index}.png", np.nan_to_num(1000 * frame.depth).astype(np.uint16))
+    (folder / "groundtruth.txt").write_text(",".join(map(str, box)))
+    return folder
+
+
+def save(path: Path, image: NDArray[Any]) -> None:
+    """One image, in a folder that is made."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    cv2.imwrite(str(path), image)
+
+
+@pytest.fixture(scope="module")
+def pair(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A head before two cameras that nothing describes."""
+    pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+    from tricue.scenes import head
+
+    scene = head(seed=3, frames=FRAMES)
+    return written(tmp_path_factory.mktemp("data") / "pair", scene.frames, scene.boxes[0])
+
+
+@pytest.fixture(scope="module")
+def rgbd(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A walker before a depth camera that nothing describes."""
+    pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+    from tricue.scenes import overtaking
+
+    scene = overtaking(0, FRAMES, depth=True)
+    return written(tmp_path_factory.mktemp("data") / "rgbd", scene.frames, scene.boxes[0])
+
+
+def tracked(folder: Path, *options: str) -> dict[str, Any]:
+    """What a run on the folder writes as JSON."""
+    path = folder.parent / "o.json"
+    assert main(["track", str(folder), *options, "--json", str(path)]) == 0
+    content: dict[str, Any] = json.loads(path.read_text())
+    return content
+
+
+def has_positions(content: dict[str, Any]) -> bool:
+    """Whether the last track has one."""
+    return content["tracks"][-1]["Z_m"] is not None
+
+
+def test_every_tracker_in_metres_is_tried_below() -> None:
+    """It proves that a new tracker doesn't come without a look at what it does without a calibration."""
+    assert {*PAIR, *RGBD, "color-particle"} == set(names())
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+@pytest.mark.parametrize("tracker", PAIR)
+def test_what_an_unknown_pair_costs_is_true(
+    pair: Path, tracker: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that the warning says of each tracker what it does: no positions, or some by a usual pair."""
+    content = tracked(pair, "--tracker", tracker)
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert error.startswith("tricue track: warning: the pair's calibration isn't known; ")
+    assert has_positions(content) == (tracker in GUESSING)
+    if tracker in GUESSING:
+        assert "any position in metres is a guess, by a usual pair, 60 degrees wide and 0.12 m apart" in error
+    else:
+        assert "tracks will have no position in metres" in error
+    assert "give --calibration FILE" in error
+    assert content["intrinsics"] is None
+    assert content["baseline"] is None
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+@pytest.mark.parametrize("tracker", RGBD)
+def test_what_an_unknown_depth_camera_costs_is_true(
+    rgbd: Path, tracker: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves the same of color and depth: a guess is warned of, the lack of positions said at the end."""
+    content = tracked(rgbd, "--tracker", tracker, *MM)
+    printed = capsys.readouterr()
+    assert has_positions(content) == (tracker in GUESSING)
+    if tracker in GUESSING:
+        assert printed.err.count("\n") == 1
+        assert "the depth camera's intrinsics aren't known; how far a position in metres is beside the" in (
+            printed.err
+        )
+        assert "a guess, by a usual camera, 60 degrees wide; give --calibration FILE or --fov" in printed.err
+    else:
+        assert not printed.err
+        assert "intrinsics aren't known; tracks have no position in metres; give --calib" in printed.out
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_the_guess_is_what_is_said(rgbd: Path) -> None:
+    """It proves that a camera of the 60 degrees that the warning tells gives the very same positions."""
+    guessed = tracked(rgbd, "--tracker", "fused", *MM)
+    told = tracked(rgbd, "--tracker", "fused", *MM, "--fov", "60")
+    assert told["tracks"] == guessed["tracks"]
+
+
+@pytest.mark.parametrize("tracker", ["fused", "flow-depth", "color-particle"])
+def test_color_alone_needs_no_camera(rgbd: Path, tracker: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that nothing is said about positions where no tracker could tell any."""
+    more = ["--set", "cues=flow"] if tracker == "flow-depth" else []
+    box = (rgbd / "groundtruth.txt").read_text()
+    assert not has_positions(tracked(rgbd / "color", "--tracker", tracker, f"--box={box}", *more))
+    printed = capsys.readouterr()
+    assert "position" not in printed.out + printed.err
+
+
+DEPTH = Intrinsics(60.0, 60.0, 39.5, 29.5, 80, 60)
+COLOR = Intrinsics(180.0, 180.0, 84.5, 54.5, 160, 120)  # of twice the pixels, longer, and off to the right
+NEAR, WALL = 2000, 4000  # millimetres
+PERSON = Box(34, 20, 10, 22)  # in the depth image, going right by a pixel a frame
+
+
+def seen_by(camera: Intrinsics, shift: float) -> Box:
+    """Where a camera sees the person, from the place of the depth camera."""
+    corners = [
+        camera.project(DEPTH.back_project(x - 0.5, y - 0.5, NEAR / 1000)) + 0.5
+        for x, y in (
+            (PERSON.x + shift, PERSON.y),
+            (PERSON.x + PERSON.width + shift, PERSON.y + PERSON.height),
+        )
+    ]
+    return Box.from_xyxy(*np.concatenate(corners).tolist())
+
+
+@pytest.fixture
+def two_cameras(tmp_path: Path) -> Path:
+    """A person of texture before a wall of texture; a depth and a color camera of other intrinsics."""
+    folder, rng = tmp_path / "two", np.random.default_rng(0)
+    wall, shirt = (cv2.resize(rng.integers(0, 256, (30, 40, 3), np.uint8), (160, 120)) for _ in range(2))
+    for index in range(6):
+        color, depth = wall.copy(), np.full((60, 80), WALL, np.uint16)
+        for image, camera, value in ((color, COLOR, shirt), (depth, DEPTH, NEAR)):
+            x0, y0, x1, y1 = (round(at) for at in seen_by(camera, index).xyxy)
+            image[y0:y1, x0:x1] = value if camera is DEPTH else value[: y1 - y0, : x1 - x0]
+        save(folder / "color" / f"{index}.png", color)
+        save(folder / "depth" / f"{index}.png", depth)
+    lines = []
+    for name, camera in (("depth", DEPTH), ("color", COLOR)):
+        lines += [f"[{name}]", *(f"{key} = {getattr(camera, key)}" for key in ("fx", "fy", "cx", "cy"))]
+    (folder / "intrinsics.toml").write_text("\n".join(lines))
+    return folder
+
+
+def box_option(box: Box) -> str:
+    """The box to start on."""
+    return f"--box={','.join(map(str, box))}"
+
+
+@pytest.mark.parametrize("tracker", ["fused", "flow-depth"])
+def test_depth_of_another_camera_comes_into_the_color_image(
+    two_cameras: Path, tracker: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a tracker of both gets depth where the color is: boxes are the color image's, and the
+    person is at its true place in metres, by the color camera.
+    """
+    start = box_option(seen_by(COLOR, 0))
+    content = tracked(two_cameras, "--tracker", tracker, *MM, start)
+    assert "depth brought into the color image by both cameras' intrinsics" in capsys.readouterr().out
+    assert content["intrinsics"]["fx"] == COLOR.fx
+    assert content["intrinsics"]["width"] == COLOR.width
+    last, true = content["tracks"][-1], seen_by(COLOR, 5)
+    assert Box(*(last[key] for key in ("x", "y", "width", "height"))).iou(true) > 0.7
+    x, y = true.center
+    expected = COLOR.back_project(x - 0.5, y - 0.5, NEAR / 1000)
+    assert [last[key] for key in ("X_m", "Y_m", "Z_m")] == pytest.approx(expected, abs=0.1)
+
+
+def test_a_given_file_of_two_cameras_does_so_too(two_cameras: Path, tmp_path: Path) -> None:
+    """It proves that --calibration is read as the file beside the images."""
+    found = tracked(two_cameras, *MM, box_option(seen_by(COLOR, 0)))
+    file = (two_cameras / "intrinsics.toml").rename(tmp_path / "c.toml")
+    given = tracked(two_cameras, *MM, box_option(seen_by(COLOR, 0)), "--calibration", str(file))
+    assert given["tracks"] == found["tracks"]
+
+
+def test_a_depth_tracker_keeps_its_pixels(two_cameras: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a tracker of depth alone gets the depth camera's image and intrinsics as ever."""
+    content = tracked(two_cameras, "--tracker", "depth-particle", *MM, box_option(PERSON))
+    assert content["intrinsics"]["fx"] == DEPTH.fx
+    assert content["tracks"][-1]["x"] == pytest.approx(PERSON.x + 5, abs=2)
+    assert "brought into" not in capsys.readouterr().out
+
+
+def test_one_camera_has_nothing_to_bring(
+    rgbd: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that where both tables tell the same camera, depth stays as it is."""
+    numbers = "fx = 140.0\nfy = 140.0\ncx = 79.5\ncy = 59.5\n"
+    two, one = tmp_path / "two.toml", tmp_path / "one.toml"
+    two.write_text(f"[depth]\n{numbers}scale = 0.001\n[color]\n{numbers}")
+    one.write_text(numbers)
+    both = tracked(rgbd, *MM, "--calibration", str(two))
+    assert "brought into" not in capsys.readouterr().out
+    assert tracked(rgbd, *MM, "--calibration", str(one))["tracks"] == both["tracks"]
+
+
+def test_true_boxes_of_the_depth_image_go_with_it(two_cameras: Path) -> None:
+    """It proves that where positions were measured in the depth, and boxes so count its pixels, the tracker
+    starts in the color image where the person is.
+    """
+    boxes = [",".join(map(str, seen_by(DEPTH, shift))) for shift in range(6)]
+    (two_cameras / "groundtruth.txt").write_text("\n".join(boxes))
+    (two_cameras / "position_z_mm.txt").write_text("2000\n" * 6)
+    channels = "".join(f"channels.{name}={name}/%d.png\n" for name in ("color", "depth"))
+    (two_cameras / "sequence").write_text(f"name=two\nfps=4\nlength=6\n{channels}")
+    first = tracked(two_cameras)["tracks"][0]
+    assert [first[key] for key in ("x", "y", "width", "height")] == pytest.approx(tuple(seen_by(COLOR, 0)))
+
+
+@pytest.mark.filterwarnings("default")  # they are to be printed
+def test_sizes_that_differ_are_advised_on(two_cameras: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that depth of another size without such a file is an error that says what helps."""
+    (two_cameras / "intrinsics.toml").unlink()
+    assert main(["track", str(two_cameras), *MM, box_option(seen_by(COLOR, 0))]) == 2
+    error = capsys.readouterr().err
+    assert "frame.depth: expected shape (120, 160), got (60, 80)" in error
+    assert "--calibration FILE in TOML, with the tables depth and color, brings it there" in error

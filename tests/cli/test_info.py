@@ -1,0 +1,296 @@
+# SPDX-License-Identifier: MIT
+"""``tricue info``: what is said of recordings whose contents are known."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from tricue.cli import main
+from tricue.data.datasets import find_sequences
+from tricue.data.summary import MOST
+
+TOML = "[{channel}]\nfx = 50.0\nfy = 60.0\ncx = 31.5\ncy = 23.5\n"
+
+
+def color(folder: Path, count: int, digits: int = 8) -> Path:
+    """A folder of 64x48 images, numbered from 1."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for number in range(1, count + 1):
+        cv2.imwrite(str(folder / f"{number:0{digits}}.png"), np.full((48, 64, 3), 90, np.uint8))
+    return folder
+
+
+def depth(folder: Path, count: int, rotated: bool = False) -> Path:
+    """A folder of depth: 1000 to 1099 in equal parts, and a quarter of the pixels without."""
+    folder.mkdir(parents=True, exist_ok=True)
+    image = np.zeros((40, 100), np.uint16)
+    image[:30] = np.arange(1000, 1100)
+    for number in range(1, count + 1):
+        if rotated:
+            name, written = f"d-{number}000-{number}.png", image << 3 | image >> 13
+        else:
+            name, written = f"{number:08}.png", image
+        cv2.imwrite(str(folder / name), written)
+    return folder
+
+
+def vot(folder: Path, count: int = 4) -> Path:
+    """VOT RGB-D of ``count`` frames at 5 a second, with boxes for three, one of them absent."""
+    color(folder / "color", count)
+    depth(folder / "depth", count)
+    lines = "fps=5\nchannels.color=color/%08d.png\nchannels.depth=depth/%08d.png\n"
+    (folder / "sequence").write_text(lines)
+    (folder / "groundtruth.txt").write_text("1,2,10,20\nnan,nan,nan,nan\n1,2,12.5,24\n")
+    return folder
+
+
+def facts(capsys: pytest.CaptureFixture[str], *arguments: object) -> Any:
+    """What ``tricue info --json`` says."""
+    assert main(["info", *map(str, arguments), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def lines(capsys: pytest.CaptureFixture[str], *arguments: object) -> list[str]:
+    """What ``tricue info`` prints."""
+    assert main(["info", *map(str, arguments)]) == 0
+    return capsys.readouterr().out.splitlines()
+
+
+def test_a_sequence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that format, frames, channels, unit, range, invalid pixels, truth and camera are what they
+    were made to be.
+    """
+    folder = vot(tmp_path / "walk")
+    (folder / "intrinsics.toml").write_text(TOML.format(channel="depth"))
+    (folder / "position_z_mm.txt").write_text("1500\n0\n2500\n")
+    assert lines(capsys, folder) == [
+        "walk: VOT RGB-D",
+        "  frames       4, 5 a second, 0.60 s",
+        "  color        64x48, uint8",
+        "  depth        100x40, uint16",
+        "               0.001 m per unit, by VOT's format",
+        "               1.004 m to 1.094 m, 5th to 95th percentile; 25.0 % invalid pixels; of all frames",
+        "  truth        2 boxes, 1 absent, 1 unknown",
+        "               10 to 12.5 px wide, 20 to 24 px high",
+        "               0 positions, 2 depths, 1.50 m to 2.50 m",
+        f"  calibration  {folder / 'intrinsics.toml'}",
+        "               fx 50.00, fy 60.00, cx 31.50, cy 23.50 px",
+        "               field of view 90.0 x 36.9 degrees",
+    ]
+
+
+def test_json_says_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that --json holds the figures under their names."""
+    found = facts(capsys, vot(tmp_path / "walk"))
+    assert (found["name"], found["format"], found["frames"]) == ("walk", "VOT RGB-D", 4)
+    assert (found["fps"], found["fps_known"], found["seconds"]) == (5.0, True, pytest.approx(0.6))
+    assert found["channels"]["depth"] == {"width": 100, "height": 40, "type": "uint16", "frames": 4}
+    assert found["depth"]["near_m"] == pytest.approx(1.004)
+    assert found["depth"]["far_m"] == pytest.approx(1.094)
+    assert (found["depth"]["invalid"], found["depth"]["frames_looked_at"]) == (0.25, 4)
+    counted = {name: found["truth"][name] for name in ("boxes", "absent", "unknown", "behind_the_end")}
+    assert counted == {"boxes": 2, "absent": 1, "unknown": 1, "behind_the_end": 0}
+    assert found["truth"]["positions"] is found["calibration"] is None
+    assert found["targets"] == found["notes"] == []
+
+
+def test_where_the_unit_comes_from(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that the unit is the format's or the option's, Princeton's also of its folder alone, and that
+    its bits are turned back.
+    """
+    plain = depth(tmp_path / "plain", 2)
+    turned = depth(tmp_path / "turned", 2, rotated=True)
+    for arguments, unit, near in (
+        ((plain, "--depth-scale", 0.0005), "--depth-scale", 0.502),
+        ((turned,), "Princeton's format", 1.004),
+        ((vot(tmp_path / "vot"), "--depth-scale", 0.01), "--depth-scale", 10.04),
+    ):
+        found = facts(capsys, *arguments)["depth"]
+        assert (found["unit_from"], found["near_m"]) == (unit, pytest.approx(near))
+
+
+def test_many_depth_images_are_sampled(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that of a long recording at most a hundred images of depth are looked at, and that it says
+    so.
+    """
+    folder = depth(tmp_path / "long", MOST + 20)
+    line = lines(capsys, folder, "--depth-scale", 0.001)[4]
+    assert line.endswith("25.0 % invalid pixels; of 100 frames, evenly spaced")
+
+
+def test_depth_of_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that depth without a single measurement has no range."""
+    cv2.imwrite(str(tmp_path / "1.png"), np.zeros((4, 4), np.uint16))
+    found = facts(capsys, tmp_path, "--depth-scale", 0.001)["depth"]
+    assert (found["near_m"], found["far_m"], found["invalid"]) == (None, None, 1.0)
+    assert lines(capsys, tmp_path, "--depth-scale", 0.001)[4].endswith("no valid pixel in all frames")
+
+
+def test_a_video_is_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a video's frames are counted by reading, and that its table's rows behind its end are
+    told.
+    """
+    path = tmp_path / "clip.avi"
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 10.0, (64, 48))
+    for _ in range(5):
+        writer.write(np.zeros((48, 64, 3), np.uint8))
+    writer.release()
+    assert lines(capsys, path)[1:4] == [
+        "  frames       5, 10 a second, 0.40 s",
+        "  color        64x48, uint8",
+        "  truth        none",
+    ]
+    (tmp_path / "clip.csv").write_text("3,1,2,3,4\n6,1,2,3,4\n")
+    found = lines(capsys, path)
+    assert found[3] == "  truth        1 boxes, 0 absent, 4 unknown"
+    assert found[5] == "               2 rows more than there are frames"
+    assert found[-1] == f"  note         true boxes found: {tmp_path / 'clip.csv'}"
+
+
+def test_assumed_times(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a frame rate that nobody told is said to be assumed."""
+    folder = color(tmp_path / "i", 3)
+    assert (
+        lines(capsys, folder)[1] == "  frames       3, 30 a second (assumed, nothing tells the times), 0.07 s"
+    )
+    assert lines(capsys, folder, "--fps", 4)[1] == "  frames       3, 4 a second, 0.50 s"
+
+
+@pytest.mark.parametrize(("shift", "warned"), [(500, False), (0.01, True), (50_000, True)])
+@pytest.mark.filterwarnings("ignore:baseline")
+def test_pairs(tmp_path: Path, capsys: pytest.CaptureFixture[str], shift: float, warned: bool) -> None:
+    """It proves that a pair's baseline is told, and one that can't be in metres is warned of."""
+    left, right = color(tmp_path / "a", 2), color(tmp_path / "b", 2)
+    file = tmp_path / "calib.txt"
+    file.write_text(f"P2: 500 0 32 0 0 500 24 0 0 0 1 0\nP3: 500 0 32 {-shift} 0 500 24 0 0 0 1 0\n")
+    found = facts(capsys, left, "--right", right, "--calibration", file)
+    assert (found["format"], list(found["channels"])) == ("stereo pair", ["color", "right"])
+    assert found["calibration"]["baseline_m"] == pytest.approx(shift / 500)
+    assert ("warning" in found["calibration"]) == warned
+    printed = lines(capsys, left, "--right", right, "--calibration", file)
+    assert f"               baseline {shift / 500:.4f} m" in printed
+    assert any(line.startswith("  warning") for line in printed) == warned
+
+
+def test_a_calibration_of_no_use(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that what is wrong with a file that was found is told, and is an error if it was given."""
+    folder = color(tmp_path / "walk", 1)
+    (folder / "intrinsics.toml").write_text("fx = 1\n")
+    assert "of no use" in lines(capsys, folder)[-1]
+    assert main(["info", str(folder), "--calibration", str(folder / "intrinsics.toml")]) == 2
+    assert "intrinsics.toml: expected the key" in capsys.readouterr().err
+
+
+def kitti(root: Path) -> Path:
+    """KITTI's tracking layout of three frames with two targets."""
+    for side in ("image_02", "image_03"):
+        color(root / side / "0000", 3, 6)
+    rows = [(1, 0, "Car"), (2, 0, "Car"), (2, 3, "Van"), (3, 3, "Van")]
+    (root / "label_02").mkdir()
+    (root / "label_02" / "0000.txt").write_text(
+        "".join(f"{frame} {track} {kind} 0 0 0 10 10 20 30 1 1 1 0 1 9 0\n" for frame, track, kind in rows)
+    )
+    return root
+
+
+def test_targets(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a folder's targets are listed, and that one can be looked at."""
+    root = kitti(tmp_path / "kitti")
+    printed = lines(capsys, root)
+    assert "  truth        none" in printed
+    assert "  targets      2, by --target: Car 0, Van 3" in printed
+    found = facts(capsys, root, "--target", "Van 3")
+    assert (found["name"], found["frames"], found["truth"]["boxes"]) == ("kitti Van 3", 2, 2)
+    assert found["truth"]["positions"]["known"] == 2
+
+
+def test_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that of a folder without images each sequence below has a line, in JSON an object."""
+    kitti(tmp_path / "b" / "kitti")
+    vot(tmp_path / "a" / "walk")
+    assert lines(capsys, tmp_path) == [
+        "a/walk: VOT RGB-D, 4 frames, color and depth, 2 boxes",
+        "b/kitti: KITTI tracking, 3 frames, color and right, 2 targets",
+    ]
+    found = facts(capsys, tmp_path)["sequences"]
+    assert [each["place"] for each in found] == ["a/walk", "b/kitti"]
+    assert found[0]["boxes"] == 2
+
+
+def test_the_unit_of_a_folder_of_sequences(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that --depth-scale is for the sequences that need it, and leaves the others alone."""
+    (color(tmp_path / "a", 2) / "boxes.csv").write_text("1,2,3,4\n")
+    (depth(tmp_path / "b", 2) / "boxes.csv").write_text("1,2,3,4\n")
+    assert main(["info", str(tmp_path / "b")]) == 2
+    found = facts(capsys, tmp_path, "--depth-scale", 0.001)["sequences"]
+    assert [each["channels"] for each in found] == [["color"], ["depth"]]
+
+
+def test_a_malformed_sequence_among_others(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that the others have their lines all the same, and the exit code is that of an error."""
+    (vot(tmp_path / "a") / "groundtruth.txt").write_text("1,2,3\n")
+    vot(tmp_path / "b")
+    assert main(["info", str(tmp_path)]) == 2
+    captured = capsys.readouterr()
+    first, second = captured.out.splitlines()
+    assert first.startswith("a: can't be opened: ")
+    assert "groundtruth.txt, line 1: expected four numbers" in first
+    assert second.startswith("b: VOT RGB-D")
+    assert captured.err == f"tricue info: {tmp_path}: 1 of 2 sequences can't be opened\n"
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda folder: folder / "nowhere", "there is no such file or folder"),
+        (lambda folder: folder, "expected a folder of images or a sequence, found neither"),
+        (lambda folder: depth(folder / "d", 1), "expected --depth-scale"),
+        (lambda folder: color(folder / "c", 1) / "00000001.png", "one picture; give its folder"),
+    ],
+)
+def test_errors_are_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], make: Any, message: str
+) -> None:
+    """It proves that each unusable place is an error of one line that says what is wrong, exit code 2."""
+    assert main(["info", str(make(tmp_path))]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith("tricue info: ")
+    assert message in captured.err
+    assert captured.err.count("\n") == 1
+
+
+def test_a_camera_has_no_frames_to_count(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a live camera is refused instead of being read for ever."""
+
+    class Live:
+        def __init__(self, _number: int) -> None:
+            pass
+
+        def isOpened(self) -> bool:  # noqa: N802 (as cv2 names it)
+            return True
+
+        def get(self, _key: int) -> float:
+            return 30.0
+
+    monkeypatch.setattr(cv2, "VideoCapture", Live)
+    assert main(["info", "0"]) == 2
+    assert "camera 0: expected a recording" in capsys.readouterr().err
+
+
+def test_real_data(data: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that every real sequence is told of, in one line and by itself."""
+    listed = facts(capsys, data)["sequences"]
+    assert len(listed) == len(list(find_sequences(data))) >= 11
+    for each in listed:
+        found = facts(capsys, data / each["place"])
+        assert found["format"] == each["format"]
+        assert found["truth"] is not None or len(found["targets"]) == 4
+        if found["depth"]:
+            assert 0.1 < found["depth"]["invalid"] < 0.4
+            assert 1 < found["depth"]["near_m"] < found["depth"]["far_m"] < 10

@@ -1,0 +1,276 @@
+# SPDX-License-Identifier: MIT
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import tricue
+from tricue.cli.program import COMMANDS, main
+
+
+@pytest.fixture
+def sequence(tmp_path: Path) -> Path:
+    """Ten bright images, the last two black, in OTB's layout; the true box moves 2 px right a frame."""
+    folder = tmp_path / "walk"
+    (folder / "img").mkdir(parents=True)
+    for index in range(10):
+        cv2.imwrite(
+            str(folder / "img" / f"{index:04}.png"), np.full((60, 80, 3), 200 * (index < 8), np.uint8)
+        )
+    lines = [f"{6 + 2 * index},11,20,20" for index in range(10)]
+    (folder / "groundtruth_rect.txt").write_text("\n".join(lines))
+    return folder
+
+
+def read_csv(path: Path) -> list[dict[str, str]]:
+    """The file's rows by column."""
+    return list(csv.DictReader(path.read_text().splitlines()))
+
+
+def test_track_writes_everything(
+    sequence: Path, drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that track starts on the first true box, follows, scores, and writes all three files."""
+    out = {name: tmp_path / f"out.{name}" for name in ("mp4", "csv", "json")}
+    files = ["--output", str(out["mp4"]), "--csv", str(out["csv"]), "--json", str(out["json"])]
+    assert (
+        main(["track", str(sequence), "--tracker", drift_tracker, "--set", "step=2", "--seed", "7", *files])
+        == 0
+    )
+    printed = capsys.readouterr().out
+    assert "walk: 10 frames, 8 tracked, 0 occluded, 2 lost" in printed
+    assert "AUC 0.952, precision at 20 px 1.000" in printed  # the overlap is 1 above 20 of 21 thresholds
+    assert all(f"wrote {path}" in printed for path in out.values())
+    rows = read_csv(out["csv"])
+    assert [float(row["x"]) for row in rows] == [5 + 2 * index for index in range(10)]
+    assert [row["status"] for row in rows] == ["tracked"] * 8 + ["lost"] * 2
+    content = json.loads(out["json"].read_text())
+    assert content["tricue"] == tricue.__version__
+    assert (content["tracker"], content["seed"], content["kernels"]) == (drift_tracker, 7, "native")
+    assert content["params"] == {"step": 2.0}
+    assert [track["frame"] for track in content["tracks"]] == list(range(10))
+    capture = cv2.VideoCapture(str(out["mp4"]))
+    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == 10
+
+
+def test_parameters_come_from_a_file(sequence: Path, drift_tracker: str, tmp_path: Path) -> None:
+    """It proves that a TOML file sets parameters and --set overrides it."""
+    (tmp_path / "p.toml").write_text("step = 3\n")
+    for extra, step in (((), 3.0), (("--set", "step=4"), 4.0)):
+        command = ["track", str(sequence), "--tracker", drift_tracker, "--params", str(tmp_path / "p.toml")]
+        assert main([*command, "--json", str(tmp_path / "o.json"), *extra]) == 0
+        assert json.loads((tmp_path / "o.json").read_text())["params"] == {"step": step}
+
+
+def test_the_box_goes_before_the_truth(sequence: Path, drift_tracker: str, tmp_path: Path) -> None:
+    """It proves that --box starts the tracker where it says, also left of the image."""
+    path = tmp_path / "o.csv"
+    assert (
+        main(["track", str(sequence), "--tracker", drift_tracker, "--box=-3,4,20.5,30", "--csv", str(path)])
+        == 0
+    )
+    row = read_csv(path)[0]
+    assert [float(row[key]) for key in ("x", "y", "width", "height")] == [-3, 4, 20.5, 30]
+
+
+BAD = [
+    (["track", "nowhere"], "tricue track: nowhere: there is no such file or folder"),
+    (["track", "{walk}/img"], "tricue track: .*; give --box x,y,width,height or --detect face"),
+    (
+        ["track", "{walk}", "--set", "stp=2"],
+        "tricue track: stp: unknown parameter of DriftParams; did you mean step?",
+    ),
+    (["track", "{walk}", "--set", "step=far"], "tricue track: step: expected a number, got 'far'"),
+    (["track", "{walk}", "--set", "step"], "tricue track: --set: expected name=value, got 'step'"),
+    (["track", "{walk}", "--params", "nofile.toml"], "tricue track: nofile.toml: No such file or directory"),
+    (["track", "{walk}", "--output", "o.gif"], "tricue track: o.gif: expected a video file's name"),
+    (["track", "{walk}", "--csv", "{walk}/img"], "tricue track: .*img: Is a directory"),
+    (["track", "{walk}/img/0001.png"], "tricue track: .*0001.png: .*; give its folder"),
+    (["track", "{walk}/groundtruth_rect.txt"], "tricue track: .*_rect.txt: expected a video"),
+    (
+        ["track", "{walk}", "--box", "1,2,3"],
+        r"tricue track: argument --box: expected four numbers .*; see tricue .*",
+    ),
+    (
+        ["track", "{walk}", "--box", "1,2,x,4"],
+        "tricue track: argument --box: expected four numbers .*'1,2,x,4'",
+    ),
+    (
+        ["track", "{walk}", "--box", "1,2,-3,4"],
+        "tricue track: argument --box: expected width and height above 0",
+    ),
+    (["track", "{walk}", "--box", "1,2,nan,4"], "tricue track: argument --box: expected finite numbers"),
+    (
+        ["track", "{walk}", "--box", "1,2,3,4", "--detect", "face"],
+        "tricue track: argument --detect: not allowed",
+    ),
+    (["track", "{walk}", "--detect", "cat"], "tricue track: argument --detect: invalid choice: 'cat'"),
+    (["track", "{walk}", "--kernels", "fast"], "tricue track: argument --kernels: invalid choice: 'fast'"),
+    (["track", "{walk}", "--seed", "x"], "tricue track: argument --seed: invalid int value: 'x'"),
+    (["track"], "tricue track: the following arguments are required: INPUT"),
+    (
+        ["reproduce", "sabeti-fig9"],
+        "tricue reproduce: experiment: expected one of .*sabeti-fig1.*, got 'sabeti-fig9'",
+    ),
+    (["reproduce", "sabeti-fig1", "--seeds", "0"], "tricue reproduce: seeds, jobs: expected 1 or more"),
+    (["demo", "magic"], "tricue demo: argument tracker: invalid choice: 'magic'"),
+    (["fly"], "tricue: argument COMMAND: invalid choice: 'fly'"),
+    ([], "tricue: the following arguments are required: COMMAND"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD)
+def test_bad_arguments_are_one_line(
+    sequence: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
+    """It proves that each mistake is one line on stderr that says what is wrong, and the exit code is 2."""
+    words = [word.format(walk=sequence) for word in arguments]
+    words[1:1] = ["--tracker", drift_tracker] if words[:1] == ["track"] else []
+    try:
+        code = main(words)
+    except SystemExit as stop:  # argparse's own way out
+        code = int(str(stop.code))
+    error = capsys.readouterr().err
+    assert code == 2
+    assert error.count("\n") == 1
+    assert "Traceback" not in error
+    assert re.match(message, error), error
+
+
+def test_the_input_is_never_overwritten(
+    drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that an output that is the input itself is refused and the input stays as it is."""
+    path = tmp_path / "v.avi"
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 10.0, (64, 48))
+    for _ in range(3):
+        writer.write(np.full((48, 64, 3), 99, np.uint8))
+    writer.release()
+    before = path.read_bytes()
+    assert (
+        main(["track", str(path), "--tracker", drift_tracker, "--box", "1,2,8,9", "--output", str(path)]) == 2
+    )
+    assert "expected another file than the input" in capsys.readouterr().err
+    assert path.read_bytes() == before
+
+
+def test_a_damaged_image_leaves_whole_files(
+    sequence: Path, drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that an input broken in the middle is a one-line error, and what came before is kept."""
+    (sequence / "img" / "0004.png").write_bytes(b"no picture")
+    assert main(["track", str(sequence), "--tracker", drift_tracker, "--json", str(tmp_path / "o.json")]) == 2
+    assert "0004.png: expected an image" in capsys.readouterr().err
+    assert len(json.loads((tmp_path / "o.json").read_text())["tracks"]) == 4
+
+
+def test_demo_writes_a_table_a_video_and_a_plot(
+    drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that demo measures a tracker, even a hopeless one, on every scene, and writes its files."""
+    pytest.importorskip("skimage")
+    pytest.importorskip("matplotlib")
+    from tricue.scenes import BACKGROUNDS
+
+    assert main(["demo", drift_tracker, "--output", str(tmp_path / "demo")]) == 0
+    printed = capsys.readouterr().out
+    rows = [line.split() for line in printed.splitlines() if line.split(" ")[0] in BACKGROUNDS]
+    assert [row[0] for row in rows] == list(BACKGROUNDS)
+    assert all(float(row[1]) > 25 for row in rows)  # it only drifts to the right
+    assert cv2.imread(str(tmp_path / "demo" / "drift.png")) is not None
+    capture = cv2.VideoCapture(str(tmp_path / "demo" / "drift.mp4"))
+    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == 90 * len(BACKGROUNDS)
+
+
+@pytest.mark.parametrize("extra", ["skimage", "matplotlib"])
+def test_a_missing_extra_is_named(
+    extra: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that demo without its extra says which command installs it, and leaves nothing behind."""
+    for name in [name for name in sys.modules if name.split(".")[0] == extra]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, extra, None)
+    assert main(["demo", "--output", str(tmp_path / "demo")]) == 2
+    error = capsys.readouterr().err
+    assert "pip install tricue[demo]" in error
+    assert error.count("\n") == 1
+    assert not list(tmp_path.glob("demo/*"))
+
+
+@pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)])
+def test_help_shows_examples(command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that every command has a help text, with commands to copy."""
+    with pytest.raises(SystemExit) as stop:
+        main([*command, "--help"])
+    assert stop.value.code == 0
+    printed = capsys.readouterr().out
+    assert not command or f"examples:\n  tricue {command[0]}" in printed
+
+
+def tricue_command(*arguments: str) -> list[str]:
+    """The words that run tricue in another process."""
+    return [sys.executable, "-m", "tricue", *arguments]
+
+
+def test_the_module_is_the_command() -> None:
+    """It proves that python -m tricue runs, prints the version, and passes exit codes on."""
+    done = subprocess.run(tricue_command("--version"), capture_output=True, text=True, check=True)
+    assert done.stdout == f"tricue {tricue.__version__}\n"
+    failed = subprocess.run(tricue_command("track", "nowhere"), capture_output=True, text=True, check=False)
+    assert (failed.returncode, failed.stdout) == (2, "")
+    assert failed.stderr == "tricue track: nowhere: there is no such file or folder\n"
+
+
+def test_opencv_keeps_quiet(tmp_path: Path) -> None:
+    """It proves that OpenCV's and FFmpeg's own messages don't join the one line of an error."""
+    (tmp_path / "v.mp4").write_bytes(b"\x00\x00\x00\x18ftypmp42" + bytes(200))
+    command = tricue_command("track", str(tmp_path / "v.mp4"), "--box", "1,2,30,40")
+    failed = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert failed.returncode == 2
+    assert failed.stderr.count("\n") == 1
+
+
+def long_video(path: Path, frames: int = 4000) -> Path:
+    """A bright square that wanders over noise, 64x48."""
+    noise = np.random.default_rng(0).integers(0, 256, (48, 64, 3), np.uint8)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
+    for index in range(frames):
+        picture = noise.copy()
+        picture[16:32, 20 + index % 8 : 36 + index % 8] = (60, 120, 220)
+        writer.write(picture)
+    writer.release()
+    return path
+
+
+def test_ctrl_c_leaves_whole_files(tmp_path: Path) -> None:
+    """It proves that SIGINT in the middle of a run exits with 130 and leaves files that can all be read."""
+    video = long_video(tmp_path / "long.avi")
+    out = {name: tmp_path / f"out.{name}" for name in ("mp4", "csv", "json")}
+    files = [
+        word
+        for name, path in out.items()
+        for word in ("--output" if name == "mp4" else f"--{name}", str(path))
+    ]
+    command = tricue_command("track", str(video), "--box", "20,16,16,16", "--kernels", "reference", *files)
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        deadline = time.monotonic() + 60
+        while not (out["csv"].exists() and out["csv"].stat().st_size) and process.poll() is None:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        os.kill(process.pid, signal.SIGINT)
+        printed, error = process.communicate(timeout=60)
+    assert process.returncode == 130, error
+    assert "until interrupted" in printed
+    rows = read_csv(out["csv"])
+    assert 0 < len(rows) < 4000
+    assert len(json.loads(out["json"].read_text())["tracks"]) == len(rows)
+    capture = cv2.VideoCapture(str(out["mp4"]))
+    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == len(rows)

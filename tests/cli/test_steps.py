@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+import os
+import signal
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from tricue import Box, Frame, Status, Track
+from tricue.cli.steps import Clock, steps, stoppable
+from tricue.track.base.track import Tracker
+
+BOX = Box(1, 2, 8, 9)
+
+
+def frames(count: int, pause: float = 0.0) -> Iterator[Frame]:
+    """Bright frames, each after a pause in seconds."""
+    for _ in range(count):
+        time.sleep(pause)
+        yield Frame(np.full((20, 30, 3), 200, np.uint8))
+
+
+def test_the_first_frame_starts_and_the_others_follow(drift: Tracker) -> None:
+    """It proves that init is called once, with the box, update on every other frame, all in order."""
+    clock = Clock()
+    found = list(steps(drift, frames(4), lambda _: BOX, clock))
+    assert [step.number for step in found] == [0, 1, 2, 3]
+    assert [step.track.box.x for step in found] == [1.0, 3.5, 6.0, 8.5]
+    assert (clock.decoded, clock.updates) == (4, 3)
+    assert clock.statuses[Status.TRACKED] == 4
+
+
+def test_it_waits_for_a_box(drift: Tracker) -> None:
+    """It proves that frames before the first box are read but not tracked, and keep their numbers."""
+    answers = iter([None, None, BOX])
+    found = list(steps(drift, frames(5), lambda _: next(answers), Clock()))
+    assert [step.number for step in found] == [2, 3, 4]
+
+
+class Shy:
+    """A tracker with ``objects`` that starts by itself where the frame is bright, else with this error."""
+
+    def __init__(self, error: str) -> None:
+        self.error = error
+        self.objects = [BOX]
+        self.particles = np.array([[5.0, 6.0]])
+
+    def init(self, frame: Frame, box: Box | None = None) -> Track:
+        if frame.color is None or frame.color.max() < 100:
+            raise ValueError(self.error)
+        return Track(box or BOX, 1.0, Status.TRACKED)
+
+    update = init
+
+
+def dark_then_bright() -> list[Frame]:
+    """Two dark frames, then two bright ones."""
+    return [Frame(np.full((20, 30, 3), level, np.uint8)) for level in (0, 0, 200, 200)]
+
+
+@pytest.mark.parametrize("error", ["box: found nobody", "frame: nothing was measured in it"])
+def test_it_waits_until_the_tracker_finds_somebody(error: str) -> None:
+    """It proves that a tracker that looks for its target is asked again on every frame until it starts, the
+    reason is kept, and its particles and objects come with every step.
+    """
+    clock = Clock()
+    found = list(steps(Shy(error), dark_then_bright(), None, clock))  # type: ignore[arg-type]
+    assert [step.number for step in found] == [2, 3]
+    assert (clock.decoded, clock.updates, clock.waiting) == (4, 1, error)
+    assert all(step.objects == [BOX] and len(step.particles) == 1 for step in found)
+
+
+@pytest.mark.parametrize(
+    "error",
+    ["frame: expected the channel depth, which this tracker needs", "frame.depth: expected 4 rows", "gamma"],
+)
+def test_other_errors_are_not_waited_out(error: str) -> None:
+    """It proves that an error that the next frame can't mend comes at once."""
+    with pytest.raises(ValueError, match=error):
+        next(steps(Shy(error), dark_then_bright(), None, Clock()))  # type: ignore[arg-type]
+
+
+def test_a_given_box_is_not_waited_out() -> None:
+    """It proves that an error about a box that was given comes at once."""
+    with pytest.raises(ValueError, match="box: outside"):
+        next(steps(Shy("box: outside"), dark_then_bright(), lambda _: BOX, Clock()))  # type: ignore[arg-type]
+
+
+def test_a_tracker_that_needs_a_box_says_so_at_once(drift: Tracker) -> None:
+    """It proves that a tracker that doesn't look for its target isn't asked again."""
+    with pytest.raises(ValueError, match="box: expected the target's box"):
+        next(steps(drift, frames(3), None, Clock()))
+
+
+def test_decoding_is_told_apart(drift: Tracker) -> None:
+    """It proves that a slow source counts as decoding, not as tracking."""
+    clock = Clock()
+    list(steps(drift, frames(5, pause=0.01), lambda _: BOX, clock))
+    assert clock.decoding > 0.05
+    assert clock.tracking < 0.02
+    assert clock.speeds.startswith("tracking ")
+
+
+def test_ctrl_c_asks_first_and_breaks_off_then() -> None:
+    """It proves that the first SIGINT answers "stop?", a second interrupts, and the old handler returns."""
+    before = signal.getsignal(signal.SIGINT)
+    with stoppable() as stop:
+        assert not stop()
+        os.kill(os.getpid(), signal.SIGINT)
+        assert stop()
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is before

@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: MIT
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tricue import Box, Status, Track
+from tricue.camera.frame import Frame
+from tricue.cli.outputs import CsvOutput, Step
+from tricue.data.box_table import TABLE, find_table, read_table, video_table
+from tricue.data.truth import Truth
+
+
+def read(folder: Path, text: str) -> Truth:
+    """The truth in a table of this text."""
+    (folder / TABLE).write_text(text)
+    return read_table(folder / TABLE)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1,2,3,4\n5,6,7,8\n",
+        "0,1,2,3,4\n1,5,6,7,8\n",
+        "1,5,6,7,8\r\n0,1,2,3,4",
+        "x,y,width,height\n1,2,3,4\n5,6,7,8\n\n",
+        "\ufeffx; y; w; h\n1; 2; 3; 4\n5; 6; 7; 8\n",
+        "# frame\th\tw\ty\tx\n1\t8\t7\t6\t5\n0.0\t4\t3\t2\t1\n",
+        'Frame,"X",Y,Width,Height,note\n0,1,2,3,4,"a, b"\n1,5,6,7,8,\n',
+    ],
+)
+def test_columns(tmp_path: Path, text: str) -> None:
+    """It proves that a header names the columns in any order, that without one they are four or five, and
+    that rows come by their frames; pixels stay as they are, from 0.
+    """
+    truth = read(tmp_path, text)
+    assert truth.boxes.tolist() == [[1, 2, 3, 4], [5, 6, 7, 8]]
+    assert truth.absent.tolist() == [False, False]
+    assert truth.positions is None
+
+
+@pytest.mark.parametrize("row", ["1,,,,", "1,nan,nan,nan,nan", "1,5,5,0,9", "1,5,5,9,0", "1,NaN,2,3,4"])
+def test_absent_is_not_unknown(tmp_path: Path, row: str) -> None:
+    """It proves that a row without a box says "absent", and that a frame without a row is unknown."""
+    truth = read(tmp_path, f"0,1,2,3,4\n{row}\n3,5,6,7,8\n")
+    assert truth.absent.tolist() == [False, True, False, False]
+    assert np.isnan(truth.boxes).all(axis=1).tolist() == [False, True, True, False]
+
+
+def test_positions(tmp_path: Path) -> None:
+    """It proves that positions are kept, also of absent targets, and are NaN where a cell is empty."""
+    truth = read(tmp_path, "frame,x,y,w,h,Z_m,X_m\n2,1,2,3,4,5,6\n0,,,,,7,\n")
+    assert truth.positions is not None
+    np.testing.assert_array_equal(truth.positions, [[np.nan, np.nan, 7], [np.nan] * 3, [6, np.nan, 5]])
+
+
+def test_what_track_writes(tmp_path: Path) -> None:
+    """It proves that a table of tricue track is read back, with its positions where the tracker has them."""
+    frame = Frame(np.zeros((4, 4, 3), np.uint8), timestamp=0.5)
+    for position in (None, np.array([0.25, -0.5, 3.0])):
+        with CsvOutput(tmp_path / TABLE) as output:
+            for number in (2, 3):
+                track = Track(Box(1.5, 2, 3, 4), 0.5, Status.TRACKED, position)
+                output.write(Step(number, frame, track, 0.01))
+        truth = read_table(tmp_path / TABLE)
+        assert truth.boxes[2:].tolist() == [[1.5, 2, 3, 4]] * 2
+        assert np.isnan(truth.boxes[:2]).all()
+        assert not truth.absent.any()
+        if position is None:
+            assert truth.positions is None
+        else:
+            assert truth.positions is not None
+            assert truth.positions[2:].tolist() == [[0.25, -0.5, 3.0]] * 2
+
+
+def test_an_empty_table(tmp_path: Path) -> None:
+    """It proves that a table without rows holds none, with a header or without."""
+    for text in ("", "\n\n", "frame,x,y,width,height\n"):
+        truth = read(tmp_path, text)
+        assert (truth.boxes.shape, truth.absent.shape, truth.positions) == ((0, 4), (0,), None)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("1,2,3\n", "line 1: expected columns x, y, width, height, each once, got '1,2,3'"),
+        ("1,2,3,4,5,6\n", "line 1: expected columns"),
+        ("1o,2,3,4\n", "line 1: expected columns x, y, width, height, each once, got '1o,2,3,4'"),
+        ("x,y,width\n1,2,3\n", "line 1: expected columns"),
+        ("x,y,w,h,width\n1,2,3,4,5\n", "line 1: expected columns .* each once"),
+        ("x,y,w,h\n1,2,3,4\n\n1,2,3,4\n", "line 3: expected 4 values, got ''"),
+        ("x,y,w,h\n1,2,3\n", "line 2: expected 4 values, got '1,2,3'"),
+        ("1,2,3,4\n1,2,3,4,5\n", "line 2: expected 4 values"),
+        ("x,y,w,h\n1,two,3,4\n", "line 2: expected a number y, got 'two'"),
+        ("1,2,3,4\n1,2,inf,4\n", "line 2: expected a number width, got 'inf'"),
+        ("x,y,w,h,Z_m\n1,2,3,4,far\n", "line 2: expected a number z_m, got 'far'"),
+        ("1,2,3,4,\n", "line 1: expected all of x, y, width, height or none, got no height"),
+        ("0.5,1,2,3,4\n", "line 1: expected a frame's whole number from 0, got '0.5'"),
+        ("-1,1,2,3,4\n", "line 1: expected a frame's whole number from 0, got '-1'"),
+        ("frame,x,y,w,h\n,1,2,3,4\n", "line 2: expected a frame's whole number from 0, got ''"),
+        ("99999999999,1,2,3,4\n", "line 1: expected a frame's whole number"),
+        ("0,1,2,3,4\n1,1,2,3,4\n0,1,2,3,4\n", "line 3: expected each frame once, got 0 again"),
+    ],
+)
+def test_bad_tables_are_named(tmp_path: Path, text: str, message: str) -> None:
+    """It proves that what is no such table is an error with the file's name and the line's number."""
+    with pytest.raises(ValueError, match=rf"boxes\.csv, {message}"):
+        read(tmp_path, text)
+
+
+WORDS = st.sampled_from(
+    [
+        "frame",
+        "x",
+        "y",
+        "w",
+        "h",
+        "width",
+        "height",
+        "X_m",
+        "nan",
+        "inf",
+        "0",
+        "1",
+        "-2",
+        "1e400",
+        '"',
+        "é",
+        "",
+    ]
+)
+LINES = st.lists(st.lists(WORDS, max_size=7).map(",".join), max_size=5).map("\n".join)
+
+
+@given(text=LINES | st.text(max_size=80))
+def test_any_text(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
+    """It proves that any text is a truth of rows that fit each other, or a ValueError with file and line."""
+    path = tmp_path_factory.mktemp("any") / TABLE
+    path.write_bytes(text.encode("utf-8", errors="surrogatepass"))
+    try:
+        truth = read_table(path)
+    except ValueError as error:
+        assert str(error).startswith(f"{path}, line ")  # noqa: PT017 (other texts are no error)
+    else:
+        assert len(truth.boxes) == len(truth.absent)
+        assert np.isnan(truth.boxes[truth.absent]).all()
+        assert (truth.boxes[:, 2:][np.isfinite(truth.boxes[:, 2:])] > 0).all()
+        assert truth.positions is None or truth.positions.shape == (len(truth.boxes), 3)
+
+
+def test_which_table_is_found(tmp_path: Path) -> None:
+    """It proves that boxes.csv goes before a video's own table, and that a table beside a video whose header
+    is about other things is left alone, while one with a box's columns is read, be it complete or not.
+    """
+    video, own = tmp_path / "clip.mp4", tmp_path / "clip.csv"
+    assert find_table(tmp_path, video) is None
+    own.write_text("time,acceleration\n0,9.81\n")
+    assert video_table(video) is None
+    for text in ("x,y,width\n", "1,2,3,4\n", "frame,x,y,w,h\n"):
+        own.write_text(text)
+        assert video_table(video) == find_table(tmp_path, video) == own
+    assert find_table(tmp_path) is None
+    (tmp_path / TABLE).touch()
+    assert find_table(tmp_path, video) == tmp_path / TABLE
+
+
+def test_what_a_tracker_wrote_beside_a_video_is_not_the_truth(tmp_path):
+    """tricue track clip.mp4 --csv clip.csv must not make the next run judge itself by it."""
+    (tmp_path / "clip.csv").write_text("frame,time_s,status,score,x,y,width,height\n0,0,tracked,1,1,2,3,4\n")
+    assert video_table(tmp_path / "clip.mp4") is None
+    (tmp_path / "clip.csv").write_text("frame,status,x,y,width,height\n0,seen,1,2,3,4\n")
+    assert video_table(tmp_path / "clip.mp4") == tmp_path / "clip.csv"

@@ -1,0 +1,283 @@
+# SPDX-License-Identifier: MIT
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Box
+from tricue.data.open_source import Source, open_source
+from tricue.data.streams import Camera
+
+
+def grey(level: int) -> NDArray[np.uint8]:
+    """An image of one level."""
+    return np.full((48, 64, 3), level, np.uint8)
+
+
+def images(folder: Path, names: list[str]) -> Path:
+    """A folder whose images are of the levels 10, 20, ... in the order of the names."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for index, name in enumerate(names, 1):
+        cv2.imwrite(str(folder / name), grey(10 * index))
+    return folder
+
+
+def video(path: Path, frames: int = 6, fps: float = 12.0) -> Path:
+    """An MJPG video whose frames have the levels 10, 20, ..."""
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), fps, (64, 48))
+    for index in range(1, frames + 1):
+        writer.write(grey(10 * index % 256))
+    writer.release()
+    return path
+
+
+def levels(source: Source) -> list[int]:
+    """The mean level of each frame."""
+    return [round(float(frame.color.mean())) for frame in source if frame.color is not None]
+
+
+def test_a_folder_in_natural_order(tmp_path: Path) -> None:
+    """It proves that images come in the order of their numbers, and other and hidden files are left out."""
+    folder = images(tmp_path / "walk", ["a1.png", "a2.jpg", "a10.PNG", "a100.bmp", "b1.png"])
+    (folder / "notes.txt").write_text("x")
+    (folder / "._a3.png").write_text("x")
+    source = open_source(folder)
+    assert (source.name, source.length, source.truth, source.first_box) == ("walk", 5, None, None)
+    assert levels(source) == [10, 20, 30, 40, 50]
+    assert levels(source) == [10, 20, 30, 40, 50]  # once more from the start
+
+
+def test_times_follow_the_frame_rate(tmp_path: Path) -> None:
+    """It proves that a frame's timestamp is its number over the frame rate, in seconds."""
+    source = open_source(video(tmp_path / "v.avi", fps=12.0))
+    assert source.fps == pytest.approx(12.0)
+    assert [frame.timestamp for frame in source] == pytest.approx([index / 12 for index in range(6)])
+
+
+def test_a_video_counts_itself(tmp_path: Path) -> None:
+    """It proves that every frame of a video comes, and its length isn't taken from the container."""
+    source = open_source(str(video(tmp_path / "v.avi")))
+    assert (source.name, source.length) == ("v", None)
+    assert levels(source) == pytest.approx([10, 20, 30, 40, 50, 60], abs=2)
+
+
+def test_a_cut_video_gives_what_it_holds(tmp_path: Path) -> None:
+    """It proves that a video that was cut off gives its whole frames and then ends."""
+    path = video(tmp_path / "v.avi", frames=40)
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    assert 0 < len(levels(open_source(path))) < 40
+
+
+def test_otb_sequences(tmp_path: Path) -> None:
+    """It proves that OTB's layout gives the images of img/ and true boxes that count from 0."""
+    images(tmp_path / "img", ["0001.jpg", "0002.jpg", "0003.jpg"])
+    (tmp_path / "groundtruth_rect.txt").write_text("11,21,5,6\n12,22,5,6\n")
+    source = open_source(tmp_path)
+    assert source.length == 3
+    assert source.truth is not None
+    assert source.truth.tolist() == [[10, 20, 5, 6], [11, 21, 5, 6]]
+    assert source.first_box == Box(10, 20, 5, 6)
+
+
+def test_a_video_with_truth(tmp_path: Path) -> None:
+    """It proves that a folder with one video and a truth file is a sequence; its first box may be unknown."""
+    video(tmp_path / "video.avi")
+    (tmp_path / "groundtruth_rect.txt").write_text("0,0,0,0\n12,22,5,6\n")
+    source = open_source(tmp_path)
+    assert len(levels(source)) == 6
+    assert source.truth is not None
+    assert source.first_box is None
+
+
+def test_vot_sequences(tmp_path: Path) -> None:
+    """It proves that VOT's sequence file gives the color channel and the frame rate."""
+    images(tmp_path / "color", ["00000001.png", "00000002.png"])
+    images(tmp_path / "depth", ["00000001.png"])
+    (tmp_path / "sequence").write_text("fps=4\nchannel.default=color\nchannels.color=color/%08d.png\n")
+    (tmp_path / "groundtruth.txt").write_text("10,20,5,6\n")
+    source = open_source(tmp_path)
+    assert (source.fps, source.length, source.first_box) == (4.0, 2, Box(10, 20, 5, 6))
+    assert levels(source) == [10, 20]
+
+
+def test_vot_reads_what_its_pattern_names(tmp_path: Path) -> None:
+    """It proves that of a channel's folder only the images of its pattern come, in the order of their
+    numbers.
+    """
+    folder = images(tmp_path / "c", ["x_00000002.png", "x_00000010.png"])
+    images(folder, ["thumbnail.png", "00000001.png", "x_00000001.jpg"])
+    (tmp_path / "sequence").write_text("channels.color=c/x_%08d.png\n")
+    assert levels(open_source(tmp_path)) == [10, 20]
+
+
+def test_fps_times_images_that_have_no_times(tmp_path: Path) -> None:
+    """It proves that the frame rate is 30 or the one that is given, for images alone, OTB's, and VOT's that
+    don't tell it, and that the timestamps follow from it.
+    """
+    alone = images(tmp_path / "alone", ["1.png", "2.png", "3.png"])
+    otb = images(tmp_path / "otb" / "img", ["1.png", "2.png", "3.png"]).parent
+    vot = images(tmp_path / "vot" / "color", ["1.png", "2.png", "3.png"]).parent
+    (vot / "sequence").write_text("fps=0\nchannels.color=color/%08d.png\n")
+    for folder in (alone, otb, vot):
+        for given, fps in ((None, 30.0), (4.0, 4.0), (0.5, 0.5), (1000, 1000.0)):
+            source = open_source(folder, fps=given)
+            assert source.fps == fps
+            expected = pytest.approx([0, 1 / fps, 2 / fps])
+            assert [frame.timestamp for frame in source] == expected
+            assert [frame.timestamp for frame in source] == expected  # once more from the start
+
+
+def test_fps_beside_times_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a frame rate for what has its own is an error that says which: a video, VOT's, a
+    camera.
+    """
+    folder = images(tmp_path / "vot" / "color", ["1.png"]).parent
+    (folder / "sequence").write_text("fps=25\nchannels.color=color/%08d.png\n")
+    monkeypatch.setattr(cv2, "VideoCapture", UnpluggedCamera)
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times, but camera 3"):
+        open_source("3", fps=15)
+    monkeypatch.undo()
+    for place, own in ((video(tmp_path / "v.avi", fps=12.5), "v has its own, 12.5"), (folder, "vot .* 25")):
+        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames a second; leave it out$"):
+            open_source(place, fps=15)
+
+
+@pytest.mark.parametrize(
+    ("fps", "error", "message"),
+    [
+        (0, ValueError, "expected frames a second above 0, got 0"),
+        (-5.0, ValueError, "expected frames a second above 0, got -5.0"),
+        (float("nan"), ValueError, "expected a finite number"),
+        (float("inf"), ValueError, "expected a finite number"),
+        (1001, ValueError, "expected at most 1000 frames a second, got 1001"),
+        ("30", TypeError, "expected a number, frames a second, got '30'"),
+    ],
+)
+def test_bad_fps_is_named(tmp_path: Path, fps: Any, error: type[Exception], message: str) -> None:
+    """It proves that what can't be a frame rate is an error that names it."""
+    with pytest.raises(error, match=f"^--fps: {message}"):
+        open_source(images(tmp_path, ["1.png"]), fps=fps)
+
+
+def test_real_sequences(data: Path) -> None:
+    """It proves that every real color sequence opens, with as many frames as its description says."""
+    lengths = {"Couple": 140, "Crossing": 120, "David": 471, "FaceOcc2": 812, "Football1": 81, "Girl": 500}
+    for name, length in lengths.items():
+        source = open_source(data / "color" / name)
+        assert source.first_box is not None
+        if source.length is not None:
+            assert source.length == length
+        assert source.truth is not None
+        assert len(source.truth) == (74 if name == "Football1" else length)
+    assert len(levels(open_source(data / "color" / "FaceOcc2"))) == 812
+
+
+class UnpluggedCamera:
+    """A cv2.VideoCapture that gives two frames and then none."""
+
+    def __init__(self, _number: int) -> None:
+        self.left = 2
+
+    def isOpened(self) -> bool:  # noqa: N802 (as cv2 names it)
+        return True
+
+    def get(self, _property: int) -> float:
+        return 0.0
+
+    def read(self) -> tuple[bool, object]:
+        self.left -= 1
+        return (True, grey(10)) if self.left >= 0 else (False, None)
+
+    def release(self) -> None:
+        self.left = 0
+
+
+def test_an_unplugged_camera_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a camera gives frames with rising times until it stops, which is an error."""
+    monkeypatch.setattr(cv2, "VideoCapture", UnpluggedCamera)
+    frames = iter(open_source("3"))
+    first, second = next(frames), next(frames)
+    assert first.timestamp is not None
+    assert second.timestamp is not None
+    assert 0 <= first.timestamp <= second.timestamp
+    with pytest.raises(OSError, match="camera 3: it stopped giving frames"):
+        next(frames)
+
+
+def test_an_absent_camera_is_named() -> None:
+    """It proves that a camera that can't be opened is an error with its number."""
+    with pytest.raises(OSError, match="camera 97: can't be opened"):
+        Camera(97)
+
+
+def text_file(folder: Path) -> Path:
+    """A text that is called a video."""
+    (folder / "v.mp4").write_text("this is no video")
+    return folder / "v.mp4"
+
+
+def empty_file(folder: Path) -> Path:
+    """A file of no bytes that is called a video."""
+    (folder / "v.mp4").touch()
+    return folder / "v.mp4"
+
+
+def video_without_frames(folder: Path) -> Path:
+    """A video cut off behind its header."""
+    path = video(folder / "v.avi")
+    path.write_bytes(path.read_bytes().split(b"movi")[0] + b"movi")
+    return path
+
+
+def damaged_image(folder: Path) -> Path:
+    """A folder whose second image is cut off."""
+    images(folder, ["1.png", "2.png"])
+    (folder / "2.png").write_bytes((folder / "2.png").read_bytes()[:20])
+    return folder
+
+
+def two_videos(folder: Path) -> Path:
+    """A folder that leaves the choice."""
+    video(folder / "a.avi")
+    video(folder / "b.avi")
+    return folder
+
+
+def vot_without_images(folder: Path) -> Path:
+    """A VOT folder whose color channel is empty."""
+    (folder / "color").mkdir()
+    (folder / "sequence").write_text("channels.color=color/%08d.jpg\n")
+    return folder
+
+
+def vot_without_color(folder: Path) -> Path:
+    """A VOT folder of another channel."""
+    (folder / "sequence").write_text("channels.ir=ir/%08d.jpg\n")
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda folder: folder / "nowhere", "nowhere: there is no such file or folder"),
+        (
+            lambda folder: folder,
+            "expected a folder of images or a sequence, found neither images nor a video",
+        ),
+        (lambda folder: images(folder, ["1.png"]) / "1.png", "1.png: .* one picture; give its folder"),
+        (text_file, "v.mp4: expected a video, this file can't be opened as one"),
+        (empty_file, "v.mp4: expected a video, this file can't be opened as one"),
+        (video_without_frames, "v.avi: expected a video, this file (can't be opened|has no frame)"),
+        (damaged_image, "2.png: expected an image, this file can't be read as one"),
+        (two_videos, "found 2 videos; name one of them"),
+        (vot_without_images, "color: expected the images of the color channel, found none"),
+        (vot_without_color, "sequence: expected channels.color=color/%08d.jpg, got ''"),
+    ],
+)
+def test_bad_inputs_are_named(tmp_path: Path, make: Callable[[Path], Path], message: str) -> None:
+    """It proves that each unusable input is an error that names the file and says what is wrong."""
+    with pytest.raises((ValueError, OSError), match=message):
+        levels(open_source(make(tmp_path)))

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: MIT
+import math
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Box, Status, Track
+from tricue.draw.overlays import (
+    STATUS_COLORS,
+    OverlayWriter,
+    depth_overlay,
+    depth_picture,
+    depth_range,
+    overlay,
+)
+
+BLACK = np.zeros((480, 640, 3), np.uint8)
+
+
+BOX = Box(200, 300, 60, 80)
+
+
+def track(box: Box = BOX, status: Status = Status.TRACKED) -> Track:
+    """A track to draw."""
+    return Track(box, 0.5, status)
+
+
+@pytest.mark.parametrize("status", list(Status))
+def test_the_box_is_where_it_should_be(status: Status) -> None:
+    """It proves that all four edges of the box are drawn at its pixels in the color of the status."""
+    picture = overlay(BLACK, track(status=status))
+    for row, column in [(300, 230), (379, 230), (340, 200), (340, 259)]:
+        assert tuple(picture[row, column]) == STATUS_COLORS[status]
+
+
+def test_the_image_is_left_alone() -> None:
+    """It proves that drawing works on a copy."""
+    image = BLACK.copy()
+    picture = overlay(image, track(), particles=[[230, 340]], truth=Box(190, 290, 60, 80), note="frame 1")
+    assert np.array_equal(image, BLACK)
+    assert picture.any()
+
+
+def test_small_images_are_enlarged() -> None:
+    """It proves that a small picture, grey or color, becomes a BGR one of readable size, box and all."""
+    for image in (BLACK[:120, :160], BLACK[:120, :160, 0]):
+        picture = overlay(image, track(Box(50, 75, 15, 20)))
+        assert picture.shape == (480, 640, 3)
+        assert tuple(picture[300, 230]) == STATUS_COLORS[Status.TRACKED]
+
+
+def test_particles_are_dots() -> None:
+    """It proves that each particle changes the pixels at its centre."""
+    particles = np.array([[500.0, 100.0, 9, 9], [550.0, 120.0, 9, 9]])
+    picture = overlay(BLACK, track(), particles=particles)
+    for x, y, *_ in particles.astype(int):
+        assert picture[y, x].any()
+
+
+@pytest.mark.parametrize(
+    "box", [Box(-50, -50, 20, 20), Box(600, 440, 900, 900), Box(1e6, -1e6, 1e6, 1e6), Box(3, 3, 0.01, 0.01)]
+)
+def test_boxes_anywhere_are_drawn(box: Box) -> None:
+    """It proves that boxes outside, across the edge, huge or tiny don't disturb the drawing."""
+    assert overlay(BLACK, track(box), particles=[[math.inf, 0], [-1e9, 1e9]]).shape == BLACK.shape
+
+
+def ramp() -> NDArray[np.float32]:
+    """Depth from 1 m at the left to 5 m at the right, 480x640, and a corner without measurement."""
+    depth = np.tile(np.linspace(1, 5, 640, dtype=np.float32), (480, 1))
+    depth[:20, :20] = np.nan
+    return depth
+
+
+def lightness(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """L of CIE Lab."""
+    return cv2.cvtColor(picture, cv2.COLOR_BGR2LAB)[..., 0]
+
+
+def test_near_is_bright_and_missing_is_black() -> None:
+    """It proves that the lightness falls with the depth all the way, and only what is missing is black."""
+    picture = depth_picture(ramp(), 1.0, 5.0)
+    assert (picture.shape, picture.dtype) == ((480, 640, 3), np.uint8)
+    row = lightness(picture)[100].astype(int)
+    assert row[0] > 200
+    assert row[-1] < 50
+    assert np.diff(row[::8]).max() <= 0
+    assert (picture.max(axis=2) == 0).sum() == 400
+    assert not picture[:20, :20].any()
+
+
+def test_the_range_of_shades() -> None:
+    """It proves that depths beyond near and far have their shades, and without them a few far pixels don't
+    darken the rest: the 2nd and the 98th percentile are taken.
+    """
+    picture = depth_picture(ramp(), 2.0, 3.0)
+    assert (picture[100, :150] == picture[100, 0]).all()
+    assert (picture[100, 330:] == picture[100, -1]).all()
+    assert depth_range(ramp()) == pytest.approx((1.08, 4.92), abs=0.03)
+    outlier = ramp()
+    outlier[400:404] = 4000.0
+    apart = np.abs(depth_picture(outlier).astype(int) - depth_picture(ramp()))[100]
+    assert apart.max() < 12
+
+
+@pytest.mark.parametrize("value", [np.nan, 2.0])
+def test_flat_depth_is_drawn(value: float) -> None:
+    """It proves that a wall, and an image without any measurement, don't disturb the drawing."""
+    flat = np.full((48, 64), value, np.float32)
+    assert depth_picture(flat).any() == np.isfinite(value)
+    assert (depth_range(flat) is None) == np.isnan(value)
+    assert depth_overlay(flat, track()).shape == (480, 640, 3)
+
+
+def test_scattered_depth_has_a_range() -> None:
+    """It proves that depth measured in a few pixels only still has its own range."""
+    depth = np.full((480, 640), np.nan, np.float32)
+    depth[[1, 3], [1, 3]] = 2.0, 4.0
+    assert depth_range(depth) == pytest.approx((2.04, 3.96))
+
+
+@pytest.mark.parametrize(("near", "far"), [(2.0, 2.0), (3.0, 1.0), (math.nan, 1.0)])
+def test_a_bad_range_is_refused(near: float, far: float) -> None:
+    """It proves that a near that isn't below far is an error that names both."""
+    with pytest.raises(ValueError, match="near, far: expected near below far, metres, got"):
+        depth_picture(ramp(), near, far)
+
+
+def test_what_a_depth_overlay_shows() -> None:
+    """It proves that box, particles, objects, truth and position are each drawn where they belong."""
+    plain = depth_picture(ramp())
+    where = {
+        "particles": ({"particles": [[500, 200, 20, 40, 2.0]]}, (200, 500)),
+        "objects": ({"objects": [Box(400, 100, 50, 60)]}, (130, 400)),
+        "truth": ({"truth": Box(450, 300, 50, 60)}, (330, 450)),
+    }
+    bare = depth_overlay(ramp(), track())
+    for row, column in [(300, 230), (379, 230), (340, 200), (340, 259)]:
+        assert tuple(bare[row, column]) == STATUS_COLORS[Status.TRACKED]
+    for options, place in where.values():
+        assert tuple(bare[place]) == tuple(plain[place])
+        assert tuple(depth_overlay(ramp(), track(), **options)[place]) != tuple(plain[place])  # type: ignore[arg-type]
+
+
+def test_the_position_is_written() -> None:
+    """It proves that a position adds a line of text, to color and to depth, and its numbers change it."""
+    texts = []
+    for z in (2.84, 3.84):
+        solid = Track(BOX, 0.5, Status.TRACKED, np.array([0.31, -0.1, z]))
+        for flat, drawn in (
+            (overlay(BLACK, track()), overlay(BLACK, solid)),
+            (depth_overlay(ramp(), track()), depth_overlay(ramp(), solid)),
+        ):
+            changed = np.argwhere((flat != drawn).any(axis=2))
+            assert changed[:, 0].min() > 40  # under the two other lines
+            assert changed[:, 0].max() < 80
+        texts.append(drawn)
+    assert not np.array_equal(*texts)
+
+
+def _write_seven(writer: OverlayWriter, picture: NDArray[np.uint8]) -> None:
+    with writer:
+        for _ in range(7):
+            writer.write(picture)
+        raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize(("name", "width"), [("o.mp4", 64), ("o.avi", 64), ("new/o.MP4", 65)])
+def test_videos_are_whole(tmp_path: Path, name: str, width: int) -> None:
+    """It proves that what was written can be read again, every frame of it, after an interruption too."""
+    picture = np.full((48, width, 3), 90, np.uint8)
+    writer = OverlayWriter(tmp_path / name, 25.0)
+    with pytest.raises(KeyboardInterrupt):
+        _write_seven(writer, picture)
+    capture = cv2.VideoCapture(str(writer.path))
+    frames = []
+    while (answer := capture.read())[0]:
+        frames.append(answer[1])
+    assert len(frames) == 7
+    assert np.mean(frames) == pytest.approx(90, abs=4)
+
+
+def test_a_missing_codec_falls_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that without mp4v an MJPG .avi of the same name is written, and no empty .mp4 stays."""
+    real = cv2.VideoWriter
+
+    class WithoutMp4:
+        fourcc = staticmethod(real.fourcc)
+
+        def __new__(cls, name: str, *rest: Any) -> Any:
+            return real() if name.endswith(".mp4") else real(name, *rest)
+
+    monkeypatch.setattr(cv2, "VideoWriter", WithoutMp4)
+    with OverlayWriter(tmp_path / "o.mp4", 25.0) as writer:
+        writer.write(np.zeros((48, 64, 3), np.uint8))
+    assert writer.path == tmp_path / "o.avi"
+    assert [path.name for path in tmp_path.iterdir()] == ["o.avi"]
+
+
+def test_an_unused_writer_leaves_nothing(tmp_path: Path) -> None:
+    """It proves that a writer that got no picture leaves no empty file behind."""
+    with OverlayWriter(tmp_path / "o.mp4", 25.0):
+        pass
+    assert not list(tmp_path.iterdir())
+
+
+def test_bad_names_are_refused(tmp_path: Path) -> None:
+    """It proves that an unknown kind of file, or a place that can't be written, is an error at once."""
+    with pytest.raises(ValueError, match=r"o\.gif: expected a video file's name that ends in \.mp4 or \.avi"):
+        OverlayWriter(tmp_path / "o.gif", 25.0)
+    (tmp_path / "o.mp4").mkdir()
+    with pytest.raises(OSError, match="directory"):
+        OverlayWriter(tmp_path / "o.mp4", 25.0)

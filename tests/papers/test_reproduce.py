@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+import csv
+import sys
+from dataclasses import replace
+from functools import partial
+from itertools import combinations
+
+import cv2
+import numpy as np
+import pytest
+from tricue.evaluation import baselines, metrics
+from tricue.papers import curves, reproduce
+from tricue.scenes import BACKGROUNDS, light_change
+
+pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+pytest.importorskip("matplotlib", reason="figures need matplotlib: pip install tricue[demo]")
+
+STILL = {"still": lambda seed, **_: baselines.StillBox()}  # where there is a camera, it doesn't need it
+
+
+def rows(report):
+    """The lines of a report's CSV."""
+    with report.table.open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_table_holds_the_errors_of_the_run(tmp_path):
+    """The CSV of a box that never moves holds how far the truth of each seed has gone from it."""
+    report = reproduce.run("sabeti-fig2", seeds=2, output=tmp_path, models=STILL)
+    for seed in (0, 1):
+        truth = np.array(light_change(seed).boxes)
+        still = np.tile(truth[0], (90, 1))
+        written = [row for row in rows(report) if row["seed"] == str(seed)]
+        assert [int(row["frame"]) for row in written] == list(range(90))
+        errors = [float(row["error_px"]) for row in written]
+        np.testing.assert_allclose(errors, metrics.center_errors(still, truth), atol=6e-4)
+        np.testing.assert_allclose(
+            [float(row["iou"]) for row in written], metrics.overlaps(still, truth), atol=6e-5
+        )
+
+
+@pytest.mark.parametrize("name", reproduce.EXPERIMENTS)
+def test_figure_is_drawn_and_progress_is_told(name, tmp_path, monkeypatch):
+    """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""
+    if name in ("moreno-fig3", "okada-fig8"):  # whose scenes take seconds each
+        whole = reproduce.EXPERIMENTS[name]
+        scenes = {scene: partial(make, frames=8, camera="160x120") for scene, make in whole.scenes.items()}
+        monkeypatch.setitem(reproduce.EXPERIMENTS, name, replace(whole, scenes=scenes))
+    told = []
+    report = reproduce.run(name, 1, tmp_path, progress=lambda *done: told.append(done), models=STILL)
+    scenes = reproduce.EXPERIMENTS[name].scenes
+    assert told == [(done, len(scenes)) for done in range(1, len(scenes) + 1)]
+    assert {row["scene"] for row in rows(report)} == set(scenes)
+    image = cv2.imread(str(report.figure))
+    assert image.shape[1] > 1000
+    assert image.std() > 20
+
+
+def test_jobs_change_nothing(tmp_path):
+    """Two processes write the same table as one, for a tracker that draws random numbers."""
+    models = {"script": baselines.ScriptedParticleFilter}
+    one, two = (reproduce.run("sabeti-fig2", 2, tmp_path / str(jobs), jobs, models=models) for jobs in (1, 2))
+    assert one.table.read_text() == two.table.read_text()
+    assert one.summary == two.summary
+
+
+def test_summary_counts_frames():
+    """Mean, spread over runs, and both shares are those of hand-made curves."""
+
+    def curve(errors, overlaps):
+        return curves.Curve("m", "s", 0, np.array(errors), np.array(overlaps), np.zeros((4, 4)))
+
+    made = [curve([0.0, 0, 2, 2], [1.0, 1, 0.6, 0.4]), curve([25.0, 26, 0, 1], [0.5, 0, 0.7, 0.7])]
+    *_, line = curves.summarize(made).splitlines()
+    assert line == "| m | 7.0 ± 6.0 | 12.5% | 62.5% | 2 |"
+
+
+def test_experiments_compare_all_observation_models():
+    """Figure 1 runs all six models, both likelihoods and the defaults, on two backgrounds or more."""
+    experiment = reproduce.EXPERIMENTS["sabeti-fig1"]
+    keywords = [maker.keywords for maker in experiment.models.values()]
+    observations = {"region", "gaussian", "lookup", "histogram", "rank-sections", "rank-spatial"}
+    assert {each["observation"] for each in keywords} == observations
+    assert {"linear", "exponential"} == {each["likelihood"] for each in keywords if "likelihood" in each}
+    assert {each["particles"] for each in keywords} == {100}
+    assert set(experiment.scenes) == set(BACKGROUNDS)
+    assert len(BACKGROUNDS) >= 2
+    assert all(a != b for a, b in combinations(keywords, 2))
+
+
+def test_face_is_held_over_clutter(tmp_path, monkeypatch):
+    """On two backgrounds the defaults stay within 3 px, and no color model but spatial ranks does."""
+    experiment = reproduce.EXPERIMENTS["sabeti-fig1"]
+    scenes = {name: experiment.scenes[name] for name in ("cat", "motorcycle")}
+    monkeypatch.setitem(reproduce.EXPERIMENTS, "sabeti-fig1", replace(experiment, scenes=scenes))
+    errors = {model: [] for model in experiment.models}
+    for row in rows(reproduce.run("sabeti-fig1", 2, tmp_path)):
+        errors[row["model"]].append(float(row["error_px"]))
+    default, _, *others = (np.mean(each) for each in errors.values())
+    assert default < 3
+    assert all(other > 3 for other in others)
+
+
+def test_face_is_held_when_the_light_changes(tmp_path):
+    """The defaults and spatial ranks keep IoU above 0.5 on 95 % of the frames, the histogram less."""
+    overlaps = {model: [] for model in reproduce.EXPERIMENTS["sabeti-fig2"].models}
+    for row in rows(reproduce.run("sabeti-fig2", 3, tmp_path)):
+        overlaps[row["model"]].append(float(row["iou"]))
+    held = {model: np.mean(np.array(each) > 0.5) for model, each in overlaps.items()}
+    assert held["spatial ranks, color (default)"] >= 0.95
+    assert held["spatial ranks"] >= 0.95
+    assert held["16-bin histogram"] < 0.8
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"name": "sabeti-fig9"}, "experiment: expected one of sabeti-fig1, .* got 'sabeti-fig9'"),
+        ({"name": "sabeti-fig1", "seeds": 0}, "expected 1 or more, got 0"),
+        ({"name": "sabeti-fig1", "jobs": 0}, "expected 1 or more, got 20, 0"),
+    ],
+)
+def test_bad_arguments_are_named(arguments, words, tmp_path):
+    """An unknown experiment or a number below 1 is refused before anything runs."""
+    with pytest.raises(ValueError, match=words):
+        reproduce.run(**arguments, output=tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+
+
+def test_missing_matplotlib_names_the_extra(monkeypatch, tmp_path):
+    """Without matplotlib the error comes before the work and says how to install it."""
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
+        reproduce.run("sabeti-fig2", 1, tmp_path, models=STILL)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+from pathlib import Path
+
+import pytest
+from tricue.track.base.settings import make_tracker, parse_settings, read_settings
+
+
+@pytest.mark.parametrize("text", ["flow,disparity", "flow, disparity", "('flow', 'disparity')"])
+def test_cues_are_words(text: str) -> None:
+    """It proves that a parameter of words takes them with commas, or as Python writes them, and one alone."""
+    assert make_tracker("flow-depth", None, [f"cues={text}"], 0, "native").params.cues == (
+        "flow",
+        "disparity",
+    )
+    assert make_tracker("flow-depth", None, ["cues=flow"], 0, "native").params.cues == ("flow",)
+
+
+def test_settings_go_before_the_file(tmp_path: Path) -> None:
+    """It proves that a setting overrides the file, the later of two the earlier, and the rest stays."""
+    (tmp_path / "p.toml").write_text("particles = 50\nnear = 1.5\n")
+    values = read_settings("depth-particle", tmp_path / "p.toml", ["particles=60", "particles=70"])
+    assert (values["particles"], values["near"]) == (70, 1.5)
+    made = make_tracker("depth-particle", tmp_path / "p.toml", ["particles=60"], 3, "reference")
+    assert (made.params.particles, made.params.near, made.seed) == (60, 1.5, 3)  # type: ignore[attr-defined]
+
+
+def test_settings_are_numbers_words_or_tuples() -> None:
+    """It proves what text becomes: a number, a truth value, a tuple, or itself."""
+    settings = ["a=1", "b=0.5", "c=true", "d=16,20", "e=word", "f=x=y"]
+    assert parse_settings(settings) == {"a": 1, "b": 0.5, "c": True, "d": (16, 20), "e": "word", "f": "x=y"}
+
+
+@pytest.mark.parametrize("setting", ["particles", "=3", "two words=3"])
+def test_other_settings_are_refused(setting: str) -> None:
+    """It proves that what isn't name=value is an error that shows it."""
+    with pytest.raises(ValueError, match=r"^--set: expected name=value, got "):
+        parse_settings([setting])

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: MIT
+"""What is left of a depth image: what is in range and above the floor."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import DepthParticleTracker, Intrinsics
+from tricue.track.depth_objects.foreground import NO_FLOOR, Foreground, foreground, numbers
+
+Params = DepthParticleTracker.Params
+Depth = NDArray[np.float32]
+CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
+HEIGHT, PITCH = 1.3, math.radians(12)  # metres over the floor; downwards
+FLOOR = np.array([0.0, -math.cos(PITCH), -math.sin(PITCH), HEIGHT])
+WALL = 6.0  # metres
+POST = (slice(30, 120), slice(80, 96))
+
+
+def heights(depth: Depth) -> NDArray[np.float64]:
+    """Metres over the true floor of every pixel."""
+    v, u = np.indices(depth.shape)
+    return CAMERA.back_project(u, v, depth) @ FLOOR[:3] + FLOOR[3]
+
+
+def hall(noise: float = 0.0, wall: float = WALL, post: float = 3.0) -> Depth:
+    """A floor under a camera that looks down on it, a wall, and a post."""
+    v, u = np.indices((144, 176))
+    down = -(CAMERA.back_project(u, v, 1.0) @ FLOOR[:3])
+    with np.errstate(divide="ignore"):
+        depth = np.where(down > 0, HEIGHT / down, np.inf)
+    depth = np.minimum(depth, wall)
+    depth[POST] = np.minimum(depth[POST], post)
+    depth[depth > 30] = np.nan
+    return (depth + noise * np.random.default_rng(0).standard_normal(depth.shape)).astype(np.float32)
+
+
+def found(kernels, depth: Depth, plane=NO_FLOOR, seed=0, **parameters):
+    """The foreground of a frame, and its floor."""
+    rng = np.random.default_rng(seed)
+    return foreground(kernels, depth, numbers(CAMERA), plane, rng, Params(**parameters))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_floor_is_found(seed, kernels):
+    """Of a floor alone the plane is the true one within float32's rounding; with 1 cm of noise and a wall,
+    whose foot is fitted too, it is within 1 cm of height and a quarter of a degree, for any random numbers.
+    """
+    _, exact = found(kernels, hall(wall=np.inf, post=np.inf), seed=seed)
+    np.testing.assert_allclose(exact[:4], FLOOR, atol=1e-5)
+    _, noisy = found(kernels, hall(0.01), seed=seed)
+    assert abs(noisy[3] - HEIGHT) < 0.01
+    assert math.degrees(math.acos(min(1.0, noisy[:3] @ FLOOR[:3]))) < 0.25
+
+
+def test_the_floor_is_taken_out(kernels):
+    """Everything up to 12 cm over the floor is taken out, nothing above it is, whatever its distance."""
+    depth = hall(wall=np.inf)
+    depth[20:30, 60:70] = 4.0
+    fg, _ = found(kernels, depth, far=1e9)
+    over = heights(np.where(np.isfinite(depth), depth, np.nan))
+    clear = ~(np.abs(over - 0.12) < 1e-3)  # the rest may fall either way
+    np.testing.assert_array_equal(np.isfinite(fg.depth)[clear], (over > 0.12)[clear])
+    assert np.isfinite(fg.depth[POST]).any()
+    kept = np.isfinite(fg.depth)
+    np.testing.assert_array_equal(fg.depth[kept], depth[kept])
+
+
+@pytest.mark.parametrize("clear", [0.0, 0.05, 0.5])
+def test_the_floor_is_as_thick_as_said(clear, kernels):
+    """The floor is taken out up to ``floor_clear``."""
+    depth = hall()
+    fg, _ = found(kernels, depth, floor_clear=clear)
+    over = heights(depth)[np.isfinite(fg.depth)]
+    assert over.min() > clear - 1e-3
+    assert over.min() < clear + 0.05
+
+
+def test_without_floor_it_stays(kernels):
+    """With ``floor=False`` the floor belongs to the foreground, and no plane is looked for."""
+    fg, plane = found(kernels, hall(), floor=False)
+    assert np.isfinite(fg.depth).all()
+    assert not plane.any()
+
+
+def test_a_wall_is_no_floor(kernels):
+    """A wall right in front of the camera isn't taken for a floor: all of it stays."""
+    fg, plane = found(kernels, np.full((144, 176), 2.0, np.float32))
+    assert not plane.any()
+    assert np.isfinite(fg.depth).all()
+
+
+@pytest.mark.parametrize("scale", [0.001, 0.005, 0.02])
+def test_what_is_too_near_is_no_floor(scale, kernels):
+    """A frame of depths that are nearer than any target, such as one in another unit, leaves no floor, and
+    the known one stays.
+    """
+    near = hall(0.01) * np.float32(scale)
+    assert not found(kernels, near)[1].any()
+    _, plane = found(kernels, hall(0.01))
+    np.testing.assert_array_equal(found(kernels, near, plane)[1], plane)
+
+
+def test_a_floor_that_holds_is_kept(kernels):
+    """While a known floor has its points, noise doesn't move it: it stays bit for bit, whatever the random
+    numbers.
+    """
+    _, plane = found(kernels, hall(0.01))
+    _, again = found(kernels, hall(0.005), plane, seed=5)
+    np.testing.assert_array_equal(again, plane)
+
+
+def test_a_camera_that_moved_finds_its_floor_again(kernels):
+    """A floor 0.4 m higher than the true one has few points, and gives way to the true one."""
+    depth = hall(wall=np.inf, post=np.inf)
+    _, plane = found(kernels, depth)
+    moved = plane - [0, 0, 0, 0.4, 0, 0]
+    np.testing.assert_allclose(found(kernels, depth, moved)[1][:4], FLOOR, atol=1e-5)
+
+
+def test_a_known_floor_outlives_frames_without(kernels):
+    """The floor is kept where a frame shows none: nothing measured, or somebody in front of everything."""
+    _, plane = found(kernels, hall())
+    for depth in (np.full((144, 176), np.nan, np.float32), np.full((144, 176), 0.6, np.float32)):
+        _, kept = found(kernels, depth, plane)
+        np.testing.assert_array_equal(kept, plane)
+
+
+@pytest.mark.parametrize(("near", "far"), [(0.3, 8.0), (2.5, 4.0)])
+def test_only_what_is_in_range_is_left(near, far, kernels):
+    """Depths from near up to, but without, far are left, others are NaN."""
+    depth = np.linspace(0.05, 10, 144 * 176, dtype=np.float32).reshape(144, 176)
+    depth[0, :4] = np.float32([near, far, np.nan, (near + far) / 2])
+    fg, _ = found(kernels, depth, floor=False, near=near, far=far)
+    inside = (depth >= near) & (depth < far)
+    np.testing.assert_array_equal(np.isfinite(fg.depth), inside)
+
+
+@pytest.mark.parametrize(("resolution", "step"), [(320, 1), (176, 1), (88, 2), (59, 3), (16, 11)])
+def test_wide_images_are_thinned(resolution, step, kernels):
+    """An image wider than asked for is thinned out to every step-th pixel, and its camera sees the same
+    points: pixel (i, j) lies where (step i, step j) did.
+    """
+    depth = hall()
+    fg, _ = found(kernels, depth, floor=False, resolution=resolution)
+    assert fg.step == step
+    np.testing.assert_array_equal(fg.depth, depth[::step, ::step])
+    i, j = 5, 7
+    fx, fy, cx, cy = fg.camera
+    ray = [(j - cx) / fx, (i - cy) / fy]
+    np.testing.assert_allclose(ray, CAMERA.back_project(step * j, step * i, 1.0)[:2], rtol=1e-12)
+
+
+def test_a_thinned_image_has_the_same_floor(kernels):
+    """The plane found in every other pixel is the floor of the whole image."""
+    _, plane = found(kernels, hall(wall=np.inf, post=np.inf), resolution=88)
+    np.testing.assert_allclose(plane[:4], FLOOR, atol=1e-5)
+
+
+def test_the_frame_is_only_read(kernels):
+    """The depth image given stays as it is, and the foreground is another array."""
+    depth = hall()
+    before = depth.copy()
+    fg, _ = found(kernels, depth)
+    assert isinstance(fg, Foreground)
+    assert not np.shares_memory(fg.depth, depth)
+    np.testing.assert_array_equal(depth, before)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (9, 1), (2, 2), (3, 3)], ids=str)
+def test_tiny_images_have_no_floor(shape, kernels):
+    """Images of a few pixels have a foreground, and no floor."""
+    fg, plane = found(kernels, np.full(shape, 2.0, np.float32))
+    assert np.isfinite(fg.depth).all()
+    assert not plane.any()

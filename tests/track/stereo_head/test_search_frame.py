@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: MIT
+"""That a head is found again anywhere in the picture and at any distance, by its colors and its depth."""
+
+import cv2
+import numpy as np
+import pytest
+from tricue import Box, Intrinsics, StereoHeadTracker, StereoRig
+from tricue.kernels import load
+from tricue.track.stereo_head.search_frame import NEARER, Head, _distances, find_again
+from tricue.track.stereo_head.stereo_geometry import Eyes
+from tricue.track.stereo_head.view import Pair
+
+Params = StereoHeadTracker.Params
+P = Params()
+SKIN = np.array([110, 140, 205])
+WIDTH, HEIGHT = 0.17, 0.21  # metres
+CAMERA = Intrinsics.from_fov(160, 120, 55)
+FAR_WALL = 3  # pixels of disparity at 160 columns
+
+
+def rig(scale: int = 1) -> StereoRig:
+    """160x120 pixels, or so many times as many."""
+    return StereoRig(Intrinsics.from_fov(160 * scale, 120 * scale, 55), 0.11)
+
+
+def grain(shape: tuple[int, int], color: np.ndarray, spread: int, seed: int) -> np.ndarray:
+    """A texture about a color, BGR."""
+    levels = np.random.default_rng(seed).integers(-spread, spread + 1, shape)
+    return np.clip(color + levels[..., None], 0, 255).astype(np.uint8)
+
+
+def stage(
+    eyes: Eyes, where: list[tuple[float, float, float]], colors: list[np.ndarray]
+) -> tuple[Pair, list[Box]]:
+    """Heads of these colors at x, y (shares of the picture) and z before a wall, as flat ellipses at whole
+    disparities, far ones first.
+    """
+    height, width = eyes.shape
+    scale = width // 160
+    wall = grain((height, width + 99 * scale), np.array([90, 150, 60]), 50, 0)
+    sides = [wall[:, :width].copy(), wall[:, FAR_WALL * scale : width + FAR_WALL * scale].copy()]
+    boxes = []
+    for index, ((x, y, z), color) in enumerate(zip(where, colors, strict=True)):
+        disparity = round(eyes.disparity(z))
+        half = np.array([WIDTH, HEIGHT]) / 2 * eyes.rig[:2] / z
+        middle = np.array([x * width, y * height])
+        boxes.append(Box.from_ellipse(*middle, *half))
+        texture = grain((height, width), color, 30, 1 + index)
+        rows, columns = np.indices((height, width)) + 0.5
+        for side, shift in zip(sides, (0, disparity), strict=True):
+            mask = ((columns + shift - middle[0]) / half[0]) ** 2 + ((rows - middle[1]) / half[1]) ** 2 < 1
+            side[mask] = np.roll(texture, -shift, axis=1)[mask]
+    return Pair.of(sides[0], sides[1], None, P), boxes
+
+
+def histogram(k, color: np.ndarray) -> np.ndarray:
+    """The model (L,) of a head's texture."""
+    bins = k.color_bins(grain((60, 60), color, 30, 9), (0, 0, 60, 60), P.bins, P.chroma, 1)
+    counts = np.bincount(bins.ravel(), minlength=int(np.prod(P.bins))).astype(float)
+    return counts / counts.sum()
+
+
+def overlap(ellipse: tuple[float, float, float, float], box: Box) -> float:
+    """IoU."""
+    return Box.from_ellipse(*ellipse).iou(box)
+
+
+def anywhere(colors: np.ndarray) -> Head:
+    """A head of these colors that may be at any place and distance."""
+    return Head((WIDTH, HEIGHT), colors, np.array([0.0, 0.0, 3.0]), 100.0)
+
+
+def metric(eyes: Eyes, place: tuple[float, float, float]) -> np.ndarray:
+    """(3,) metres of a place on the stage."""
+    x, y, z = place
+    height, width = eyes.shape
+    return CAMERA.back_project(x * width - 0.5, y * height - 0.5, z)
+
+
+ANYWHERE = [(x, y, z) for z in (0.8, 1.3, 2.0, 3.0) for x in (0.25, 0.5, 0.8) for y in (0.3, 0.65)]
+
+
+@pytest.mark.parametrize(
+    ("kernels", "place"),
+    [("native", place) for place in ANYWHERE] + [("reference", place) for place in ANYWHERE[1::6]],
+)
+def test_a_head_is_found_anywhere(kernels, place):
+    """Wherever a head is in the picture, and however far, the ellipse is on it, of its size, with its
+    disparity, by the grid of distances to half a step of it.
+    """
+    k, eyes = load(kernels), Eyes.of(rig())
+    pair, (box,) = stage(eyes, [place], [SKIN])
+    found = find_again(k, pair, eyes, anywhere(histogram(k, SKIN)), P)
+    assert found is not None
+    ellipse, disparity = found
+    assert overlap(ellipse, box) > 0.5
+    assert disparity == pytest.approx(eyes.disparity(place[2]), rel=1 / NEARER - 1)
+
+
+def test_places_are_pixels_of_the_picture():
+    """In a picture of 640x480, searched at a quarter of it, ellipse and disparity are its own pixels."""
+    kernels = load("native")
+    eyes = Eyes.of(rig(4))
+    pair, (box,) = stage(eyes, [(0.7, 0.4, 1.5)], [SKIN])
+    assert pair.step == 4
+    ellipse, disparity = find_again(kernels, pair, eyes, anywhere(histogram(kernels, SKIN)), P)
+    assert overlap(ellipse, box) > 0.5
+    assert disparity == pytest.approx(eyes.disparity(1.5), rel=1 / NEARER - 1)
+
+
+@pytest.mark.parametrize("ours", [0, 1])
+def test_colors_tell_heads_apart(ours):
+    """Of two heads of one size at one distance the one of the model's colors is found."""
+    kernels = load("native")
+    eyes, colors = Eyes.of(rig()), [SKIN, np.array([190, 120, 60])]
+    pair, boxes = stage(eyes, [(0.3, 0.5, 1.6), (0.75, 0.5, 1.6)], colors)
+    ellipse, _ = find_again(kernels, pair, eyes, anywhere(histogram(kernels, colors[ours])), P)
+    assert overlap(ellipse, boxes[ours]) > 0.5
+
+
+@pytest.mark.parametrize(
+    "places",
+    [
+        [(0.3, 0.5, 2.6), (0.75, 0.5, 1.1)],
+        [(0.2, 0.5, 1.6), (0.8, 0.5, 1.6)],
+        [(0.5, 0.2, 1.4), (0.5, 0.8, 1.4)],
+    ],
+    ids=["nearer", "beside", "below"],
+)
+@pytest.mark.parametrize("ours", [0, 1])
+def test_a_head_is_found_where_it_can_be(ours, places):
+    """Of two heads of the same colors the one within reach of where it was is found, whether the other is
+    nearer or farther, beside it or below, and what is found is within reach.
+    """
+    k, eyes = load("native"), Eyes.of(rig())
+    pair, boxes = stage(eyes, places, [SKIN, SKIN])
+    there = metric(eyes, places[ours])
+    head = Head((WIDTH, HEIGHT), histogram(k, SKIN), there + [0.1, -0.1, 0.05], 0.35)
+    ellipse, disparity = find_again(k, pair, eyes, head, P)
+    assert overlap(ellipse, boxes[ours]) > 0.5
+    z = eyes.disparity(1.0) / disparity
+    found = CAMERA.back_project(ellipse[0] - 0.5, ellipse[1] - 0.5, z)
+    assert np.linalg.norm(found - head.seen) <= head.reach * (1 + 1e-12)
+
+
+def test_out_of_reach_is_nowhere():
+    """Where no place of the picture is within reach nothing is found, however like the head it is."""
+    k, eyes = load("native"), Eyes.of(rig())
+    pair, _ = stage(eyes, [(0.5, 0.5, 1.5)], [SKIN])
+    aside = Head((WIDTH, HEIGHT), histogram(k, SKIN), np.array([5.0, 0.0, 1.5]), 0.3)
+    assert find_again(k, pair, eyes, aside, P) is None
+
+
+@pytest.mark.parametrize(
+    ("z", "reach", "expected"), [(2.0, 0.5, (1.5, 2.5)), (0.5, 0.3, (P.near, 0.8)), (5.9, 1.0, (4.9, P.far))]
+)
+def test_reach_and_range_bound_the_distance(z, reach, expected):
+    """A head can be nearer and farther by its reach, between near and far."""
+    head = Head((WIDTH, HEIGHT), np.ones(1), np.array([0.3, 0.1, z]), reach)
+    assert head.distances(P) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("near", "far"), [(0.4, 6.0), (1.0, 1.05), (2.0, 2.0)])
+def test_distances_are_a_step_apart(near, far):
+    """They go from near to far, both included, each at most 1 / NEARER times the one before."""
+    found = _distances(near, far)
+    assert found[0] == pytest.approx(near, rel=1e-12)
+    assert found[-1] == pytest.approx(far, rel=1e-12)
+    ratios = np.divide(found[1:], found[:-1])
+    assert (ratios >= 1).all()
+    assert (ratios <= 1 / NEARER * (1 + 1e-12)).all()
+
+
+def test_what_is_too_small_to_see_is_not_looked_for(kernels):
+    """A head whose ellipse would be under a place that is looked at is None."""
+    eyes = Eyes.of(rig())
+    image = cv2.resize(np.zeros((2, 2, 3), np.uint8), (160, 120))
+    pair = Pair.of(image, image, None, P)
+    tiny = anywhere(histogram(kernels, SKIN))._replace(size=(0.002, 0.002))
+    assert find_again(kernels, pair, eyes, tiny, P) is None
