@@ -15,6 +15,7 @@ from tricue.camera.frame import FrameLike, as_frame
 from tricue.kernels import Kernels, load
 from tricue.track.base import registry
 from tricue.track.base.params import Params, parameter
+from tricue.track.base.traits import Channels, Traits
 
 ROOT = Path(__file__).parents[1]
 
@@ -59,6 +60,7 @@ class Drift:
     """A tracker that moves its box ``step`` to the right a frame; black frames lose it, dim ones hide it."""
 
     Params = DriftParams
+    traits = Traits(channels=(Channels.of("color"),))
 
     def __init__(self, seed: int = 0, kernels: str = "native", **params: float) -> None:
         self.params = DriftParams(**params)
@@ -92,7 +94,7 @@ def drift() -> Drift:
 @pytest.fixture
 def drift_tracker(monkeypatch: pytest.MonkeyPatch) -> str:
     """The name under which ``create`` now makes that tracker."""
-    monkeypatch.setitem(registry._TRACKERS, "drift", f"{Drift.__module__}:Drift")
+    monkeypatch.setitem(registry._OURS, "drift", f"{Drift.__module__}:Drift")
     return "drift"
 
 

@@ -1,5 +1,35 @@
 # SPDX-License-Identifier: MIT
-"""Errors as users read them."""
+"""Errors that callers tell apart, and errors as users read them."""
+
+
+class MissingChannelError(ValueError):
+    """A frame lacks a channel that the tracker needs: ``channel``, one of "color", "depth", "right"."""
+
+    def __init__(self, message: str, channel: str = "") -> None:
+        super().__init__(message)
+        self.channel = channel
+
+
+class UnregisteredDepthError(ValueError):
+    """The depth image has another shape than the color image whose pixels it should have."""
+
+
+class BoxError(ValueError):
+    """A tracker can't start on this box: it is no box, it is outside the image, or nothing in it can be
+    tracked.
+    """
+
+
+class BoxNeededError(BoxError):
+    """``init`` got no box, and the tracker doesn't look for its target by itself."""
+
+
+class TargetNotFoundError(BoxError):
+    """``init`` got no box, and the tracker found no target in this frame; it may in another."""
+
+
+class NoDepthInBoxError(BoxError):
+    """Nothing in the box has a depth, or a disparity, in the range that the tracker uses."""
 
 
 def one_line(error: BaseException) -> str:

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Intrinsics, Status, Track
+from tricue.errors import TargetNotFoundError
 from tricue.track.base import registry
 from tricue.track.base.params import Params
+from tricue.track.base.traits import Channels, Traits
 
 WALL, PERSON = 4.0, 2.0  # metres
 
@@ -24,6 +26,12 @@ class Nearest:
     """Follows what is nearer than 3 m in the depth image; finds it by itself."""
 
     Params = NearestParams
+    traits = Traits(
+        channels=(Channels.of("depth"),),
+        camera=frozenset({"intrinsics"}),
+        detects="person",
+        shows=frozenset({"particles", "objects"}),
+    )
 
     def __init__(
         self, seed: int = 0, kernels: str = "native", intrinsics: Intrinsics | None = None, **params: float
@@ -37,7 +45,7 @@ class Nearest:
         frame.require("depth")
         found = self._find(frame)
         if box is None and found is None:
-            raise ValueError("box: found nobody in this frame")
+            raise TargetNotFoundError("box: found nobody in this frame")
         return self._track(box or found, Status.TRACKED)
 
     def update(self, frame: Frame) -> Track:
@@ -71,7 +79,7 @@ def nearest() -> Nearest:
 @pytest.fixture
 def nearest_tracker(monkeypatch: pytest.MonkeyPatch) -> str:
     """The name under which ``create`` now makes that tracker."""
-    monkeypatch.setitem(registry._TRACKERS, "depth-particle", f"{Nearest.__module__}:Nearest")
+    monkeypatch.setitem(registry._OURS, "depth-particle", f"{Nearest.__module__}:Nearest")
     return "depth-particle"
 
 

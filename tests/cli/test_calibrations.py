@@ -12,9 +12,8 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Frame, Intrinsics
 from tricue.camera.box import Box
-from tricue.cli.calibrations import GUESSING
 from tricue.cli import main
-from tricue.track.base.registry import names
+from tricue.track.base.registry import names, traits
 
 FRAMES = 4
 PAIR, RGBD = ("fused", "flow-depth", "stereo-head"), ("fused", "flow-depth", "depth-particle")
@@ -87,8 +86,8 @@ def test_what_an_unknown_pair_costs_is_true(
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert error.startswith("tricue track: warning: the pair's calibration isn't known; ")
-    assert has_positions(content) == (tracker in GUESSING)
-    if tracker in GUESSING:
+    assert has_positions(content) == traits(tracker).guesses
+    if traits(tracker).guesses:
         assert "any position in metres is a guess, by a usual pair, 60 degrees wide and 0.12 m apart" in error
     else:
         assert "tracks will have no position in metres" in error
@@ -105,8 +104,8 @@ def test_what_an_unknown_depth_camera_costs_is_true(
     """It proves the same of color and depth: a guess is warned of, the lack of positions said at the end."""
     content = tracked(rgbd, "--tracker", tracker, *MM)
     printed = capsys.readouterr()
-    assert has_positions(content) == (tracker in GUESSING)
-    if tracker in GUESSING:
+    assert has_positions(content) == traits(tracker).guesses
+    if traits(tracker).guesses:
         assert printed.err.count("\n") == 1
         assert "the depth camera's intrinsics aren't known; how far a position in metres is beside the" in (
             printed.err

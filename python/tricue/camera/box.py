@@ -9,6 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.errors import BoxError
+
 BoxLike = Sequence[float] | NDArray[Any]
 LIMIT = 1e6  # pixels; far over any image, and far below where a kernel's integers would overflow
 
@@ -88,10 +90,10 @@ def as_box(value: BoxLike, name: str = "box") -> Box:
     box = Box(*_four_numbers(value, name))
     if not all(-LIMIT <= number <= LIMIT for number in box):
         expected = "at most a million pixels" if all(map(math.isfinite, box)) else "finite numbers"
-        raise ValueError(f"{name}: expected {expected}, got {tuple(box)}")
+        raise BoxError(f"{name}: expected {expected}, got {tuple(box)}")
     if not (box.width > 0 and box.height > 0):
         drag = "; a box dragged up or left has its corners swapped" if min(box.width, box.height) < 0 else ""
-        raise ValueError(f"{name}: expected width and height above 0, got {tuple(box)}{drag}")
+        raise BoxError(f"{name}: expected width and height above 0, got {tuple(box)}{drag}")
     return box
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.numbers import finite, positive
+from tricue.errors import MissingChannelError
 
 NEAR, FAR = 0.05, 50.0  # metres; a median depth outside of these is most likely in another unit
 _UINT8 = np.dtype(np.uint8)
@@ -68,7 +69,9 @@ class Frame:
         for name in channels:
             if getattr(self, name) is None:
                 got = " and ".join(self.channels)
-                raise ValueError(f"frame: expected the channel {name}, which this tracker needs, got {got}")
+                raise MissingChannelError(
+                    f"frame: expected the channel {name}, which this tracker needs, got {got}", name
+                )
 
 
 FrameLike = Frame | NDArray[Any]

@@ -2,8 +2,12 @@
 """Options and types of arguments that several commands share."""
 
 import argparse
+import sys
+from pathlib import Path
 
 from tricue.camera.box import Box, as_box
+from tricue.errors import one_line
+from tricue.track.base.registry import tracker_class
 
 
 def add_common(command: argparse.ArgumentParser) -> None:
@@ -51,3 +55,19 @@ def angles(text: str) -> tuple[float, ...]:
     if len(found) not in (1, 2):
         raise argparse.ArgumentTypeError(f"expected one angle or two, H,V in degrees, got {text!r}")
     return found
+
+
+def tracker_name(text: str) -> str:
+    """A tracker's name, or ``module:Class`` of a module that is installed or in the working folder."""
+    if ":" in text and "" not in sys.path and (here := str(Path.cwd())) not in sys.path:
+        sys.path.insert(0, here)
+    try:
+        tracker_class(text)
+    except (ImportError, TypeError, ValueError) as error:
+        raise argparse.ArgumentTypeError(one_line(error).removeprefix("name: ")) from None
+    return text
+
+
+def tracker_names(text: str) -> list[str]:
+    """Names of trackers with commas between; those of the form ``module:Class`` are imported now."""
+    return [tracker_name(name) if ":" in name else name for name in words(text)]

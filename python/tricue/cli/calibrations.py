@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The intrinsics or the rig for a tracker that takes one: from a file, angles, from beside the images."""
 
-import inspect
 import warnings
 from argparse import Namespace
-from collections.abc import Mapping
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,12 +13,10 @@ from tricue.camera.rectification import Rectification
 from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.open_source import Source
-from tricue.track.base.registry import tracker_class
+from tricue.track.base.registry import traits
 from tricue.track.base.validation import USUAL_BASELINE, USUAL_VIEW
 
 STEREO_FILE = "--calibration FILE, by OpenCV, KITTI or in TOML"
-GUESSING = ("fused",)
-"""Trackers that go by a usual camera or pair where none is known; the others then tell no position."""
 
 
 class Calibration(NamedTuple):
@@ -63,7 +60,7 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     file that nobody asked for is only left out then, and the note says so. Warns (UserWarning) of positions
     that are missing from a pair, and of those that are a guess.
     """
-    taken = inspect.signature(tracker_class(options.tracker)).parameters
+    taken = traits(options.tracker).camera
     if "rig" in taken and ("right" in source.channels or "intrinsics" not in taken):
         return _stereo(options, source)
     for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
@@ -113,7 +110,7 @@ def _found_rig(tracker: str, source: Source) -> Calibration:
             return Calibration(rig=rig, note=f"calibration found: {source.calibration}")
     if "right" in source.channels:  # else it is the right images that are missed first
         then = "tracks will have no position in metres"
-        if tracker in GUESSING:
+        if traits(tracker).guesses:
             usual = f"a usual pair, {USUAL_VIEW:g} degrees wide and {USUAL_BASELINE:g} m apart"
             then = f"any position in metres is a guess, by {usual}"
         warnings.warn(f"{why}; {then}; give {STEREO_FILE}", stacklevel=2)
@@ -127,7 +124,7 @@ def _from_angles(source: Source, fov: tuple[float, ...]) -> Intrinsics:
         raise ValueError(f"--fov: {error}") from None
 
 
-def _of_file(path: Path, source: Source, taken: Mapping[str, Any]) -> Calibration:
+def _of_file(path: Path, source: Source, taken: Collection[str]) -> Calibration:
     """The depth camera's intrinsics; the color camera's where depth has to be brought into its image."""
     streams = source.channels
     if "rig" in taken and "color" in streams and "depth" in streams:  # it takes what the color camera sees
@@ -138,7 +135,7 @@ def _of_file(path: Path, source: Source, taken: Mapping[str, Any]) -> Calibratio
     return Calibration(read_intrinsics(path, source.size, "depth" if "depth" in streams else "color"))
 
 
-def _found(tracker: str, source: Source, taken: Mapping[str, Any]) -> Calibration:
+def _found(tracker: str, source: Source, taken: Collection[str]) -> Calibration:
     """From the file beside the images; nobody asked for it, so that what is wrong with it is no error."""
     why = "the depth camera's intrinsics aren't known"
     if source.calibration is not None:
@@ -152,7 +149,7 @@ def _found(tracker: str, source: Source, taken: Mapping[str, Any]) -> Calibratio
     if "depth" not in source.channels:
         return Calibration(note="" if source.calibration is None else why)
     give = "give --calibration FILE or --fov H,V"
-    if tracker not in GUESSING:
+    if not traits(tracker).guesses:
         return Calibration(note=f"{why}; tracks have no position in metres; {give}")
     usual = f"a usual camera, {USUAL_VIEW:g} degrees wide"
     aside = "how far a position in metres is beside the optical axis is a guess"

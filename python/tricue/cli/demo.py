@@ -5,14 +5,18 @@ import argparse
 import importlib
 from pathlib import Path
 
-from tricue.cli.arguments import add_common
+from tricue.cli.arguments import add_common, tracker_name
+from tricue.track.base.registry import traits
 
 DEMOS = {
-    "color-particle": "tricue.cli.demos.color",
-    "depth-particle": "tricue.cli.demos.depth",
-    "flow-depth": "tricue.cli.demos.flow_depth",
     "fused": "tricue.cli.demos.fused",
-    "stereo-head": "tricue.cli.demos.stereo",
+    "flow-depth": "tricue.cli.demos.flow_depth",
+}
+"""Demos made for one tracker; any other has that of the channels that it needs."""
+BY_CHANNELS = {
+    frozenset({"color"}): "tricue.cli.demos.color",
+    frozenset({"depth"}): "tricue.cli.demos.depth",
+    frozenset({"color", "right"}): "tricue.cli.demos.stereo",
 }
 EXAMPLES = """\
 examples:
@@ -28,7 +32,7 @@ examples:
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument(
-        "tracker", nargs="?", default="color-particle", choices=tuple(DEMOS), help="default %(default)s"
+        "tracker", nargs="?", default="color-particle", type=tracker_name, help="default %(default)s"
     )
     command.add_argument(
         "--output", type=Path, default=Path("demo"), metavar="FOLDER", help="default %(default)s/"
@@ -38,5 +42,11 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run the demo of the chosen tracker; the exit code."""
-    code: int = importlib.import_module(DEMOS[options.tracker]).run(options)
+    sets = traits(options.tracker).channels
+    module = DEMOS.get(options.tracker) or next(
+        (BY_CHANNELS[each.names] for each in sets if each.names in BY_CHANNELS), None
+    )
+    if module is None:
+        raise ValueError(f"tracker: there is no scene for one that needs {traits(options.tracker).needs}")
+    code: int = importlib.import_module(module).run(options)
     return code

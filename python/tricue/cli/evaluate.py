@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import count, words
+from tricue.cli.arguments import count, tracker_names
 from tricue.cli.progress import Progress
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
@@ -36,7 +36,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "dataset", type=Path, metavar="DATASET", help="a sequence with true boxes, or a folder of them"
     )
     command.add_argument(
-        "--trackers", type=words, metavar="NAMES", help="ours and cv2's, with commas between; all without it"
+        "--trackers",
+        type=tracker_names,
+        metavar="NAMES",
+        help="ours, cv2's and module:Class, with commas between; all that are installed without it",
     )
     command.add_argument(
         "--set",

@@ -6,9 +6,9 @@ from typing import Any
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.cli.steps import Start, finds_by_itself
+from tricue.cli.steps import Start
 from tricue.data.open_source import Source
-from tricue.track.base.registry import names
+from tricue.errors import BoxError, MissingChannelError, NoDepthInBoxError, UnregisteredDepthError
 from tricue.track.base.track import Tracker
 
 USUAL, IN_DEPTH = "fused", "depth-particle"  # trackers where none is chosen
@@ -26,7 +26,7 @@ def usual_tracker(options: Namespace, source: Source) -> str:
 
 def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:
     """What gives the first box; None where the tracker finds its target by itself."""
-    if options.detect == "person" and not finds_by_itself(tracker):
+    if options.detect == "person" and tracker.traits.detects != "person":
         raise ValueError(f"--detect person: {options.tracker} doesn't look for people; {BOX} or {FACE}")
     if options.detect == "face":
         from tricue.track.base.face_detection import find_face
@@ -36,20 +36,21 @@ def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start 
     return None if box is None else lambda _: box
 
 
-def advice(message: str, source: Source, tracker: Tracker) -> str:
+def advice(error: ValueError, source: Source, tracker: Tracker) -> str:
     """What to do about an error on the first frame; "" where the error says enough."""
-    if message.startswith("box: expected a head with a disparity"):
-        return "; --set near=METRES and --set far=METRES change what is looked for"
-    if message.startswith("box:"):
-        return f"; {BOX}" if finds_by_itself(tracker) else f"; {BOX} or {FACE}"
-    if message.startswith("frame: expected the channel depth"):
-        return "; ".join(("", "give its depth images with --depth FOLDER", *source.notes))
-    if message.startswith("frame.depth: expected shape"):
+    if isinstance(error, NoDepthInBoxError) and tracker.traits.disparity_range is not None:
+        near, far = tracker.traits.disparity_range
+        return f"; --set {near}=METRES and --set {far}=METRES change what is looked for"
+    if isinstance(error, BoxError):
+        return f"; {BOX}" if tracker.traits.detects else f"; {BOX} or {FACE}"
+    if isinstance(error, UnregisteredDepthError):
         return "; --calibration FILE in TOML, with the tables depth and color, brings it there"
-    if message.startswith("frame: expected the channel right"):
-        return "; give the right camera's images with --right PLACE"
-    if message.startswith("frame: expected the channel color") and IN_DEPTH in names():
-        return f"; --tracker {IN_DEPTH} tracks in depth"
+    if isinstance(error, MissingChannelError):
+        return {
+            "depth": "; ".join(("", "give its depth images with --depth FOLDER", *source.notes)),
+            "right": "; give the right camera's images with --right PLACE",
+            "color": f"; --tracker {IN_DEPTH} tracks in depth",
+        }[error.channel]
     return ""
 
 

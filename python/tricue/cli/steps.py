@@ -11,16 +11,11 @@ from types import FrameType
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.cli.outputs import Step
+from tricue.errors import TargetNotFoundError
 from tricue.track.base.track import Status, Track, Tracker
 
-SHOWN = ("particles", "objects", "mask", "blocks")  # of a tracker, to be drawn
 Start = Callable[[Frame], Box | None]
 """The box to start on, asked of every frame until there is one."""
-
-
-def finds_by_itself(tracker: object) -> bool:
-    """Whether the tracker looks for its target: those do that segment the frame into ``objects``."""
-    return hasattr(tracker, "objects")
 
 
 @dataclass
@@ -63,8 +58,9 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
         if started:
             clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
         started = True
-        seen = (getattr(tracker, name, None) for name in SHOWN)
-        yield Step(index, frame, track, seconds, *seen)
+        yield Step(
+            index, frame, track, seconds, **{name: getattr(tracker, name) for name in tracker.traits.shows}
+        )
 
 
 @contextmanager
@@ -89,16 +85,9 @@ def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: Clock) -> T
     """The first track, or None where a tracker that looks for its target hasn't found it yet."""
     try:
         return tracker.init(frame, box)
-    except ValueError as error:
-        if box is not None or not finds_by_itself(tracker) or not _nobody_found(str(error)):
-            raise
+    except TargetNotFoundError as error:
         clock.waiting = str(error)
         return None
-
-
-def _nobody_found(message: str) -> bool:
-    """Whether an error of a start without a box says that: it is about the box, or what the frame shows."""
-    return message.startswith(("box:", "frame:")) and not message.startswith("frame: expected the channel")
 
 
 def _decoded(frames: Iterable[Frame], clock: Clock) -> Iterator[Frame]:

@@ -14,7 +14,7 @@ import numpy as np
 
 import tricue
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.cli.arguments import add_common, angles, box
+from tricue.cli.arguments import add_common, angles, box, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
@@ -50,8 +50,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--tracker",
-        choices=names(),
-        help=f"default {USUAL}; {IN_DEPTH} where there is depth and nothing tells where to start",
+        type=tracker_name,
+        metavar="NAME",
+        help=f"{', '.join(names())} or module:Class; default {USUAL}, {IN_DEPTH} where there is depth and "
+        "nothing tells where to start",
     )
     start = command.add_mutually_exclusive_group()
     start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
@@ -177,9 +179,8 @@ def _prepare(options: argparse.Namespace) -> tuple[Run, list[str]]:
     tracker = make_tracker(
         options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
     )
-    # A tracker that wasn't told may assume a camera of its own.
     rig = found.rig
-    known = rig.intrinsics if rig else found.intrinsics or getattr(tracker, "intrinsics", None)
+    known = rig.intrinsics if rig else found.intrinsics
     run = Run(source, tracker, known, choose_start(options, source, tracker), rig)
     return run, [*source.notes, *([found.note] if found.note else [])]
 
@@ -200,7 +201,7 @@ def _advised(found: Iterator[Step], run: Run, clock: Clock) -> Iterator[Step]:
         yield from found
     except ValueError as error:
         if clock.decoded == 1 and not any(clock.statuses.values()):
-            raise ValueError(f"{error}{advice(str(error), run.source, run.tracker)}") from None
+            raise ValueError(f"{error}{advice(error, run.source, run.tracker)}") from None
         raise
 
 
@@ -220,10 +221,16 @@ def _about(options: argparse.Namespace, run: Run) -> dict[str, Any]:
         "tracker": options.tracker,
         "seed": options.seed,
         "kernels": options.kernels,
-        "params": {name: _plain(value) for name, value in dataclasses.asdict(run.tracker.params).items()},
+        "params": {name: _plain(value) for name, value in _params(run.tracker).items()},
         "intrinsics": None if run.intrinsics is None else dataclasses.asdict(run.intrinsics),
         "baseline": None if run.rig is None else run.rig.baseline,
     }
+
+
+def _params(tracker: Tracker) -> dict[str, Any]:
+    """By name; somebody else's tracker has what it was made with."""
+    params = tracker.params
+    return dict(params) if isinstance(params, dict) else dataclasses.asdict(params)
 
 
 def _plain(value: Any) -> Any:

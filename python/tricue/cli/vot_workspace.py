@@ -6,7 +6,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from tricue.cli.arguments import words
+from tricue.cli.arguments import tracker_names
 from tricue.data.datasets import find_sequences
 from tricue.evaluation.toolkits.vot_workspace import TRACKERS, write_workspace
 
@@ -22,7 +22,9 @@ TOOLKIT = "pip install vot-toolkit==0.7.4 vot-trax==4.0.2 attributee==0.1.9"
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument("folder", type=Path, metavar="FOLDER", help="new, or a workspace to add to")
-    command.add_argument("--trackers", type=words, required=True, metavar="NAMES", help="with commas between")
+    command.add_argument(
+        "--trackers", type=tracker_names, required=True, metavar="NAMES", help="with commas between"
+    )
     command.add_argument(
         "--sequences",
         type=Path,

@@ -20,6 +20,10 @@ from tricue.evaluation.one_pass import Contender
 from tricue.track.base.track import Status, Track
 
 Image = NDArray[np.uint8]
+NAMES = (
+    *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, as far as the installed one has them
+    *("CamShift", "meanShift", "script-pf", "still-box"),
+)
 Maker = Callable[[int], Contender]
 """Makes a tracker from a seed."""
 

@@ -150,7 +150,7 @@ class _Plan:
             if why := entrant.refuses(opened):
                 self.left_out[entrant.name, opened.entry.name] = why
                 continue
-            seeds = range(1 if entrant.steady else self.options.seeds)
+            seeds = range(self.options.seeds if entrant.random else 1)
             tasks += [Task(entrant, opened.entry, seed, kind) for kind in kinds for seed in seeds]
         return tasks
 

@@ -23,8 +23,8 @@ from tricue.evaluation.tracker_spec import Entrant, Guarded
 
 ONE_PASS, RESTARTS = "one-pass", "restarts"
 _DECIDING = (
-    *("_core*.so", "_core*.pyd", "camera/**/*.py", "reference/**/*.py", "track/**/*.py"),
-    *(f"evaluation/{name}.py" for name in ("entrants", "one_pass", "peers", "restarts")),
+    *("_core*.so", "_core*.pyd", "camera/**/*.py", "data/**/*.py", "reference/**/*.py", "track/**/*.py"),
+    *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts")),
 )
 
 

@@ -4,6 +4,7 @@
 import json
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any, Protocol
 
 import cv2
@@ -16,15 +17,17 @@ from tricue.draw.overlays import depth_picture, depth_range
 from tricue.errors import one_line
 from tricue.evaluation import baselines
 from tricue.evaluation.one_pass import Contender
-from tricue.track.base.registry import names, tracker_class
+from tricue.track.base import registry
 from tricue.track.base.track import Status, Track
+from tricue.track.base.traits import Channels, Traits
 
 View = Callable[[Frame], Frame]
 """What a contender is shown of a frame; made off the clock."""
 
-WIDEST, NARROWEST = 0.25, 4.0  # disparities of a stereo head's range: of the image's width; pixels
+MAX_DISPARITY, MIN_DISPARITY = 0.25, 4.0  # of a target in a stereo pair: of the image's width; pixels
 _SLOWNESS = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
-_STEADY = tuple(name for name in baselines.available() if name != "script-pf")  # draw no random numbers
+SCRIPT = "script-pf"  # the baseline that draws random numbers which its users can seed
+BASELINE = Traits(channels=(Channels.of("color"), Channels.of("depth")))
 
 
 class Offer(Protocol):
@@ -46,20 +49,28 @@ class Offer(Protocol):
 
 @dataclass(frozen=True)
 class Entrant:
-    """A tracker of ours or a peer, by name. settings: parameters that aren't the defaults, for ours."""
+    """A tracker by its name: one of ours, of a package, of a module (``module:Class``), or a baseline.
+
+    settings: parameters that aren't the defaults; baselines take none.
+    """
 
     name: str
     settings: tuple[tuple[str, Any], ...] = ()
 
     @property
     def ours(self) -> bool:
-        """Whether it is one of our trackers."""
-        return self.name in names()
+        """Whether it has the interface of tricue's trackers; else it is one of the baselines."""
+        return self.name not in baselines.NAMES
 
     @property
-    def steady(self) -> bool:
-        """Whether one run is enough: it draws no random numbers, or, as MIL, none that its users can seed."""
-        return self.name in _STEADY or self.name in ("stereo-head", "flow-depth", "fused")
+    def traits(self) -> Traits:
+        """What it needs and takes; baselines see one picture."""
+        return registry.traits(self.name) if self.ours else BASELINE
+
+    @property
+    def random(self) -> bool:
+        """Whether it draws random numbers from a seed, so that one run isn't enough."""
+        return self.traits.random if self.ours else self.name == SCRIPT
 
     @property
     def slowness(self) -> float:
@@ -71,35 +82,37 @@ class Entrant:
         """What else than the images decides a run: parameters and versions, as JSON."""
         if not self.ours:
             return json.dumps({"cv2": cv2.__version__})
-        params = tracker_class(self.name).Params(**dict(self.settings))
-        return json.dumps({"tricue": tricue.__version__, **asdict(params)}, default=str)
+        kind, settings = registry.tracker_class(self.name).Params, dict(self.settings)
+        params = settings if kind is None else asdict(kind(**settings))
+        return json.dumps({"tricue": tricue.__version__, **params}, default=str)
 
     def refuses(self, opened: Offer) -> str:
         """Why it can't run on a sequence, "" where it can."""
-        channels, depth = opened.channels, opened.channel == "depth"
-        if self.name == "stereo-head":
-            return "" if "right" in channels else "no stereo pair"
-        if self.name == "depth-particle":
-            return "" if "depth" in channels and (depth or opened.registered) else "no depth"
-        if self.name == "color-particle":
-            return "boxes of the depth image" if depth else ""
-        return ""
+        present = _usable(opened)
+        if self.traits.best(present) is not None:
+            return ""
+        missing = self.traits.channels[-1].names - present
+        absent = missing - frozenset(opened.channels)
+        if "right" in absent:
+            return "no stereo pair"
+        return f"no {', '.join(sorted(absent))}" if absent else "boxes of the depth image"
 
     def contender(self, opened: Offer, seed: int) -> "Guarded":
         """The tracker for a sequence, with its cameras."""
         baselines.seed(seed)
         if not self.ours:
             return Guarded(baselines.available()[self.name](seed))
-        keywords = _FITTED[self.name](opened)[0] | dict(self.settings)
+        keywords = _keywords(self.traits, opened) | dict(self.settings)
         return Guarded(tricue.create(self.name, seed=seed, **keywords))
 
     def view(self, opened: Offer) -> View:
-        """What the tracker is shown: the channels that it can use. The peers see depth as a picture where the
+        """What the tracker is shown: the channels that it uses. Baselines see depth as a picture where the
         true boxes are in it.
         """
-        if self.ours:
-            return _FITTED[self.name](opened)[1]
-        return pictured() if opened.channel == "depth" else _color
+        if not self.ours and opened.channel == "depth":
+            return pictured()
+        chosen = self.traits.best(_usable(opened))
+        return partial(_only, frozenset({"color"}) if chosen is None else chosen.names)
 
 
 class Guarded:
@@ -141,14 +154,15 @@ def pictured() -> View:
 
 
 def entrants(chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]) -> list[Entrant]:
-    """Those of the given names, by default all; settings: parameters by our trackers' names.
+    """Those of the given names, by default all that are installed; settings: parameters by trackers' names.
 
     ValueError for an unknown name lists the known ones.
     """
-    known = [*names(), *baselines.available()]
+    known = [*registry.names(), *baselines.available()]
     for name in [*(chosen or ()), *settings]:
-        if name not in known:
-            raise ValueError(f"--trackers: expected some of {', '.join(known)}, got {name!r}")
+        if name not in known and ":" not in name:
+            expected = f"some of {', '.join(known)} or module:Class"
+            raise ValueError(f"--trackers: expected {expected}, got {name!r}")
     found = [Entrant(name, tuple(settings.get(name, {}).items())) for name in chosen or known]
     for each in found:
         _check(each)
@@ -156,79 +170,48 @@ def entrants(chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, A
 
 
 def _check(entrant: Entrant) -> None:
-    """Errors of parameters come before the first run."""
-    if entrant.ours:
-        tracker_class(entrant.name).Params(**dict(entrant.settings))
-    elif entrant.settings:
-        raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {entrant.name}")
+    """Errors of names and parameters come before the first run."""
+    if not entrant.ours:
+        if entrant.settings:
+            raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {entrant.name}")
+        return
+    kind = registry.tracker_class(entrant.name).Params
+    if kind is not None:
+        kind(**dict(entrant.settings))
 
 
-Fitted = tuple[dict[str, Any], View]  # keywords for the tracker, and what it is shown
-
-
-def _color_particle(opened: Offer) -> Fitted:
-    return {}, _color
-
-
-def _depth_particle(opened: Offer) -> Fitted:
-    return {"intrinsics": opened.intrinsics}, _depth
-
-
-def _stereo_head(opened: Offer) -> Fitted:
-    rig = opened.rig
-    return ({} if rig is None else {"rig": rig, **_range(rig)}), _pair
-
-
-def _flow_depth(opened: Offer) -> Fitted:
-    """Both cues where there is a pair, or depth that belongs to the color; else the one that there is."""
-    channels = opened.channels
-    if "right" in channels:
-        return {"rig": opened.rig}, _pair
+def _usable(opened: Offer) -> frozenset[str]:
+    """The channels whose pixels the true boxes count, or that belong to those."""
     if opened.channel == "depth":
-        return {"intrinsics": opened.intrinsics, "cues": ("disparity",)}, _depth
-    if "depth" in channels and opened.registered:
-        return {"intrinsics": opened.intrinsics}, _whole
-    return {"cues": ("flow",)}, _color
+        return frozenset({"depth"})
+    channels = frozenset(opened.channels)
+    return channels if opened.registered else channels - {"depth"}
 
 
-def _fused(opened: Offer) -> Fitted:
-    """All that belongs together: the pair, color with registered depth, or the one of both that there is."""
-    channels = opened.channels
-    if "right" in channels:
-        return {"rig": opened.rig}, _pair
-    if opened.channel == "depth":
-        return {"intrinsics": opened.intrinsics}, _depth
-    if "depth" in channels and opened.registered:
-        return {"intrinsics": opened.intrinsics}, _whole
-    return {}, _color
+def _keywords(traits: Traits, opened: Offer) -> dict[str, Any]:
+    """What a tracker is told on a sequence: the parameters for its channels, and its camera or rig."""
+    chosen = traits.best(_usable(opened))
+    if chosen is None:
+        return {}
+    keywords = dict(chosen.params)
+    if "right" in chosen.names and "rig" in traits.camera:
+        keywords["rig"] = opened.rig
+        if opened.rig is not None and traits.disparity_range is not None:
+            keywords |= dict(zip(traits.disparity_range, _range(opened.rig), strict=True))
+    elif "depth" in chosen.names and "intrinsics" in traits.camera:
+        keywords["intrinsics"] = opened.intrinsics
+    return keywords
 
 
-def _range(rig: StereoRig) -> dict[str, float]:
-    """Between which distances a target is looked for: where a pair's disparity is WIDEST and NARROWEST."""
+def _range(rig: StereoRig) -> tuple[float, float]:
+    """Between which distances, metres, a target is looked for: where its disparity is as large and as small
+    as it may be.
+    """
     product = rig.intrinsics.fx * rig.baseline
-    return {"near": product / (WIDEST * rig.intrinsics.width), "far": product / NARROWEST}
+    return product / (MAX_DISPARITY * rig.intrinsics.width), product / MIN_DISPARITY
 
 
-_FITTED: dict[str, Callable[[Offer], Fitted]] = {
-    "color-particle": _color_particle,
-    "depth-particle": _depth_particle,
-    "stereo-head": _stereo_head,
-    "flow-depth": _flow_depth,
-    "fused": _fused,
-}
-
-
-def _whole(frame: Frame) -> Frame:
-    return frame
-
-
-def _color(frame: Frame) -> Frame:
-    return Frame(frame.color, timestamp=frame.timestamp)
-
-
-def _depth(frame: Frame) -> Frame:
-    return Frame(depth=frame.depth, timestamp=frame.timestamp)
-
-
-def _pair(frame: Frame) -> Frame:
-    return Frame(frame.color, right=frame.right, timestamp=frame.timestamp)
+def _only(names: frozenset[str], frame: Frame) -> Frame:
+    """The frame with these channels alone, of those that it has."""
+    channels = {name: getattr(frame, name) for name in names}
+    return Frame(**channels, timestamp=frame.timestamp)

@@ -102,7 +102,7 @@ def test_what_did_not_run_is_told(evaluation, report):
     assert "broken" in error
     assert page.tag("b", "broken") in text
     assert "no depth, 4 sequences" in text
-    assert "boxes of the depth image, 1 sequence" in text
+    assert "no color, 1 sequence" in text
 
 
 def test_parameters_and_versions_are_told(about, report):

@@ -358,7 +358,7 @@ def test_a_missing_extra_is_named() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--tracker", "stereo-head"], "stereo-head: needs the right image of a pair"),
+        (["--tracker", "stereo-head"], "stereo-head: needs the right image of a stereo pair"),
         (["--tracker", "magic"], "name: expected one of 'color-particle'"),
         (["--set", "particles"], "--set: expected name=value"),
         (["--set", "particles=0"], "particles: expected at least"),

@@ -1,14 +1,88 @@
 # SPDX-License-Identifier: MIT
+import pickle
+from importlib.metadata import EntryPoint
+
+import numpy as np
 import pytest
 import tricue
 from tricue.track.base import registry
 
 
-def test_a_tracker_by_its_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It proves that create finds the class behind a name, imports it and passes the keywords on."""
-    monkeypatch.setitem(registry._TRACKERS, "fraction", "fractions:Fraction")
-    assert tricue.create("fraction", numerator=1, denominator=3).numerator == 1  # type: ignore[attr-defined]
-    assert registry.names() == (*[name for name in registry.names() if name != "fraction"], "fraction")
+class Plain:
+    """Somebody else's tracker: two methods, no base class."""
+
+    def __init__(self, step: float = 0.0) -> None:
+        self.step = step
+
+    def init(self, frame: tricue.Frame, box: tricue.Box) -> None:
+        assert isinstance(frame, tricue.Frame)
+        self.box = box
+
+    def update(self, frame: tricue.Frame) -> tuple[float, ...] | None:
+        assert frame.color is not None
+        if not frame.color.any():
+            return None
+        self.box = self.box._replace(x=self.box.x + self.step)
+        return tuple(self.box)
+
+
+GRAY = np.full((40, 60, 3), 128, np.uint8)
+PLAIN = f"{Plain.__module__}:Plain"
+
+
+def test_any_class_by_its_module() -> None:
+    """It proves that a class with init and update alone is a tracker: boxes are tracks, None is lost."""
+    tracker = tricue.create(PLAIN, step=2.0, seed=4)
+    assert tracker.init(GRAY, (1, 2, 10, 12)) == tricue.Track(
+        tricue.Box(1, 2, 10, 12), 1.0, tricue.Status.TRACKED
+    )
+    assert tracker.update(GRAY).box == (3, 2, 10, 12)
+    lost = tracker.update(np.zeros_like(GRAY))
+    assert (lost.box, lost.score, lost.status) == ((3, 2, 10, 12), 0.0, tricue.Status.LOST)
+    again = pickle.loads(pickle.dumps(tracker))
+    assert again.update(GRAY) == tracker.update(GRAY)
+    with pytest.raises(ValueError, match="box: expected"):
+        tracker.init(GRAY)
+
+
+def test_a_package_offers_trackers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an entry point of the group tricue.trackers is a name like ours."""
+    offered = {"plain": EntryPoint("plain", PLAIN, registry.GROUP)}
+    monkeypatch.setattr(registry, "_offered", lambda: offered)
+    assert registry.names()[-1] == "plain"
+    assert tricue.create("plain", step=1.0).init(GRAY, (1, 2, 10, 12)).score == 1
+    assert registry.traits("plain").needs == "color"
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("no_such_module:Tracker", "no_such_module:Tracker: there is no module no_such_module"),
+        ("fractions:Nothing", "fractions:Nothing: the module fractions has no Nothing"),
+        ("math:pi", "math:pi: expected a class with init and update, got float"),
+        ("fractions:Fraction", r"Fraction: expected a class with init\(frame, box\) and update"),
+    ],
+)
+def test_what_is_no_tracker_is_named(name: str, message: str) -> None:
+    """It proves that a module, a class or methods that aren't there are named."""
+    with pytest.raises((TypeError, ValueError), match=f"^{message}"):
+        tricue.create(name)
+
+
+@pytest.mark.parametrize("name", registry.names())
+def test_every_tracker_tells_its_traits(name: str) -> None:
+    """It proves that each has traits, runs on each of its sets of channels, and has what it says it shows."""
+    traits = registry.traits(name)
+    for each in traits.channels:
+        tracker = tricue.create(name, **each.params)
+        assert traits.best(each.names) is not None
+        assert each in traits.fitting(tracker.params)
+        for attribute in traits.shows:
+            getattr(tracker, attribute)
+    assert (traits.detects == "person") == (name == "depth-particle")
+    assert traits.random == (name in ("color-particle", "depth-particle"))
+    assert traits.follows
+    assert traits.source
 
 
 @pytest.mark.parametrize("name", ["colour-particle", "", None, 3])

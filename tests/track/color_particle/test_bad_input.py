@@ -20,8 +20,8 @@ BAD_FRAMES: cases.BadFrames = {
     **cases.NO_FRAMES,
     **cases.NO_IMAGES,
     **cases.BARE_DEPTHS,
-    "grey": (lambda: IMAGE[..., 0], ValueError, r"^frame.color: expected BGR .*grey.*cvtColor"),
-    "one channel": (lambda: IMAGE[..., :1], ValueError, r"^frame.color: expected BGR .*grey"),
+    "grey": (lambda: IMAGE[..., 0], ValueError, r"^frame.color: expected BGR .*gray.*cvtColor"),
+    "one channel": (lambda: IMAGE[..., :1], ValueError, r"^frame.color: expected BGR .*gray"),
     "depth alone": (lambda: Frame(depth=cases.METRES), ValueError, r"^frame: .*color.*got depth"),
 }
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, ColorParticleTracker, Status
+from tricue.track.color_particle.tracker import MIN_MISSED
 
 Image = NDArray[np.uint8]
 RNG = np.random.default_rng(0)
@@ -34,13 +35,15 @@ def test_a_frame_without_target_is_told(blank, seed, stage, follow):
     assert max(track.score for track in tracks) < 0.3
 
 
-@pytest.mark.parametrize("lost_after", [1, 3, 12])
-def test_lost_after_as_many_frames_as_said(lost_after, stage, follow):
-    """The status is LOST from the lost_after-th missed frame on, not before."""
+@pytest.mark.parametrize(("lost_after", "frames"), [(0.0, MIN_MISSED), (0.15, 5), (0.41, 13)])
+def test_lost_after_as_many_seconds_as_said(lost_after, frames, stage, follow):
+    """At 30 frames/s the status is LOST from the frame on that completes the seconds, not before; never
+    before MIN_MISSED frames.
+    """
     tracker = ColorParticleTracker(lost_after=lost_after)
     follow(tracker, stage(HERE), START)
     statuses = [tracker.update(BLANK["black"]()).status for _ in range(15)]
-    assert statuses.index(Status.LOST) == lost_after - 1
+    assert statuses.index(Status.LOST) == frames - 1
     assert Status.TRACKED not in statuses
 
 
@@ -59,7 +62,7 @@ def test_a_short_loss_is_bridged(stage, follow):
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle"])
 @pytest.mark.parametrize("gone", [10, 100])
 def test_found_again_elsewhere(background, gone, stage, follow):
-    """A face that comes back 150 px away after 10 or 100 lost frames is found within 15: it wasn't unlearnt.
+    """A face that comes back 150 px away after 10 or 100 lost frames is found within 15: it wasn't unlearned.
 
     The search is drawn at random and rather stays lost than it follows something else: of three seeds one
     must

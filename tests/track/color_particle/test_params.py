@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 import tricue
-from tricue import ColorParticleTracker
+from tricue import ColorParticleTracker, FusedTracker
 
 Params = ColorParticleTracker.Params
 FIELDS = {field.name: field for field in dataclasses.fields(Params)}
@@ -43,8 +43,9 @@ REFUSED: dict[str, tuple[Any, ...]] = {
     "anchor": (-0.1, 1.1),
     "learn_above": (-0.1, 1.1),
     "lost_below": (-0.1, 1.1),
-    "lost_after": (0, -1),
+    "lost_after": (-0.1,),
     "found_above": (-0.1, 1.1),
+    "rate": (0, -1),
 }
 
 
@@ -154,7 +155,7 @@ def test_every_parameter_says_its_unit_and_source():
         {"sharpness": 1e-9, "color_weight": 0, "likelihood": "linear"},
         {"surprise": 0, "sweep": 50.0},
         {"learning_rate": 1, "color_rate": 1, "anchor": 1, "learn_above": 0},
-        {"lost_below": 1, "lost_after": 1, "found_above": 0},
+        {"lost_below": 1, "lost_after": 0.0, "found_above": 0},
         {"resample_below": 0, "size_pull": 1, "size_memory": 1, "velocity_rate": 1},
         {"resample_below": 1, "velocity_rate": 0},
     ],
@@ -166,3 +167,10 @@ def test_extremes_give_finite_tracks(extreme, run):
         assert np.isfinite(track.box).all()
         assert min(track.box.width, track.box.height) > 0
         assert 0 <= track.score <= 1
+
+
+@pytest.mark.parametrize("tracker", [ColorParticleTracker, FusedTracker])
+def test_frames_until_lost_are_deprecated(tracker):
+    """A whole number is taken for frames, as in version 0.1.0, with a warning that tells the seconds."""
+    with pytest.warns(DeprecationWarning, match=r"^lost_after: .*give seconds: 0.3 instead of 9"):
+        assert tracker(lost_after=9).params.lost_after == pytest.approx(0.3)

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from tricue.track.depth_particle.matching import REACHED, WORST, best_match, cover, same, without
+from tricue.track.depth_particle.matching import MAX_COST, REACHED, best_match, cover, same, without
 from tricue.track.depth_particle.signature import Signature
 from tricue.track.depth_particle.walk import Walk
 
@@ -20,7 +20,7 @@ def moved(*by: float) -> list[float]:
     return (EXPECTED + np.pad(by, (0, 5 - len(by)))).tolist()
 
 
-def match(objects, walk=KNOWN, seconds=FRAME, worst=WORST, signature=EVEN):
+def match(objects, walk=KNOWN, seconds=FRAME, worst=MAX_COST, signature=EVEN):
     """The best match among objects."""
     return best_match(objects, EXPECTED, walk, signature, seconds, worst)
 

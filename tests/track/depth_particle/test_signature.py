@@ -42,7 +42,7 @@ def test_signatures_learn_by_their_rate(objects_of):
     even = Signature.unknown()
     assert even.spread[:SLICES].sum() == pytest.approx(1)
     assert even.spread[SLICES:].sum() == pytest.approx(1)
-    blended = even.learnt(sharp)
+    blended = even.learned(sharp)
     np.testing.assert_allclose(blended.shift, RATE * np.array([0.1, -0.2]), rtol=1e-12)
     assert blended.spread[:SLICES].sum() == pytest.approx(1)
     assert blended.spread[3] == pytest.approx((1 - RATE) / SLICES + RATE)

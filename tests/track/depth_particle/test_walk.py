@@ -65,7 +65,7 @@ def test_predictions_stay_in_range():
     np.testing.assert_array_equal(prediction.upper, [np.inf, np.inf, P.far, np.inf, np.inf])
 
 
-def test_velocity_is_learnt_from_steady_places_only():
+def test_velocity_is_learned_from_steady_places_only():
     """A step of 0.1 m in 0.1 s is 1 m/s, of which the smoothing takes its half; unsteady places teach
     nothing.
     """
@@ -80,7 +80,7 @@ def test_velocity_is_learnt_from_steady_places_only():
 
 @pytest.mark.parametrize("rate", [15, 30, 60])
 def test_velocity_does_not_depend_on_the_frame_rate(rate):
-    """Somebody who walks at 1.2 m/s is learnt to walk at 1.2 m/s, at 15, 30 and 60 frames/s."""
+    """Somebody who walks at 1.2 m/s is learned to walk at 1.2 m/s, at 15, 30 and 60 frames/s."""
     now = walk()
     for i in range(1, 4 * rate):
         now = now.seen(STATE + np.array([1.2 * i / rate, 0, 0, 0, 0]), P, 1 / rate, steady=True)
@@ -124,8 +124,8 @@ def test_a_cut_size_is_a_lower_bound():
     assert not after.known.any()
 
 
-def test_the_first_whole_size_is_learnt_fast():
-    """A size seen whole for the first time is known from then on, and learnt at once for the most part."""
+def test_the_first_whole_size_is_learned_fast():
+    """A size seen whole for the first time is known from then on, and learned at once for the most part."""
     first = walk(known=CUT).measured(np.array([0.8, 1.7]), np.array([True, False]), P)
     np.testing.assert_array_equal(first.known, [True, False])
     assert first.size[0] > 0.6 + 0.5 * 0.2

@@ -100,7 +100,7 @@ LACKING = [
     ({}, Frame(depth=DEPTH), "color"),
 ]
 
-BAD_BOXES = {**cases.BAD_BOXES, "none": (None, ValueError, "expected .*finds nobody by itself")}
+BAD_BOXES = {**cases.BAD_BOXES, "none": (None, ValueError, "expected .*needs an initial box")}
 
 GOOD_BOXES = {
     **cases.same_box(BOX),

@@ -17,8 +17,8 @@ def test_the_first_outline_is_the_window():
 
 def test_each_side_learns_by_itself():
     """A frame moves every side by a fifth of what it is off, another side by nothing."""
-    learnt = Outline.of(WINDOW, BLOCKS).learnt((55.0, 20.0, 70.0, 110.0), BLOCKS).rectangle(BLOCKS)
-    assert learnt == pytest.approx((50 + 5 * RATE, 20, 80 - 10 * RATE, 110))
+    learned = Outline.of(WINDOW, BLOCKS).learned((55.0, 20.0, 70.0, 110.0), BLOCKS).rectangle(BLOCKS)
+    assert learned == pytest.approx((50 + 5 * RATE, 20, 80 - 10 * RATE, 110))
 
 
 def test_it_ends_at_the_pixels():
@@ -26,7 +26,7 @@ def test_it_ends_at_the_pixels():
     pixels = (60.0, 30.0, 75.0, 100.0)
     outline = Outline.of(WINDOW, BLOCKS)
     for _ in range(40):
-        outline = outline.learnt(pixels, BLOCKS)
+        outline = outline.learned(pixels, BLOCKS)
     assert outline.rectangle(BLOCKS) == pytest.approx(pixels, rel=0.01)
 
 
@@ -37,10 +37,10 @@ def test_it_moves_and_grows_with_the_blocks():
     assert outline.rectangle(BLOCKS._replace(size=2.0)) == pytest.approx((35, -25, 95, 155))
 
 
-def test_what_is_learnt_large_is_kept_for_small():
+def test_what_is_learned_large_is_kept_for_small():
     """Pixels seen while the target is twice as large teach the outline that it has at any size."""
     large = BLOCKS._replace(size=2.0)
     outline = Outline.of(WINDOW, BLOCKS)
     for _ in range(60):
-        outline = outline.learnt((45.0, -5.0, 85.0, 135.0), large)
+        outline = outline.learned((45.0, -5.0, 85.0, 135.0), large)
     assert outline.rectangle(BLOCKS) == pytest.approx((55, 30, 75, 100), abs=0.01)

@@ -53,7 +53,7 @@ REFUSED: dict[str, tuple[Any, ...]] = {
     "learn_odd": (-0.1, 1.1),
     "lost_below": (-0.1, 1.1),
     "hopeless": (-0.1, 1.1),
-    "lost_after": (0, -1),
+    "lost_after": (-0.1,),
     "collapse": (-0.1,),
     "again": (-0.1, 1.1),
     "reach": (0, -1),
@@ -118,7 +118,7 @@ def test_cues_need_one_that_finds(count):
 def test_parameters_come_back_from_a_file(tmp_path):
     """Written to TOML and read again they are the same, all changed at once."""
     changed = FusedParams(
-        cues=("color", "edges"), context=2.5, scales=7, size_range=(0.5, 2.0), lost_after=9, ridge=1.23e-7
+        cues=("color", "edges"), context=2.5, scales=7, size_range=(0.5, 2.0), lost_after=0.3, ridge=1.23e-7
     )
     for params in (FusedParams(), changed):
         params.to_toml(tmp_path / "fused.toml")
@@ -184,8 +184,8 @@ EXTREMES: list[dict[str, Any]] = [
     {"learn_odd": 0.0},
     {"learn_odd": 1.0},
     {"learn_above": 1.0, "lost_below": 1.0, "hopeless": 1.0},
-    {"lost_after": 1, "candidates": 99},
-    {"lost_after": 10**9},
+    {"lost_after": 0.0, "candidates": 99},
+    {"lost_after": 1e9},
     {"collapse": 0.0, "again": 1.0},
     {"collapse": 1e9, "again": 0.0},
     {"reach": 1e-9},

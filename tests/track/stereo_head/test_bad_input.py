@@ -69,12 +69,12 @@ BAD_FRAMES: cases.BadFrames = {
     "both grey": (
         lambda: Frame(LEFT[..., 0], right=RIGHT[..., 0]),
         ValueError,
-        r"^frame.color: expected BGR .*grey .*cv2.COLOR_GRAY2BGR",
+        r"^frame.color: expected BGR .*gray .*cv2.COLOR_GRAY2BGR",
     ),
     "both of one channel": (
         lambda: Frame(LEFT[..., :1], right=RIGHT[..., :1]),
         ValueError,
-        r"^frame.color: expected BGR .*grey",
+        r"^frame.color: expected BGR .*gray",
     ),
 }
 

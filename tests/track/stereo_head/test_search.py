@@ -109,8 +109,8 @@ def test_outside_the_picture_is_nothing(kernels):
     assert not histogram_of(kernels, view, ELLIPSE, 1, P).any()
 
 
-def test_only_the_heads_depth_is_learnt(kernels):
-    """Of an ellipse half on the wall only the pixels at the head's depth are learnt; with learn="all" as many
+def test_only_the_heads_depth_is_learned(kernels):
+    """Of an ellipse half on the wall only the pixels at the head's depth are learned; with learn="all" as many
     of each as there are.
     """
     half = (ELLIPSE[0] + 4, *ELLIPSE[1:])
@@ -124,15 +124,15 @@ def test_only_the_heads_depth_is_learnt(kernels):
 
 @pytest.mark.parametrize("coherent", [0, LEAST - 1, LEAST])
 def test_too_few_at_the_depth_are_not_believed(coherent, kernels):
-    """With fewer than LEAST pixels at the head's depth all of the ellipse are learnt, else these alone."""
+    """With fewer than LEAST pixels at the head's depth all of the ellipse are learned, else these alone."""
     view = scene()
     skin = np.argwhere(view.bins == SKIN)[:coherent]
     view.coherent[:] = 0
     view.coherent[tuple(skin.T)] = 1
     wide = (*ELLIPSE[:2], 9.0, 12.0)
-    learnt = histogram_of(kernels, view, wide, 1, P)
-    assert learnt.sum() == pytest.approx(1)
-    assert (learnt[WALL] == 0) == (coherent >= LEAST)
+    learned = histogram_of(kernels, view, wide, 1, P)
+    assert learned.sum() == pytest.approx(1)
+    assert (learned[WALL] == 0) == (coherent >= LEAST)
 
 
 @pytest.mark.parametrize("hair", [0.0, 0.5, 1.0])

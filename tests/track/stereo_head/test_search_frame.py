@@ -7,7 +7,7 @@ import pytest
 from tricue import Box, Intrinsics, StereoHeadTracker, StereoRig
 from tricue.kernels import load
 from tricue.track.stereo_head.search_frame import NEARER, Head, _distances, find_again
-from tricue.track.stereo_head.stereo_geometry import Eyes
+from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 from tricue.track.stereo_head.view import Pair
 
 Params = StereoHeadTracker.Params
@@ -30,19 +30,19 @@ def grain(shape: tuple[int, int], color: np.ndarray, spread: int, seed: int) -> 
 
 
 def stage(
-    eyes: Eyes, where: list[tuple[float, float, float]], colors: list[np.ndarray]
+    geometry: StereoGeometry, where: list[tuple[float, float, float]], colors: list[np.ndarray]
 ) -> tuple[Pair, list[Box]]:
     """Heads of these colors at x, y (shares of the picture) and z before a wall, as flat ellipses at whole
     disparities, far ones first.
     """
-    height, width = eyes.shape
+    height, width = geometry.shape
     scale = width // 160
     wall = grain((height, width + 99 * scale), np.array([90, 150, 60]), 50, 0)
     sides = [wall[:, :width].copy(), wall[:, FAR_WALL * scale : width + FAR_WALL * scale].copy()]
     boxes = []
     for index, ((x, y, z), color) in enumerate(zip(where, colors, strict=True)):
-        disparity = round(eyes.disparity(z))
-        half = np.array([WIDTH, HEIGHT]) / 2 * eyes.rig[:2] / z
+        disparity = round(geometry.disparity(z))
+        half = np.array([WIDTH, HEIGHT]) / 2 * geometry.rig[:2] / z
         middle = np.array([x * width, y * height])
         boxes.append(Box.from_ellipse(*middle, *half))
         texture = grain((height, width), color, 30, 1 + index)
@@ -70,10 +70,10 @@ def anywhere(colors: np.ndarray) -> Head:
     return Head((WIDTH, HEIGHT), colors, np.array([0.0, 0.0, 3.0]), 100.0)
 
 
-def metric(eyes: Eyes, place: tuple[float, float, float]) -> np.ndarray:
+def metric(geometry: StereoGeometry, place: tuple[float, float, float]) -> np.ndarray:
     """(3,) metres of a place on the stage."""
     x, y, z = place
-    height, width = eyes.shape
+    height, width = geometry.shape
     return CAMERA.back_project(x * width - 0.5, y * height - 0.5, z)
 
 
@@ -88,33 +88,33 @@ def test_a_head_is_found_anywhere(kernels, place):
     """Wherever a head is in the picture, and however far, the ellipse is on it, of its size, with its
     disparity, by the grid of distances to half a step of it.
     """
-    k, eyes = load(kernels), Eyes.of(rig())
-    pair, (box,) = stage(eyes, [place], [SKIN])
-    found = find_again(k, pair, eyes, anywhere(histogram(k, SKIN)), P)
+    k, geometry = load(kernels), StereoGeometry.of(rig())
+    pair, (box,) = stage(geometry, [place], [SKIN])
+    found = find_again(k, pair, geometry, anywhere(histogram(k, SKIN)), P)
     assert found is not None
     ellipse, disparity = found
     assert overlap(ellipse, box) > 0.5
-    assert disparity == pytest.approx(eyes.disparity(place[2]), rel=1 / NEARER - 1)
+    assert disparity == pytest.approx(geometry.disparity(place[2]), rel=1 / NEARER - 1)
 
 
 def test_places_are_pixels_of_the_picture():
     """In a picture of 640x480, searched at a quarter of it, ellipse and disparity are its own pixels."""
     kernels = load("native")
-    eyes = Eyes.of(rig(4))
-    pair, (box,) = stage(eyes, [(0.7, 0.4, 1.5)], [SKIN])
+    geometry = StereoGeometry.of(rig(4))
+    pair, (box,) = stage(geometry, [(0.7, 0.4, 1.5)], [SKIN])
     assert pair.step == 4
-    ellipse, disparity = find_again(kernels, pair, eyes, anywhere(histogram(kernels, SKIN)), P)
+    ellipse, disparity = find_again(kernels, pair, geometry, anywhere(histogram(kernels, SKIN)), P)
     assert overlap(ellipse, box) > 0.5
-    assert disparity == pytest.approx(eyes.disparity(1.5), rel=1 / NEARER - 1)
+    assert disparity == pytest.approx(geometry.disparity(1.5), rel=1 / NEARER - 1)
 
 
 @pytest.mark.parametrize("ours", [0, 1])
 def test_colors_tell_heads_apart(ours):
     """Of two heads of one size at one distance the one of the model's colors is found."""
     kernels = load("native")
-    eyes, colors = Eyes.of(rig()), [SKIN, np.array([190, 120, 60])]
-    pair, boxes = stage(eyes, [(0.3, 0.5, 1.6), (0.75, 0.5, 1.6)], colors)
-    ellipse, _ = find_again(kernels, pair, eyes, anywhere(histogram(kernels, colors[ours])), P)
+    geometry, colors = StereoGeometry.of(rig()), [SKIN, np.array([190, 120, 60])]
+    pair, boxes = stage(geometry, [(0.3, 0.5, 1.6), (0.75, 0.5, 1.6)], colors)
+    ellipse, _ = find_again(kernels, pair, geometry, anywhere(histogram(kernels, colors[ours])), P)
     assert overlap(ellipse, boxes[ours]) > 0.5
 
 
@@ -132,23 +132,23 @@ def test_a_head_is_found_where_it_can_be(ours, places):
     """Of two heads of the same colors the one within reach of where it was is found, whether the other is
     nearer or farther, beside it or below, and what is found is within reach.
     """
-    k, eyes = load("native"), Eyes.of(rig())
-    pair, boxes = stage(eyes, places, [SKIN, SKIN])
-    there = metric(eyes, places[ours])
+    k, geometry = load("native"), StereoGeometry.of(rig())
+    pair, boxes = stage(geometry, places, [SKIN, SKIN])
+    there = metric(geometry, places[ours])
     head = Head((WIDTH, HEIGHT), histogram(k, SKIN), there + [0.1, -0.1, 0.05], 0.35)
-    ellipse, disparity = find_again(k, pair, eyes, head, P)
+    ellipse, disparity = find_again(k, pair, geometry, head, P)
     assert overlap(ellipse, boxes[ours]) > 0.5
-    z = eyes.disparity(1.0) / disparity
+    z = geometry.disparity(1.0) / disparity
     found = CAMERA.back_project(ellipse[0] - 0.5, ellipse[1] - 0.5, z)
     assert np.linalg.norm(found - head.seen) <= head.reach * (1 + 1e-12)
 
 
 def test_out_of_reach_is_nowhere():
     """Where no place of the picture is within reach nothing is found, however like the head it is."""
-    k, eyes = load("native"), Eyes.of(rig())
-    pair, _ = stage(eyes, [(0.5, 0.5, 1.5)], [SKIN])
+    k, geometry = load("native"), StereoGeometry.of(rig())
+    pair, _ = stage(geometry, [(0.5, 0.5, 1.5)], [SKIN])
     aside = Head((WIDTH, HEIGHT), histogram(k, SKIN), np.array([5.0, 0.0, 1.5]), 0.3)
-    assert find_again(k, pair, eyes, aside, P) is None
+    assert find_again(k, pair, geometry, aside, P) is None
 
 
 @pytest.mark.parametrize(
@@ -173,8 +173,8 @@ def test_distances_are_a_step_apart(near, far):
 
 def test_what_is_too_small_to_see_is_not_looked_for(kernels):
     """A head whose ellipse would be under a place that is looked at is None."""
-    eyes = Eyes.of(rig())
+    geometry = StereoGeometry.of(rig())
     image = cv2.resize(np.zeros((2, 2, 3), np.uint8), (160, 120))
     pair = Pair.of(image, image, None, P)
     tiny = anywhere(histogram(kernels, SKIN))._replace(size=(0.002, 0.002))
-    assert find_again(kernels, pair, eyes, tiny, P) is None
+    assert find_again(kernels, pair, geometry, tiny, P) is None

@@ -4,12 +4,12 @@
 import numpy as np
 import pytest
 from tricue import Intrinsics, StereoHeadTracker, StereoRig
-from tricue.track.stereo_head.stereo_geometry import LEAST_NOISE, Eyes, polynomials
+from tricue.track.stereo_head.stereo_geometry import LEAST_NOISE, StereoGeometry, polynomials
 
 Params = StereoHeadTracker.Params
 CAMERA = Intrinsics(150.0, 140.0, 81.0, 58.5, 160, 120)
 RIG = StereoRig(CAMERA, 0.11)
-EYES = Eyes.of(RIG)
+EYES = StereoGeometry.of(RIG)
 POINTS = np.array([[0.0, 0.0, 1.0], [-0.4, 0.2, 0.8], [1.1, -0.7, 3.9], [0.02, 0.3, 6.0]])
 
 

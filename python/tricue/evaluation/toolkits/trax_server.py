@@ -6,7 +6,6 @@ library is vot-trax (``pip install tricue[vot]``).
 """
 
 import contextlib
-import inspect
 import math
 import sys
 import warnings
@@ -22,7 +21,8 @@ from tricue.camera.calibration_files import read_intrinsics
 from tricue.camera.frame import Frame
 from tricue.data.depth_images import MILLIMETRES, DepthReader
 from tricue.data.streams import Read, read_color
-from tricue.track.base.registry import create, tracker_class
+from tricue.errors import BoxError
+from tricue.track.base.registry import create, tracker_class, traits
 from tricue.track.base.track import Track, Tracker
 
 SMALLEST = 2.0  # pixels, of a box that a tracker starts on
@@ -57,22 +57,20 @@ class Contestant:
     calibration: Path | None = None
 
     def __post_init__(self) -> None:
-        kind = tracker_class(self.name)
-        channels_of(self.name, kind.Params(**self.values))
+        channels_of(self.name, self.values)
         if self.calibration is None:
             return
-        if "intrinsics" not in inspect.signature(kind).parameters:
+        if "intrinsics" not in traits(self.name).camera:
             raise ValueError(f"calibration: {self.name} takes no camera's intrinsics; leave it out")
         if not self.calibration.is_file():
             raise FileNotFoundError(f"{self.calibration}: there is no such file")
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """Those that the tracker needs: color, depth or both; of fused, which needs no depth but uses it,
-        both where the depth camera is known.
+        """Those that the tracker is given: the fewest that it needs; where the depth camera is known, the
+        most that it uses.
         """
-        needed = channels_of(self.name, tracker_class(self.name).Params(**self.values))
-        return ("color", "depth") if self.name == "fused" and self.calibration is not None else needed
+        return channels_of(self.name, self.values, self.calibration is not None)
 
     def tracker(self, frame: Frame) -> Tracker:
         """A new tracker for a camera of the frame's size."""
@@ -84,17 +82,19 @@ class Contestant:
         return create(self.name, **self.values, seed=self.seed, kernels=self.kernels, **camera)
 
 
-def channels_of(name: str, params: Any = None) -> tuple[str, ...]:
-    """The channels of VOT that a tracker needs, with its parameters or those by default; ValueError for one
-    that VOT can't run.
+def channels_of(
+    name: str, values: Mapping[str, Any] | None = None, calibrated: bool = False
+) -> tuple[str, ...]:
+    """The channels of VOT that a tracker needs with parameters, or, where the depth camera is calibrated, the
+    most that it can use. ValueError for one that VOT can't run.
     """
-    kind = tracker_class(name)
-    if name == "stereo-head":
-        raise ValueError(f"{name}: needs the right image of a pair, which VOT's sequences don't have")
-    if name == "flow-depth":
-        cues = (kind.Params() if params is None else params).cues
-        return tuple(channel for channel, cue in (("color", "flow"), ("depth", "disparity")) if cue in cues)
-    return ("depth",) if name == "depth-particle" else ("color",)
+    kind, its = tracker_class(name), traits(name)
+    fitting = its.channels if kind.Params is None else its.fitting(kind.Params(**(values or {})))
+    sets = [each.names for each in fitting if "right" not in each.names]
+    if not sets:
+        raise ValueError(f"{name}: needs the right image of a stereo pair, which VOT's sequences don't have")
+    chosen = sets[0] if calibrated else min(sets, key=len)
+    return tuple(channel for channel in READERS if channel in chosen)
 
 
 class Session:
@@ -114,9 +114,7 @@ class Session:
         tracker = self._make(frame)
         try:
             track = tracker.init(frame, widened(box))
-        except ValueError as error:
-            if not str(error).startswith("box:"):
-                raise
+        except BoxError as error:
             warnings.warn(f"not started, the answer is the box itself: {error}", stacklevel=2)
             self._tracker, self._answer = None, Answer(box if _finite(box) else NOWHERE, 0.0)
         else:

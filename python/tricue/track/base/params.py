@@ -12,6 +12,7 @@ import functools
 import math
 import types
 import typing
+import warnings
 from dataclasses import dataclass, field
 from numbers import Integral, Real
 from pathlib import Path
@@ -93,6 +94,19 @@ class Params:
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = ("  ".join(map(str.ljust, row, widths)) for row in rows)
         return "\n".join(line.rstrip() for line in lines)
+
+
+def seconds_of_frames(value: Any, name: str, rate: float) -> Any:
+    """What was a whole number of frames in version 0.1.0, in seconds; other values as they are.
+
+    Warns (DeprecationWarning): the next release takes whole numbers for seconds.
+    """
+    if not isinstance(value, int) or isinstance(value, bool) or value < 1:
+        return value
+    seconds = value / rate
+    message = f"{name}: a number of frames is deprecated, give seconds: {seconds:.3g} instead of {value}"
+    warnings.warn(message, DeprecationWarning, stacklevel=5)
+    return seconds
 
 
 def _row(f: "dataclasses.Field[Any]") -> tuple[str, ...]:

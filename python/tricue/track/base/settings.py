@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from tricue.camera import toml
 from tricue.track.base.registry import create, tracker_class
 from tricue.track.base.track import Tracker
 
@@ -21,6 +22,8 @@ def make_tracker(
 def read_settings(name: str, params_file: Path | None, settings: Sequence[str]) -> dict[str, Any]:
     """The same parameters alone, as keywords; those of the file are checked, the settings not yet."""
     kind = tracker_class(name).Params
+    if kind is None:  # somebody else's class: what it takes is known to itself
+        return ({} if params_file is None else toml.read(params_file)) | parse_settings(settings)
     values: dict[str, Any] = {}
     if params_file is not None:
         values = dataclasses.asdict(kind.from_toml(params_file))

@@ -3,14 +3,14 @@
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike
-from tricue.track.base.params import Params
+from tricue.track.base.traits import Traits
 
 
 class Status(str, Enum):
@@ -53,8 +53,10 @@ class Track:
 class Tracker(Protocol):
     """The shape of a tracker: start it with ``init``, then one ``update`` a frame."""
 
+    traits: ClassVar[Traits]
+
     @property
-    def params(self) -> Params: ...
+    def params(self) -> Any: ...
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``; without it the tracker finds a target or raises ValueError."""

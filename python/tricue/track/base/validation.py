@@ -8,9 +8,10 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.box import Box
+from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.errors import BoxError, BoxNeededError, MissingChannelError, UnregisteredDepthError
 from tricue.track.base.params import Params
 
 State = TypeVar("State")
@@ -22,20 +23,22 @@ SHORTEST = 1e-6  # s; nearer to each other than clocks tell, and the velocities 
 USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
 
 
-def color_image(frame: FrameLike, shape: tuple[int, ...] | None = None) -> NDArray[np.uint8]:
-    """The frame's BGR image, (H, W, 3). ValueError for a grey one, or for another shape than the first
-    frame's.
+def color_image(
+    frame: FrameLike, shape: tuple[int, ...] | None = None
+) -> tuple[NDArray[np.uint8], float | None]:
+    """The frame's BGR image, (H, W, 3), and its timestamp. ValueError for a gray image, or for another shape
+    than the first frame's.
     """
     channels = as_frame(frame)
     channels.require("color")
     image: Any = channels.color
     if image.ndim != 3:
         hint = "cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) makes one"
-        raise ValueError(f"frame.color: expected BGR (H, W, 3), got grey {image.shape}; {hint}")
+        raise ValueError(f"frame.color: expected BGR (H, W, 3), got gray {image.shape}; {hint}")
     if shape is not None and image.shape != shape:
         hint = "init starts again on another size"
         raise ValueError(f"frame.color: expected the first frame's shape {shape}, got {image.shape}; {hint}")
-    return image  # type: ignore[no-any-return]
+    return image, channels.timestamp
 
 
 def seed(value: int) -> int:
@@ -47,17 +50,24 @@ def seed(value: int) -> int:
     return int(value)
 
 
+def initial_box(given: BoxLike | None, shape: tuple[int, ...]) -> Box:
+    """The box to start on; BoxNeededError where none is given, ValueError as :func:`box_in`."""
+    if given is None:
+        raise BoxNeededError(
+            "box: expected (x, y, width, height), got None; this tracker needs an initial box"
+        )
+    return box_in(as_box(given), shape)
+
+
 def box_in(box: Box, shape: tuple[int, ...]) -> Box:
-    """The box itself; ValueError where no part of it is in an image of that shape, or it is under 2 pixels
+    """The box itself; BoxError where no part of it is in an image of that shape, or it is under 2 pixels
     wide or high.
     """
     height, width = shape[:2]
     if min(box.width, box.height) < 2:
-        raise ValueError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
+        raise BoxError(f"box: expected at least 2 pixels of width and height, got {tuple(box)}")
     if box.clip(width, height).area <= 0:
-        raise ValueError(
-            f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}"
-        )
+        raise BoxError(f"box: expected a part inside the image of {width}x{height} pixels, got {tuple(box)}")
     return box
 
 
@@ -92,7 +102,8 @@ def stereo_pair(
     channels = as_frame(frame)
     channels.require("color", "right")
     right: Any = channels.right
-    return color_image(channels, shape), right, channels.timestamp
+    left, timestamp = color_image(channels, shape)
+    return left, right, timestamp
 
 
 class Moving(NamedTuple):
@@ -112,7 +123,7 @@ def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None 
         channels.require("color")
     if "disparity" in cues and channels.depth is None and channels.right is None:
         hint = "cues=('flow',) needs neither"
-        raise ValueError(f"frame: expected the channel right or depth, got color; {hint}")
+        raise MissingChannelError(f"frame: expected the channel right or depth, got color; {hint}", "right")
     image: Any = channels.depth if channels.color is None else channels.color
     name = "depth" if channels.color is None else "color"
     if shape is not None and image.shape != shape:
@@ -121,7 +132,9 @@ def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None 
     depth: Any = channels.depth
     if "disparity" in cues and channels.right is None and depth.shape != image.shape[:2]:
         hint = "it has to be that of the color image's pixels"
-        raise ValueError(f"frame.depth: expected shape {image.shape[:2]}, got {depth.shape}; {hint}")
+        raise UnregisteredDepthError(
+            f"frame.depth: expected shape {image.shape[:2]}, got {depth.shape}; {hint}"
+        )
     return Moving(channels, image)
 
 

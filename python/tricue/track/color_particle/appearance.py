@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import grid, ring
 from tricue.track.color_particle.contrast import ColorContrast
-from tricue.track.color_particle.observation import RankSpatial, observation
+from tricue.track.color_particle.observation import Observation, RankSpatial, observation
 from tricue.track.color_particle.params import ColorParticleParams
 
 Floats = NDArray[Any]
@@ -23,16 +23,28 @@ class Look(NamedTuple):
     around: Image
 
 
-class Appearance:
-    """The observation model and the colors against the surround, learnt together."""
+class Appearance(NamedTuple):
+    """The observation model and the colors against the surround, learned together."""
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        self.model = observation(p)
-        self.contrast = ColorContrast(p.color_weight) if p.color_weight > 0 else None
-        self.grid = grid(*p.grid, p.grid_reach)
-        self.ring = ring(p.ring_samples, *p.ring)
-        self.linear = p.likelihood == "linear"
-        self.sharpness = self.model.sharpness if p.sharpness is None else p.sharpness
+    model: Observation
+    contrast: ColorContrast | None
+    grid: Floats  # (n, 2) where windows are sampled, in semi-axes
+    ring: Floats  # (m, 2) the same around them
+    linear: bool  # whether the likelihood is (18) as printed
+    sharpness: float
+
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "Appearance":
+        """Of which nothing is known yet."""
+        model = observation(p)
+        return cls(
+            model,
+            ColorContrast(p.color_weight) if p.color_weight > 0 else None,
+            grid(*p.grid, p.grid_reach),
+            ring(p.ring_samples, *p.ring),
+            p.likelihood == "linear",
+            model.sharpness if p.sharpness is None else p.sharpness,
+        )
 
     def look(self, k: Kernels, image: Image, ellipses: Floats) -> Look:
         """Read the windows of N ellipses."""
@@ -65,10 +77,9 @@ class Appearance:
         """How surely the first window shows the target, in [0, 1]."""
         return self.model.recognition(k, *look, searching)
 
-    def learn(
+    def learned(
         self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float
-    ) -> None:
-        """Blend the window of one ellipse (1, 4) into the models; rates of 1 start them."""
-        self.model.learn(k, *look, rate)
-        if self.contrast:
-            self.contrast.learn(k, image, ellipse, color_rate)
+    ) -> "Appearance":
+        """With the window of one ellipse (1, 4) blended into the models; rates of 1 start them."""
+        contrast = self.contrast and self.contrast.learned(k, image, ellipse, color_rate)
+        return self._replace(model=self.model.learned(k, *look, rate), contrast=contrast)

@@ -5,7 +5,7 @@ An observation sees samples only: ``inside`` (N, 3, n) on the window's grid and 
 """
 
 import math
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,17 +18,21 @@ Floats = NDArray[np.float64]
 Model = NDArray[np.float32]
 
 UNKNOWN: Model = np.empty(0, np.float32)
-FLAT = 0.1  # a sum of squared deviations of ranks under which there is no order to speak of
+SECTIONS = 16  # quantiles of the printed color ranks
+BINS = 16  # of each channel's histogram
+MIN_VARIANCE = 4.0  # levels²; what a sensor's noise leaves of a uniform color
+MIN_RANK_SPREAD = 0.1  # sum of squared deviations of ranks, under which there is no order to speak of
 
 
 class Observation(Protocol):
     """A model of the target's look and the distance of other windows to it."""
 
-    sharpness: float
-    """What suits the exponential likelihood exp(-sharpness d²), by experiment."""
+    @property
+    def sharpness(self) -> float:
+        """What suits the exponential likelihood exp(-sharpness d²), by experiment."""
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
-        """Blend the look of the first window into the model; a rate of 1 starts it."""
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Observation":
+        """With the look of the first window blended in; a rate of 1 starts the model."""
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         """(N,) distances in [0, 1]; of a lost target to the nearest look that the model remembers."""
@@ -58,27 +62,30 @@ def correlation(a: Model, b: Model) -> float:
     """Of two rank maps, at least 0. Their mean is 1/2, so sum(a b) - N/4 is that of their deviations."""
     a, b = a.ravel(), b.ravel()
     both, own, other = (float(x.dot(y)) - a.size / 4 for x, y in ((a, b), (a, a), (b, b)))
-    return min(max(both, 0.0) / math.sqrt(own * other), 1.0) if min(own, other) > FLAT else 0.0
+    return min(max(both, 0.0) / math.sqrt(own * other), 1.0) if min(own, other) > MIN_RANK_SPREAD else 0.0
 
 
-class RankSpatial:
+class RankSpatial(NamedTuple):
     """The order of corresponding pixels: what section III.B argues for in words.
 
     Keeps the first frame's rank map beside the model, so that errors don't add up.
     """
 
-    sharpness = 110.0
+    weights: Floats  # (2,) of the learned map and of the first frame's
+    maps: Model = UNKNOWN  # (2, 3, n) both
+    sharpness: float = 110.0
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        self.weights = np.array([1 - p.anchor, p.anchor])
-        self.maps = UNKNOWN
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "RankSpatial":
+        return cls(np.array([1 - p.anchor, p.anchor]))
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "RankSpatial":
         ranks = k.color_ranks(inside[:1])
         if rate >= 1:
-            self.maps = np.concatenate([ranks, ranks])
-        else:
-            self.maps[0] += np.float32(rate) * (ranks[0] - self.maps[0])
+            return self._replace(maps=np.concatenate([ranks, ranks]))
+        maps = self.maps.copy()
+        maps[0] += np.float32(rate) * (ranks[0] - maps[0])
+        return self._replace(maps=maps)
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return self.chosen(k.rank_distance(inside, self.maps), searching)
@@ -95,54 +102,57 @@ class RankSpatial:
         return max(correlation(ranks, look) for look in looks)
 
 
-class RankSections:
+class RankSections(NamedTuple):
     """Equations (19)-(29) as printed, each a^k of sum 1: how many levels each quantile spans."""
 
-    sharpness = 400.0
-    SECTIONS = 16
+    sections: Model = UNKNOWN
+    sharpness: float = 400.0
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        self.sections = UNKNOWN
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "RankSections":
+        return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
-        self.sections = blended(self.sections, k.rank_sections(inside[:1], self.SECTIONS)[0], rate)
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "RankSections":
+        return RankSections(blended(self.sections, k.rank_sections(inside[:1], SECTIONS)[0], rate))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
-        return k.section_distance(k.rank_sections(inside, self.SECTIONS), self.sections)
+        return k.section_distance(k.rank_sections(inside, SECTIONS), self.sections)
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=0.3)
 
 
-class Histogram:
+class Histogram(NamedTuple):
     """The 16-bin color histogram of figure 2, Bhattacharyya distance."""
 
-    sharpness = 300.0
-    BINS = 16
+    histogram: Model = UNKNOWN
+    sharpness: float = 300.0
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        self.histogram = UNKNOWN
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "Histogram":
+        return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
-        self.histogram = blended(self.histogram, k.color_histogram(inside[:1], self.BINS)[0], rate)
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Histogram":
+        return Histogram(blended(self.histogram, k.color_histogram(inside[:1], BINS)[0], rate))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
-        return k.bhattacharyya(k.color_histogram(inside, self.BINS), self.histogram, 3)
+        return k.bhattacharyya(k.color_histogram(inside, BINS), self.histogram, 3)
 
     def recognition(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
         return likeness(self, k, inside, around, unrelated=0.6)
 
 
-class Region:
+class Region(NamedTuple):
     """Region-based: the explicit RGB rule of Peer et al. 2003. Learns nothing."""
 
-    sharpness = 10.0
+    sharpness: float = 10.0
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        pass
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "Region":
+        return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
-        pass
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Region":
+        return self
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return lack(k.skin_rule(inside), k.skin_rule(around))
@@ -151,22 +161,25 @@ class Region:
         return likeness(self, k, inside, around, unrelated=1.0)
 
 
-class Gaussian:
+class Gaussian(NamedTuple):
     """Parametric: a Gaussian over the target's chrominance (Cb, Cr)."""
 
-    sharpness = 100.0
-    FLOOR = 4.0  # levels²; what a sensor's noise leaves of a uniform color
+    mean: Floats
+    covariance: Floats
+    sharpness: float = 100.0
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        self.mean = np.zeros(2)
-        self.covariance = np.eye(2)
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "Gaussian":
+        return cls(np.zeros(2), np.eye(2))
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Gaussian":
         b, g, r = inside[0].astype(np.float64)
         luma = 0.299 * r + 0.587 * g + 0.114 * b
         chroma = np.stack([(b - luma) * 0.564 + 128, (r - luma) * 0.713 + 128])
-        self.mean = blended(self.mean, chroma.mean(axis=1), rate)
-        self.covariance = blended(self.covariance, np.cov(chroma, bias=True) + self.FLOOR * np.eye(2), rate)
+        covariance = np.cov(chroma, bias=True) + MIN_VARIANCE * np.eye(2)
+        return Gaussian(
+            blended(self.mean, chroma.mean(axis=1), rate), blended(self.covariance, covariance, rate)
+        )
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         precision = np.linalg.inv(self.covariance)
@@ -178,19 +191,20 @@ class Gaussian:
         return likeness(self, k, inside, around, unrelated=1.0)
 
 
-class Lookup:
+class Lookup(NamedTuple):
     """Non-parametric: a look-up table, the target's joint histogram scaled to a maximum of 1."""
 
-    sharpness = 100.0
-    BINS = 16
+    histogram: Model = UNKNOWN
+    table: Model = UNKNOWN
+    sharpness: float = 100.0
 
-    def __init__(self, p: ColorParticleParams) -> None:
-        self.histogram = UNKNOWN
-        self.table = UNKNOWN
+    @classmethod
+    def of(cls, p: ColorParticleParams) -> "Lookup":
+        return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> None:
-        self.histogram = blended(self.histogram, k.joint_histogram(inside[:1], self.BINS)[0], rate)
-        self.table = (self.histogram / self.histogram.max()).reshape(3 * [self.BINS])
+    def learned(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Lookup":
+        histogram = blended(self.histogram, k.joint_histogram(inside[:1], BINS)[0], rate)
+        return Lookup(histogram, (histogram / histogram.max()).reshape(3 * [BINS]))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return lack(k.color_lookup(inside, self.table), k.color_lookup(around, self.table))
@@ -211,5 +225,5 @@ MODELS: dict[str, type[Any]] = {
 
 def observation(p: ColorParticleParams) -> Observation:
     """A new model of the kind that the parameters name."""
-    model: Observation = MODELS[p.observation](p)
+    model: Observation = MODELS[p.observation].of(p)
     return model

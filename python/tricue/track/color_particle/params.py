@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from tricue.track.base.params import Params, parameter
+from tricue.track.base.params import Params, parameter, seconds_of_frames
 
 OURS = "our experiment: benchmarks/README.md"
 Observation = Literal["region", "gaussian", "lookup", "histogram", "rank-sections", "rank-spatial"]
@@ -126,14 +126,19 @@ class ColorParticleParams(Params):
     lost_below: float = parameter(
         0.3, unit="score", source=OURS, low=0, high=1, doc="a frame under it counts as missed"
     )
-    lost_after: int = parameter(
-        5, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
+    lost_after: float = parameter(
+        0.15, unit="s", source=OURS, low=0, doc="missed, and in five frames at least, until LOST"
     )
     found_above: float = parameter(
         0.6, unit="score", source=OURS, low=0, high=1, doc="that ends the search of a lost target"
     )
+    rate: float = parameter(
+        30.0, unit="frames/s", source=OURS, above=0, doc="where frames have no timestamps"
+    )
 
     def __post_init__(self) -> None:
+        seconds = seconds_of_frames(self.lost_after, "lost_after", self.rate)
+        object.__setattr__(self, "lost_after", seconds)
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         for name in ("ring", "size_range"):
             low, high = getattr(self, name)

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
+from tricue.errors import NoDepthInBoxError, TargetNotFoundError
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.metric import state_of
 from tricue.track.depth_objects.objects import EDGE, Objects
@@ -33,7 +34,9 @@ def somebody(objects: Objects, p: DepthParticleParams) -> Found:
     people = humans(objects, p)
     if len(people) == 0:
         empty = "" if len(objects.states) else f", nor anything else {_in_range(p)}"
-        raise ValueError(f"box: expected (x, y, width, height), as nobody was found in this frame{empty}")
+        raise TargetNotFoundError(
+            f"box: expected (x, y, width, height), as nobody was found in this frame{empty}"
+        )
     chosen = int(people[0])
     return Found(objects.states[chosen], objects.whole[chosen], Signature.of(objects, chosen))
 
@@ -81,7 +84,7 @@ def _middle_depth(fg: Foreground, box: Box, p: DepthParticleParams) -> float:
     middle = fg.depth[_middle(box.y, box.height, fg.step, height), columns]
     middle = middle[np.isfinite(middle)]
     if middle.size == 0:
-        raise ValueError(
+        raise NoDepthInBoxError(
             f"box: expected a target with measured depth in its middle, {_in_range(p)}, "
             f"got none in {tuple(box)}"
         )

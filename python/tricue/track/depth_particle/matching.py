@@ -19,8 +19,8 @@ SIZE = 0.2  # of the size, plus
 SIZE_AT_LEAST = 0.05  # metres
 LARGER = 0.3  # of its weight has a size that is more than what was ever seen of it
 UNLIKE = 3.0  # nats of the most different signature
-ENOUGH, ENOUGH_AGAIN = 0.25, 0.45  # of the target's area has to be seen, and of one that was missed
-WORST, WORST_AGAIN = 8.0, 2.0  # nats up to which an object is the target, and one that was missed
+MIN_AREA, MIN_AREA_MISSED = 0.25, 0.45  # of the target's area has to be seen, and of one that was missed
+MAX_COST, MAX_COST_MISSED = 8.0, 2.0  # nats up to which an object is the target, and one that was missed
 BODY = 0.5  # metres round the middle of a body
 FLAT = np.array([1.0, 0.3, 1.0])  # heights say less: they change with what is cut
 REACHED = 0.3  # metres
@@ -46,7 +46,7 @@ def best_match(
     """
     deviation = (NEAR + PER_SECOND * seconds).tolist() + (SIZE * walk.size + SIZE_AT_LEAST).tolist()
     known, size, place = walk.known.tolist(), walk.size.tolist(), expected.tolist()
-    enough = (ENOUGH if worst >= WORST else ENOUGH_AGAIN) * size[0] * size[1]
+    enough = (MIN_AREA if worst >= MAX_COST else MIN_AREA_MISSED) * size[0] * size[1]
     best, least = None, worst
     for i, (state, cut) in enumerate(zip(objects.states.tolist(), objects.cut.tolist(), strict=True)):
         far = abs(state[2] - place[2]) / deviation[2]

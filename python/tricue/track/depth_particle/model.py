@@ -83,7 +83,7 @@ class DepthModel(NamedTuple):
             return np.log(np.maximum(1 - distance, LEAST))
         return np.asarray(-self.p.sharpness * distance * distance)
 
-    def learnt(self, k: Kernels, fg: Foreground, state: Floats, rate: float) -> "DepthModel":
+    def learned(self, k: Kernels, fg: Foreground, state: Floats, rate: float) -> "DepthModel":
         """With the histogram of one rectangle blended in; a rate of 1 starts it."""
         rectangle, reach = self._rectangles(fg, state[None])
         seen = k.rectangle_histogram(fg.depth, rectangle[0], len(self.histogram), self.grid, reach)

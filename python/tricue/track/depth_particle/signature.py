@@ -35,7 +35,7 @@ class Signature(NamedTuple):
         """In [0, 1]: how differently an object is spread over its box."""
         return float(np.abs(_spread(objects, index) - self.spread).sum()) / 4
 
-    def learnt(self, new: "Signature") -> "Signature":
+    def learned(self, new: "Signature") -> "Signature":
         """With another one blended in."""
         spread = self.spread + RATE * (new.spread - self.spread)
         return Signature(spread, self.shift + RATE * (new.shift - self.shift))

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the depth particle tracker keeps from frame to frame."""
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,7 @@ from tricue.track.depth_particle.walk import Walk
 Floats = NDArray[np.float64]
 
 
-class Swarm(NamedTuple):
+class ParticleSet(NamedTuple):
     """Weighted states (N, 5), their expected value and its covariance."""
 
     particles: Floats
@@ -26,20 +25,19 @@ class Swarm(NamedTuple):
     covariance: Floats
 
     @classmethod
-    def of(cls, k: Kernels, particles: Floats, weights: Floats) -> "Swarm":
-        """With its expected value."""
+    def of(cls, k: Kernels, particles: Floats, weights: Floats) -> "ParticleSet":
+        """With their expected value."""
         state, covariance, _ = k.summarize(particles, weights)
         return cls(particles, weights, state, covariance)
 
     @classmethod
-    def gathered(cls, state: Floats, n: int) -> "Swarm":
+    def gathered(cls, state: Floats, n: int) -> "ParticleSet":
         """n particles at one place."""
         return cls(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state, np.zeros((5, 5)))
 
 
-@dataclass(slots=True)
-class State:
-    """All that changes from frame to frame, but for the random numbers."""
+class State(NamedTuple):
+    """All that changes from frame to frame."""
 
     shape: tuple[int, ...]
     camera: Floats  # (4,) fx, fy, cx, cy
@@ -47,16 +45,17 @@ class State:
     model: DepthModel
     walk: Walk
     signature: Signature
-    swarm: Swarm
+    particles: ParticleSet
     objects: Objects
     score: float
-    usual: float  # the log-likelihood's running mean
-    filled: float  # the same of the share of the rectangle that is at the target's depth
+    mean: float  # running mean of the log-likelihood
+    mean_filled: float  # the same of the share of the rectangle that is at the target's depth
+    random: dict[str, Any]  # of the random numbers' generator
     timestamp: float | None
     missed: float = 0.0  # seconds for which it was not seen
     hidden: bool = False  # by something nearer
-    doubt: Floats | float = 0.0  # metres, (3,) of X, Y, Z: how far a target that isn't seen may have gone
-    front: Floats | None = None  # (3,) metres: where that is, while the target is missed
+    spread: Floats | float = 0.0  # metres, (3,) of X, Y, Z: how far a target that isn't seen may have gone
+    occluder: Floats | None = None  # (3,) metres: where that is, while the target is missed
 
     def lost(self, p: DepthParticleParams) -> bool:
         """Whether it has been gone for long, though nothing is in front of it."""

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,8 @@ from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
 from tricue.track.base.prediction import Prediction
 from tricue.track.base.track import Status, Track
+from tricue.track.base.tracker import TrackerBase
+from tricue.track.base.traits import Channels, Traits
 from tricue.track.depth_objects.foreground import NO_FLOOR, Foreground, foreground, numbers
 from tricue.track.depth_objects.metric import box_of, rectangle_of
 from tricue.track.depth_objects.objects import segment
@@ -22,24 +23,24 @@ from tricue.track.depth_particle.matching import Found, cover
 from tricue.track.depth_particle.model import NOT_MEASURED, SHARP, SIZE_TRUST, DepthModel, Measured, Seen
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
-from tricue.track.depth_particle.state import State, Swarm
+from tricue.track.depth_particle.state import ParticleSet, State
 from tricue.track.depth_particle.walk import Walk
 
 Floats = NDArray[np.float64]
 
 CLOSE = np.array([0.06, 0.05, 0.05])  # metres, of the second sweep's positions
 CLOSE_SIZE = 0.05  # of its sizes
-KEPT, SLOWED = 0.97, 0.85  # of the velocity, a frame: behind something, and missed for no reason
-USUAL_RATE = 0.1  # per frame, of the log-likelihood's running mean
-FREE = 0.1  # in front of the target at most while it is learnt
+COASTING_HIDDEN, COASTING = 0.97, 0.85  # of the velocity, a frame: behind something, missed for no reason
+MEAN_RATE = 0.1  # per frame, of the running means
+MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
 UNIT = np.eye(3)
 STILL = np.zeros(5)  # no drift
 ROOT = np.diag(SHARP)
 NOTHING: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # detected
-DEPTH_NOISE = 0.01  # metres, the least standard deviation of a position
+MIN_DEPTH_NOISE = 0.01  # metres, standard deviation of a position
 
 
-class DepthParticleTracker:
+class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     """Follows a person, or another thing that stands free, in depth images; needs neither color nor light.
 
     Particles are metric: the centre (X, Y, Z) of a rectangle and its width and height. They are drawn from a
@@ -57,22 +58,33 @@ class DepthParticleTracker:
 
     Params = DepthParticleParams
 
+    traits = Traits(
+        channels=(Channels.of("depth"),),
+        camera=frozenset({"intrinsics"}),
+        detects="person",
+        random=True,
+        shows=frozenset({"particles", "objects"}),
+        follows="a segmented person, in metres",
+        source="Sabeti et al. 2008",
+    )
+
     def __init__(
         self,
+        params: DepthParticleParams | None = None,
         *,
         intrinsics: Intrinsics | None = None,
         seed: int = 0,
         kernels: kernel_sets.Name = "native",
-        params: DepthParticleParams | None = None,
         **parameters: Any,
     ) -> None:
-        self.params = validation.parameters(DepthParticleParams, params, parameters)
+        super().__init__(params, seed, kernels, parameters)
         self.intrinsics = validation.intrinsics(intrinsics)
-        self.seed = validation.seed(seed)
-        self.kernels = kernels
-        self._k = kernel_sets.load(kernels)
-        self._rng = np.random.default_rng(seed)
-        self._state: State | None = None
+
+    _derived = ("_k", "_rng")
+
+    def _derive(self) -> None:
+        super()._derive()
+        self._rng = np.random.default_rng(self.seed)
 
     @property
     def particles(self) -> Floats:
@@ -81,7 +93,7 @@ class DepthParticleTracker:
         """
         if self._state is None:
             return np.empty((0, 5))
-        return np.array([rectangle_of(each, self._state.camera) for each in self._state.swarm.particles])
+        return np.array([rectangle_of(each, self._state.camera) for each in self._state.particles.particles])
 
     @property
     def objects(self) -> list[Box]:
@@ -104,24 +116,24 @@ class DepthParticleTracker:
             target = somebody(objects, self.params)
         else:
             target = in_box(validation.box_in(as_box(box), depth.shape), objects, fg, self.params)
-        model = DepthModel.empty(self.params).learnt(self._k, fg, target.state, 1.0)
+        model = DepthModel.empty(self.params).learned(self._k, fg, target.state, 1.0)
         seen = model.look(self._k, fg, target.state[None])
-        self._rng = rng
-        self._state = State(
+        self._state = state = State(
             shape=depth.shape,
             camera=camera,
             plane=plane,
             model=model,
             walk=Walk.start(target.state, target.whole),
             signature=target.signature,
-            swarm=Swarm.gathered(target.state, self.params.particles),
+            particles=ParticleSet.gathered(target.state, self.params.particles),
             objects=objects,
             score=_score(seen),
-            usual=float(seen.log_likelihood[0]),
-            filled=float(seen.inside[0]),
+            mean=float(seen.log_likelihood[0]),
+            mean_filled=float(seen.inside[0]),
+            random=dict(rng.bit_generator.state),
             timestamp=timestamp,
         )
-        return self._track(self._state)
+        return self._track(state)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -131,48 +143,47 @@ class DepthParticleTracker:
         """
         before = validation.started(self._state)
         depth, timestamp = validation.depth_image(frame, before.shape)
-        random = self._rng.bit_generator.state
-        state = replace(before, timestamp=timestamp)
-        try:
-            self._follow(state, depth, validation.elapsed(before.timestamp, timestamp, self.params.rate))
-        except BaseException:
-            self._rng.bit_generator.state = random
-            raise
-        self._state = state
+        seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
+        self._rng.bit_generator.state = before.random
+        state = self._follow(before, depth, seconds)
+        self._state = state = state._replace(random=dict(self._rng.bit_generator.state), timestamp=timestamp)
         return self._track(state)
 
-    def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> None:
+    def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
         """Predict, segment, measure, weigh, estimate; learn, or coast where the target isn't seen."""
         k, p = self._k, self.params
-        fg, state.plane = foreground(k, depth, state.camera, state.plane, self._rng, p)
-        state.objects = segment(k, fg, state.plane, p)
+        fg, plane = foreground(k, depth, state.camera, state.plane, self._rng, p)
+        objects = segment(k, fg, plane, p)
         prediction = state.walk.predict(p, seconds, state.missed)
-        found = find_target(state, prediction, seconds, p)
+        found, walk, occluder = find_target(state, objects, prediction, seconds, p)
+        state = state._replace(plane=plane, objects=objects, walk=walk, occluder=occluder)
         measured = NOT_MEASURED if found is None else Measured.of(found.state, p.measurement)
-        swarm = self._sweep_close(state, fg, self._sweep(state, fg, prediction, found, measured), measured)
-        seen = state.model.look(k, fg, swarm.state[None])
-        if self._recognised(state, seen, found):
-            self._accept(state, fg, swarm, seen, found, seconds)
-        else:
-            self._miss(state, fg, prediction, seconds)
+        wide = self._sweep(state, fg, prediction, found, measured)
+        particles = self._sweep_close(state, fg, wide, measured)
+        seen = state.model.look(k, fg, particles.state[None])
+        if self._recognized(state, seen, found):
+            return self._accepted(state, fg, particles, seen, found, seconds)
+        return self._missed(state, fg, prediction, seconds)
 
     def _sweep(
         self, state: State, fg: Foreground, prediction: Prediction, found: Found | None, measured: Measured
-    ) -> Swarm:
+    ) -> ParticleSet:
         """One step of the particle filter: (39) and the object as proposal, (2), (31), the expected value."""
-        k, p, swarm = self._k, self.params, state.swarm
+        k, p, particles = self._k, self.params, state.particles
         drift, scale, lower, upper = prediction
-        noise = self._rng.standard_normal(swarm.particles.shape)
+        noise = self._rng.standard_normal(particles.particles.shape)
         detection = NOTHING
         if found is not None:
             detection = (found.state, ROOT, p.object_share)
-        chosen = swarm.particles.take(k.resample(swarm.weights, self._rng.random()), axis=0)
+        chosen = particles.particles.take(k.resample(particles.weights, self._rng.random()), axis=0)
         moved = k.propose(chosen, drift, scale, noise, *detection, lower, upper)
         likelihood = self._log_likelihood(state, fg, moved, measured)
         weights, _ = k.reweight(likelihood, moved, chosen, drift, scale, *detection)
-        return Swarm.of(k, moved, weights)
+        return ParticleSet.of(k, moved, weights)
 
-    def _sweep_close(self, state: State, fg: Foreground, wide: Swarm, measured: Measured) -> Swarm:
+    def _sweep_close(
+        self, state: State, fg: Foreground, wide: ParticleSet, measured: Measured
+    ) -> ParticleSet:
         """Once more, close to the first sweep's result: 100 particles are few in five dimensions."""
         k = self._k
         middle = wide.state
@@ -181,57 +192,77 @@ class DepthParticleTracker:
         np.maximum(near[:, 2:], 0.1, out=near[:, 2:])
         likelihood = self._log_likelihood(state, fg, near, measured)
         weights, _ = k.reweight(likelihood, near, near, STILL, scale, *NOTHING)
-        return Swarm.of(k, near, weights)
+        return ParticleSet.of(k, near, weights)
 
     def _log_likelihood(self, state: State, fg: Foreground, particles: Floats, measured: Measured) -> Floats:
         """(N,) of the depth in and round the rectangle, of the usual size, and of the segmented object."""
         prior = self._k.rectangle_prior(particles, state.walk.size, SIZE_TRUST, *measured)
         return state.model.look(self._k, fg, particles).log_likelihood + prior
 
-    def _recognised(self, state: State, seen: Seen, found: Found | None) -> bool:
+    def _recognized(self, state: State, seen: Seen, found: Found | None) -> bool:
         """Whether the target is seen there; one that was missed comes back as an object only."""
         if state.missed > 0 and found is None:
             return False
         return bool(
-            seen.inside[0] >= self.params.seen_above * state.filled
-            and seen.log_likelihood[0] >= state.usual - self.params.surprise
+            seen.inside[0] >= self.params.seen_above * state.mean_filled
+            and seen.log_likelihood[0] >= state.mean - self.params.surprise
         )
 
-    def _accept(
-        self, state: State, fg: Foreground, swarm: Swarm, seen: Seen, found: Found | None, seconds: float
-    ) -> None:
-        """Make the swarm the state of the target, and learn from it where nothing is in front."""
+    def _accepted(
+        self,
+        state: State,
+        fg: Foreground,
+        particles: ParticleSet,
+        seen: Seen,
+        found: Found | None,
+        seconds: float,
+    ) -> State:
+        """The state of a target that was seen; it is learned from where nothing is in front."""
         p = self.params
         front = float(seen.front[0])
         steady = state.missed == 0 and front < p.hidden_above
-        state.swarm = swarm
-        state.walk = state.walk.seen(swarm.state, p, seconds, steady)
-        state.score, state.missed, state.hidden, state.front = _score(seen), 0.0, False, None
-        state.doubt = 0.0
-        if front >= FREE:
-            return
-        state.model = state.model.learnt(self._k, fg, swarm.state, p.learning_rate)
-        state.usual += USUAL_RATE * (float(seen.log_likelihood[0]) - state.usual)
-        state.filled += USUAL_RATE * (float(seen.inside[0]) - state.filled)
+        state = state._replace(
+            particles=particles,
+            walk=state.walk.seen(particles.state, p, seconds, steady),
+            score=_score(seen),
+            missed=0.0,
+            hidden=False,
+            occluder=None,
+            spread=0.0,
+        )
+        if front >= MAX_COVERED_TO_LEARN:
+            return state
+        walk, signature = state.walk, state.signature
         if found is not None:
-            state.walk = state.walk.measured(found.state[3:], found.whole, p)
+            walk = walk.measured(found.state[3:], found.whole, p)
             if found.whole.all():
-                state.signature = state.signature.learnt(found.signature)
+                signature = signature.learned(found.signature)
+        return state._replace(
+            model=state.model.learned(self._k, fg, particles.state, p.learning_rate),
+            mean=state.mean + MEAN_RATE * (float(seen.log_likelihood[0]) - state.mean),
+            mean_filled=state.mean_filled + MEAN_RATE * (float(seen.inside[0]) - state.mean_filled),
+            walk=walk,
+            signature=signature,
+        )
 
-    def _miss(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> None:
+    def _missed(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> State:
         """Coast on the memory of the walk: neither velocity nor size nor model learn."""
         p = self.params
         expected = np.clip(state.walk.state + prediction.drift, prediction.lower, prediction.upper)
         front = float(state.model.look(self._k, fg, expected[None]).front[0])
-        state.hidden = front > p.hidden_above
-        if state.hidden and state.front is None:
+        hidden, occluder = front > p.hidden_above, state.occluder
+        if hidden and occluder is None:
             covering = cover(state.objects, expected, p.nearer)
-            state.front = None if covering is None else state.objects.states[covering, :3]
-        state.walk = state.walk.coasted(expected, KEPT if state.hidden else SLOWED)
-        state.swarm = Swarm.gathered(expected, p.particles)
-        state.missed += seconds
-        state.doubt = prediction.scale[:3]
-        state.score = 0.0
+            occluder = None if covering is None else state.objects.states[covering, :3]
+        return state._replace(
+            walk=state.walk.coasted(expected, COASTING_HIDDEN if hidden else COASTING),
+            particles=ParticleSet.gathered(expected, p.particles),
+            score=0.0,
+            missed=state.missed + seconds,
+            hidden=hidden,
+            spread=prediction.scale[:3],
+            occluder=occluder,
+        )
 
     def _track(self, state: State) -> Track:
         box = box_of(state.walk.state, state.camera)
@@ -241,17 +272,10 @@ class DepthParticleTracker:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
         if self.intrinsics is None:
             return Track(box, state.score, status)
-        covariance = state.swarm.covariance[:3, :3] + (DEPTH_NOISE**2 + state.doubt**2) * UNIT
+        covariance = state.particles.covariance[:3, :3] + (MIN_DEPTH_NOISE**2 + state.spread**2) * UNIT
         position = state.walk.state[:3].copy()
         position[:2] += state.signature.shift
         return Track(box, state.score, status, position, covariance)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_k"}
-
-    def __setstate__(self, values: dict[str, Any]) -> None:
-        self.__dict__.update(values)
-        self._k = kernel_sets.load(self.kernels)
 
 
 def _score(seen: Seen) -> float:

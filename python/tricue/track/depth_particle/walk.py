@@ -16,8 +16,8 @@ Floats = NDArray[np.float64]
 STAND = np.array([0.03, 0.02, 0.03])  # metres of position noise in no time
 UPRIGHT = np.array([1.0, 0.3, 1.0])  # people move up and down less than about
 RETURN = 0.3  # per frame, of the size to the remembered one
-LONG = 1.0  # seconds for which a hidden target's place gets less certain
-EARLY = 0.7  # rate at which a size is learnt when it is seen whole for the first time
+MAX_SPREAD_TIME = 1.0  # seconds for which a hidden target's place gets less certain
+EARLY = 0.7  # rate at which a size is learned when it is seen whole for the first time
 SMALLEST = 0.1  # metres
 
 
@@ -44,13 +44,13 @@ class Walk(NamedTuple):
         The noise, K of (39), grows with both.
         """
         drift = np.concatenate([self.velocity * seconds, RETURN * (self.size - self.state[3:])])
-        time = min(seconds + missed, max(seconds, LONG))
+        time = min(seconds + missed, max(seconds, MAX_SPREAD_TIME))
         noise = STAND + p.agility * time * UPRIGHT
         scale = np.concatenate([noise, p.size_noise * self.size])
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def seen(self, state: Floats, p: DepthParticleParams, seconds: float, steady: bool) -> "Walk":
-        """At a new place; the velocity is learnt where both this place and the last were ``steady``."""
+        """At a new place; the velocity is learned where both this place and the last were ``steady``."""
         velocity = self.velocity
         if steady:
             step = (state[:3] - self.state[:3]) / seconds
@@ -69,7 +69,7 @@ class Walk(NamedTuple):
         return self._replace(size=np.where(self.known, self.size, np.maximum(self.size, size)))
 
     def measured(self, size: Floats, whole: NDArray[np.bool_], p: DepthParticleParams) -> "Walk":
-        """The usual size, learnt from what is seen; where that is cut, it is at least so much."""
+        """The usual size, learned from what is seen; where that is cut, it is at least so much."""
         seen = size if whole.all() else np.where(whole, size, np.maximum(size, self.size))
         rate = p.size_rate if self.known.all() else np.where(whole & ~self.known, EARLY, p.size_rate)
         return self._replace(size=self.size + rate * (seen - self.size), known=self.known | whole)

@@ -4,6 +4,7 @@
 import numpy as np
 
 from tricue.camera.box import Box
+from tricue.errors import NoDepthInBoxError
 from tricue.kernels import Kernels
 from tricue.track.base.validation import Moving
 from tricue.track.flow_depth.blocks import Blocks
@@ -17,7 +18,7 @@ from tricue.track.flow_depth.view import Lens, View
 INSIDE = 0.15, 0.1  # of the box's width and height, not looked at for its disparity
 
 
-def begin(
+def initialize(
     k: Kernels, checked: Moving, view: View, lens: Lens, target: Box, p: FlowDepthParams
 ) -> FollowState:
     """The state after the first frame. ValueError where what is in the box has no disparity in common."""
@@ -50,5 +51,5 @@ def _disparity(k: Kernels, view: View, window: Rectangle, target: Box) -> float:
     inner = grown((x0, y0, x1, y1), -across * (x1 - x0), -along * (y1 - y0))
     disparity = own_disparity(k, view, places_of(inner, view.gray.shape))
     if disparity is None:
-        raise ValueError(f"box: expected a target with a disparity, got hardly any in {tuple(target)}")
+        raise NoDepthInBoxError(f"box: expected a target with a disparity, got hardly any in {tuple(target)}")
     return disparity

@@ -11,26 +11,31 @@ from tricue.track.flow_depth.rectangles import Rectangle, moved
 from tricue.track.flow_depth.state import FollowState, Velocity
 from tricue.track.flow_depth.verify import Judged, alike, own_places
 
-YOUNG, HALF = 12, 0.5  # frames learnt, before which it is also learnt while less is hidden
-OUTLINE_FREE, USUAL_FREE = 0.05, 0.15  # of the blocks occluded, up to which these are learnt
-LEAST = 1.0  # places of disparity, from which the target's size is known from it
-FOLLOW = 0.3  # of a step of the target pixels' centre, that a velocity without flow takes
+YOUNG = 12  # frames learned, before which it is also learned while more is hidden
+MAX_OCCLUDED_OUTLINE = 0.05  # of the blocks, up to which the outline is learned
+MAX_OCCLUDED, MAX_OCCLUDED_YOUNG = 0.15, 0.5  # the same for velocity and number of pixels
+MIN_DISPARITY = 1.0  # places, from which the target's size is known from it
+FOLLOW_RATE = 0.3  # of a step of the target pixels' centre, that a velocity without flow takes
 
 
-def accept(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams) -> None:
+def accepted(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams) -> FollowState:
     """The target is where its pixels are: what velocity and disparity it has, and which blocks."""
     model = judged.model
     if not state.missed:
         measured = (model.peaks[0], model.peaks[1]) if cues.flow else _followed(state, judged.temporal)
-        state.velocity = state.velocity_of(measured, judged.number)
-        if cues.disparity is not None:
-            state.disparity = model.peaks[-1]
-    state.model, state.temporal = model, judged.temporal
-    state.missed, state.covered = 0.0, False
-    state.score = min(judged.number / max(state.usual, 1.0), 1.0)
-    state.blocks = state.blocks._replace(size=_size(state)).voted(judged.seen, judged.nearest, p)
-    state.window = state.blocks.window or state.window
-    _learn_usual(k, state, cues, judged, p)
+        disparity = state.disparity if cues.disparity is None else model.peaks[-1]
+        state = state._replace(velocity=state.velocity_of(measured, judged.number), disparity=disparity)
+    blocks = state.blocks._replace(size=_size(state)).voted(judged.seen, judged.nearest, p)
+    state = state._replace(
+        model=model,
+        temporal=judged.temporal,
+        missed=0.0,
+        covered=False,
+        score=min(judged.number / max(state.usual, 1.0), 1.0),
+        blocks=blocks,
+        window=blocks.window or state.window,
+    )
+    return _learned_usual(k, state, cues, judged, p)
 
 
 def _size(state: FollowState) -> float:
@@ -38,25 +43,29 @@ def _size(state: FollowState) -> float:
     small, or none at all, that its noise would be most of the ratio.
     """
     now, first = state.disparity + state.shift, state.first + state.shift
-    return now / first if min(now, first) >= LEAST else state.blocks.size
+    return now / first if min(now, first) >= MIN_DISPARITY else state.blocks.size
 
 
-def _learn_usual(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams) -> None:
+def _learned_usual(
+    k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams
+) -> FollowState:
     """How large and how fast it is, in frames in which nothing hides it."""
     states = state.blocks.states
     occluded = int((states == OCCLUDED).sum()) / max(int((states != NOT_TARGET).sum()), 1)
-    if occluded <= OUTLINE_FREE and cues.disparity is not None:
+    if occluded <= MAX_OCCLUDED_OUTLINE and cues.disparity is not None:
         mine = own_places(k, state, cues, states == TARGET)
         mine &= judged.pixels | alike(state, cues, state.disparity, p)
         box, number, _ = k.temporal_window(mine, 0, 0.0)
         if number:
-            state.outline = state.outline.learnt(moved(box, *cues.region[:2]), state.blocks)
-    if occluded <= (USUAL_FREE if state.known >= YOUNG else HALF):
-        state.learn(judged.number)
+            outline = state.outline.learned(moved(box, *cues.region[:2]), state.blocks)
+            state = state._replace(outline=outline)
+    if occluded <= (MAX_OCCLUDED if state.known >= YOUNG else MAX_OCCLUDED_YOUNG):
+        state = state.learned(judged.number)
+    return state
 
 
 def _followed(state: FollowState, temporal: Rectangle) -> Velocity:
     """Without flow: that of the target pixels' centre. The paper has none."""
     (x, y), (new_x, new_y) = (((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal, temporal))
     u, v = state.velocity
-    return u + FOLLOW * (new_x - x), v + FOLLOW * (new_y - y)
+    return u + FOLLOW_RATE * (new_x - x), v + FOLLOW_RATE * (new_y - y)

@@ -19,7 +19,7 @@ class Outline(NamedTuple):
         """The outline that a window is."""
         return cls(_relative(window, blocks))
 
-    def learnt(self, pixels: Rectangle, blocks: Blocks) -> "Outline":
+    def learned(self, pixels: Rectangle, blocks: Blocks) -> "Outline":
         """Nearer to the rectangle round the target's pixels in this frame."""
         found = _relative(pixels, blocks)
         x0, y0, x1, y1 = (old + RATE * (new - old) for old, new in zip(self.edges, found, strict=True))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the flow and depth tracker keeps from frame to frame."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,7 @@ RATE = 0.15  # a frame, of the running means
 SURE = 0.5  # of the usual number of target pixels, from which their velocity counts in full
 
 
-@dataclass(slots=True)
-class FollowState:
+class FollowState(NamedTuple):
     """All that changes from frame to frame; lengths are in places."""
 
     shape: tuple[int, ...]  # of the image
@@ -64,17 +63,17 @@ class FollowState:
         (u, v), (steady_u, steady_v) = measured, self.steady
         return steady_u + sure * (u - steady_u), steady_v + sure * (v - steady_v)
 
-    def learn(self, count: int) -> None:
-        """Take a frame in which nothing hides the target into the running means, less if little of it is
+    def learned(self, count: int) -> "FollowState":
+        """With a frame in which nothing hides the target in the running means; less of it if little is
         seen.
         """
-        self.known += 1
-        rate = max(RATE, 1 / self.known)
-        if self.settled:
+        known = self.known + 1
+        rate = max(RATE, 1 / known)
+        if known > SETTLED:
             rate *= min(count / max(self.usual, 1.0), 1.0) ** 2
         (u, v), (steady_u, steady_v) = self.velocity, self.steady
-        self.steady = steady_u + rate * (u - steady_u), steady_v + rate * (v - steady_v)
-        self.usual += rate * (count - self.usual)
+        steady = steady_u + rate * (u - steady_u), steady_v + rate * (v - steady_v)
+        return self._replace(known=known, steady=steady, usual=self.usual + rate * (count - self.usual))
 
     def status(self, p: FlowDepthParams) -> Status:
         """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides it."""

@@ -3,23 +3,24 @@
 Bayes' rule.
 """
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
-from tricue.camera.box import Box, BoxLike, as_box
+from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import Frame, FrameLike
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track.base import validation
 from tricue.track.base.track import Track
+from tricue.track.base.tracker import TrackerBase
+from tricue.track.base.traits import Channels, Traits
 from tricue.track.flow_depth.blocks import OCCLUDED, TARGET
 from tricue.track.flow_depth.cues import Cues, measure
-from tricue.track.flow_depth.initialize import begin
-from tricue.track.flow_depth.learn import accept
+from tricue.track.flow_depth.initialize import initialize
+from tricue.track.flow_depth.learn import accepted
 from tricue.track.flow_depth.masks import blocks_of, mask_of
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.position import located
@@ -28,11 +29,11 @@ from tricue.track.flow_depth.state import FollowState
 from tricue.track.flow_depth.verify import candidate, judge
 from tricue.track.flow_depth.view import Lens, view_of
 
-SMALLEST = 4  # places, of the region that is measured
-HALF = 0.5  # of the blocks: what isn't seen is hidden
+MIN_SIDE = 4  # places, of the region that is measured
+MIN_HIDDEN = 0.5  # of the blocks, from which what isn't seen is hidden
 
 
-class FlowDepthTracker:
+class FlowDepthTracker(TrackerBase[FlowDepthParams, FollowState]):
     """Follows one person or object among others by what moves and is as far away as it, also with a moving
     camera, through overtaking and complete occlusion.
 
@@ -51,6 +52,19 @@ class FlowDepthTracker:
 
     Params = FlowDepthParams
 
+    traits = Traits(
+        channels=(
+            Channels.of("color", "right"),
+            Channels.of("color", "depth"),
+            Channels.of("color", cues=("flow",)),
+            Channels.of("depth", cues=("disparity",)),
+        ),
+        camera=frozenset({"rig", "intrinsics"}),
+        shows=frozenset({"mask", "blocks"}),
+        follows="what moves and is as far away as the target; its pixels",
+        source="Okada et al. 1996",
+    )
+
     def __init__(
         self,
         params: FlowDepthParams | None = None,
@@ -59,14 +73,10 @@ class FlowDepthTracker:
         intrinsics: Intrinsics | None = None,
         seed: int = 0,
         kernels: kernel_sets.Name = "native",
-        **values: Any,
+        **parameters: Any,
     ) -> None:
-        self.params = validation.parameters(FlowDepthParams, params, values)
+        super().__init__(params, seed, kernels, parameters)
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
-        self.seed = validation.seed(seed)
-        self.kernels = kernels
-        self._k = kernel_sets.load(kernels)
-        self._state: FollowState | None = None
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on what is in ``box``, (x, y, width, height) in pixels of the left image.
@@ -76,14 +86,12 @@ class FlowDepthTracker:
         or not rectified.
         """
         checked = validation.moving(frame, self.params.cues)
-        if box is None:
-            raise ValueError("box: expected (x, y, width, height): this tracker finds nobody by itself")
-        target = validation.box_in(as_box(box), checked.image.shape)
+        target = validation.initial_box(box, checked.image.shape)
         if "disparity" in self.params.cues and checked.frame.right is not None and not self.params.vergence:
             warn_of_stereo(checked.frame)  # of a verged pair the right image is turned back first
         lens = self._lens(checked.image.shape, checked.frame)
         view = view_of(self._k, checked.frame, lens, self.params)
-        return self._keep(begin(self._k, checked, view, lens, target, self.params))
+        return self._keep(initialize(self._k, checked, view, lens, target, self.params))
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -95,16 +103,14 @@ class FlowDepthTracker:
         checked = validation.moving(frame, self.params.cues, before.shape)
         view = view_of(self._k, checked.frame, before.lens, self.params)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
-        state = replace(_ahead(before), timestamp=checked.frame.timestamp)
+        state = _ahead(before)
         region = places_of(candidate(state, self.params), view.gray.shape)
-        if min(region[2] - region[0], region[3] - region[1]) < SMALLEST:
-            state.pixels = np.zeros_like(state.pixels)
-            self._miss(state, seconds)
+        if min(region[2] - region[0], region[3] - region[1]) < MIN_SIDE:
+            state = _missed(state._replace(pixels=np.zeros_like(state.pixels)), seconds)
         else:
             cues = measure(self._k, before.view, view, region, before.disparity, self.params)
-            self._follow(state, cues, seconds)
-        state.view = view
-        return self._keep(state)
+            state = self._follow(state, cues, seconds)
+        return self._keep(state._replace(view=view, timestamp=checked.frame.timestamp))
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
@@ -120,23 +126,17 @@ class FlowDepthTracker:
             return (), ()
         return blocks_of(self._state, TARGET), blocks_of(self._state, OCCLUDED)
 
-    def _follow(self, state: FollowState, cues: Cues, seconds: float) -> None:
-        """Sections 4.2 to 4.5: judge what is there; accept the target, or coast while it isn't seen."""
+    def _follow(self, state: FollowState, cues: Cues, seconds: float) -> FollowState:
+        """Sections 4.2 to 4.5: verify what is there; accept the target, or coast while it isn't seen."""
         p, k = self.params, self._k
         judged = judge(k, state, cues, p)
-        state.region, state.pixels = cues.region, judged.pixels
-        if judged.found(state, p):
-            accept(k, state, cues, judged, p)
-            return
+        found = judged.found(state, p)
+        state = state._replace(region=cues.region, pixels=judged.pixels)
+        if found:
+            return accepted(k, state, cues, judged, p)
         if not state.missed:
-            state.blocks = state.blocks.voted(judged.seen, judged.nearest, p)
-        state.covered = judged.hidden >= HALF
-        self._miss(state, seconds)
-
-    def _miss(self, state: FollowState, seconds: float) -> None:
-        """Coast: neither model nor blocks learn."""
-        state.missed += seconds
-        state.score = 0.0
+            state = state._replace(blocks=state.blocks.voted(judged.seen, judged.nearest, p))
+        return _missed(state._replace(covered=judged.hidden >= MIN_HIDDEN), seconds)
 
     def _lens(self, shape: tuple[int, ...], frame: Frame) -> Lens:
         if frame.right is not None or self.rig is not None:
@@ -164,20 +164,17 @@ class FlowDepthTracker:
             return Track(box, state.score, status)
         return Track(box, state.score, status, *located(self._k, box, state, self.params))
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_k"}
-
-    def __setstate__(self, values: dict[str, Any]) -> None:
-        self.__dict__.update(values)
-        self._k = kernel_sets.load(self.kernels)
-
 
 def _ahead(state: FollowState) -> FollowState:
     """Where the target is expected next: at its velocity, or the usual one while it isn't seen."""
     right, down = state.steady if state.missed and state.known else state.velocity
-    return replace(
-        state,
+    return state._replace(
         window=moved(state.window, right, down),
         temporal=moved(state.temporal, right, down),
         blocks=state.blocks.moved(right, down),
     )
+
+
+def _missed(state: FollowState, seconds: float) -> FollowState:
+    """Coasting: neither model nor blocks learn."""
+    return state._replace(missed=state.missed + seconds, score=0.0)

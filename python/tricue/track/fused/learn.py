@@ -88,7 +88,7 @@ def learnt(before: State, state: State, sight: Sight, found: Found, p: FusedPara
     """
     if state.target is not found.target:
         return state
-    again = before.missed >= p.lost_after
+    again = before.lost(p)
     state = _outlined(_ranged(state, sight, found, again, p), found, p)
     if state.missed or state.score < p.learn_above or state.frames % p.learn_every:
         return state

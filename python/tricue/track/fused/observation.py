@@ -9,6 +9,7 @@ import numpy as np
 
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.errors import UnregisteredDepthError
 from tricue.kernels import Kernels
 from tricue.track.base import validation
 from tricue.track.fused.depth_sources import DepthImage, Pair
@@ -55,7 +56,7 @@ def read(
         raise ValueError(f"frame.{name}: expected the first frame's size {shape}, got {size}; {hint}")
     if given.depth is not None and given.depth.shape != size:
         hint = "it has to be that of the color image's pixels"
-        raise ValueError(f"frame.depth: expected shape {size}, got {given.depth.shape}; {hint}")
+        raise UnregisteredDepthError(f"frame.depth: expected shape {size}, got {given.depth.shape}; {hint}")
     for known in (cameras[0].intrinsics if cameras[0] else None, cameras[1]):
         if known is not None and (known.height, known.width) != size:
             expected = f"the camera's size, {known.width}x{known.height}"

@@ -4,7 +4,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from tricue.track.base.params import Params, parameter
+from tricue.track.base.params import Params, parameter, seconds_of_frames
 
 FAST = "our experiment on sparse and shaken frames"
 OURS = "our prototype, or a choice not yet compared with others"
@@ -94,8 +94,8 @@ class FusedParams(Params):
     hopeless: float = parameter(
         0.02, unit="score", source=OURS, low=0, high=1, doc="under it the box isn't moved to what was found"
     )
-    lost_after: int = parameter(
-        3, unit="frames", source=OURS, low=1, doc="missed in a row until the status is LOST"
+    lost_after: float = parameter(
+        0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
     )
     collapse: float = parameter(
         5.0,
@@ -123,6 +123,8 @@ class FusedParams(Params):
     )
 
     def __post_init__(self) -> None:
+        seconds = seconds_of_frames(self.lost_after, "lost_after", self.rate)
+        object.__setattr__(self, "lost_after", seconds)
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if not {"filter", "color"} & set(self.cues):
             raise ValueError(f"cues: expected filter or color, which say where it is, among {self.cues}")

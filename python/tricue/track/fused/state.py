@@ -10,9 +10,12 @@ from tricue.track.fused.experts.flow import Glance
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.identity import Identity, Marks
 from tricue.track.fused.outline import WHOLE, Outline
+from tricue.track.fused.params import FusedParams
 from tricue.track.fused.sight import Kind
 from tricue.track.fused.space import Space
 from tricue.track.fused.view import Target
+
+MIN_MISSED = 3  # frames in a row, at least, until the target is LOST
 
 
 class Models(NamedTuple):
@@ -44,7 +47,12 @@ class State(NamedTuple):
     glance: Glance | None = None
     outline: Outline = WHOLE
     hidden: bool = False  # behind something nearer
-    missed: int = 0  # frames in a row in which it was not recognised
+    missed: int = 0  # frames in a row in which it was not recognized
+    unseen: float = 0.0  # seconds of them
     seconds: float = 0.0  # since the frame before
     frames: int = 0  # since init
     timestamp: float | None = None
+
+    def lost(self, p: FusedParams) -> bool:
+        """Whether it hasn't been recognized for long."""
+        return self.missed >= MIN_MISSED and self.unseen >= p.lost_after

@@ -7,12 +7,14 @@ from typing import Any
 import numpy as np
 
 from tricue import kernels as kernel_sets
-from tricue.camera.box import BoxLike, as_box
+from tricue.camera.box import BoxLike
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
 from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
+from tricue.track.base.tracker import TrackerBase
+from tricue.track.base.traits import Channels, Traits
 from tricue.track.fused import learn
 from tricue.track.fused.depth_sources import Pair
 from tricue.track.fused.examine import Found
@@ -28,7 +30,7 @@ from tricue.track.fused.view import Target
 UNSURE = 3.0  # metres, at most, of the depth that is expected
 
 
-class FusedTracker:
+class FusedTracker(TrackerBase[FusedParams, State]):
     """Follows any target by experts whose opinions add up, in whatever channels a frame has, and says when
     it isn't the target.
 
@@ -48,6 +50,19 @@ class FusedTracker:
 
     Params = FusedParams
 
+    traits = Traits(
+        channels=(
+            Channels.of("color", "right"),
+            Channels.of("color", "depth"),
+            Channels.of("color"),
+            Channels.of("depth"),
+        ),
+        camera=frozenset({"rig", "intrinsics"}),
+        guesses=True,
+        follows="any target, by all cues that its frames have; in metres where depth is measured",
+        source="ours, of published parts",
+    )
+
     def __init__(
         self,
         params: FusedParams | None = None,
@@ -56,14 +71,10 @@ class FusedTracker:
         intrinsics: Intrinsics | None = None,
         seed: int = 0,
         kernels: kernel_sets.Name = "native",
-        **values: Any,
+        **parameters: Any,
     ) -> None:
-        self.params = validation.parameters(FusedParams, params, values)
+        super().__init__(params, seed, kernels, parameters)
         self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
-        self.seed = validation.seed(seed)
-        self.kernels = kernels
-        self._k = kernel_sets.load(kernels)
-        self._state: State | None = None
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``, at least 2 pixels wide and high, a part of it in the image.
@@ -71,13 +82,11 @@ class FusedTracker:
         UserWarning where left and right seem to be swapped, or not rectified.
         """
         seen = self._read(frame, None)
-        if box is None:
-            raise ValueError("box: expected (x, y, width, height), got None; this tracker needs to be told")
-        target = Target.of(validation.box_in(as_box(box), seen.shape))
+        target = Target.of(validation.initial_box(box, seen.shape))
         if isinstance(seen.ranger, Pair):
             warn_of_stereo(as_frame(frame))
-        self._state = learn.begin(self._k, seen, target, self.params)
-        return self._track(self._state)
+        self._state = state = learn.begin(self._k, seen, target, self.params)
+        return self._track(state)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -121,20 +130,13 @@ class FusedTracker:
     def _track(self, state: State) -> Track:
         if state.missed == 0:
             status = Status.TRACKED
-        elif state.hidden or state.missed < self.params.lost_after:
+        elif state.hidden or not state.lost(self.params):
             status = Status.OCCLUDED
         else:
             status = Status.LOST
         space = state.space
         where = (None, None) if space is None else (space.position, space.uncertainty)
         return Track(state.outline.around(state.target).box, state.score, status, *where)
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "_k"}
-
-    def __setstate__(self, values: dict[str, Any]) -> None:
-        self.__dict__.update(values)
-        self._k = kernel_sets.load(self.kernels)
 
 
 def _expected(state: State) -> Expected | None:

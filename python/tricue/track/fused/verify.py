@@ -20,13 +20,14 @@ def judged(state: State, found: Found, p: FusedParams) -> State:
     state = state._replace(marks=found.marks, score=score, hidden=hidden, glance=None)
     if hidden or score < p.hopeless:
         u, v = state.velocity
-        return state._replace(velocity=(SLOWING * u, SLOWING * v), missed=state.missed + 1)
+        return _missed(state._replace(velocity=(SLOWING * u, SLOWING * v)))
     jumped = _far(state.target, found.target, p)
     state = state._replace(target=found.target, velocity=_velocity(state, found.target, jumped, p))
     if not recognised:
-        return state._replace(missed=state.missed + 1)
+        return _missed(state)
     return state._replace(
         missed=0,
+        unseen=0.0,
         side=found.target.side,
         usual=_blended(state.usual, found.answer),
         sure=_blended(state.sure, found.by_look),
@@ -44,6 +45,11 @@ def _recognised(state: State, found: Found, p: FusedParams) -> bool:
     if found.measured is None and found.marks.by_structure < state.structure - p.collapse:
         return False
     return state.missed == 0 or found.log_odds >= p.again * state.sure
+
+
+def _missed(state: State) -> State:
+    """One more frame without it."""
+    return state._replace(missed=state.missed + 1, unseen=state.unseen + state.seconds)
 
 
 def _far(before: Target, after: Target, p: FusedParams) -> bool:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.stereo_geometry import Eyes
+from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 from tricue.track.stereo_head.view import NO_CHECK, Ellipse, Pair
 
 Singles = NDArray[np.float32]
@@ -59,10 +59,10 @@ def span_round(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, i
     return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
 
 
-def span_between(eyes: Eyes, near: float, far: float, step: int) -> tuple[int, int]:
+def span_between(geometry: StereoGeometry, near: float, far: float, step: int) -> tuple[int, int]:
     """The disparities from far to near, metres, in places ``step`` wide, as far as a picture has them."""
-    most = min(eyes.shape[1] // step, MOST)
-    first, last = (eyes.disparity(z) / step for z in (far, near))
+    most = min(geometry.shape[1] // step, MOST)
+    first, last = (geometry.disparity(z) / step for z in (far, near))
     begin = min(math.floor(first), most)
     return begin, max(begin, math.ceil(min(last, most)))
 

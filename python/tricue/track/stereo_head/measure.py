@@ -11,7 +11,7 @@ from tricue.track.stereo_head.depth import Depth, depth_of, span_round
 from tricue.track.stereo_head.filter import INTERSECTION_NOISE, MEASURED
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.search import Place, best_place, first_histogram, histogram_of
-from tricue.track.stereo_head.stereo_geometry import Eyes
+from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 from tricue.track.stereo_head.view import Ellipse, Pair, look
 
 Floats = NDArray[np.float64]
@@ -47,7 +47,7 @@ class Measured(NamedTuple):
 def measure(
     k: Kernels,
     pair: Pair,
-    eyes: Eyes,
+    geometry: StereoGeometry,
     ellipse: Ellipse,
     disparity: float,
     histogram: Floats | None,
@@ -68,7 +68,7 @@ def measure(
     depth = depth_of(k, pair, place.ellipse, span_round(disparity, pair.step, p), p)
     if depth is None:
         return None
-    point, covariance = eyes.point(k, *place.ellipse[:2], depth.disparity, pair.step, p)
+    point, covariance = geometry.point(k, *place.ellipse[:2], depth.disparity, pair.step, p)
     if not p.near <= point[2] <= p.far:  # NaN, too, where the disparity is none
         return None
     noise = np.zeros((MEASURED, MEASURED))

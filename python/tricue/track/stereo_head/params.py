@@ -61,7 +61,7 @@ class StereoHeadParams(Params):
         0.3, unit="per frame", source="a of (2); 0.1: section 5; " + OURS, low=0, high=1
     )
     learn: Literal["coherent", "all"] = parameter(
-        "coherent", unit="-", source="all: section 3.1; " + OURS, doc="pixels that are learnt"
+        "coherent", unit="-", source="all: section 3.1; " + OURS, doc="pixels that are learned"
     )
     gate: float = parameter(
         0.6,
@@ -69,7 +69,7 @@ class StereoHeadParams(Params):
         source="section 3.1; " + OURS,
         low=0,
         high=1,
-        doc="of (1), from which it is learnt",
+        doc="of (1), from which it is learned",
     )
 
     disparities: tuple[int, int] = parameter(

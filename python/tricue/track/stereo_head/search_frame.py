@@ -11,7 +11,7 @@ from tricue.kernels import Kernels
 from tricue.track.stereo_head.depth import span_between
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.search import score
-from tricue.track.stereo_head.stereo_geometry import Eyes
+from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 from tricue.track.stereo_head.view import NO_CHECK, Ellipse, Pair
 
 Floats = NDArray[np.float64]
@@ -39,17 +39,19 @@ class Head(NamedTuple):
 
 
 def find_again(
-    k: Kernels, pair: Pair, eyes: Eyes, head: Head, p: StereoHeadParams
+    k: Kernels, pair: Pair, geometry: StereoGeometry, head: Head, p: StereoHeadParams
 ) -> tuple[Ellipse, float] | None:
     """The ellipse and the disparity, pixels, that are most like a head, wherever it can be in the picture."""
     step = pair.step * THIN
-    found = _disparities(k, pair, eyes, head, p)
+    found = _disparities(k, pair, geometry, head, p)
     rows, columns = found.shape
     bins = pair.bins(k, (0, 0, columns * THIN, rows * THIN), THIN, p)
     best: tuple[float, Ellipse, float] | None = None
     for z in _distances(*head.distances(p)):
-        disparity = eyes.disparity(z)
-        minor, major = (half / 2 * f / z for half, f in zip(head.size, eyes.rig[:2].tolist(), strict=True))
+        disparity = geometry.disparity(z)
+        minor, major = (
+            half / 2 * f / z for half, f in zip(head.size, geometry.rig[:2].tolist(), strict=True)
+        )
         if not SMALLEST <= min(minor, major) / step <= max(rows, columns):
             continue
         places = disparity / pair.step
@@ -59,7 +61,7 @@ def find_again(
         grid = (rows, columns, 1)
         scores = score(k.ellipse_search(bins, middle, grid, head.histogram, p.ring, there), p)
         x, y = _places(columns) * step, _places(rows) * step
-        scores[~_within_reach(head, eyes, x, y, z)] = -np.inf
+        scores[~_within_reach(head, geometry, x, y, z)] = -np.inf
         row, column = divmod(int(np.argmax(scores)), columns)
         if scores[row, column] > (-np.inf if best is None else best[0]):
             best = float(scores[row, column]), (float(x[column]), float(y[row]), minor, major), disparity
@@ -77,19 +79,21 @@ def _places(count: int) -> Floats:
     return np.arange(float(count)) + (count / 2 - count // 2)
 
 
-def _within_reach(head: Head, eyes: Eyes, x: Floats, y: Floats, z: float) -> NDArray[np.bool_]:
+def _within_reach(head: Head, geometry: StereoGeometry, x: Floats, y: Floats, z: float) -> NDArray[np.bool_]:
     """(rows, columns) whether the head can be at x and y, box coordinates, at a distance."""
-    fx, fy, cx, cy, _ = eyes.rig.tolist()
+    fx, fy, cx, cy, _ = geometry.rig.tolist()
     aside = (x - 0.5 - cx) * z / fx - head.seen[0]
     below = (y - 0.5 - cy) * z / fy - head.seen[1]
     ahead = z - head.seen[2]
     return np.asarray(aside**2 + below[:, None] ** 2 + ahead**2 <= head.reach**2)
 
 
-def _disparities(k: Kernels, pair: Pair, eyes: Eyes, head: Head, p: StereoHeadParams) -> Singles:
+def _disparities(
+    k: Kernels, pair: Pair, geometry: StereoGeometry, head: Head, p: StereoHeadParams
+) -> Singles:
     """Of every THIN-th place, in places; those that a head can have."""
     height, width = pair.small[0].shape
-    first, last = span_between(eyes, *head.distances(p), pair.step)
+    first, last = span_between(geometry, *head.distances(p), pair.step)
     region = (0, 0, width, height)
     found = k.sad_disparity(
         *pair.small,

@@ -16,14 +16,14 @@ LEAST_NOISE = 1e-4  # metres, where a polynomial has a zero
 SAMPLES = 64  # of the working range, that the cubic polynomials are fitted to
 
 
-class Eyes(NamedTuple):
+class StereoGeometry(NamedTuple):
     """rig: (5,) fx, fy, cx, cy, pixels, and the baseline, metres. shape: of its images."""
 
     rig: Floats
     shape: tuple[int, ...]
 
     @classmethod
-    def of(cls, rig: StereoRig) -> "Eyes":
+    def of(cls, rig: StereoRig) -> "StereoGeometry":
         """The numbers of a rig."""
         camera = rig.intrinsics
         numbers = np.array([camera.fx, camera.fy, camera.cx, camera.cy, rig.baseline])
@@ -63,21 +63,21 @@ class Eyes(NamedTuple):
         return points[0], covariances[0]
 
 
-def _cubic_noise(eyes: Eyes, point: Floats, p: StereoHeadParams) -> Floats:
+def _cubic_noise(geometry: StereoGeometry, point: Floats, p: StereoHeadParams) -> Floats:
     """e of (9), (3,) metres: what an error of the disparity does to each coordinate, by cubic polynomials."""
-    errors = [np.polyval(each, value) for each, value in zip(polynomials(eyes, p), point, strict=True)]
+    errors = [np.polyval(each, value) for each, value in zip(polynomials(geometry, p), point, strict=True)]
     return np.asarray(np.abs(errors)) + LEAST_NOISE
 
 
-def polynomials(eyes: Eyes, p: StereoHeadParams) -> list[Floats]:
+def polynomials(geometry: StereoGeometry, p: StereoHeadParams) -> list[Floats]:
     """Three times four coefficients a_i0 .. a_i3 of (9), fitted to the back-projection in the working range.
 
     X and Y are those of the image's rim, in proportion to Z: what figure 2 shows.
     """
-    fx, fy, _, _, baseline = eyes.rig.tolist()
+    fx, fy, _, _, baseline = geometry.rig.tolist()
     z = np.linspace(p.near, p.far, SAMPLES)
     error = z * z / (fx * baseline) * p.disparity_noise
-    height, width = eyes.shape[:2]
+    height, width = geometry.shape[:2]
     fits = []
     for slope in (width / 2 / fx, height / 2 / fy):
         along = np.concatenate([-slope * z[::-1], slope * z])

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""What all trackers of this package have in common: how they are made, copied and pickled."""
+
+from typing import Any, ClassVar, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue import kernels as kernel_sets
+from tricue.track.base import validation
+from tricue.track.base.params import Params
+from tricue.track.base.traits import Traits
+
+P = TypeVar("P", bound=Params)
+S = TypeVar("S")
+Scalar = TypeVar("Scalar", bound=np.generic)
+
+
+class TrackerBase(Generic[P, S]):
+    """Parameters, kernels and one state.
+
+    The state is a value: nothing changes it, ``init`` and ``update`` replace it as the last thing they do.
+    So an error or Ctrl-C inside them leaves the tracker as it was, and copies are independent.
+    """
+
+    traits: ClassVar[Traits]
+    Params: ClassVar[type[Any]]
+
+    def __init__(
+        self, params: P | None, seed: int, kernels: kernel_sets.Name, values: dict[str, Any]
+    ) -> None:
+        self.params: P = validation.parameters(self.Params, params, values)
+        self.seed = validation.seed(seed)
+        self.kernels = kernels
+        self._state: S | None = None
+        self._derive()
+
+    def _derive(self) -> None:
+        """Make what follows from the rest, and is neither copied nor pickled: names in ``_derived``."""
+        self._k = kernel_sets.load(self.kernels)
+
+    _derived: ClassVar[tuple[str, ...]] = ("_k",)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name not in self._derived}
+
+    def __setstate__(self, values: dict[str, Any]) -> None:
+        self.__dict__.update(values)
+        self._derive()
+
+
+def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    """A view that can't be written to: of arrays of a state, which nothing may change."""
+    view: NDArray[Scalar] = array.view()
+    view.flags.writeable = False
+    return view
