@@ -140,3 +140,25 @@ def test_bad_files_are_refused(tmp_path: Path, text: str, error: type[Exception]
     (tmp_path / "p.toml").write_text(text)
     with pytest.raises(error, match=rf"^\S+p\.toml: {message}"):
         Example.from_toml(tmp_path / "p.toml")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RenamedParams(Params):
+    max_step: float = parameter(40.0, unit="pixels", source="made up", low=0, was="reach")
+
+
+def test_former_names_are_deprecated(tmp_path: Path) -> None:
+    """A parameter is taken, read and loaded by its former name too, with a warning that tells the new one."""
+    with pytest.warns(DeprecationWarning, match="^reach: deprecated, the parameter is max_step now"):
+        params = RenamedParams(reach=3)
+    assert params == RenamedParams(max_step=3.0)
+    with pytest.warns(DeprecationWarning, match="^reach: deprecated"):
+        assert params.reach == 3
+    (tmp_path / "p.toml").write_text("reach = 7.0\n")
+    with pytest.warns(DeprecationWarning, match="^reach: deprecated"):
+        assert RenamedParams.from_toml(tmp_path / "p.toml").max_step == 7
+    with pytest.raises(TypeError, match="^reach: expected once, got also max_step"):
+        RenamedParams(reach=1, max_step=2)
+    with pytest.raises(AttributeError, match="no attribute 'range'"):
+        _ = params.range
+    assert pickle.loads(pickle.dumps(params, 0)) == params

@@ -110,8 +110,8 @@ def test_outside_the_picture_is_nothing(kernels):
 
 
 def test_only_the_heads_depth_is_learned(kernels):
-    """Of an ellipse half on the wall only the pixels at the head's depth are learned; with learn="all" as many
-    of each as there are.
+    """Of an ellipse half on the wall only the pixels at the head's depth are learned; with learn="all" as
+    many of each as there are.
     """
     half = (ELLIPSE[0] + 4, *ELLIPSE[1:])
     view = scene()

@@ -13,6 +13,7 @@ import math
 import types
 import typing
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Integral, Real
 from pathlib import Path
@@ -38,18 +39,27 @@ def parameter(
     above: float | None = None,
     below: float | None = None,
     choices: tuple[Any, ...] | None = None,
+    was: str = "",
 ) -> Any:
     """A field of :class:`Params`. ``low`` and ``high`` are allowed themselves, ``above`` and ``below`` not.
 
+    was: its name in the release before, which is still taken, with a DeprecationWarning.
     In a tuple the bounds and the choices hold for each element. None is allowed only where it is the default.
     """
     bounds = {"low": low, "above": above, "high": high, "below": below}
-    words = {"unit": unit, "source": source, "doc": doc}
+    words = {"unit": unit, "source": source, "doc": doc, "was": was}
     return field(default=default, metadata={**words, "choices": choices, **bounds})
 
 
+class _Renaming(type):
+    """Takes parameters by the names that they had in the release before."""
+
+    def __call__(cls, *args: Any, **values: Any) -> Any:
+        return super().__call__(*args, **current_names(cls, values))
+
+
 @dataclass(frozen=True, slots=True)
-class Params:
+class Params(metaclass=_Renaming):
     """Base of every tracker's parameters: checks types and ranges, reads and writes TOML, describes itself.
 
     TypeError for an unknown name or a wrong type, ValueError for a value out of range, NaN or infinity.
@@ -63,6 +73,13 @@ class Params:
             hint = f"did you mean {' or '.join(near)}?" if near else f"expected one of {', '.join(known)}"
             raise TypeError(f"{name}: unknown parameter of {cls.__qualname__}; {hint}")
         return object.__new__(cls)  # not super(): slots=True makes another class of the same name
+
+    def __getattr__(self, name: str) -> Any:
+        for f in dataclasses.fields(self):
+            if name and f.metadata.get("was") == name:
+                _warn_renamed(name, f.name)
+                return getattr(self, f.name)
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     def __post_init__(self) -> None:
         cls: Any = type(self)
@@ -94,6 +111,20 @@ class Params:
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = ("  ".join(map(str.ljust, row, widths)) for row in rows)
         return "\n".join(line.rstrip() for line in lines)
+
+
+def current_names(cls: Any, values: Mapping[str, Any]) -> dict[str, Any]:
+    """The values by the names that their parameters have now; TypeError for one given by both names."""
+    renamed = {f.metadata["was"]: f.name for f in dataclasses.fields(cls) if f.metadata.get("was")}
+    for old in values.keys() & renamed.keys():
+        if renamed[old] in values:
+            raise TypeError(f"{old}: expected once, got also {renamed[old]}, its new name")
+        _warn_renamed(old, renamed[old])
+    return {renamed.get(name, name): value for name, value in values.items()}
+
+
+def _warn_renamed(old: str, new: str) -> None:
+    warnings.warn(f"{old}: deprecated, the parameter is {new} now", DeprecationWarning, stacklevel=4)
 
 
 def seconds_of_frames(value: Any, name: str, rate: float) -> Any:

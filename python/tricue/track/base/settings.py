@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
+from tricue.track.base.params import current_names
 from tricue.track.base.registry import create, tracker_class
 from tricue.track.base.track import Tracker
 
@@ -27,7 +28,7 @@ def read_settings(name: str, params_file: Path | None, settings: Sequence[str]) 
     values: dict[str, Any] = {}
     if params_file is not None:
         values = dataclasses.asdict(kind.from_toml(params_file))
-    return values | _split(parse_settings(settings), kind)
+    return values | _split(current_names(kind, parse_settings(settings)), kind)
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
