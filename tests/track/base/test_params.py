@@ -157,7 +157,7 @@ def test_former_names_are_deprecated(tmp_path: Path) -> None:
     (tmp_path / "p.toml").write_text("reach = 7.0\n")
     with pytest.warns(DeprecationWarning, match="^reach: deprecated"):
         assert RenamedParams.from_toml(tmp_path / "p.toml").max_step == 7
-    with pytest.raises(TypeError, match="^reach: expected once, got also max_step"):
+    with pytest.raises(TypeError, match=r"^reach: expected once, got also max_step"):
         RenamedParams(reach=1, max_step=2)
     with pytest.raises(AttributeError, match="no attribute 'range'"):
         _ = params.range
