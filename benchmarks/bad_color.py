@@ -91,7 +91,7 @@ OURS = {
 
 HEAD = f"""## Color
 
-All else is as it should be: a textured picture of 320x240 that moves {SHIFT} pixels to the right, and the box {BOX}. `flow-depth` uses flow
-alone; in a picture that moves as a whole, flow doesn't tell the target from the rest.
+All else is as it should be: a textured picture of 320x240 that moves {SHIFT} pixels to the right, and the box {BOX}. `flow-depth`
+uses flow alone; in a picture that moves as a whole, flow doesn't tell the target from the rest.
 
 """

@@ -122,8 +122,9 @@ Written by `python benchmarks/bad_input.py`; don't edit. Each case is one `init`
 Ours either follow the target or raise a `ValueError` or `TypeError` that names the argument, what was expected and what came. Their state
 stays as it was, and the next good frame goes on. `tests/track/*/test_bad_input.py` hold many more cases.
 
-The tables show the status after the update, or the error, and warnings. Where all three trackers give the same answer it stands once; cases
-with the same answer share a row. What all trackers check alike, such as boxes, stands under the first kind alone. `flow-depth` doesn't change its status for one bad frame; its score is then 0.
+The tables show the status after the update, or the error, and warnings. Where all three trackers give the same answer it stands once;
+cases with the same answer share a row. What all trackers check alike, such as boxes, stands under the first kind alone. `flow-depth`
+doesn't change its status for one bad frame; its score is then 0.
 
 """
 
