@@ -46,7 +46,8 @@ WALK_FRAMES = 100
 SLOW = 3  # rounds for what takes over 2 ms a frame
 OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 EXPORTED = frozenset(name for name in dir(_core) if not name.startswith("_"))
-SIDES = ("native", "reference", "peer")  # ids of a kernel's benchmarks
+SIDES = {"native": "native", "reference": "reference", "peer": "baseline", "script": "baseline"}
+"""Ids of a kernel's benchmarks, and the columns that they fill; others are not in the table."""
 Make = Callable[[], Contender]
 
 HEAD = """\
@@ -62,13 +63,15 @@ KERNELS = """
 
 Every kernel that the extension exports; the minimum of many rounds, in µs. Where a name tells no size, the input is 100 ellipses of
 251 samples, or a frame of 320x240. The baseline is OpenCV's function for the same job, or the short cv2 and NumPy script that one
-would write. Every result is checked against the twin's. Where a native kernel is under 20 times as fast as its twin, the twin is one
-vectorized NumPy expression, or a call's own cost of half a microsecond is most of the native time.
+would write. Every result is checked against the twin's. Where a native kernel is less than 20 times as fast as its twin, the twin is a
+few vectorized NumPy expressions, or a call's own cost of half a microsecond is most of the native time.
 {later}
 | kernel | native | reference | baseline | reference / native | baseline / native |
 | --- | --- | --- | --- | --- | --- |
 """
-LATER = "The rows of {names} are of a later run than the others, on {machine}"
+LATER = "The rows of {names} are of a later run than the others, by {clock}, on {machine}"
+CLOCKS = {"perf_counter": "the wall clock", "process_time": "the process's own time"}
+"""By pytest-benchmark's timers; the second is for a machine that is busy."""
 TRACKERS = """
 ## Trackers on figure 1's scene
 
@@ -133,9 +136,10 @@ def main() -> None:
     parser.add_argument("json", type=Path, help="of pytest-benchmark")
     parser.add_argument("--kernels", action="store_true", help="write the rows of these kernels alone")
     options = parser.parse_args()
-    rows = kernel_rows(json.loads(options.json.read_text()))
+    report = json.loads(options.json.read_text())
+    rows = kernel_rows(report)
     if options.kernels:
-        OUT.write_text(with_rows(OUT.read_text(), rows))
+        OUT.write_text(with_rows(OUT.read_text(), rows, CLOCKS[report["benchmarks"][0]["options"]["timer"]]))
     else:
         OUT.write_text(document(rows))
 
@@ -158,16 +162,19 @@ def document(rows: dict[str, str]) -> str:
     return "\n".join(parts)
 
 
-def with_rows(page: str, rows: dict[str, str]) -> str:
+def with_rows(page: str, rows: dict[str, str], clock: str) -> str:
     """The page with the rows of these kernels new, and without those of kernels that are gone."""
-    start, end = page.index(KERNELS.split("\n\n", maxsplit=1)[0]), page.index(TRACKERS.split("\n\n", maxsplit=1)[0])
+    start, end = (
+        page.index(KERNELS.split("\n\n", maxsplit=1)[0]),
+        page.index(TRACKERS.split("\n\n", maxsplit=1)[0]),
+    )
     kept = {
         row.split("|")[1].strip(): row
         for row in page[start:end].splitlines()
         if re.match(r"\| [a-z]\w+[^|]*\| \d", row) and kernel_of(row.split("|")[1].strip()) in EXPORTED
     }
     kept = {name: row for name, row in kept.items() if kernel_of(name) not in kernels_of(rows)}
-    later = LATER.format(machine=machine(), names=", ".join(sorted(kernels_of(rows))))
+    later = LATER.format(clock=clock, machine=machine(), names=", ".join(sorted(kernels_of(rows))))
     return page[:start] + KERNELS.format(later=wrapped(later)) + table(kept | rows) + "\n" + page[end:]
 
 
@@ -210,10 +217,10 @@ def kernel_rows(report: dict[str, Any]) -> dict[str, str]:
     """A row a group of a kernel's benchmarks, by the group's name."""
     groups: dict[str, dict[str, float]] = {}
     for each in report["benchmarks"]:
-        side = str(each["param"]).rpartition("-")[2]
-        if kernel_of(each["group"]) in EXPORTED and side in SIDES:
-            groups.setdefault(each["group"], {})[side] = each["stats"]["min"] * 1e6
-    return {name: row_of(name, *(times[side] for side in SIDES)) for name, times in groups.items()}
+        column = SIDES.get(str(each["param"]).rpartition("-")[2])
+        if kernel_of(each["group"]) in EXPORTED and column:
+            groups.setdefault(each["group"], {})[column] = each["stats"]["min"] * 1e6
+    return {name: row_of(name, **times) for name, times in groups.items()}
 
 
 def row_of(name: str, native: float, reference: float, baseline: float) -> str:

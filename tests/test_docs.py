@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The documentation holds: its samples run, its commands exist, its links lead somewhere, all kernels are in."""
+"""The documentation holds: samples run, commands exist, links lead somewhere, tables are whole."""
 
 import importlib
 import importlib.util
@@ -99,6 +99,18 @@ def test_lines_are_short(page: Path) -> None:
     code = "\n".join(blocks(page.read_text(encoding="utf-8"), "python"))
     long += [f"{page.name}: {line}" for line in code.splitlines() if len(line) > MAX_CODE]
     assert not long
+
+
+@pages
+def test_tables_are_tables(page: Path) -> None:
+    """A table has one number of columns, as otherwise it is shown as text."""
+    wrong, before = [], ""
+    for number, line in prose(page):
+        if line.startswith("|") and before.startswith("|"):
+            columns = [len(re.findall(r"(?<!\\)\|", row)) for row in (before, line)]
+            wrong += [f"{page.name}:{number}"] * (columns[0] != columns[1])
+        before = line
+    assert not wrong
 
 
 @pages
