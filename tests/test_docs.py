@@ -16,7 +16,7 @@ from tricue import _core
 from tricue.cli import program
 
 ROOT = Path(__file__).parents[1]
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), ROOT / "benchmarks" / "README.md"])
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "benchmarks").rglob("*.md")])
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 KERNELS = sorted(name for name in dir(_core) if not name.startswith("_"))
 FORMER = {"tricue.trax"}
