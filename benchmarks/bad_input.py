@@ -184,7 +184,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--output", type=Path, default=PAGE)
     output = parser.parse_args().output
-    baselines()  # before the work: that they are there
+    try:
+        baselines()  # that they are there, before the work
+    except ImportError as error:
+        parser.error(str(error))
     parts = [part for cases in (bad_color, bad_depth, bad_stereo) for part in (cases.HEAD, our_table(cases))]
     output.parent.mkdir(exist_ok=True)
     output.write_text("".join([HEAD, *parts, OTHERS, others_table()]), encoding="utf-8")
