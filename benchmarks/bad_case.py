@@ -8,7 +8,7 @@ import cv2
 import tricue
 from tricue.track.base.track import Tracker
 
-cv2.setNumThreads(0)  # before any work: a process forked from one with a thread pool waits for it for ever
+cv2.setNumThreads(0)  # before any work: a process forked from one with a thread pool waits for it forever
 
 
 class Case(NamedTuple):
@@ -20,10 +20,11 @@ class Case(NamedTuple):
     second: Any
     starts: bool = True
     camera: Any = None
+    truth: Any = None  # the box in ``second``, for what else is followed; None where there is no target
 
 
 class Made(NamedTuple):
-    """Something of ours that may fail while it is made; cv2's trackers get its bare image, if it has one."""
+    """Something of ours that may fail while it is made; baselines get its bare image, if it has one."""
 
     make: Callable[[], Any]
     bare: Any = None

@@ -10,7 +10,8 @@ from bad_case import Case, Made, with_tracker
 
 NOISE = np.random.default_rng(0).integers(0, 256, (60, 80, 3), np.uint8)
 IMAGE = cv2.GaussianBlur(cv2.resize(NOISE, (320, 240), interpolation=cv2.INTER_CUBIC), (0, 0), 2)
-NEXT = np.roll(IMAGE, 3, axis=1)
+SHIFT = 3  # pixels, to the right
+NEXT = np.roll(IMAGE, SHIFT, axis=1)
 BOX = (120, 80, 50, 60)
 DEPTH = np.full((240, 320), 2.5, np.float32)
 BLACK, WHITE = np.zeros_like(IMAGE), np.full_like(IMAGE, 255)
@@ -18,7 +19,13 @@ TINY, HUGE = IMAGE[:1, :1].copy(), np.tile(IMAGE, (13, 13, 1))[:3000, :4000].cop
 
 
 def case(name: str, first: Any = IMAGE, box: Any = BOX, second: Any = NEXT, starts: bool = True) -> Case:
-    """A case in which all else is as it should be."""
+    """A case in which all else is as it should be; the target is in both pictures."""
+    x, y, width, height = box
+    return Case(name, first, box, second, starts, truth=(x + SHIFT, y, width, height))
+
+
+def wrong(name: str, first: Any = IMAGE, box: Any = BOX, second: Any = NEXT, starts: bool = True) -> Case:
+    """A case in which there is no target to follow: no answer but an error, or "not found", is right."""
     return Case(name, first, box, second, starts)
 
 
@@ -29,50 +36,50 @@ def gray(image: Any) -> Any:
 
 CASES = (
     case("all is well"),
-    case("update before init", starts=False),
-    case("frame None", second=None),
-    case("frame a list", second=NEXT.tolist()),
-    case("frame empty", second=NEXT[:0]),
+    wrong("update before init", starts=False),
+    wrong("frame None", second=None),
+    wrong("frame a list", second=NEXT.tolist()),
+    wrong("frame empty", second=NEXT[:0]),
     case("uint16 frame", second=NEXT.astype(np.uint16)),
     case("uint16 frames", IMAGE.astype(np.uint16), second=NEXT.astype(np.uint16)),
     case("float32 frame, 0 to 1", second=NEXT.astype(np.float32) / 255),
     case("float32 frames, 0 to 1", IMAGE.astype(np.float32) / 255, second=NEXT.astype(np.float32) / 255),
     case("bool frame", second=NEXT > 127),
-    case("grey frame", second=gray(NEXT)),
-    case("grey frames", gray(IMAGE), second=gray(NEXT)),
+    case("gray frame", second=gray(NEXT)),
+    case("gray frames", gray(IMAGE), second=gray(NEXT)),
     case("BGRA frame", second=cv2.cvtColor(NEXT, cv2.COLOR_BGR2BGRA)),
     case("crop of a larger array", second=np.pad(NEXT, ((4, 4), (4, 4), (0, 0)))[4:-4, 4:-4]),
-    case("mirrored view", second=NEXT[:, ::-1]),
+    wrong("mirrored view", second=NEXT[:, ::-1]),
     case("channels-reversed view", second=NEXT[..., ::-1]),
     case("Fortran order", second=np.asfortranarray(NEXT)),
-    case("depth, float32 metres", second=DEPTH),
-    case("depth, uint16 millimetres", second=(1000 * DEPTH).astype(np.uint16)),
-    case("tricue.Frame of depth alone", second=Made(lambda: tricue.Frame(depth=DEPTH))),
+    wrong("depth, float32 meters", second=DEPTH),
+    wrong("depth, uint16 millimeters", second=(1000 * DEPTH).astype(np.uint16)),
+    wrong("tricue.Frame of depth alone", second=Made(lambda: tricue.Frame(depth=DEPTH))),
     case("tricue.Frame of color and depth", second=Made(lambda: tricue.Frame(NEXT, DEPTH))),
-    case("smaller frame", second=NEXT[:120, :160].copy()),
+    wrong("smaller frame", second=NEXT[:120, :160].copy()),
     case("larger frame", second=np.tile(NEXT, (2, 2, 1))),
-    case("4000x3000 after 320x240", second=HUGE),
-    case("1x1 image", TINY, (0, 0, 1, 1), TINY),
+    wrong("4000x3000 after 320x240", second=HUGE),
+    wrong("1x1 image", TINY, (0, 0, 1, 1), TINY),
     case("4000x3000 images", HUGE, BOX, HUGE),
-    case("box of NaN", box=(np.nan, 80, 50, 60)),
-    case("infinite box", box=(120, 80, np.inf, 60)),
-    case("box of strings", box=("120", "80", "50", "60")),
-    case("box of three numbers", box=(120, 80, 50)),
+    wrong("box of NaN", box=(np.nan, 80, 50, 60)),
+    wrong("infinite box", box=(120, 80, np.inf, 60)),
+    wrong("box of strings", box=("120", "80", "50", "60")),
+    wrong("box of three numbers", box=(120, 80, 50)),
     case("box of fractions", box=(120.5, 80.25, 50.0, 60.5)),
-    case("box of zeros", box=(0, 0, 0, 0)),
-    case("box of zero width", box=(120, 80, 0, 60)),
-    case("negative size", box=(170, 140, -50, -60)),
+    wrong("box of zeros", box=(0, 0, 0, 0)),
+    wrong("box of zero width", box=(120, 80, 0, 60)),
+    wrong("negative size", box=(170, 140, -50, -60)),
     case("box of 1x1", box=(120, 80, 1, 1)),
     case("box of 1x300", box=(120, -30, 1, 300)),
     case("box half outside", box=(-25, 80, 50, 60)),
-    case("box outside", box=(400, 80, 50, 60)),
-    case("box far outside", box=(10**9, 80, 50, 60)),
+    wrong("box outside", box=(400, 80, 50, 60)),
+    wrong("box far outside", box=(10**9, 80, 50, 60)),
     case("box larger than the image", box=(-100, -100, 600, 600)),
-    case("black at init", BLACK),
-    case("saturated at init", WHITE),
-    case("black at update", second=BLACK),
-    case("saturated at update", second=WHITE),
-    case("noise at update", second=np.random.default_rng(1).integers(0, 256, IMAGE.shape, np.uint8)),
+    wrong("black at init", BLACK),
+    wrong("saturated at init", WHITE),
+    wrong("black at update", second=BLACK),
+    wrong("saturated at update", second=WHITE),
+    wrong("noise at update", second=np.random.default_rng(1).integers(0, 256, IMAGE.shape, np.uint8)),
 )
 
 
@@ -84,7 +91,7 @@ OURS = {
 
 HEAD = f"""## Color
 
-Around the case all is as it should be: a textured picture of 320x240 that moves 3 pixels to the right, and the box {BOX}. `flow-depth` goes
-by flow alone, which in a picture that moves as a whole doesn't tell the target from the rest.
+All else is as it should be: a textured picture of 320x240 that moves {SHIFT} pixels to the right, and the box {BOX}. `flow-depth`
+uses flow alone; in a picture that moves as a whole, flow doesn't tell the target from the rest.
 
 """

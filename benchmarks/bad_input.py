@@ -6,10 +6,9 @@ Every case runs in a process of its own, so that a crash or a hang is seen for w
 
 import argparse
 import multiprocessing
-import re
 import signal
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import ModuleType
@@ -19,118 +18,164 @@ import bad_color
 import bad_depth
 import bad_stereo
 import cv2
+import numpy as np
 import tricue
 from bad_case import Case, Made
+from tricue.evaluation import metrics
 
 SECONDS = 20.0
-LONGEST = 90  # characters of an error by C++, of which the rest doesn't help
+BASELINES = ("CSRT", "KCF", "MIL", "MOSSE", "MedianFlow")
+MIN_OVERLAP = 0.5  # with the true box, of what follows the target
 PAGE = Path(__file__).parents[1] / "docs" / "bad-input.md"
-Follow = Callable[[Case], Any]
+Follow = Callable[[Case], str]
+
+NAMING = ("boundingBox", "image is not", "image data type")
+"""What an error of OpenCV's says where it names the argument."""
 
 
-def peers() -> dict[str, Follow]:
-    """Those trackers that the installed cv2 has."""
+def baselines() -> dict[str, Follow]:
+    """OpenCV's trackers; ImportError where the installed cv2 lacks one, as its wheels without contrib do."""
     found: dict[str, Follow] = {}
-    for name in ("CSRT", "KCF", "MIL", "MOSSE", "MedianFlow"):
+    for name in BASELINES:
         module = next((m for m in (cv2, getattr(cv2, "legacy", None)) if hasattr(m, f"Tracker{name}")), None)
-        if module is not None:
-            found[name] = follow_with(getattr(module, f"Tracker{name}").create)
+        if module is None:
+            raise ImportError(
+                f"cv2 {cv2.__version__} has no {name}: install opencv-contrib-python-headless<5"
+            )
+        found[name] = follow_with(getattr(module, f"Tracker{name}").create)
     return found
 
 
 def follow_with(create: Callable[[], Any]) -> Follow:
-    """A tracker of cv2's on a case; None where it has no use for it."""
+    """What a tracker of cv2's makes of a case, in a word or two; "-" where it can't be shown the frames."""
 
-    def follow(case: Case) -> Any:
+    def follow(case: Case) -> str:
         first, second = (each.bare if isinstance(each, Made) else each for each in (case.first, case.second))
         if any(isinstance(each, Made) and each.bare is None for each in (case.first, case.second)):
-            return None
-        tracker = create()
-        if case.starts:
-            tracker.init(first, case.box)
-        return tracker.update(second)
+            return "-"
+        try:
+            tracker = create()
+            if case.starts:
+                tracker.init(first, case.box)
+            found, box = tracker.update(second)
+        except Exception as error:
+            return "named error" if any(words in str(error) for words in NAMING) else "unnamed error"
+        if not found:
+            return "not found"
+        return "follows" if overlaps(box, case.truth) else "**wrong silently**"
 
     return follow
 
 
-def outcome(follow: Follow, case: Case) -> str:
-    """What happened, in a few words, with the warnings."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        try:
-            text = shown(follow(case))
-        except Exception as error:
-            text = f"{type(error).__name__}: {shortened(str(error), isinstance(error, cv2.error))}"
-    told = {str(warning.message): None for warning in caught if warning.category is UserWarning}
-    return "; ".join([text, *(f"warns: {message}" for message in told)])
+def overlaps(box: Any, truth: Any) -> bool:
+    """Whether a box is the true one, about."""
+    if truth is None:
+        return False
+    return bool(metrics.overlaps(np.array([box], float), np.array([truth], float))[0] > MIN_OVERLAP)
 
 
-def shown(answer: Any) -> str:
-    """The status and the box of ours, and the position where there is one, or cv2's (found, box)."""
-    if answer is None:
-        return ""
-    if isinstance(answer, tricue.Track):
-        place = "" if answer.position is None else f", {' '.join(f'{m:.2f}' for m in answer.position)} m"
-        return f"{answer.status}, score {answer.score:.2f}, {numbers(answer.box)}{place}"
-    found, box = answer
-    return f"{'found' if found else 'not found'}, {numbers(box)}"
+def answer_of(follow: Callable[[Case], tricue.Track]) -> Follow:
+    """What a tracker of ours makes of a case: its status or its error, and the warnings."""
+
+    def answered(case: Case) -> str:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            try:
+                text = str(follow(case).status)
+            except Exception as error:
+                message = " ".join(str(error).split()).replace("|", r"\|")
+                text = f"{type(error).__name__}: {message}"
+        told = {str(each.message): None for each in caught if each.category is UserWarning}
+        return "; ".join([text, *(f"warns: {message}" for message in told)])
+
+    return answered
 
 
-def numbers(box: Any) -> str:
-    """A box in four digits a number."""
-    return f"box {' '.join(f'{number:.4g}' for number in box)}"
-
-
-def shortened(message: str, foreign: bool) -> str:
-    """One line without C++ file names; another's of at most 90 characters."""
-    lines = [line.strip() for line in message.splitlines() if line.strip()]
-    text = " ".join(lines[:1] if "Overload" not in message else lines[1:3])
-    text = re.sub(r"OpenCV\([^)]*\) (\S+:\d+: )?(error: )?", "", text).replace("|", r"\|")
-    return f"{text[: LONGEST - 2]} ..." if foreign and len(text) > LONGEST else text
-
-
-def told(send: Connection, follow: Follow, case: Case) -> None:
-    """Send the outcome from the case's own process."""
+def send_answer(send: Connection, follow: Follow, case: Case) -> None:
+    """Send the answer from the case's own process."""
     cv2.setNumThreads(1)
-    send.send(outcome(follow, case))
+    send.send(follow(case))
 
 
 def isolated(follow: Follow, case: Case) -> str:
-    """The outcome in a process of its own: also "crash" with its signal, or "hang"."""
+    """The answer in a process of its own: also "crash" or "hang"."""
     context = multiprocessing.get_context("fork")
     receive, send = context.Pipe(duplex=False)
-    process = context.Process(target=told, args=(send, follow, case))
+    process = context.Process(target=send_answer, args=(send, follow, case))
     process.start()
     send.close()
     process.join(SECONDS)
     if process.is_alive():
         process.kill()
         process.join()
-        return f"**hang**: no answer in {SECONDS:.0f} s"
+        return f"**hang**, {SECONDS:.0f} s"
     if process.exitcode:
         name = signal.Signals(-process.exitcode).name if process.exitcode < 0 else process.exitcode
-        return f"**crash**: {name}"
+        return f"**crash**, {name}"
     return str(receive.recv())
 
 
-HEAD = f"""# Bad input
+HEAD = """# Bad input
 
-Written by `python benchmarks/bad_input.py`, not by hand. Each case is one `init` and one `update` in a process of its own. Our trackers name
-the argument, what it expected and what came, and their state stays as it was; what is in order they follow. Beside them cv2's trackers,
-OpenCV {cv2.__version__}: an error of theirs often names only a line of C++, and some cases pass silently. The first three columns
-are ours; `tests/track/*/test_bad_input.py` hold many more cases. Where `flow-depth` doesn't see its target its score is 0; its status follows in a
-moment, as a single frame may be bad. With `cues=flow` it has nothing to tell by in a first update.
+Written by `python benchmarks/bad_input.py`; don't edit. Each case is one `init` and one `update` in a process of its own.
+
+Ours either follow the target or raise a `ValueError` or `TypeError` that names the argument, what was expected and what came. Their state
+stays as it was, and the next good frame goes on. `tests/track/*/test_bad_input.py` hold many more cases.
+
+The tables show the status after the update, or the error, and warnings. Where all three trackers give the same answer it stands once;
+cases with the same answer share a row. What all trackers check alike, such as boxes, stands under the first kind alone. `flow-depth`
+doesn't change its status for one bad frame; its score is then 0.
+
+"""
+
+OTHERS = f"""
+## What others do
+
+The cases of [color](#color) again, with the trackers of OpenCV {cv2.__version__} with contrib, which know neither depth nor a right image.
+
+- follows: the box has an overlap above {MIN_OVERLAP} with the true one.
+- not found: it says that it hasn't found the target, without an error.
+- **wrong silently**: it says "found", and the box is not on the target, or there is none.
+- named error: says which argument is wrong. Unnamed error: names a line of C++ or nothing.
+- A dash: it can't be shown that frame.
 
 """
 
 
-def table(ours: ModuleType) -> str:
-    """A table's lines: what a module's cases come to with our trackers and with cv2's."""
-    trackers: dict[str, Follow] = {**ours.OURS, **peers()}
-    rows = [["case", *trackers], ["---"] * (len(trackers) + 1)]
-    for case in ours.CASES:
-        rows.append([case.name, *(isolated(follow, case) for follow in trackers.values())])
+def our_table(cases: ModuleType) -> str:
+    """A row for each answer of our trackers to a module's cases, with the cases that have it."""
+    trackers = {name: answer_of(follow) for name, follow in cases.OURS.items()}
+    rows: dict[str, list[str]] = {}
+    for case in cases.CASES:
+        answer = joined({name: isolated(follow, case) for name, follow in trackers.items()})
+        rows.setdefault(answer, []).append(case.name)
         print(case.name, flush=True)
+    lines = [[f"case, with {', '.join(f'`{name}`' for name in trackers)}", "answer"], ["---", "---"]]
+    return table([*lines, *(["; ".join(names), answer] for answer, names in rows.items())])
+
+
+def joined(answers: dict[str, str]) -> str:
+    """The answer if all have the same; else each one's, with the trackers that give it."""
+    trackers: dict[str, list[str]] = {}
+    for name, answer in answers.items():
+        trackers.setdefault(answer, []).append(f"`{name}`")
+    if len(trackers) == 1:
+        return next(iter(trackers))
+    return "<br>".join(f"{', '.join(names)}: {answer}" for answer, names in trackers.items())
+
+
+def others_table() -> str:
+    """A row for each case of color, a column for each of cv2's trackers."""
+    trackers = baselines()
+    rows = [["case", *trackers], ["---"] * (len(trackers) + 1)]
+    rows += [
+        [case.name, *(isolated(follow, case) for follow in trackers.values())] for case in bad_color.CASES
+    ]
+    return table(rows)
+
+
+def table(rows: Iterable[list[str]]) -> str:
+    """Rows in Markdown."""
     return "".join(f"| {' | '.join(row)} |\n" for row in rows)
 
 
@@ -139,9 +184,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--output", type=Path, default=PAGE)
     output = parser.parse_args().output
-    parts = [part for ours in (bad_color, bad_depth, bad_stereo) for part in (ours.HEAD, table(ours))]
+    try:
+        baselines()  # that they are there, before the work
+    except ImportError as error:
+        parser.error(str(error))
+    parts = [part for cases in (bad_color, bad_depth, bad_stereo) for part in (cases.HEAD, our_table(cases))]
     output.parent.mkdir(exist_ok=True)
-    output.write_text("".join([HEAD, *parts]), encoding="utf-8")
+    output.write_text("".join([HEAD, *parts, OTHERS, others_table()]), encoding="utf-8")
 
 
 if __name__ == "__main__":

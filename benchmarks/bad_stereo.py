@@ -25,8 +25,8 @@ SECONDS = 1 / 30
 
 
 def pair(left: Any, right: Any, seconds: Any = None) -> Made:
-    """A frame that is made when the case runs, so that what it refuses is seen; cv2's get the left image."""
-    return Made(lambda: Frame(left, right=right, timestamp=seconds), left)
+    """A frame that is made when the case runs, so that what it refuses is seen."""
+    return Made(lambda: Frame(left, right=right, timestamp=seconds))
 
 
 GOOD, AFTER = pair(LEFT, RIGHT, 0.0), pair(NEXT, NEXT_RIGHT, SECONDS)
@@ -38,12 +38,12 @@ def case(name: str, first: Any = GOOD, box: Any = BOX, second: Any = AFTER, **ot
 
 
 def later(name: str, left: Any = NEXT, right: Any = NEXT_RIGHT) -> Case:
-    """Another second pair."""
+    """Another second stereo pair."""
     return case(name, second=pair(left, right, SECONDS))
 
 
 def alone(name: str, image: Any) -> Case:
-    """An update with what isn't a pair, or with what makes it."""
+    """An update with what isn't a stereo pair, or with what makes it."""
     return case(name, second=Made(image if callable(image) else lambda: image))
 
 
@@ -71,9 +71,6 @@ def rig(degrees: float, baseline: float) -> StereoRig:
 CASES = (
     case("all is well"),
     case("no box", box=None),
-    case("update before init", starts=False),
-    alone("frame None", None),
-    alone("frame a list", NEXT.tolist()),
     alone("a bare image", NEXT),
     alone("two images in a tuple", (NEXT, NEXT_RIGHT)),
     alone("both side by side", np.hstack([NEXT, NEXT_RIGHT])),
@@ -87,10 +84,10 @@ CASES = (
     later("right a list", right=NEXT_RIGHT.tolist()),
     later("right uint16", right=NEXT_RIGHT.astype(np.uint16)),
     later("right float32, 0 to 1", right=NEXT_RIGHT.astype(np.float32) / 255),
-    later("right grey", right=gray(NEXT_RIGHT)),
+    later("right gray", right=gray(NEXT_RIGHT)),
     later("right BGRA", right=cv2.cvtColor(NEXT_RIGHT, cv2.COLOR_BGR2BGRA)),
-    later("left grey", left=gray(NEXT)),
-    both("all grey", gray),
+    later("left gray", left=gray(NEXT)),
+    both("all gray", gray),
     both("uint16", lambda image: image.astype(np.uint16)),
     both("read-only", lambda image: np.frombuffer(image.tobytes(), np.uint8).reshape(image.shape)),
     both("crop of a larger array", lambda image: np.pad(image, ((4, 4), (4, 4), (0, 0)))[4:-4, 4:-4]),
@@ -119,24 +116,13 @@ CASES = (
     case("no rig", camera=None),
     case("rig of another size", camera=StereoRig(Intrinsics.from_fov(640, 480, 57), 0.12)),
     case("intrinsics for a rig", camera=RIG.intrinsics),
-    case("a baseline of a nanometre", camera=rig(55, 1e-9)),
+    case("a baseline of a nanometer", camera=rig(55, 1e-9)),
     case("an angle of view of 179.9 degrees", camera=rig(179.9, 0.12)),
     case("an angle of view of 0.1 degrees", camera=rig(0.1, 0.12)),
-    case("timestamp NaN", second=pair(NEXT, NEXT_RIGHT, np.nan)),
-    case("timestamp a text", second=pair(NEXT, NEXT_RIGHT, "now")),
     case("timestamps go back", pair(LEFT, RIGHT, 5.0), second=pair(NEXT, NEXT_RIGHT, 4.0)),
     case("timestamps a day apart", second=pair(NEXT, NEXT_RIGHT, 86_400.0)),
-    case("box of NaN", box=(np.nan, 40, 20, 24)),
-    case("infinite box", box=(80, 40, np.inf, 24)),
-    case("box of strings", box=("80", "40", "20", "24")),
-    case("box of three numbers", box=(80, 40, 20)),
-    case("box of zeros", box=(0, 0, 0, 0)),
-    case("negative size", box=(100, 64, -20, -24)),
-    case("box of 1x1", box=(80, 60, 1, 1)),
     case("box of 2x2", box=(80, 60, 2, 2)),
     case("box half outside", box=(-10, 40, 20, 24)),
-    case("box outside", box=(400, 40, 20, 24)),
-    case("box far outside", box=(10**9, 40, 20, 24)),
     case("box larger than the image", box=(-100, -100, 600, 600)),
     case("box of a million pixels", box=(-5e5, -5e5, 1e6, 1e6)),
     case("black at init", pair(BLACK, BLACK)),
@@ -159,10 +145,10 @@ OURS = {name: ours(name) for name in ("stereo-head", "flow-depth", "fused")}
 HEAD = f"""
 ## Stereo
 
-Around the case all is as it should be: `head(0)`, somebody before a pair of cameras of {WIDTH}x{HEIGHT} whose calibration is known, two pairs a
-thirtieth of a second apart, and the box {BOX}. cv2's trackers, which know no right image, get the left one where there are two.
+All else is as it should be: `tricue.scenes.head(0)`, somebody in front of two cameras of {WIDTH}x{HEIGHT} whose calibration is known, two stereo
+pairs a thirtieth of a second apart, and the box {BOX}.
 
-A swapped or unrectified pair is warned of at the start, and followed all the same where something in the box has a disparity, at a wrong distance: [how
-often](stereo.md#a-swapped-or-unrectified-pair).
+A swapped or unrectified stereo pair is warned of at the start. It is followed all the same where something in the box has a disparity, at a
+wrong distance: [how often](stereo.md#a-swapped-or-unrectified-pair).
 
 """

@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""Writes docs/benchmarks.md (``make bench``) from pytest-benchmark's JSON file; measures the trackers itself."""
+"""Writes docs/benchmarks.md (``make bench``) from pytest-benchmark's JSON file; measures the trackers itself.
 
+``--kernels`` puts the rows of the kernels that were measured into the page and leaves all else, for a run of some of
+the benchmarks: ``pytest benchmarks/fuse/bench_resample.py --benchmark-json=FILE``, then ``report.py --kernels FILE``.
+"""
+
+import argparse
 import json
 import multiprocessing
 import platform
-import sys
+import re
+import textwrap
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from functools import cache, partial
@@ -16,6 +22,7 @@ import cv2
 import numpy as np
 import tricue
 from numpy.typing import NDArray
+from tricue import _core
 from tricue.camera.box import Box
 from tricue.evaluation import baselines, metrics
 from tricue.evaluation.one_pass import Contender, Run, one_thread, run
@@ -38,27 +45,33 @@ STEREO_FRAMES = 100
 WALK_FRAMES = 100
 SLOW = 3  # rounds for what takes over 2 ms a frame
 OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
+EXPORTED = frozenset(name for name in dir(_core) if not name.startswith("_"))
+SIDES = {"native": "native", "reference": "reference", "peer": "baseline", "script": "baseline"}
+"""Ids of a kernel's benchmarks, and the columns that they fill; others are not in the table."""
 Make = Callable[[], Contender]
 
 HEAD = """\
 # Benchmarks
 
-Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and
-are noisy: the ratios of one run are what counts.
+Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and are noisy: the ratios of
+one run are what counts.
 
 {machine}
 """
 KERNELS = """
 ## Kernels
 
-100 ellipses of 251 samples, or a frame of 320x240; minimum of many rounds, in µs. The peer is OpenCV's function
-for the same job, or the short cv2 + NumPy script that one would write; every result is checked against the
-twin's. Where a native kernel is under 20 times its twin, the twin is one vectorised NumPy expression, or a call's
-own cost of half a microsecond is most of the native time.
-
-| kernel | native | reference | peer | reference / native | peer / native |
+Every kernel that the extension exports; the minimum of many rounds, in µs. Where a name tells no size, the input is 100 ellipses of
+251 samples, or a frame of 320x240. The baseline is OpenCV's function for the same job, or the short cv2 and NumPy script that one
+would write. Every result is checked against the twin's. Where a native kernel is less than 20 times as fast as its twin, the twin is a
+few vectorized NumPy expressions, or a call's own cost of half a microsecond is most of the native time.
+{later}
+| kernel | native | reference | baseline | reference / native | baseline / native |
 | --- | --- | --- | --- | --- | --- |
 """
+LATER = "The rows of {names} are of a later run than the others, by {clock}, on {machine}"
+CLOCKS = {"perf_counter": "the wall clock", "process_time": "the process's own time"}
+"""By pytest-benchmark's timers; the second is for a machine that is busy."""
 TRACKERS = """
 ## Trackers on figure 1's scene
 
@@ -90,8 +103,9 @@ give no position. The reference runs once, on {few} pairs.
 WALKERS = """
 ## Following a walker
 
-Somebody who is overtaken, hidden and seen again, {frames} frames of a panning stereo pair; {rounds} rounds in turn. cv2's trackers see the
-left image alone, and give no position. Overlap and error count in all frames, a fifth of which hide the walker. The reference runs once, on {few} pairs.
+Somebody who is overtaken, hidden and seen again, {frames} frames of a panning stereo pair; {rounds} rounds in turn. cv2's trackers see
+the left image alone, and give no position. Overlap and error count in all frames, a fifth of which hide the walker. The reference
+runs once, on {few} pairs.
 
 | frames | tracker | frames/s | p50 ms | p99 ms | time / ours | overlap above 0.5 | median error |
 | --- | --- | --- | --- | --- | --- | --- | --- |
@@ -107,21 +121,37 @@ The same scene scaled; frames/s from each frame's minimum over {rounds} rounds.
 PAIRS = """
 ## Two trackers at once
 
-Updates/s of both together against one alone, best of {rounds} rounds in turn. Kernels release the GIL where they have
-enough work; the loop itself is Python and holds it, and with few particles the loop is half of the time, and to hand
-the GIL over takes as long as a small kernel. Two processes have no such limit.
+Updates/s of both together against one alone, best of {rounds} rounds in turn. Kernels release the GIL where they have enough work. The
+loop itself is Python and holds it; with few particles the loop is half of the time, and to hand the GIL over takes as long as a
+small kernel. Two processes have no such limit.
 
 | particles | one | two threads | ratio | two processes | ratio |
 | --- | --- | --- | --- | --- | --- |
 """
 
 
-def main(path: Path) -> None:
-    """Put the document together."""
+def main() -> None:
+    """Put the document together, or put the kernels' rows into it."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("json", type=Path, help="of pytest-benchmark")
+    parser.add_argument("--kernels", action="store_true", help="write the rows of these kernels alone")
+    options = parser.parse_args()
+    report = json.loads(options.json.read_text())
+    rows = kernel_rows(report)
+    if options.kernels:
+        OUT.write_text(with_rows(OUT.read_text(), rows, CLOCKS[report["benchmarks"][0]["options"]["timer"]]))
+    else:
+        OUT.write_text(document(rows))
+
+
+def document(rows: dict[str, str]) -> str:
+    """The whole page, with the trackers measured now."""
+    if missing := EXPORTED - kernels_of(rows):
+        raise SystemExit(f"report: no benchmark of {', '.join(sorted(missing))} was run")
     with one_thread():
         parts = [
             HEAD.format(machine=machine()),
-            KERNELS + "\n".join(kernel_rows(json.loads(path.read_text()))),
+            KERNELS.format(later="") + table(rows),
             TRACKERS.format(rounds=ROUNDS) + "\n".join(tracker_rows(scene())),
             DEPTH.format(frames=DEPTH_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(depth_rows()),
             STEREO.format(frames=STEREO_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(stereo_rows()),
@@ -129,7 +159,43 @@ def main(path: Path) -> None:
             SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())),
             PAIRS.format(rounds=PAIR_ROUNDS) + "\n".join(pair_rows()) + "\n",
         ]
-    OUT.write_text("\n".join(parts))
+    return "\n".join(parts)
+
+
+def with_rows(page: str, rows: dict[str, str], clock: str) -> str:
+    """The page with the rows of these kernels new, and without those of kernels that are gone."""
+    start, end = (
+        page.index(KERNELS.split("\n\n", maxsplit=1)[0]),
+        page.index(TRACKERS.split("\n\n", maxsplit=1)[0]),
+    )
+    kept = {
+        row.split("|")[1].strip(): row
+        for row in page[start:end].splitlines()
+        if re.match(r"\| [a-z]\w+[^|]*\| \d", row) and kernel_of(row.split("|")[1].strip()) in EXPORTED
+    }
+    kept = {name: row for name, row in kept.items() if kernel_of(name) not in kernels_of(rows)}
+    later = LATER.format(clock=clock, machine=machine(), names=", ".join(sorted(kernels_of(rows))))
+    return page[:start] + KERNELS.format(later=wrapped(later)) + table(kept | rows) + "\n" + page[end:]
+
+
+def wrapped(text: str) -> str:
+    """A paragraph in lines that fit, with an empty one before."""
+    return "\n" + textwrap.fill(" ".join(text.split()), 130) + "\n"
+
+
+def table(rows: dict[str, str]) -> str:
+    """The rows by their names."""
+    return "\n".join(row for _, row in sorted(rows.items()))
+
+
+def kernel_of(group: str) -> str:
+    """The kernel of a group such as "sad_disparity, 160x120"."""
+    return group.partition(",")[0]
+
+
+def kernels_of(rows: dict[str, str]) -> set[str]:
+    """The kernels of these rows."""
+    return {kernel_of(group) for group in rows}
 
 
 @cache
@@ -147,17 +213,20 @@ def machine() -> str:
     return f"{model}; {versions}."
 
 
-def kernel_rows(report: dict[str, Any]) -> Iterator[str]:
-    """A line a kernel, from the groups that have a native one."""
+def kernel_rows(report: dict[str, Any]) -> dict[str, str]:
+    """A row a group of a kernel's benchmarks, by the group's name."""
     groups: dict[str, dict[str, float]] = {}
     for each in report["benchmarks"]:
-        side = str(each["param"]).rpartition("-")[2]
-        groups.setdefault(each["group"], {})[side] = each["stats"]["min"] * 1e6
-    for name, times in sorted(groups.items()):
-        if "peer" in times:
-            native, reference, peer = (times[side] for side in ("native", "reference", "peer"))
-            ratios = f"{reference / native:.1f} | {peer / native:.1f}"
-            yield f"| {name} | {native:.1f} | {reference:.0f} | {peer:.0f} | {ratios} |"
+        column = SIDES.get(str(each["param"]).rpartition("-")[2])
+        if kernel_of(each["group"]) in EXPORTED and column:
+            groups.setdefault(each["group"], {})[column] = each["stats"]["min"] * 1e6
+    return {name: row_of(name, **times) for name, times in groups.items()}
+
+
+def row_of(name: str, native: float, reference: float, baseline: float) -> str:
+    """A kernel's times and what they are of the native one."""
+    ratios = f"{reference / native:.1f} | {baseline / native:.1f}"
+    return f"| {name} | {native:.1f} | {reference:.0f} | {baseline:.0f} | {ratios} |"
 
 
 def tracker_rows(scene: Scene) -> Iterator[str]:
@@ -203,8 +272,8 @@ def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
         "depth-particle, reference": (partial(make, kernels="reference"), scene.frames[:FEW], 1),
     }
     entries |= {
-        name: (partial(peer, 0), pictures, SLOW)
-        for name, peer in baselines.available().items()
+        name: (partial(baseline, 0), pictures, SLOW)
+        for name, baseline in baselines.available().items()
         if name in ("KCF", "CSRT")
     }
     return in_turn(entries, scene.boxes[0])
@@ -228,7 +297,7 @@ def walker_rows() -> Iterator[str]:
 def pair_lines(
     size: str, scene: StereoScene | WalkScene, tracker: str, variants: dict[str, dict[str, Any]]
 ) -> Iterator[str]:
-    """A line a tracker of pairs: ours, its variants, its reference, and the peers."""
+    """A line a tracker of pairs: ours, its variants, its reference, and OpenCV's."""
     runs = stereo_runs(scene, tracker, variants)
     best = {name: np.min([each.seconds for each in found], axis=0).mean() for name, found in runs.items()}
     for name, found in runs.items():
@@ -261,8 +330,8 @@ def stereo_runs(
     }
     entries[f"{tracker}, reference"] = (partial(make, kernels="reference"), scene.frames[:FEW], 1)
     entries |= {
-        name: (partial(peer, 0), scene.frames, SLOW)
-        for name, peer in baselines.available().items()
+        name: (partial(baseline, 0), scene.frames, SLOW)
+        for name, baseline in baselines.available().items()
         if name in ("KCF", "CSRT")
     }
     return in_turn(entries, scene.boxes[0])
@@ -333,4 +402,4 @@ def follow(seed: int, particles: int) -> int:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    main()
