@@ -11,12 +11,15 @@ except ImportError as error:
         f"tricue: the native kernels can't be loaded ({error}); build them: pip install ."
     ) from error
 
+from tricue import former_names
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.base.opencv import as_opencv
 from tricue.track.base.registry import create, tracker_class
 from tricue.track.base.track import Status, Track
+
+former_names.install()
 
 if TYPE_CHECKING:
     from tricue.track.color_particle.tracker import ColorParticleTracker
