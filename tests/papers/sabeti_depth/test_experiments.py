@@ -6,8 +6,9 @@ from functools import partial
 import numpy as np
 import pytest
 from tricue import Status, Track
-from tricue.papers import depth_experiments, reproduce
+from tricue.papers import reproduce
 from tricue.papers.experiment import Case
+from tricue.papers.sabeti_depth import experiments as depth_experiments
 from tricue.scenes import crossing, walker
 from tricue.track.depth_particle.params import DepthParticleParams
 
@@ -18,7 +19,7 @@ CASE = Case("m", "s", 0)
 
 
 class Follower:
-    """Says what a scene knows of one of its people, TRACKED in every frame, and starts by itself or not."""
+    """Reports the truth of one of a scene's people, TRACKED in every frame; may start without a box."""
 
     objects = ()
 
@@ -48,26 +49,26 @@ def measured(scene, **how):
 
 
 def test_errors_are_those_of_the_positions():
-    """Who says the true boxes and positions 7 cm beside the truth has an overlap of 1 and errors of 7 cm."""
+    """True boxes and positions 7 cm beside the truth have an overlap of 1 and errors of 7 cm."""
     scene = walker(seed=1, frames=5)
     curve = measured(scene, off=0.07)
     assert (curve.model, curve.scene, curve.seed) == CASE
     np.testing.assert_allclose(curve.errors, 0.07)
     np.testing.assert_allclose(curve.overlaps, 1.0)
     np.testing.assert_array_equal(curve.visible, scene.visible)
-    assert not curve.astray.any()
+    assert not curve.on_other.any()
 
 
-def test_who_follows_somebody_else_is_astray():
+def test_tracking_somebody_else_is_counted():
     """TRACKED at the position of who crosses is counted in every frame, and at the target's in none."""
     scene = crossing(seed=1, frames=30)
-    assert measured(scene, who=0).astray.all()
-    assert not measured(scene).astray.any()
-    assert not measured(scene, who=0, off=depth_experiments.CLOSE + 0.01).astray.any()
+    assert measured(scene, who=0).on_other.all()
+    assert not measured(scene).on_other.any()
+    assert not measured(scene, who=0, off=depth_experiments.MAX_OTHER_DISTANCE + 0.01).on_other.any()
 
 
-def test_starts_without_a_box_are_asked_where_one_person_is():
-    """A walker's scene says whether the start found the person, nobody or a wrong box; a crossing doesn't."""
+def test_starts_without_a_box_are_tested_with_one_person():
+    """A walker's curve has whether the start found the person, nobody or a wrong box; a crossing's hasn't."""
     scene = walker(seed=1, frames=2)
     assert measured(scene, first=scene.boxes[0]).starts is True
     assert measured(scene, first=scene.boxes[0]._replace(x=-500.0)).starts is False

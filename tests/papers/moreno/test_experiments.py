@@ -5,9 +5,10 @@ from functools import partial
 import numpy as np
 import pytest
 from tricue import Status, Track
-from tricue.papers import reproduce, stereo_experiments
+from tricue.papers import reproduce
 from tricue.papers.experiment import Case
-from tricue.papers.stereo_experiments import Trial
+from tricue.papers.moreno import experiments as stereo_experiments
+from tricue.papers.moreno.experiments import Trial
 from tricue.scenes import KINDS
 from tricue.track.stereo_head.params import StereoHeadParams
 
@@ -16,7 +17,7 @@ CASE = Case("m", "s", 0)
 
 
 class Follower:
-    """Says what a scene knows of its head."""
+    """Reports what a scene knows of its head."""
 
     def __init__(self, scene, away=1.0):
         self._scene, self._away = scene, away
@@ -32,7 +33,7 @@ class Follower:
 
 
 def test_errors_are_those_of_the_positions():
-    """Who says the true boxes, and positions 3 % too far, has overlaps of 1, errors of 3 %."""
+    """True boxes, and positions 3 % too far, have overlaps of 1 and errors of 3 %."""
     trial = Trial.make(1, frames=5)
     curve = stereo_experiments.measure(CASE, lambda seed, rig: Follower(trial.scene, 1.03), trial)
     assert (curve.model, curve.scene, curve.seed) == CASE
@@ -50,10 +51,10 @@ def test_modules_add_up_to_the_update():
     assert min(curve.seconds.values()) > 0
 
 
-def test_disturbed_disparities_spoil_the_unfused_track():
+def test_perturbed_disparities_degrade_the_unfused_track():
     """0.3 px are twice the unfused error or more, as there is nothing that averages them."""
     make, errors = EXPERIMENT.models["unfused"], []
-    for noise in (0.0, stereo_experiments.DISTURBED):
+    for noise in (0.0, stereo_experiments.DISPARITY_NOISE):
         curve = stereo_experiments.measure(CASE, make, Trial.make(3, noise=noise, frames=60))
         errors.append(np.median(curve.errors))
     assert errors[1] > 2 * errors[0]
@@ -74,20 +75,20 @@ def test_variants_differ_from_the_default_as_they_say():
         assert kept[f"{name}, without updating"] == kept[name] | kept["without updating"]
     assert kept["color alone"] == kept["light not compensated"] | kept["without depth in the search"]
     document = StereoHeadParams.__doc__
-    said = document[document.index("The paper's own form") : document.index("unfused")]
-    assert said.count("=") == len(printed)
+    text = document[document.index("The paper's own form") : document.index("unfused")]
+    assert text.count("=") == len(printed)
     for name, value in printed.items():
         shown = f'"{value}"' if isinstance(value, str) else f"{value:g}" if type(value) is float else value
-        assert f"{name}={shown}" in said
+        assert f"{name}={shown}" in text
 
 
-def test_scenes_are_all_kinds_and_the_disturbed_and_the_large_one():
+def test_scenes_are_all_kinds_and_the_noisy_and_the_large_one():
     """Every kind of head scene is run; the large pictures from a few seeds only."""
     keywords = [make.keywords for make in EXPERIMENT.scenes.values()]
     assert {each["kind"] for each in keywords} == set(KINDS)
     assert [each["noise"] for each in keywords].count(0.3) == 1
     assert [each["camera"] for each in keywords].count("640x480") == 1
-    assert set(EXPERIMENT.at_most) < set(EXPERIMENT.scenes)
+    assert set(EXPERIMENT.max_seeds) < set(EXPERIMENT.scenes)
 
 
 def test_slow_scenes_run_from_fewer_seeds(tmp_path, monkeypatch):
@@ -98,12 +99,12 @@ def test_slow_scenes_run_from_fewer_seeds(tmp_path, monkeypatch):
         EXPERIMENT,
         scenes={name: partial(Trial.make, frames=4) for name in names},
         models={"fused (default)": EXPERIMENT.models["fused (default)"]},
-        at_most={"ramp": 1},
+        max_seeds={"ramp": 1},
     )
     monkeypatch.setitem(reproduce.EXPERIMENTS, "moreno-fig3", short)
-    told = []
-    report = reproduce.run("moreno-fig3", 2, tmp_path, progress=lambda *done: told.append(done))
-    assert told == [(done, 5) for done in range(1, 6)]
+    calls = []
+    report = reproduce.run("moreno-fig3", 2, tmp_path, progress=lambda *done: calls.append(done))
+    assert calls == [(done, 5) for done in range(1, 6)]
     ends = [line.split("|")[-2].strip() for line in report.summary.splitlines()[2:5]]
     assert ends == ["2", "2", "1"]
 
@@ -116,7 +117,7 @@ def test_default_follows_and_the_printed_form_does_not():
     ends, errors = {}, {}
     for name in ("fused (default)", "as printed"):
         runs = [stereo_experiments.measure(CASE, EXPERIMENT.models[name], trial) for trial in trials]
-        ends[name] = [run.right_at_end for run in runs]
+        ends[name] = [run.correct_at_end for run in runs]
         errors[name] = np.median(np.concatenate([run.errors for run in runs]))
     assert all(ends["fused (default)"])
     assert not all(ends["as printed"])

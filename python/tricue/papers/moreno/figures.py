@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The stereo experiment's figure, after figure 3 of Moreno et al. 2002."""
+"""Paths, deviations and times of the head's scenes, after figure 3 of Moreno et al. (2002)."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any, Protocol
@@ -7,22 +7,24 @@ from typing import Any, Protocol
 import numpy as np
 
 from tricue.draw.figures import COLORS, draw_box
-from tricue.papers.stereo_curves import FUSED, MODULES, PAPERS_FILTER, UNFUSED, StereoCurve, module_seconds
+from tricue.papers.moreno.curves import FUSED, MODULES, PAPERS_FILTER, UNFUSED, StereoCurve, module_seconds
+from tricue.papers.plots import show_frame
 from tricue.scenes import StereoScene
 
-NORMAL, DISTURBED, LARGE = "normal", "normal, 0.3 px noise", "normal, 640x480"
+NORMAL, NOISY, LARGE = "normal", "normal, 0.3 px noise", "normal, 640x480"
 SIZES = {NORMAL: "160x120", LARGE: "640x480"}
-TRUE, OF_FUSED, OF_UNFUSED, OF_PAPER = "black", COLORS[0], COLORS[1], COLORS[2]
+TRUTH_COLOR = "black"
+MODEL_COLORS = {FUSED: COLORS[0], UNFUSED: COLORS[1], PAPERS_FILTER: COLORS[2]}
 
 
-class Shown(Protocol):
-    """What the figure illustrates."""
+class HasScene(Protocol):
+    """Whatever has a scene for the figure to show."""
 
     @property
     def scene(self) -> StereoScene: ...
 
 
-def paths(figure: Any, curves: Sequence[StereoCurve], scenes: Mapping[str, Shown]) -> None:
+def paths(figure: Any, curves: Sequence[StereoCurve], scenes: Mapping[str, HasScene]) -> None:
     """Frames of the scenes; paths from above, deviations along the path, and time per module.
 
     Paths and deviations are those of the first seed.
@@ -30,11 +32,11 @@ def paths(figure: Any, curves: Sequence[StereoCurve], scenes: Mapping[str, Shown
     figure.set_size_inches(15, 7.5)
     top, bottom = figure.subfigures(2, 1, height_ratios=[1, 2.4])
     pictures = top.subplots(1, len(scenes), squeeze=False)[0]
-    for axes, (name, shown) in zip(pictures, scenes.items(), strict=True):
-        _picture(axes, shown.scene, name)
+    for axes, (name, trial) in zip(pictures, scenes.items(), strict=True):
+        _picture(axes, trial.scene, name)
     still, noisy, along, times = bottom.subplots(1, 4, width_ratios=[1, 1, 1.2, 1])
     first = {(curve.scene, curve.model): curve for curve in curves if curve.seed == 0}
-    for axes, name in ((still, NORMAL), (noisy, DISTURBED)):
+    for axes, name in ((still, NORMAL), (noisy, NOISY)):
         _from_above(axes, first, name)
     _deviations(along, first)
     _times(times, curves)
@@ -42,34 +44,30 @@ def paths(figure: Any, curves: Sequence[StereoCurve], scenes: Mapping[str, Shown
 
 def _picture(axes: Any, scene: StereoScene, title: str) -> None:
     index = len(scene.frames) // 2
-    color = scene.frames[index].color
-    assert color is not None
-    axes.imshow(color[..., ::-1])
+    show_frame(axes, scene.frames[index].color, title)
     draw_box(axes, scene.boxes[index], "white")
-    axes.set_title(title, loc="left")
-    axes.axis("off")
 
 
 def _from_above(axes: Any, first: Mapping[tuple[str, str], StereoCurve], scene: str) -> None:
     """(a): X to the right, Z away from the cameras."""
-    for model, color in ((UNFUSED, OF_UNFUSED), (FUSED, OF_FUSED)):
+    for model in (UNFUSED, FUSED):
         curve = first.get((scene, model))
         if curve is not None:
-            axes.plot(curve.positions[:, 0], curve.positions[:, 2], color=color, linewidth=1, label=model)
+            x, _, z = curve.positions.T
+            axes.plot(x, z, color=MODEL_COLORS[model], linewidth=1, label=model)
     truth = next(curve.truth for (name, _), curve in first.items() if name == scene)
-    axes.plot(truth[:, 0], truth[:, 2], color=TRUE, linewidth=1, linestyle=":", label="true")
+    axes.plot(truth[:, 0], truth[:, 2], color=TRUTH_COLOR, linewidth=1, linestyle=":", label="true")
     axes.set(xlabel="X, m", ylabel="Z, m", aspect="equal", adjustable="datalim")
     axes.set_title(f"path from above: {scene}", loc="left")
     axes.legend(frameon=False)
 
 
 def _deviations(axes: Any, first: Mapping[tuple[str, str], StereoCurve]) -> None:
-    """(b): what the filters say of their error, and the fused track's true error."""
-    kinds = ((UNFUSED, OF_UNFUSED, "measured"), (FUSED, OF_FUSED, FUSED))
-    for model, color, label in (*kinds, (PAPERS_FILTER, OF_PAPER, PAPERS_FILTER)):
+    """(b): the standard deviations that the filters estimate, and the fused track's true error."""
+    for model, label in ((UNFUSED, "measured"), (FUSED, FUSED), (PAPERS_FILTER, PAPERS_FILTER)):
         curve = first.get((NORMAL, model))
         if curve is not None:
-            axes.plot(100 * curve.deviations, color=color, linewidth=1.2, label=label)
+            axes.plot(100 * curve.deviations, color=MODEL_COLORS[model], linewidth=1.2, label=label)
     curve = first.get((NORMAL, FUSED))
     if curve is not None:
         off = 100 * np.linalg.norm(curve.positions - curve.truth, axis=1)

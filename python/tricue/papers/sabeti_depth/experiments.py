@@ -1,27 +1,28 @@
 # SPDX-License-Identifier: MIT
-"""Figures 5 to 7 of Sabeti, Parvizi and Wu (2008): a person in depth changes pose and scale, and is hidden.
+"""Figures 5 to 7 of Sabeti, Parvizi and Wu (2008): a person changes pose and scale, and is hidden.
 
-The tracker's default beside the paper's printed form and beside itself without one part at a time.
+The tracker with its defaults, without one part at a time, and in the form that the paper prints.
 """
 
 from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import run
-from tricue.papers import depth_curves, depth_figures
-from tricue.papers.depth_curves import DepthCurve
+from tricue.papers.curves import MIN_OVERLAP, Flags, Floats
 from tricue.papers.experiment import Case, Experiment, Maker
+from tricue.papers.sabeti_depth import curves, figures
+from tricue.papers.sabeti_depth.curves import DepthCurve
 from tricue.scenes import DepthScene, crossing, walker
 from tricue.track.base.track import Status
 
-CLOSE = 0.5  # metres from somebody else, and nearer to them than to the target: on the wrong person
+MAX_OTHER_DISTANCE = 0.5
+"""Meters; a position within this of somebody else, and nearer to them than to the target, is on them."""
 
 
 def measure(case: Case, make: Maker, scene: DepthScene) -> DepthCurve:
@@ -31,25 +32,23 @@ def measure(case: Case, make: Maker, scene: DepthScene) -> DepthCurve:
     tracked = np.array([status is Status.TRACKED for status in result.statuses])
     return DepthCurve(
         *case,
-        errors=errors,
         overlaps=metrics.overlaps(result.boxes, np.array(scene.boxes)),
         visible=scene.visible,
         statuses=result.statuses,
-        astray=tracked & _on_others(result.positions, errors, scene),
+        errors=errors,
+        on_other=tracked & _nearer_to_others(result.positions, errors, scene),
         starts=None if scene.others[0] else _starts(make, case.seed, scene),
     )
 
 
-def _on_others(
-    positions: NDArray[np.float64], errors: NDArray[np.float64], scene: DepthScene
-) -> NDArray[np.bool_]:
-    """(M,) where somebody else is nearer than the target, and near."""
-    off = [
-        min((float(np.linalg.norm(at - other.position)) for other in others), default=np.inf)
-        for at, others in zip(positions, scene.others, strict=True)
+def _nearer_to_others(positions: Floats, errors: Floats, scene: DepthScene) -> Flags:
+    """(M,) where a position is close to somebody else, and closer than to the target."""
+    distances = [
+        min((float(np.linalg.norm(position - other.position)) for other in others), default=np.inf)
+        for position, others in zip(positions, scene.others, strict=True)
     ]
-    nearest: NDArray[np.float64] = np.array(off)
-    return (nearest < CLOSE) & (nearest < errors)
+    nearest: Floats = np.array(distances)
+    return (nearest < MAX_OTHER_DISTANCE) & (nearest < errors)
 
 
 def _starts(make: Maker, seed: int, scene: DepthScene) -> bool | None:
@@ -60,9 +59,9 @@ def _starts(make: Maker, seed: int, scene: DepthScene) -> bool | None:
     frame: Frame = scene.frames[0]
     try:
         box: Box = tracker.init(frame).box
-    except ValueError:  # nobody found
+    except ValueError:  # it found nobody
         return False
-    return box.iou(scene.boxes[0]) > depth_curves.HELD
+    return box.iou(scene.boxes[0]) > MIN_OVERLAP
 
 
 def _depth(**parameters: Any) -> Maker:
@@ -96,8 +95,8 @@ EXPERIMENTS: dict[str, Experiment[DepthScene, DepthCurve]] = {
             "hidden, noise x 3": partial(crossing, noise=3.0),
         },
         measure=measure,
-        summarize=depth_curves.summarize,
-        write_csv=depth_curves.write_csv,
-        draw=depth_figures.metric_curves,
+        summarize=curves.summarize,
+        write_csv=curves.write_csv,
+        draw=figures.metric_curves,
     )
 }

@@ -3,8 +3,8 @@ import csv
 
 import numpy as np
 import pytest
-from tricue.papers import stereo_curves
-from tricue.papers.stereo_curves import StereoCurve, lag
+from tricue.papers.moreno import curves as stereo_curves
+from tricue.papers.moreno.curves import StereoCurve, lag
 from tricue.track.base.track import Status
 
 FRAMES = 60
@@ -48,7 +48,7 @@ def test_errors_are_shares_of_the_distance():
     assert (cells(run)["error %: median"], cells(run)["95 %"]) == ("2.00", "2.0")
 
 
-def test_honest_covariances_have_a_mean_of_three():
+def test_consistent_covariances_have_a_mean_of_three():
     """Errors drawn from the covariances have a mean normalised square of 3; twice as large ones, of 12."""
     off = np.random.default_rng(1).normal(0, [0.01, 0.02, 0.03], (20, FRAMES, 3))
     for scale, expected in ((1, 3), (2, 12)):
@@ -67,7 +67,7 @@ def test_lag_is_what_the_track_is_late(late):
     assert lag([curve(positions=place(TIME - late))]) == pytest.approx(late, abs=0.02)
 
 
-def test_lag_is_of_frames_in_which_the_head_is_held():
+def test_lag_is_of_frames_with_the_head_tracked():
     """Where it is lost the track may be anywhere."""
     held = TIME < 40
     positions = np.where(held[:, None], place(TIME - 1), 5.0)
@@ -75,7 +75,7 @@ def test_lag_is_of_frames_in_which_the_head_is_held():
     assert np.isnan(lag([curve(overlaps=np.zeros(FRAMES))]))
 
 
-def test_hidden_head_has_to_be_let_go_and_taken_up():
+def test_hidden_head_has_to_be_released_and_recovered():
     """Frames under 15 % visible want another status than TRACKED; from half on there are 15 frames."""
     hidden = (TIME >= 20) & (TIME < 30)
     visible = np.where(hidden, 0.0, 1.0)
@@ -84,11 +84,11 @@ def test_hidden_head_has_to_be_let_go_and_taken_up():
         statuses = tuple(Status.OCCLUDED if at in coasting else Status.TRACKED for at in range(FRAMES))
         return curve(visible=visible, statuses=statuses, overlaps=(~np.isin(TIME, wrong)).astype(float))
 
-    assert run(range(20, 30), range(20, 30)).retaken is True
-    assert run(range(20, 45), []).retaken is True
-    assert run(range(20, 46), []).retaken is False
-    assert run(range(20, 30), range(20, 46)).retaken is False
-    assert curve().retaken is None
+    assert run(range(20, 30), range(20, 30)).recovered is True
+    assert run(range(20, 45), []).recovered is True
+    assert run(range(20, 46), []).recovered is False
+    assert run(range(20, 30), range(20, 46)).recovered is False
+    assert curve().recovered is None
     assert cells(run(range(25, 30), []))["hidden, not TRACKED"] == "50.0%"
     assert cells(curve())["hidden, not TRACKED"] == "-"
 
@@ -104,24 +104,24 @@ def test_frames_in_which_the_head_is_hidden_have_no_error():
     assert (cells(run)["error %: median"], cells(run)["IoU > 0.5"]) == ("0.00", "100.0%")
 
 
-def test_end_is_right_if_every_last_frame_is():
-    """One of the last five frames off the head, or not TRACKED, is a run that isn't right."""
+def test_end_is_correct_if_every_last_frame_is():
+    """One of the last five frames off the head, or not TRACKED, makes the end incorrect."""
     off = np.ones(FRAMES)
     off[-5] = 0.4
     statuses = (Status.TRACKED,) * (FRAMES - 1) + (Status.LOST,)
-    assert curve().right_at_end
-    assert not curve(overlaps=off).right_at_end
-    assert not curve(statuses=statuses).right_at_end
+    assert curve().correct_at_end
+    assert not curve(overlaps=off).correct_at_end
+    assert not curve(statuses=statuses).correct_at_end
 
 
-def test_times_are_told_per_module():
+def test_times_are_listed_per_module():
     """Medians over the runs, in microseconds, and their sum."""
     table = stereo_curves.summarize([curve(), curve(seconds={"search": 4e-4, "rest": 1e-4})])
     assert table.splitlines()[-1] == "| s | 300 | 0 | 0 | 100 | 400 |"
 
 
 def test_table_holds_every_frame(tmp_path):
-    """A line a frame with said and true positions; what isn't said is empty."""
+    """A line a frame with estimated and true positions; without an estimate they are empty."""
     unknown = {"positions": np.full((FRAMES, 3), np.nan), "covariances": np.full((FRAMES, 3, 3), np.nan)}
     stereo_curves.write_csv(tmp_path / "all.csv", [curve(), curve(seed=1, **unknown)])
     with (tmp_path / "all.csv").open() as file:
