@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""The fused tracker without each of its cues: ``python -m benchmarks.quality.fused.ablation --jobs 2``.
+"""The fused tracker without each of its cues.
 
-A row with all cues, one without each, and cv2's CSRT. The first columns are those of ``robust`` on recorded
-color sequences, AUROC too; the last the mean overlap in scenes, as in ``scenes``, by their channels. The peer
-sees color alone, which is the same in all of them, so that it runs on that once.
+    python -m benchmarks.quality.ablation --jobs 2
+
+The rows are the tracker with all cues, without each of them, and cv2's CSRT. The first columns and AUROC are
+those of ``robustness`` on recorded color sequences; the last ones are the mean overlap in ``stress_scenes``,
+by channels. CSRT uses color alone, which is the same for all channels, so it runs once.
 """
 
 import argparse
@@ -15,26 +17,29 @@ from tricue.evaluation.tracker_spec import Entrant
 from tricue.scenes.stress_scene import KINDS
 from tricue.track.base.registry import tracker_class
 
-from benchmarks.quality.fused import robust, scene_runs, scenes
-from benchmarks.quality.fused.options import Cell, add_common, markdown, performed, seeds, write_csv
-from benchmarks.quality.fused.variants import Participant, with_settings
+from benchmarks.quality import robustness, stress_scenes
+from benchmarks.quality.common import scene_runs
+from benchmarks.quality.common.arguments import add_output, seeds
+from benchmarks.quality.common.parallel import run_parallel
+from benchmarks.quality.common.tables import Cell, markdown, write_csv
+from benchmarks.quality.common.variants import Variant, with_settings
 
-TRACKER, PEER = "fused", "CSRT"
+TRACKER, BASELINE = "fused", "CSRT"
 CHANNELS = ("color", "rgbd", "stereo")
 SCENES = ("all", "fast", "lookalike", "hidden")
-HEAD = ("", *robust.PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
+HEAD = ("", *robustness.PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
 
 
-def contestants() -> list[Participant]:
-    """The tracker with all cues, without each of them where the others can go on, and the peer."""
-    whole, cues = Participant(TRACKER, Entrant(TRACKER)), tracker_class(TRACKER).Params().cues
+def ablated() -> list[Variant]:
+    """The tracker with all cues, without each of them where the others are enough, and the baseline."""
+    whole, cues = Variant(TRACKER, Entrant(TRACKER)), tracker_class(TRACKER).Params().cues
     found = [whole]
     for cue in cues:
         rest = tuple(each for each in cues if each != cue)
         if _possible(rest):
             found.append(with_settings(whole, f"without {cue}", {"cues": rest}))
-    if PEER in baselines.available():
-        found.append(Participant(PEER, Entrant(PEER)))
+    if BASELINE in baselines.available():
+        found.append(Variant(BASELINE, Entrant(BASELINE)))
     return found
 
 
@@ -46,52 +51,56 @@ def _possible(cues: tuple[str, ...]) -> bool:
     return True
 
 
-def _able(found: Sequence[Participant], channels: str) -> list[Participant]:
-    """Those who see more in a scene than in one of color alone, or all in that."""
-    return [each for each in found if each.entrant.ours or channels == "color"]
+def _with_new_inputs(variants: Sequence[Variant], channels: str) -> list[Variant]:
+    """Those that get more of these channels than of color alone; all of them on color."""
+    return [each for each in variants if each.spec.ours or channels == "color"]
 
 
 def lines(
-    found: Sequence[Participant],
-    recorded: Sequence[robust.Result],
-    drawn: Iterable[scene_runs.Followed],
+    variants: Sequence[Variant],
+    recorded: Sequence[robustness.RobustnessResult],
+    rendered: Iterable[scene_runs.SceneResult],
 ) -> list[list[Cell]]:
-    """HEAD for each contestant; NaN where it didn't run."""
-    by_tracker, groups = robust.by_tracker(recorded), scenes.grouped(drawn)
+    """HEAD for each variant; NaN where it didn't run."""
+    by_tracker, groups = robustness.by_tracker(recorded), stress_scenes.grouped(rendered)
     made: list[list[Cell]] = []
-    for each in (participant.label for participant in found):
-        runs = by_tracker.get(each, [])
-        said = robust.pooled(runs) if runs else None
-        line: list[Cell] = [each, *(robust.means(runs)), said.auroc if said else float("nan")]
+    for label in (variant.label for variant in variants):
+        runs = by_tracker.get(label, [])
+        frames = robustness.pooled(runs) if runs else None
+        line: list[Cell] = [label, *(robustness.means(runs)), frames.auroc if frames else float("nan")]
         for channels in CHANNELS:
-            followed = groups.get((channels, scenes.ALL, each))
-            line.append(scenes.overall(followed)[0] if followed else float("nan"))
-        made.append([*line, said.milliseconds if said else float("nan")])
+            results = groups.get((channels, stress_scenes.ALL_KINDS, label))
+            line.append(stress_scenes.overall(results)[0] if results else float("nan"))
+        made.append([*line, frames.milliseconds if frames else float("nan")])
     return made
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    made = argparse.ArgumentParser(prog="python -m benchmarks.quality.fused.ablation", description=__doc__)
-    robust.add_dataset(made)
+    made = argparse.ArgumentParser(prog="python -m benchmarks.quality.ablation", description=__doc__)
+    robustness.add_dataset(made)
     made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(SCENES), help="of scenes")
     made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="default 0:3")
-    add_common(made)
+    add_output(made)
     options = made.parse_args(arguments)
-    found = contestants()
+    variants = ablated()
     try:
-        todo = robust.tasks(found, options.dataset)
+        todo = robustness.tasks(variants, options.dataset)
     except (OSError, ValueError) as error:
         made.error(str(error))
-    todo.sort(key=lambda task: -task.participant.entrant.slowness)  # so that all processes end together
-    recorded = list(performed(robust.perform, todo, options.jobs))
-    scenery = [
+    todo.sort(key=lambda task: -task.variant.spec.slowness)  # so that all processes end together
+    recorded = list(run_parallel(robustness.run_protocols, todo, options.jobs))
+    scenes = [
         task
         for channels in CHANNELS
-        for task in scenes.tasks(_able(found, channels), (channels,), options.kinds, options.seeds)
+        for task in stress_scenes.tasks(
+            _with_new_inputs(variants, channels), (channels,), options.kinds, options.seeds
+        )
     ]
-    drawn = [each for several in performed(scene_runs.perform, scenery, options.jobs) for each in several]
-    table = lines(found, recorded, drawn)
+    rendered = [
+        each for several in run_parallel(scene_runs.run_scene, scenes, options.jobs) for each in several
+    ]
+    table = lines(variants, recorded, rendered)
     print(markdown(HEAD, table))
     write_csv(options.csv, HEAD, table)
     return 0

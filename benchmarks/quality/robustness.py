@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Trackers from many starts: ``python -m benchmarks.quality.fused.robust [DATASET] --trackers fused CSRT``.
+"""Trackers from many starts, backward, and at a third of the frame rate.
 
-Three protocols on each sequence, each a mean of the success AUC over its runs: "plain", one pass; "starts",
-from the frames at 0, 1/4, 1/2 and 3/4 of the sequence to its end, and the same on the reversed sequence;
-"third", one pass over every third frame. A start without a true box is put off to the next frame with one.
+    python -m benchmarks.quality.robustness [DATASET] --trackers fused CSRT
+
+There are three protocols, each with the mean success AUC over its runs on a sequence: "plain", one pass;
+"starts", from the frames at 0, 1/4, 1/2 and 3/4 of the sequence to its end, and the same on the reversed
+sequence; "third", one pass over every third frame. A run starts on the first of its frames with a true box.
 """
 
 import argparse
@@ -20,10 +22,12 @@ from tricue.evaluation import one_pass
 from tricue.evaluation.dataset import Entry, Opened, find_entries
 from tricue.evaluation.rows import bounded
 
-from benchmarks.quality import sequences
-from benchmarks.quality.fused.options import Cell, markdown, mean, parser, performed, write_csv
-from benchmarks.quality.fused.status_metrics import Said
-from benchmarks.quality.fused.variants import Participant, participants
+from benchmarks.quality.common import sequences
+from benchmarks.quality.common.arguments import parser
+from benchmarks.quality.common.frame_results import FrameResults
+from benchmarks.quality.common.parallel import run_parallel
+from benchmarks.quality.common.tables import Cell, markdown, mean, write_csv
+from benchmarks.quality.common.variants import Variant, parse_variants
 
 PROTOCOLS = ("plain", "starts", "third")
 STARTS = (0.0, 0.25, 0.5, 0.75)
@@ -32,20 +36,20 @@ POOLED = ("AUROC", "lost", "TRACKED of lost", "not TRACKED of good", "ms/frame")
 Numbers = NDArray[np.intp]
 
 
-class Task(NamedTuple):
+class RobustnessTask(NamedTuple):
     """One tracker on one sequence, by all protocols."""
 
-    participant: Participant
+    variant: Variant
     entry: Entry
 
 
-class Result(NamedTuple):
-    """What came of it: the runs of each protocol. refused: why there are none, or ""."""
+class RobustnessResult(NamedTuple):
+    """One tracker on one sequence: the runs of each protocol. unsupported: why there are none, or ""."""
 
     tracker: str
     sequence: str
-    runs: Mapping[str, Sequence[Said]]
-    refused: str = ""
+    runs: Mapping[str, Sequence[FrameResults]]
+    unsupported: str = ""
 
 
 def orders(protocol: str, frames: int) -> list[Numbers]:
@@ -59,25 +63,27 @@ def orders(protocol: str, frames: int) -> list[Numbers]:
     return [way[first:] for first in firsts for way in (numbers, numbers[::-1])]
 
 
-def perform(task: Task) -> Result:
+def run_protocols(task: RobustnessTask) -> RobustnessResult:
     """Decode the sequence and run the tracker by all protocols."""
-    participant, opened = task.participant, task.entry.open()
-    names = participant.label, task.entry.name
-    if reason := participant.refuses(opened):
-        return Result(*names, {}, reason)
-    frames = list(map(participant.view(opened), opened.source))
+    variant, opened = task.variant, task.entry.open()
+    names = variant.label, task.entry.name
+    if reason := variant.unsupported(opened):
+        return RobustnessResult(*names, {}, reason)
+    frames = list(map(variant.view(opened), opened.source))
     runs = {
         protocol: [
-            said
+            results
             for order in orders(protocol, len(frames))
-            if (said := follow(participant, opened, frames, order)) is not None
+            if (results := run_order(variant, opened, frames, order)) is not None
         ]
         for protocol in PROTOCOLS
     }
-    return Result(*names, runs)
+    return RobustnessResult(*names, runs)
 
 
-def follow(participant: Participant, opened: Opened, frames: Sequence[Frame], order: Numbers) -> Said | None:
+def run_order(
+    variant: Variant, opened: Opened, frames: Sequence[Frame], order: Numbers
+) -> FrameResults | None:
     """Track through the frames in an order, from the first with a true box; None where fewer than two are
     left.
     """
@@ -86,42 +92,42 @@ def follow(participant: Participant, opened: Opened, frames: Sequence[Frame], or
     order = order[int(np.argmax(known)) :] if known.any() else order[:0]
     if len(order) < 2:
         return None
-    tracker = participant.contender(opened)
+    tracker = variant.make(opened)
     run = one_pass.run(tracker, (frames[number] for number in order), Box(*truth[order[0]].tolist()))
-    return Said.of(run, bounded(run.boxes, opened), truth[order], absent[order])
+    return FrameResults.of(run, bounded(run.boxes, opened), truth[order], absent[order])
 
 
-def by_tracker(results: Iterable[Result]) -> dict[str, list[Result]]:
-    """The results that there are, by tracker, in their order."""
-    found: dict[str, list[Result]] = {}
+def by_tracker(results: Iterable[RobustnessResult]) -> dict[str, list[RobustnessResult]]:
+    """The results with runs, by tracker, in their order."""
+    found: dict[str, list[RobustnessResult]] = {}
     for each in results:
-        if not each.refused:
+        if not each.unsupported:
             found.setdefault(each.tracker, []).append(each)
     return found
 
 
-def auc(result: Result, protocol: str) -> float:
+def auc(result: RobustnessResult, protocol: str) -> float:
     """The mean over the runs of a protocol."""
-    return mean([said.auc for said in result.runs[protocol]])
+    return mean([run.auc for run in result.runs[protocol]])
 
 
-def pooled(results: Iterable[Result]) -> Said:
+def pooled(results: Iterable[RobustnessResult]) -> FrameResults:
     """All frames of all runs."""
-    return Said.pooled([said for each in results for runs in each.runs.values() for said in runs])
+    return FrameResults.pooled([run for each in results for runs in each.runs.values() for run in runs])
 
 
-def means(results: Sequence[Result]) -> list[float]:
-    """Of each protocol, over the sequences."""
+def means(results: Sequence[RobustnessResult]) -> list[float]:
+    """The AUC of each protocol, over the sequences."""
     return [mean([auc(each, protocol) for each in results]) for protocol in PROTOCOLS]
 
 
-def numbers_of(said: Said) -> list[float]:
+def numbers_of(frames: FrameResults) -> list[float]:
     """POOLED, in that order."""
-    return [said.auroc, said.lost, said.tracked_of_lost, said.doubted_of_good, said.milliseconds]
+    return [frames.auroc, frames.lost, frames.tracked_of_lost, frames.untracked_of_good, frames.milliseconds]
 
 
-def tables(results: Sequence[Result]) -> str:
-    """Markdown: the AUC by tracker, protocol and sequence, and what the pooled frames say of each tracker."""
+def tables(results: Sequence[RobustnessResult]) -> str:
+    """Markdown: the AUC by tracker, protocol and sequence; POOLED numbers of each tracker's frames."""
     found = by_tracker(results)
     sequences = list(dict.fromkeys(each.sequence for each in results))
     lines: list[list[Cell]] = []
@@ -129,12 +135,12 @@ def tables(results: Sequence[Result]) -> str:
         for protocol, average in zip(PROTOCOLS, means(each), strict=True):
             by_name = {result.sequence: auc(result, protocol) for result in each}
             lines.append([tracker, protocol, *(by_name.get(name, np.nan) for name in sequences), average])
-    said: list[list[Cell]] = [[tracker, *numbers_of(pooled(each))] for tracker, each in found.items()]
+    pooled_lines: list[list[Cell]] = [[tracker, *numbers_of(pooled(each))] for tracker, each in found.items()]
     first = markdown(["tracker", "protocol", *sequences, "mean"], lines)
-    return f"{first}\n\n{markdown(['tracker', *POOLED], said)}"
+    return f"{first}\n\n{markdown(['tracker', *POOLED], pooled_lines)}"
 
 
-def rows(results: Iterable[Result]) -> list[list[Cell]]:
+def rows(results: Iterable[RobustnessResult]) -> list[list[Cell]]:
     """For CSV: a line a tracker, sequence and protocol."""
     return [
         [
@@ -143,7 +149,7 @@ def rows(results: Iterable[Result]) -> list[list[Cell]]:
             protocol,
             len(runs),
             auc(each, protocol),
-            *numbers_of(Said.pooled(runs)),
+            *numbers_of(FrameResults.pooled(runs)),
         ]
         for each in results
         for protocol, runs in each.runs.items()
@@ -151,10 +157,10 @@ def rows(results: Iterable[Result]) -> list[list[Cell]]:
     ]
 
 
-def tasks(found: Sequence[Participant], root: Path) -> list[Task]:
+def tasks(variants: Sequence[Variant], root: Path) -> list[RobustnessTask]:
     """Every tracker on every sequence at or under a folder."""
     entries = find_entries(root)
-    return [Task(participant, entry) for participant in found for entry in entries]
+    return [RobustnessTask(variant, entry) for variant in variants for entry in entries]
 
 
 def add_dataset(made: argparse.ArgumentParser) -> None:
@@ -171,17 +177,17 @@ def add_dataset(made: argparse.ArgumentParser) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; the exit code."""
-    made = parser("robust", __doc__, TRACKERS)
+    made = parser("robustness", __doc__, TRACKERS)
     add_dataset(made)
     options = made.parse_args(arguments)
     try:
-        todo = tasks(participants(options.trackers, options.set), options.dataset)
+        todo = tasks(parse_variants(options.trackers, options.set), options.dataset)
     except (OSError, TypeError, ValueError) as error:
         made.error(str(error))
-    results = list(performed(perform, todo, options.jobs))
+    results = list(run_parallel(run_protocols, todo, options.jobs))
     for each in results:
-        if each.refused:
-            print(f"left out {each.tracker} on {each.sequence}: {each.refused}", file=sys.stderr)
+        if each.unsupported:
+            print(f"left out {each.tracker} on {each.sequence}: {each.unsupported}", file=sys.stderr)
     print(tables(results))
     head = ("tracker", "sequence", "protocol", "runs", "AUC", *POOLED)
     write_csv(options.csv, head, rows(results))

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Trackers of pairs beside OpenCV's in the left images: ``python -m benchmarks.quality.compare_stereo``.
+"""The stereo trackers on recorded stereo pairs, beside cv2's trackers on the left images.
 
-The distances between which the stereo head tracker looks for a target are those where a pair's disparity is
-a quarter of the image's width and 4 pixels. All other parameters are the defaults, or its of a file.
+    python -m benchmarks.quality.stereo_trackers [FOLDER]
+
+The stereo head tracker searches between the distances at which the disparity is a quarter of the image's
+width and 4 pixels. Its other parameters are the defaults, or those of --params.
 """
 
 import argparse
@@ -22,11 +24,19 @@ from tricue.evaluation.one_pass import Contender, run
 from tricue.track.base.track import Status
 from tricue.track.stereo_head.params import StereoHeadParams
 
-from benchmarks.quality import sequences, stereo_sequences
-from benchmarks.quality.stereo_sequences import StereoSequence
+from benchmarks.quality.common import sequences, stereo_sequences
+from benchmarks.quality.common.stereo_sequences import StereoSequence
+from benchmarks.quality.common.tables import markdown
 
-PEERS = ("CSRT", "KCF", "still-box")
-WIDEST, NARROWEST = 0.25, 4.0  # of the image's width; pixels of disparity
+BASELINES = ("CSRT", "KCF", "still-box")
+MAX_DISPARITY_SHARE = 0.25
+"""Of the image's width, at the nearest distance."""
+MIN_DISPARITY = 4.0
+"""Pixels, at the farthest distance."""
+
+COLUMNS = (
+    *("sequence", "tracker", "TRACKED", "AUC", "mean IoU", "IoU > 0.5", "disparity error", "updates/s"),
+)
 
 Maker = Callable[[StereoRig], Contender]
 
@@ -47,17 +57,17 @@ class Row(NamedTuple):
 
 
 def makers(params: StereoHeadParams | None = None) -> dict[str, Maker]:
-    """Tricue's trackers of pairs, the head's with ``params`` or the defaults, flow-depth also by one cue, and
-    the installed cv2's peers.
+    """The stereo head tracker with ``params`` or its defaults, flow-depth, also by one cue, and the baselines
+    that the installed cv2 has.
     """
     known = baselines.available()
     found: dict[str, Maker] = {
         "stereo-head": partial(_head, params or StereoHeadParams()),
-        "flow-depth": partial(_walker, ("flow", "disparity")),
-        "flow-depth, flow alone": partial(_walker, ("flow",)),
-        "flow-depth, disparity alone": partial(_walker, ("disparity",)),
+        "flow-depth": partial(_flow_depth, ("flow", "disparity")),
+        "flow-depth, flow alone": partial(_flow_depth, ("flow",)),
+        "flow-depth, disparity alone": partial(_flow_depth, ("disparity",)),
     }
-    for name in PEERS:
+    for name in BASELINES:
         if name in known:
             found[name] = lambda rig, make=known[name]: make(0)  # type: ignore[misc]
     return found
@@ -65,16 +75,16 @@ def makers(params: StereoHeadParams | None = None) -> dict[str, Maker]:
 
 def _head(params: StereoHeadParams, rig: StereoRig) -> Contender:
     product = rig.intrinsics.fx * rig.baseline
-    near, far = product / (WIDEST * rig.intrinsics.width), product / NARROWEST
+    near, far = product / (MAX_DISPARITY_SHARE * rig.intrinsics.width), product / MIN_DISPARITY
     return tricue.StereoHeadTracker(rig=rig, **asdict(replace(params, near=near, far=far)))
 
 
-def _walker(cues: tuple[str, ...], rig: StereoRig) -> Contender:
+def _flow_depth(cues: tuple[str, ...], rig: StereoRig) -> Contender:
     return tricue.FlowDepthTracker(rig=rig, cues=cues)
 
 
 def measure(name: str, make: Maker, sequence: StereoSequence) -> Row:
-    """Run one tracker over one sequence from its first true box."""
+    """Run one tracker on one sequence from its first true box."""
     result = run(make(sequence.rig), sequence.frames, Box(*sequence.truth[0].tolist()))
     score = metrics.score(result.boxes, sequence.truth)
     rig = sequence.rig
@@ -93,23 +103,22 @@ def measure(name: str, make: Maker, sequence: StereoSequence) -> Row:
 
 def table(rows: Sequence[Row]) -> str:
     """Markdown, a line per sequence and tracker."""
-    lines = [
-        "| sequence | tracker | TRACKED | AUC | mean IoU | IoU > 0.5 | disparity error | updates/s |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- |",
-    ]
+    lines = []
     for row in rows:
         error = "-" if np.isnan(row.disparity_error) else f"{row.disparity_error:.2f} px"
-        shares = f"{row.tracked:.0%} | {row.auc:.2f} | {row.iou:.2f} | {row.success:.0%}"
-        lines.append(f"| {row.sequence} | {row.tracker} | {shares} | {error} | {row.updates:,.0f} |")
-    return "\n".join(lines)
+        shares = f"{row.tracked:.0%}", f"{row.auc:.2f}", f"{row.iou:.2f}", f"{row.success:.0%}"
+        lines.append([row.sequence, row.tracker, *shares, error, f"{row.updates:,.0f}"])
+    return markdown(COLUMNS, lines)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure and print the table; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.compare_stereo", description=__doc__)
-    parser.add_argument("folder", type=Path, nargs="?", help="a sequence or more; found through TRICUE_DATA")
-    parser.add_argument("--unit", type=float, default=1.0, help="metres, of OpenCV's calibration files")
-    parser.add_argument("--params", type=Path, help="a file of stereo-head's parameters, TOML")
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.stereo_trackers", description=__doc__)
+    parser.add_argument(
+        "folder", type=Path, nargs="?", help="of one or more sequences; default in TRICUE_DATA"
+    )
+    parser.add_argument("--unit", type=float, default=1.0, help="meters, of OpenCV's calibration files")
+    parser.add_argument("--params", type=Path, help="stereo-head's parameters, a TOML file")
     options = parser.parse_args(arguments)
     params = None if options.params is None else StereoHeadParams.from_toml(options.params)
     folder = options.folder or sequences.data_folder() / "stereo"

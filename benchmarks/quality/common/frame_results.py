@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How much a tracker's word is worth: what it said in frames in which it had the target, or hadn't."""
+"""Results of frames, pooled over runs: overlaps, and how well score and status tell good from lost frames."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,34 +10,35 @@ from tricue.evaluation import confidence, metrics
 from tricue.evaluation.one_pass import Run
 from tricue.track.base.track import Status
 
-GOOD = 0.5
+GOOD_OVERLAP = 0.5
 """Above this overlap a frame is a good one."""
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Said:
-    """N frames of one or several runs, the first of each included, in which the tracker was told the box."""
+class FrameResults:
+    """N frames of one or several runs, with the first of each, whose box is given."""
 
     overlaps: Array
-    """(N,) NaN where the truth isn't known."""
+    """(N,) NaN where the truth is unknown."""
     absent: Flags
-    """(N,) whether nothing of the target is in sight; such frames count as lost, whatever the overlap."""
+    """(N,) whether nothing of the target is visible; such frames count as lost, whatever the overlap."""
     scores: Array
+    """(N,)"""
     tracked: Flags
-    """(N,) whether the status was TRACKED."""
+    """(N,) whether the status is TRACKED."""
     seconds: Array
     """One per update."""
 
     @classmethod
-    def of(cls, run: Run, boxes: Array, truth: Array, absent: Flags) -> "Said":
-        """What a run said; boxes: its boxes as they are to be judged."""
+    def of(cls, run: Run, boxes: Array, truth: Array, absent: Flags) -> "FrameResults":
+        """The frames of a run; boxes: the run's, in the form in which they are compared with the truth."""
         tracked = np.array([status is Status.TRACKED for status in run.statuses], np.bool_)
         return cls(metrics.overlaps(boxes, truth), absent, run.scores, tracked, run.seconds)
 
     @classmethod
-    def pooled(cls, parts: Sequence["Said"]) -> "Said":
+    def pooled(cls, parts: Sequence["FrameResults"]) -> "FrameResults":
         """The frames of all parts, one after the other."""
         return cls(*(np.concatenate([getattr(each, name) for each in parts]) for name in cls.__slots__))
 
@@ -59,13 +60,13 @@ class Said:
 
     @property
     def tracked_of_lost(self) -> float:
-        """Share of the lost frames that were called TRACKED."""
+        """Share of the lost frames with status TRACKED."""
         return confidence.said_ok_while_lost(self.overlaps, self.tracked, self.absent).of_lost
 
     @property
-    def doubted_of_good(self) -> float:
-        """Share of the good frames that weren't called TRACKED."""
-        good = (self.overlaps > GOOD) & ~self.absent
+    def untracked_of_good(self) -> float:
+        """Share of the good frames with another status than TRACKED."""
+        good = (self.overlaps > GOOD_OVERLAP) & ~self.absent
         return float((~self.tracked[good]).mean()) if good.any() else float("nan")
 
     @property

@@ -1,73 +1,73 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on one scene with everything: what they found, and what they did at its events."""
+"""Trackers on one stress scene: overlaps, position errors, and their behavior at the scene's events."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.one_pass import Run
 from tricue.scenes.stress_scene import Scene, everything
 from tricue.track.base.track import Status
 
-from benchmarks.quality.fused.status_metrics import GOOD, Array, Flags, Said
-from benchmarks.quality.fused.variants import Offered, Participant
+from benchmarks.quality.common.frame_results import GOOD_OVERLAP, Array, Flags, FrameResults
+from benchmarks.quality.common.variants import Inputs, Variant
 
-SEEN = 0.5
-"""Share of the target's pixels from which on a frame counts for overlaps and positions."""
-WHOLE = 0.95
-"""Share from which on the target is wholly visible, but for its border's pixels."""
-AGAIN = 10
+MIN_COUNTED_VISIBLE = 0.5
+"""Share of the target's pixels from which a frame counts for overlaps and positions."""
+MIN_WHOLE_VISIBLE = 0.95
+"""Share from which the target is wholly visible, but for pixels at its border."""
+MAX_RECOVERY_FRAMES = 10
 """Frames in which a target that is wholly visible again has to be found."""
-PROMPT = 3
-"""Frames of something else in which LOST has to be said."""
-PATIENCE = 5
-"""Frames in a row on a look-alike that are forgiven."""
-OTHER, NOT_TARGET = 0.3, 0.1
-"""Above this overlap with a look-alike, and below that with the target, a box is on the look-alike."""
+MAX_LOST_DELAY = 3
+"""Frames without the target in which LOST has to be reported."""
+MAX_LOOKALIKE_FRAMES = 5
+"""Frames in a row in which TRACKED on a look-alike is tolerated."""
+MIN_LOOKALIKE_OVERLAP, MAX_TARGET_OVERLAP = 0.3, 0.1
+"""A box is on a look-alike above this overlap with it and below that with the target."""
 
 
-class Task(NamedTuple):
-    """A scene, and who is to follow its target."""
+class SceneTask(NamedTuple):
+    """A scene, and the trackers to run on it."""
 
     kind: str
     seed: int
     channels: str
-    participants: Sequence[Participant]
+    variants: Sequence[Variant]
 
 
-class Followed(NamedTuple):
-    """What a tracker made of a scene with N frames. Events that the scene doesn't have are NaN.
+class SceneResult(NamedTuple):
+    """One tracker on a scene with N frames. Numbers of events that the scene doesn't have are NaN.
 
-    errors: (N,) metres between the positions, NaN where one isn't known. seen: (N,) whether at least half of
-    the target is visible. found: share of the times away or hidden after which it was found again. faithful:
-    whether it was never TRACKED on a look-alike for long. told: whether LOST was said soon where the picture
-    was black or of another scene. trouble: the error that ended the tracker, or "".
+    errors: (N,) meters between the positions, NaN where one is unknown. counted: (N,) whether at least half
+    of the target is visible. recovered: share of the absences and occlusions after which the target was found
+    again. faithful: 1 where no look-alike was TRACKED for long, else 0. reported_lost: 1 where LOST was
+    reported in time when the image got black or showed another scene, else 0. trouble: the error that ended
+    the tracker, or "".
     """
 
     tracker: str
     kind: str
     seed: int
     channels: str
-    said: Said
+    frames: FrameResults
     errors: Array
-    seen: Flags
-    found: float
+    counted: Flags
+    recovered: float
     faithful: float
-    told: float
+    reported_lost: float
     trouble: str = ""
 
 
-def perform(task: Task) -> list[Followed]:
-    """Draw the scene once and let all follow; those that can't see it are left out."""
-    offer = Offered(channels_of(task.channels))
-    able = [each for each in task.participants if not each.refuses(offer)]
+def run_scene(task: SceneTask) -> list[SceneResult]:
+    """Render the scene once and run all trackers that have their channels in it."""
+    inputs = Inputs(channels_of(task.channels))
+    able = [each for each in task.variants if not each.unsupported(inputs)]
     if not able:
         return []
     scene = everything(task.kind, task.seed, channels=task.channels)
-    return [follow(each, scene, task.channels) for each in able]
+    return [run_variant(each, scene, task.channels) for each in able]
 
 
 def channels_of(name: str) -> tuple[str, ...]:
@@ -75,78 +75,81 @@ def channels_of(name: str) -> tuple[str, ...]:
     return {"rgbd": ("color", "depth"), "stereo": ("color", "right")}.get(name, (name,))
 
 
-def follow(participant: Participant, scene: Scene, channels: str) -> Followed:
+def run_variant(variant: Variant, scene: Scene, channels: str) -> SceneResult:
     """One tracker from the first true box on."""
     names = channels_of(channels)
-    depth = scene.intrinsics if "depth" in names else None
-    offer = Offered(names, depth, scene.rig)
-    tracker = participant.contender(offer)
-    frames = map(participant.view(offer), scene.frames)
-    run = one_pass.run(tracker, frames, Box(*scene.boxes[0].tolist()))
-    return Followed(
-        participant.label,
+    inputs = Inputs(names, scene.intrinsics if "depth" in names else None, scene.rig)
+    tracker = variant.make(inputs)
+    run = one_pass.run(tracker, map(variant.view(inputs), scene.frames), Box(*scene.boxes[0].tolist()))
+    return SceneResult(
+        variant.label,
         scene.kind,
         scene.seed,
         channels,
-        Said.of(run, run.boxes, scene.boxes, scene.visible <= 0),
+        FrameResults.of(run, run.boxes, scene.boxes, scene.visible <= 0),
         metrics.position_errors(run.positions, scene.positions),
-        scene.visible >= SEEN,
-        found_again(run, scene),
+        scene.visible >= MIN_COUNTED_VISIBLE,
+        recovered(run, scene),
         faithful(run, scene),
-        told(run, scene),
+        reported_lost(run, scene),
         tracker.trouble,
     )
 
 
-def found_again(run: Run, scene: Scene) -> float:
+def recovered(run: Run, scene: Scene) -> float:
     """Share of the events "leaving" and "hidden" after which the overlap is above 0.5 in one of the first
-    AGAIN frames in which the target is wholly visible again; NaN without such an event.
+    MAX_RECOVERY_FRAMES with the target wholly visible; NaN without such an event.
     """
     overlaps = metrics.overlaps(run.boxes, scene.boxes)
-    known = []
-    for name in ("leaving", "hidden"):
-        back = _back(scene, name)
+    answers = []
+    for event in ("leaving", "hidden"):
+        back = _first_whole(scene, event)
         if back is not None:
-            known.append(bool((overlaps[back : back + AGAIN] > GOOD).any()))
-    return float(np.mean(known)) if known else float("nan")
+            answers.append(bool((overlaps[back : back + MAX_RECOVERY_FRAMES] > GOOD_OVERLAP).any()))
+    return float(np.mean(answers)) if answers else float("nan")
 
 
-def _back(scene: Scene, event: str) -> int | None:
-    """The first frame after an event's last one without the target in which it is whole; None without."""
-    span = scene.spans.get(event, range(0))
-    gone = [index for index in span if scene.visible[index] <= 0]
+def _first_whole(scene: Scene, event: str) -> int | None:
+    """The first frame with the whole target after an event's last one without it; None where none is."""
+    gone = _absent(scene, event)
     if not gone:
         return None
-    whole = np.flatnonzero(scene.visible[gone[-1] + 1 :] >= WHOLE)
+    whole = np.flatnonzero(scene.visible[gone[-1] + 1 :] >= MIN_WHOLE_VISIBLE)
     return None if not whole.size else gone[-1] + 1 + int(whole[0])
 
 
 def faithful(run: Run, scene: Scene) -> float:
-    """1 where it was never TRACKED on a look-alike for more than PATIENCE frames in a row, else 0; NaN
-    without look-alikes.
+    """1 where no look-alike was TRACKED for more than MAX_LOOKALIKE_FRAMES in a row, else 0; NaN without
+    look-alikes.
     """
     if "lookalike" not in scene.spans:
         return float("nan")
     others = np.nan_to_num([metrics.overlaps(run.boxes, boxes) for boxes in scene.lookalikes]).max(axis=0)
     target = np.nan_to_num(metrics.overlaps(run.boxes, scene.boxes))
     tracked = np.array([status is Status.TRACKED for status in run.statuses])
-    return float(longest(tracked & (others > OTHER) & (target < NOT_TARGET)) <= PATIENCE)
+    wrong = tracked & (others > MIN_LOOKALIKE_OVERLAP) & (target < MAX_TARGET_OVERLAP)
+    return float(longest_run(wrong) <= MAX_LOOKALIKE_FRAMES)
 
 
-def longest(flags: NDArray[np.bool_]) -> int:
+def longest_run(flags: Flags) -> int:
     """The most flags in a row."""
-    most = now = 0
+    most = length = 0
     for flag in flags.tolist():
-        now = now + 1 if flag else 0
-        most = max(most, now)
+        length = length + 1 if flag else 0
+        most = max(most, length)
     return most
 
 
-def told(run: Run, scene: Scene) -> float:
-    """1 where LOST was said in one of the first PROMPT frames of the event "blank" without the target, else
-    0; NaN without the event.
+def reported_lost(run: Run, scene: Scene) -> float:
+    """1 where LOST was reported in one of the first MAX_LOST_DELAY frames of the event "blank" without the
+    target, else 0; NaN without the event.
     """
-    gone = [index for index in scene.spans.get("blank", range(0)) if scene.visible[index] <= 0]
+    gone = _absent(scene, "blank")
     if not gone:
         return float("nan")
-    return float(Status.LOST in run.statuses[gone[0] : gone[0] + PROMPT])
+    return float(Status.LOST in run.statuses[gone[0] : gone[0] + MAX_LOST_DELAY])
+
+
+def _absent(scene: Scene, event: str) -> list[int]:
+    """The frames of an event in which nothing of the target is visible."""
+    return [index for index in scene.spans.get(event, range(0)) if scene.visible[index] <= 0]

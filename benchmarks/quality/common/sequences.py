@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Recorded sequences with true boxes, decoded before they are measured on."""
+"""Recorded color sequences with true boxes, decoded before anything is measured."""
 
 import os
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class Sequence:
 
 
 def data_folder() -> Path:
-    """Where recorded data is looked for: the environment's TRICUE_DATA, else ../shared/data."""
+    """The folder of recorded data: TRICUE_DATA of the environment, else ../shared/data."""
     return Path(os.environ.get("TRICUE_DATA", "../shared/data"))
 
 
@@ -41,7 +41,7 @@ def load(folder: Path) -> Sequence:
 
 
 def _for_each(frames: tuple[Frame, ...], values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """A row a frame: those of ``values`` that are there, NaN for the others."""
+    """A row per frame: those of ``values``, NaN after their end."""
     rows = np.full((len(frames), *values.shape[1:]), np.nan)
     known = values[: len(frames)]
     rows[: len(known)] = known

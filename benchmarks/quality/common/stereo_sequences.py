@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Recorded rectified pairs with true boxes: a target's pairs, its rig, and how far away it is.
+"""Recorded rectified stereo pairs with a target's true boxes and disparities, and their rig.
 
-KITTI's tracking sequences have many targets; each labelled one is a sequence of its own. Any other folder is
-left/ and right/ with the target's true boxes in both, and calibration.yml.
+A KITTI tracking sequence has many targets; each labeled one is a sequence of its own. Any other folder has
+left/ and right/, the target's true boxes in both, and calibration.yml.
 """
 
 from collections.abc import Iterator
@@ -19,14 +19,14 @@ from tricue.data.open_source import Source, open_source
 from tricue.data.truth import read_truth
 
 RIGHT, CALIBRATION = "groundtruth_right.txt", "calibration.yml"
-KITTI_RATE = 10.0  # frames/s of its cameras (Geiger et al. 2013), which its folders don't tell
-SHORTEST = 10  # frames
-LEAST_SIDE = 20.0  # pixels of a labelled target in its first frame
+KITTI_RATE = 10.0  # frames/s of its cameras (Geiger et al. 2013), not in its folders
+MIN_KITTI_FRAMES = 10
+MIN_KITTI_SIDE = 20.0  # pixels of a labeled target in its first frame
 Array = NDArray[np.float64]
 
 
 class StereoSequence(NamedTuple):
-    """M pairs, a true box for each in the left image, (M, 4) pixels, and true disparities (M,), pixels."""
+    """M stereo pairs, true boxes in the left images, (M, 4), and true disparities (M,), all in pixels."""
 
     name: str
     frames: tuple[Frame, ...]
@@ -42,16 +42,16 @@ def find(root: Path) -> list[Path]:
 
 
 def load(folder: Path, unit: float = 1.0) -> Iterator[StereoSequence]:
-    """Decode a folder's sequences. unit: metres, in which OpenCV's calibration of it counts its baseline.
+    """Decode a folder's sequences. unit: meters, of the baseline in its OpenCV calibration.
 
-    ValueError where the right images, boxes or the calibration aren't there or don't fit.
+    ValueError where right images, boxes or calibration are missing or don't fit together.
     """
     labels = _labels(folder)
     source = open_source(folder, fps=None if labels is None else KITTI_RATE)
     if "right" not in source.channels:
         raise ValueError(f"{folder}: expected a stereo pair, got {', '.join(source.channels)}")
     if labels is None:
-        yield _pair(source, folder, unit)
+        yield _single_target(source, folder, unit)
     else:
         yield from _targets(source, labels)
 
@@ -61,7 +61,7 @@ def _labels(folder: Path) -> Path | None:
     return sequence.labels if sequence is not None and sequence.labels.is_file() else None
 
 
-def _pair(source: Source, folder: Path, unit: float) -> StereoSequence:
+def _single_target(source: Source, folder: Path, unit: float) -> StereoSequence:
     frames = tuple(source)
     if source.truth is None:
         raise ValueError(f"{folder}: expected true boxes of the left images")
@@ -74,14 +74,14 @@ def _pair(source: Source, folder: Path, unit: float) -> StereoSequence:
 
 
 def _targets(source: Source, labels: Path) -> Iterator[StereoSequence]:
-    """The targets that are labelled in enough frames on end and large enough in the first of them."""
+    """The targets that are labeled in enough frames in a row and large enough in the first of them."""
     if source.calibration is None:
         raise ValueError(f"{labels}: expected calibration beside the images")
     frames, rig = tuple(source), read_rig(source.calibration, source.size)
     for label in kitti.read_labels(labels):
         first, last = int(label.frames[0]), int(label.frames[-1])
         gaps = len(label.frames) <= last - first
-        if gaps or len(label.frames) < SHORTEST or label.boxes[0, 2:].min() < LEAST_SIDE:
+        if gaps or len(label.frames) < MIN_KITTI_FRAMES or label.boxes[0, 2:].min() < MIN_KITTI_SIDE:
             continue
         disparities = rig.intrinsics.fx * rig.baseline / label.nearest
         name = f"{source.name} {label.name}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who is compared: trackers by name, ours with settings, and with fewer channels than a sequence has."""
+"""Variants of trackers: with parameters, under a label, limited to some of a sequence's channels."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -14,8 +14,8 @@ CHANNELS = ("color", "depth", "right")
 
 
 @dataclass(frozen=True)
-class Offered:
-    """An offer of our own making. channel: the one whose pixels the boxes count."""
+class Inputs:
+    """What a sequence has for trackers: channels and cameras, as the protocol ``Offer`` has them."""
 
     channels: tuple[str, ...]
     intrinsics: Intrinsics | None = None
@@ -24,62 +24,62 @@ class Offered:
 
     @property
     def channel(self) -> str:
-        """Depth's only where there is no color."""
+        """The one whose pixels the boxes count; depth only where there is no color."""
         return "color" if "color" in self.channels else "depth"
 
 
 @dataclass(frozen=True)
-class Participant:
-    """An entrant by a label of its own. only: the channels that it is shown, None for all it can use."""
+class Variant:
+    """A tracker spec with a label. only: the channels that it gets, None for all that it can use."""
 
     label: str
-    entrant: Entrant
+    spec: Entrant
     only: tuple[str, ...] | None = None
 
-    def refuses(self, offer: Offer) -> str:
-        """Why it can't run, "" where it can."""
-        missing = [name for name in self.only or () if name not in offer.channels]
-        return f"no {missing[0]}" if missing else self.entrant.refuses(self._cut(offer))
+    def unsupported(self, inputs: Offer) -> str:
+        """Why it can't run on such inputs, "" where it can."""
+        missing = [name for name in self.only or () if name not in inputs.channels]
+        return f"no {missing[0]}" if missing else self.spec.refuses(self._limited(inputs))
 
-    def contender(self, offer: Offer) -> Guarded:
+    def make(self, inputs: Offer) -> Guarded:
         """The tracker with its cameras, from seed 0."""
-        return self.entrant.contender(self._cut(offer), 0)
+        return self.spec.contender(self._limited(inputs), 0)
 
-    def view(self, offer: Offer) -> View:
-        """What it is shown of a frame."""
-        cut, view = self.only, self.entrant.view(self._cut(offer))
-        if cut is None:
+    def view(self, inputs: Offer) -> View:
+        """What it gets of a frame."""
+        only, view = self.only, self.spec.view(self._limited(inputs))
+        if only is None:
             return view
         return lambda frame: view(
-            Frame(**{name: getattr(frame, name) for name in cut}, timestamp=frame.timestamp)
+            Frame(**{name: getattr(frame, name) for name in only}, timestamp=frame.timestamp)
         )
 
-    def _cut(self, offer: Offer) -> Offer:
+    def _limited(self, inputs: Offer) -> Offer:
         if self.only is None:
-            return offer
-        return Offered(
+            return inputs
+        return Inputs(
             self.only,
-            offer.intrinsics if "depth" in self.only else None,
-            offer.rig if "right" in self.only else None,
-            offer.registered,
+            inputs.intrinsics if "depth" in self.only else None,
+            inputs.rig if "right" in self.only else None,
+            inputs.registered,
         )
 
 
-def participants(words: Sequence[str], settings: Sequence[str] = ()) -> list[Participant]:
-    """From names such as CSRT, fused, or fused:color and fused:color+depth, which see these channels alone.
+def parse_variants(words: Sequence[str], settings: Sequence[str] = ()) -> list[Variant]:
+    """From names such as CSRT, fused, or fused:color and fused:color+depth, which get these channels only.
 
-    settings: "name.parameter=value", for our trackers. ValueError for what isn't known.
+    settings: "name.parameter=value", for tricue's trackers. ValueError for what is unknown.
     """
     names = [word.partition(":")[0] for word in words]
     values = parse_settings(settings)
     if unused := [name for name in values if name not in names]:
         raise ValueError(f"--set: expected one of {', '.join(names)}, got {unused[0]!r}")
-    found = entrants(names, values)
-    return [Participant(word, each, _channels(word)) for word, each in zip(words, found, strict=True)]
+    specs = entrants(names, values)
+    return [Variant(word, spec, _channels(word)) for word, spec in zip(words, specs, strict=True)]
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
-    """Parameters by tracker from "name.parameter=value"; ValueError for what has no such form."""
+    """Parameters by tracker from "name.parameter=value"; ValueError for anything else."""
     lines: dict[str, list[str]] = {}
     for setting in settings:
         name, dot, rest = setting.partition(".")
@@ -89,12 +89,10 @@ def parse_settings(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
     return {name: read_settings(name, None, each) for name, each in lines.items()}
 
 
-def with_settings(participant: Participant, label: str, values: Mapping[str, Any]) -> Participant:
+def with_settings(variant: Variant, label: str, values: Mapping[str, Any]) -> Variant:
     """The same tracker under another label with further parameters."""
-    settings = dict(participant.entrant.settings) | dict(values)
-    return replace(
-        participant, label=label, entrant=replace(participant.entrant, settings=tuple(settings.items()))
-    )
+    settings = dict(variant.spec.settings) | dict(values)
+    return replace(variant, label=label, spec=replace(variant.spec, settings=tuple(settings.items())))
 
 
 def _channels(word: str) -> tuple[str, ...] | None:

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Gradient flow beside cv2's dense flows and Lucas-Kanade: ``python -m benchmarks.quality.cues.flow``.
+"""gradient_flow and pyramid_flow beside cv2's dense flows and Lucas-Kanade.
 
-Errors are average endpoint errors in pixels, all methods' over the same pixels: of those with a true flow the
-half that the reliabilities of ours rank first, by angle^2 contrast. The root of that is about the smaller
-singular value of equation (4), so its inverse bounds the flow's error; on made frames errors of one level
-fall nearly with these powers (``fit``). Where ours gives no flow it ranks last. Times are the fastest of some
-rounds in turn, on one thread; Lucas-Kanade's is that for the half. "kept" are those that reach a tracker's
-minima.
+    python -m benchmarks.quality.cues.dense_flow
+
+Errors are average endpoint errors in pixels, of all methods over the same pixels: of those with a true flow,
+the half that tricue's reliabilities rank first, by angle^2 contrast. The root of that is about the smaller
+singular value of equation (4), so its inverse bounds the flow's error; on synthetic frames the errors of one
+level fall nearly with these powers (``fit``). Pixels without a flow rank last. Times are the fastest of some
+rounds, on one thread; Lucas-Kanade's is for the half. "kept" pixels reach a tracker's minimum reliabilities.
 """
 
 import argparse
@@ -22,19 +23,29 @@ from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 from tricue.scenes.moving_waves import moving_waves
 
-from benchmarks.quality.cues.disparity import fastest
-from benchmarks.quality.sequences import data_folder
+from benchmarks.quality.common.sequences import data_folder
+from benchmarks.quality.common.tables import markdown
+from benchmarks.quality.common.timing import fastest
 
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 Dense = Callable[[Image, Image], Floats]
 
 SIGMA, PYRAMID_SIGMA, LEVELS = 2.0, 1.0, 3
-MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # for the density: what a tracker keeps
-CLEAR = 0.3
+MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # of the flow that a tracker keeps
+MIN_FIT_ANGLE = 0.3
 SHIFTS = (0.5, 1, 2, 3, 4, 6)  # px
-PEERS = ("Farneback", "DIS ultrafast", "DIS medium", "Lucas-Kanade")
-COLUMNS = ("frames", "flow", "kept %", "AEE", *PEERS, "of DIS", "ms", *(f"ms {peer}" for peer in PEERS))
+BASELINES = ("Farneback", "DIS ultrafast", "DIS medium", "Lucas-Kanade")
+COLUMNS = (
+    "frames",
+    "flow",
+    "kept %",
+    "AEE",
+    *BASELINES,
+    "of DIS",
+    "ms",
+    *(f"ms {name}" for name in BASELINES),
+)
 
 
 class Frames(NamedTuple):
@@ -46,8 +57,8 @@ class Frames(NamedTuple):
     truth: Floats
 
 
-class Found(NamedTuple):
-    """What ours gives: flow (H, W, 2), NaN where none, and both reliabilities (H, W)."""
+class RatedFlow(NamedTuple):
+    """Flow (H, W, 2), NaN where there is none, and its reliabilities (H, W)."""
 
     flow: Floats
     angle: Floats
@@ -55,40 +66,42 @@ class Found(NamedTuple):
 
 
 class Result(NamedTuple):
-    """Of one of ours: percent kept at the minima, and errors and seconds, its own first, then the PEERS'."""
+    """One of METHODS: percent kept at the minima; errors and seconds, its own first, then the BASELINES'."""
 
     kept: float
     errors: tuple[float, ...]
     seconds: tuple[float, ...]
 
 
-class Ours(NamedTuple):
-    """One of our flows: u, v, angle, contrast of two frames; the sign of u, v in the first one's pixels."""
+class FlowMethod(NamedTuple):
+    """A kernel: u, v, angle, contrast of two frames; and the sign of u, v in the first one's pixels."""
 
     kernel: Callable[[Image, Image], tuple[Floats, Floats, Floats, Floats]]
     sign: int
 
-    def find(self, frames: Frames) -> Found:
+    def find(self, frames: Frames) -> RatedFlow:
         """Every pixel's flow."""
         u, v, angle, contrast = self.kernel(frames.previous, frames.current)
-        return Found(self.sign * np.dstack([u, v]), angle, contrast)
+        return RatedFlow(self.sign * np.dstack([u, v]), angle, contrast)
 
 
-def one_level(sigma: float = SIGMA) -> Ours:
+def one_level(sigma: float = SIGMA) -> FlowMethod:
     """gradient_flow, which is that of halfway between the frames."""
-    return Ours(lambda previous, current: _core.gradient_flow(previous, current, sigma, 0, 0), 1)
+    return FlowMethod(lambda previous, current: _core.gradient_flow(previous, current, sigma, 0, 0), 1)
 
 
-def pyramid(sigma: float = PYRAMID_SIGMA) -> Ours:
+def pyramid(sigma: float = PYRAMID_SIGMA) -> FlowMethod:
     """pyramid_flow, whose flow is that of the second frame's pixels: so the frames are exchanged."""
-    return Ours(lambda previous, current: _core.pyramid_flow(current, previous, sigma, LEVELS, 0, 0), -1)
+    return FlowMethod(
+        lambda previous, current: _core.pyramid_flow(current, previous, sigma, LEVELS, 0, 0), -1
+    )
 
 
-OURS = {"one level": one_level(), "pyramid": pyramid()}
+METHODS = {"one level": one_level(), "pyramid": pyramid()}
 
 
 def load(folder: Path) -> Frames:
-    """``NAME1.png``, ``NAME2.png`` and ``NAME.flo`` of a folder NAME. OSError where one isn't there."""
+    """``NAME1.png``, ``NAME2.png`` and ``NAME.flo`` of a folder NAME. OSError where one is missing."""
     paths = [folder / f"{folder.name}{end}" for end in ("1.png", "2.png", ".flo")]
     if not all(path.is_file() for path in paths):
         raise OSError(f"folder: expected {', '.join(path.name for path in paths)} in {folder}")
@@ -100,8 +113,8 @@ def load(folder: Path) -> Frames:
     return Frames(folder.name, previous, current, np.where(known, truth, np.float32(np.nan)))
 
 
-def made(seed: int = 0) -> list[Frames]:
-    """Textures that move as a whole by SHIFTS, and two that turn and grow or shrink."""
+def synthetic(seed: int = 0) -> list[Frames]:
+    """Textures that shift as a whole by SHIFTS, and two that rotate and grow or shrink."""
     rng = np.random.default_rng(seed)
     cases = [(f"shift {shift:g} px", 0.0, 1.0, shift) for shift in SHIFTS]
     cases += [("turn and grow", 2.0, 1.03, 0.5), ("turn and shrink", -1.5, 0.98, 0.5)]
@@ -111,7 +124,7 @@ def made(seed: int = 0) -> list[Frames]:
     ]
 
 
-def reliable_half(found: Found, known: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def reliable_half(found: RatedFlow, known: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(H, W): the half of the known pixels that angle^2 contrast ranks first, those without flow last."""
     rank = np.where(np.isfinite(found.flow[..., 0]), found.angle**2 * found.contrast, -1)
     order = np.argsort(-rank[known], kind="stable")[: max(1, int(known.sum()) // 2)]
@@ -120,12 +133,12 @@ def reliable_half(found: Found, known: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return half
 
 
-def measure(frames: Frames, ours: Ours, rounds: int = 10) -> Result:
-    """Errors and times of one of OURS and of the PEERS on its reliable half."""
+def measure(frames: Frames, method: FlowMethod, rounds: int = 10) -> Result:
+    """Errors and times of a method and of the BASELINES on its reliable half."""
     known = np.asarray(np.isfinite(frames.truth).all(axis=2))
-    found = ours.find(frames)
+    found = method.find(frames)
     half = reliable_half(found, known)
-    flows: list[Callable[[], object]] = [lambda: ours.kernel(frames.previous, frames.current)]
+    flows: list[Callable[[], object]] = [lambda: method.kernel(frames.previous, frames.current)]
     errors = [_error(found.flow, frames.truth, half)]
     for dense in (
         farneback(),
@@ -151,7 +164,7 @@ def farneback() -> Dense:
 
 
 def dis(preset: int) -> Dense:
-    """cv2's dense inverse search, which keeps its memory from call to call."""
+    """cv2's dense inverse search, which keeps its buffers from call to call."""
     search = cv2.DISOpticalFlow.create(preset)
 
     def calc(previous: Image, current: Image) -> Floats:
@@ -170,29 +183,28 @@ def lucas_kanade(previous: Image, current: Image, pixels: NDArray[np.bool_]) -> 
 
 
 def table(cases: Iterable[Frames], rounds: int = 10) -> str:
-    """Markdown, a line for each case and each of OURS: COLUMNS."""
-    lines: list[Sequence[str]] = [COLUMNS, ["---"] * len(COLUMNS)]
+    """Markdown, a line per case and method: COLUMNS."""
+    lines = []
     for frames in cases:
-        for name, ours in OURS.items():
-            result = measure(frames, ours, rounds)
-            ratio = result.errors[0] / result.errors[1 + PEERS.index("DIS ultrafast")]
+        for name, method in METHODS.items():
+            result = measure(frames, method, rounds)
+            ratio = result.errors[0] / result.errors[1 + BASELINES.index("DIS ultrafast")]
             errors = [f"{error:.3f}" for error in result.errors]
             times = [f"{1e3 * seconds:.2f}" for seconds in result.seconds]
             lines.append([frames.name, name, f"{result.kept:.0f}", *errors, f"{ratio:.2f}", *times])
-    return "\n".join(f"| {' | '.join(cells)} |" for cells in lines)
+    return markdown(COLUMNS, lines)
 
 
 def fit(cases: Iterable[Frames], sigma: float = SIGMA) -> tuple[float, float]:
     """Exponents of angle and contrast in one level's error, by least squares on their logarithms.
 
-    Only where the angle is CLEAR: where it is small the worst flow is too long to be given, and its error
-    missing.
+    Only above MIN_FIT_ANGLE: at smaller angles the largest errors are missing, as flow that long is rejected.
     """
     rows = []
     for frames in cases:
         found = one_level(sigma).find(frames)
         error = np.linalg.norm(found.flow - frames.truth, axis=2)
-        used = np.isfinite(error) & (error > 0) & (found.angle > CLEAR)
+        used = np.isfinite(error) & (error > 0) & (found.angle > MIN_FIT_ANGLE)
         rows.append(np.log(np.stack([error[used], found.angle[used], found.contrast[used]])))
     error, angle, contrast = np.concatenate(rows, axis=1)
     terms = np.stack([angle, contrast, np.ones_like(angle)], axis=1)
@@ -202,19 +214,21 @@ def fit(cases: Iterable[Frames], sigma: float = SIGMA) -> tuple[float, float]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table and the fit; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.cues.flow")
-    parser.add_argument("folder", type=Path, nargs="?", help="RubberWhale; found through TRICUE_DATA")
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.cues.dense_flow")
+    parser.add_argument("folder", type=Path, nargs="?", help="of RubberWhale; default in TRICUE_DATA")
     parser.add_argument("--rounds", type=int, default=10, help="of timing, default %(default)s")
     options = parser.parse_args(arguments)
     folder = options.folder or data_folder() / "flow" / "RubberWhale"
     if not folder.is_dir():
         parser.error(f"folder: expected frames and flow in {folder}")
     with one_thread():
-        print(table([load(folder), *made()], options.rounds))
+        print(table([load(folder), *synthetic()], options.rounds))
     powers = fit(
-        frames for frames in made() if frames.name in ("shift 0.5 px", "shift 1 px", "turn and shrink")
+        frames for frames in synthetic() if frames.name in ("shift 0.5 px", "shift 1 px", "turn and shrink")
     )
-    print("\nOn made frames the error of one level goes with angle^{:.2f} contrast^{:.2f}.".format(*powers))
+    print(
+        "\nOn synthetic frames the error of one level goes with angle^{:.2f} contrast^{:.2f}.".format(*powers)
+    )
     return 0
 
 

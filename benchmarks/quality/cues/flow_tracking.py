@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Flow alone beside MedianFlow, without any depth: ``python -m benchmarks.quality.cues.motion [FOLDER]``.
+"""The flow and depth tracker by flow alone, without any depth, beside cv2's trackers.
 
-The flow and depth tracker with ``cues=("flow",)``; the table, with seven starts, is that of search.
+    python -m benchmarks.quality.cues.flow_tracking [FOLDER]
+
+Each tracker starts on the first true box and on six that differ a little from it.
 """
 
 import sys
@@ -11,24 +13,24 @@ import tricue
 from tricue.evaluation import baselines
 from tricue.evaluation.baselines import Maker
 
-from benchmarks.quality.cues import search
+from benchmarks.quality.common import perturbed_starts
 
-NAMES = ("Crossing", "Couple")
-PEERS = ("MedianFlow", "MOSSE", "KCF", "CSRT", "still-box")
+SEQUENCES = ("Crossing", "Couple")
+BASELINES = ("MedianFlow", "MOSSE", "KCF", "CSRT", "still-box")
 
 
 def makers() -> dict[str, Maker]:
-    """Flow alone, and the peers that the installed cv2 has."""
+    """Flow alone, and the baselines that the installed cv2 has."""
     known = baselines.available()
     return {
         "flow-depth, flow alone": lambda seed: tricue.FlowDepthTracker(cues=("flow",)),
-        **{name: known[name] for name in PEERS if name in known},
+        **{name: known[name] for name in BASELINES if name in known},
     }
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    return search.report("cues.motion", NAMES, makers(), arguments)
+    return perturbed_starts.main("cues.flow_tracking", SEQUENCES, makers(), arguments)
 
 
 if __name__ == "__main__":

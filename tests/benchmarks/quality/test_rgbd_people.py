@@ -7,7 +7,7 @@ import pytest
 from tricue.camera.box import Box
 from tricue.evaluation.dataset import Reading, find_entries
 
-from benchmarks.quality.fused import rgbd_people
+from benchmarks.quality import rgbd_people
 
 FRAMES, LEFT, STEP = 10, 20, 2
 DEPTH = "fx = 60.0\nfy = 60.0\ncx = 39.5\ncy = 29.5\n"
@@ -46,7 +46,7 @@ def opened(root):
     return entry.open()
 
 
-def test_color_comes_into_the_depth_images_pixels(walk):
+def test_color_is_registered_to_the_depth_image(walk):
     """The person's red is where the person's depth is, to a pixel."""
     one = opened(walk)
     for frame in rgbd_people.registered(one, rgbd_people.color_camera(one)):
@@ -58,7 +58,7 @@ def test_color_comes_into_the_depth_images_pixels(walk):
 
 
 def test_without_a_color_camera_there_is_depth_alone(walk):
-    """Where the calibration tells of one camera, nothing says how to map the color."""
+    """Without the calibration of both cameras, color can't be registered."""
     (walk / "intrinsics.toml").unlink()
     one = opened(walk)
     assert rgbd_people.color_camera(one) is None
@@ -77,8 +77,8 @@ def test_boxes_are_jittered_within_limits():
 
 
 def test_the_command_prints_and_writes(walk, tmp_path, capsys):
-    """A line a tracker and run. A box that stands still has lost the person at the end, one that follows
-    depth hasn't, and tells how far away the person is.
+    """A line per tracker and run. A still box has lost the person at the end; a tracker on depth hasn't, and
+    estimates the person's distance.
     """
     words = [
         "--trackers",

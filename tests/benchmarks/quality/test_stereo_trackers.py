@@ -8,7 +8,8 @@ from tricue import StereoRig
 from tricue.data import kitti
 from tricue.scenes import head
 
-from benchmarks.quality import compare_stereo, sequences, stereo_sequences
+from benchmarks.quality import stereo_trackers
+from benchmarks.quality.common import sequences, stereo_sequences
 
 CALIBRATION = """%YAML:1.0
 ---
@@ -22,13 +23,13 @@ CUBOID = "1.5 1.6 4.5 {x} 1.7 {z} {turn}"
 
 @pytest.fixture(scope="module")
 def scene():
-    """A head before a pair, twelve frames."""
+    """A head in stereo, twelve frames."""
     return head(0, frames=12)
 
 
 @pytest.fixture(scope="module")
 def folder(scene, tmp_path_factory):
-    """The scene written as left/, right/, the boxes of both, and a calibration that counts in decimetres."""
+    """The scene written as left/, right/, the boxes of both, and a calibration in decimeters."""
     root = tmp_path_factory.mktemp("stereo")
     place = root / "head"
     for side in ("left", "right"):
@@ -52,8 +53,8 @@ def _disparities(scene):
     return scene.rig.intrinsics.fx * scene.rig.baseline / scene.positions[:, 2]
 
 
-def test_a_folder_of_pairs_is_a_sequence(folder, scene):
-    """Pairs, boxes, true disparities from the boxes of both images, and the rig in metres."""
+def test_a_folder_of_stereo_pairs_is_a_sequence(folder, scene):
+    """Stereo pairs, boxes, true disparities from the boxes of both images, and the rig in meters."""
     assert stereo_sequences.find(folder) == [folder / "head"]
     (found,) = stereo_sequences.load(folder / "head", unit=0.1)
     assert len(found.frames) == 12
@@ -64,11 +65,11 @@ def test_a_folder_of_pairs_is_a_sequence(folder, scene):
 
 
 def test_the_table_has_a_line_per_tracker(folder, capsys):
-    """The head tracker holds the head and knows its disparity within a pixel; the peers have none."""
-    assert compare_stereo.main([str(folder), "--unit", "0.1"]) == 0
+    """The head tracker holds the head and knows its disparity within a pixel; the baselines have none."""
+    assert stereo_trackers.main([str(folder), "--unit", "0.1"]) == 0
     lines = [line.strip("| ").split(" | ") for line in capsys.readouterr().out.splitlines()]
     rows = {line[1]: line for line in lines[2:]}
-    assert list(rows) == list(compare_stereo.makers())
+    assert list(rows) == list(stereo_trackers.makers())
     ours = rows["stereo-head"]
     assert ours[2] == "100%"
     assert float(ours[4]) > 0.7
@@ -84,22 +85,22 @@ def test_parameters_come_from_a_file(folder, tmp_path, capsys):
     """Those of the file are the tracker's, near and far are the rig's; an unknown one is named."""
     path = tmp_path / "params.toml"
     path.write_text("resolution = 80\nnear = 3.0\n")
-    assert compare_stereo.main([str(folder / "head"), "--unit", "0.1", "--params", str(path)]) == 0
+    assert stereo_trackers.main([str(folder / "head"), "--unit", "0.1", "--params", str(path)]) == 0
     coarse = capsys.readouterr().out.splitlines()[2].split(" | ")
-    assert compare_stereo.main([str(folder / "head"), "--unit", "0.1"]) == 0
+    assert stereo_trackers.main([str(folder / "head"), "--unit", "0.1"]) == 0
     default = capsys.readouterr().out.splitlines()[2].split(" | ")
     assert coarse[:2] == default[:2]
     assert coarse[3:7] != default[3:7]
     assert float(coarse[4]) > 0.5
     path.write_text("resolutions = 80\n")
     with pytest.raises(TypeError, match="resolutions: unknown parameter"):
-        compare_stereo.main([str(folder), "--params", str(path)])
+        stereo_trackers.main([str(folder), "--params", str(path)])
 
 
 def test_a_folder_without_sequences_is_refused(tmp_path, capsys):
     """One line that names the folder."""
     with pytest.raises(SystemExit):
-        compare_stereo.main([str(tmp_path)])
+        stereo_trackers.main([str(tmp_path)])
     assert "expected stereo sequences with true boxes" in capsys.readouterr().err
 
 
@@ -143,7 +144,7 @@ def test_a_line_that_is_no_label_is_named(tmp_path, line):
 
 
 def test_kitti_targets_are_sequences():
-    """The recorded KITTI pairs have two targets long and large enough, of known disparity."""
+    """The recorded KITTI stereo pairs have two targets long and large enough, of known disparity."""
     place = sequences.data_folder() / "stereo" / "kitti-tracking"
     if not place.is_dir():
         pytest.skip(f"no recorded pairs under {place}")

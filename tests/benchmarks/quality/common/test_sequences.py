@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.quality import sequences
+from benchmarks.quality.common import sequences
 
 
 def test_sequence_comes_back_as_written(folders, patrol):

@@ -6,9 +6,9 @@ from tricue import Box, Frame
 from tricue.evaluation import baselines, metrics
 from tricue.evaluation.one_pass import run
 
-from benchmarks.quality import sequences
-from benchmarks.quality.cues import search
-from benchmarks.quality.cues.color_search import ColorSearch, SearchParams
+from benchmarks.quality.common import perturbed_starts, sequences
+from benchmarks.quality.common.color_search import ColorSearch, SearchParams
+from benchmarks.quality.cues import color_tracking
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,7 @@ def disc():
 def test_search_follows_an_ellipse(disc, gradient):
     """The center stays within 2 px of the moving disc's, with the gradient's term and without."""
     frames, boxes = disc
-    found = run(ColorSearch(SearchParams(gradient=gradient)), frames, boxes[0]).boxes
+    found = run(ColorSearch(SearchParams(gradient_weight=gradient)), frames, boxes[0]).boxes
     off = np.abs(found[:, :2] - np.array(boxes)[:, :2])
     assert off.max() <= 2
     np.testing.assert_allclose(found[:, 2:], [[40, 50]] * 20)
@@ -42,16 +42,16 @@ def test_gradient_pulls_to_the_outline(disc):
     start = boxes[0]._replace(x=boxes[0].x + 3.2, y=boxes[0].y + 4)
 
     def error(gradient):
-        found = run(ColorSearch(SearchParams(gradient=gradient)), frames, start).boxes
+        found = run(ColorSearch(SearchParams(gradient_weight=gradient)), frames, start).boxes
         return np.abs(found[-1, :2] - boxes[-1][:2]).sum()
 
     assert error(0.35) < error(0.0)
 
 
-def test_starts_are_the_box_and_six_round_it():
-    """Shifted by 8 % along each axis, or scaled by 6 % round the same center."""
+def test_starts_are_the_box_and_six_around_it():
+    """Shifted by 8 % along each axis, or scaled by 6 % around the same center."""
     box = Box(100.0, 50.0, 50.0, 100.0)
-    found = search.starts(box)
+    found = perturbed_starts.starts(box)
     assert found[0] == box
     np.testing.assert_allclose(
         found[1:5], [[104, 50, 50, 100], [96, 50, 50, 100], [100, 58, 50, 100], [100, 42, 50, 100]]
@@ -65,24 +65,24 @@ def test_score_is_taken_from_every_start(disc):
     frames, boxes = disc
     truth = np.array(boxes)
     sequence = sequences.Sequence("disc", frames, truth)
-    scores, fps = search.measure(lambda seed: baselines.StillBox(), sequence)
-    still = [np.tile(start, (20, 1)) for start in search.starts(boxes[0])]
+    scores, fps = perturbed_starts.measure(lambda seed: baselines.StillBox(), sequence)
+    still = [np.tile(start, (20, 1)) for start in perturbed_starts.starts(boxes[0])]
     assert scores == [metrics.score(each, truth) for each in still]
     assert len({score.mean_error for score in scores}) > 3
     assert fps > 0
-    line = search.table({"still": lambda seed: baselines.StillBox()}, [sequence]).splitlines()[2]
+    line = perturbed_starts.table({"still": lambda seed: baselines.StillBox()}, [sequence]).splitlines()[2]
     assert line.startswith("| still | 0.")
 
 
 def test_missing_sequence_is_named(tmp_path, capsys):
     """A sequence that isn't in the folder is refused by name."""
     with pytest.raises(SystemExit):
-        search.main([str(tmp_path)])
+        color_tracking.main([str(tmp_path)])
     assert f"expected some with true boxes under {tmp_path}, got 'David'" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(("name", "least"), [("David", 0.42), ("Girl", 0.55)])
 def test_search_holds_recorded_heads(data, name, least):
     """The mean AUC over the seven starts is what the color search alone has to reach."""
-    scores, _ = search.measure(lambda seed: ColorSearch(), sequences.load(data / "color" / name))
+    scores, _ = perturbed_starts.measure(lambda seed: ColorSearch(), sequences.load(data / "color" / name))
     assert np.mean([score.auc for score in scores]) >= least

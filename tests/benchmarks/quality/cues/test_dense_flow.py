@@ -3,24 +3,24 @@ import cv2
 import numpy as np
 import pytest
 
-from benchmarks.quality.cues import flow
-from benchmarks.quality.cues.flow import Found
+from benchmarks.quality.cues import dense_flow as flow
+from benchmarks.quality.cues.dense_flow import RatedFlow
 
 
 @pytest.fixture(scope="module")
 def cases():
-    """The made frames, by name."""
-    return {frames.name: frames for frames in flow.made()}
+    """The synthetic frames, by name."""
+    return {frames.name: frames for frames in flow.synthetic()}
 
 
 def test_all_find_a_small_shift(cases):
     """Of 1 px all are right to 0.3 px on our reliable half, and wrong where the truth is another."""
     frames = cases["shift 1 px"]
-    for ours in flow.OURS.values():
-        result = flow.measure(frames, ours, rounds=1)
+    for method in flow.METHODS.values():
+        result = flow.measure(frames, method, rounds=1)
         assert max(result.errors) < 0.3
         assert min(result.seconds) > 0
-        wrong = flow.measure(frames._replace(truth=-frames.truth), ours, rounds=1)
+        wrong = flow.measure(frames._replace(truth=-frames.truth), method, rounds=1)
         assert min(wrong.errors) > 1.7
 
 
@@ -38,7 +38,7 @@ def test_half_is_what_is_ranked_first():
     found = np.zeros((1, 6, 2), np.float32)
     found[0, 5] = np.nan
     known = np.array([[True, True, False, True, True, True]])
-    half = flow.reliable_half(Found(found, angle, contrast), known)
+    half = flow.reliable_half(RatedFlow(found, angle, contrast), known)
     np.testing.assert_array_equal(half, [[False, True, False, True, False, False]])
 
 
@@ -53,7 +53,7 @@ def test_pixels_without_truth_do_not_count(cases):
 
 
 def test_ranking_is_that_of_the_errors(cases):
-    """On made frames one level's error falls nearly with angle and the root of contrast."""
+    """On synthetic frames one level's error falls nearly with angle and the root of contrast."""
     small = [cases[name] for name in ("shift 0.5 px", "shift 1 px", "turn and shrink")]
     for sigma in (1.5, 2.0, 3.0):
         angle, contrast = flow.fit(small, sigma)
@@ -62,7 +62,7 @@ def test_ranking_is_that_of_the_errors(cases):
 
 
 def test_frames_are_read_with_their_flow(tmp_path):
-    """Huge numbers of the truth are unknown; a missing file is told."""
+    """Huge numbers of the truth are unknown; a missing file is named."""
     folder = tmp_path / "Thing"
     folder.mkdir()
     with pytest.raises(OSError, match=r"expected Thing1.png, Thing2.png, Thing.flo in .*Thing"):
@@ -79,14 +79,14 @@ def test_frames_are_read_with_their_flow(tmp_path):
 def test_rubber_whale(data):
     """One level's half has at most DIS ultrafast's error, the pyramid's at most 0.7 times that."""
     frames = flow.load(data / "flow" / "RubberWhale")
-    column = 1 + flow.PEERS.index("DIS ultrafast")
+    column = 1 + flow.BASELINES.index("DIS ultrafast")
     for name, most in (("one level", 1.0), ("pyramid", 0.7)):
-        result = flow.measure(frames, flow.OURS[name], rounds=1)
+        result = flow.measure(frames, flow.METHODS[name], rounds=1)
         assert result.errors[0] <= most * result.errors[column]
 
 
 def test_table_has_a_line_for_each(cases):
-    """Both of ours, for each case."""
+    """Both methods, for each case."""
     lines = flow.table([cases["shift 1 px"]], rounds=1).splitlines()
     assert [line.split("|")[2].strip() for line in lines] == ["flow", "---", "one level", "pyramid"]
     assert {line.count("|") for line in lines} == {len(flow.COLUMNS) + 1}
