@@ -45,7 +45,7 @@ def test_recovered_in_time():
 
 
 def test_faithful_for_five_frames():
-    """Five frames TRACKED on a look-alike are tolerated, six aren't, unless another status interrupts them."""
+    """Five frames TRACKED on a look-alike are tolerated, six aren't, if no other status interrupts them."""
     one = scene([1] * 10, lookalike=range(10))
     assert faithful(run([AWAY] * 5 + [BOX] * 5), one) == 1
     assert faithful(run([AWAY] * 6 + [BOX] * 4), one) == 0
