@@ -23,13 +23,10 @@ from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 from tricue.scenes.moving_waves import moving_waves
 
+from benchmarks.quality.common.opencv_flows import Floats, Image, dis, farneback, lucas_kanade
 from benchmarks.quality.common.sequences import data_folder
 from benchmarks.quality.common.tables import markdown
 from benchmarks.quality.common.timing import fastest
-
-Image = NDArray[np.uint8]
-Floats = NDArray[np.float32]
-Dense = Callable[[Image, Image], Floats]
 
 SIGMA, PYRAMID_SIGMA, LEVELS = 2.0, 1.0, 3
 MIN_ANGLE, MIN_CONTRAST = 0.1, 1.0  # of the flow that a tracker keeps
@@ -151,35 +148,6 @@ def measure(frames: Frames, method: FlowMethod, rounds: int = 10) -> Result:
     flows.append(lambda: lucas_kanade(frames.previous, frames.current, half))
     kept = np.isfinite(found.flow[..., 0]) & (found.angle >= MIN_ANGLE) & (found.contrast >= MIN_CONTRAST)
     return Result(100 * float(kept[known].mean()), tuple(errors), tuple(fastest(flows, rounds)))
-
-
-def farneback() -> Dense:
-    """cv2's polynomial expansion, with the parameters of OpenCV's samples."""
-
-    def calc(previous: Image, current: Image) -> Floats:
-        flow = cv2.calcOpticalFlowFarneback(previous, current, None, 0.5, 3, 15, 3, 5, 1.2, 0)  # type: ignore[call-overload]
-        return np.asarray(flow, np.float32)
-
-    return calc
-
-
-def dis(preset: int) -> Dense:
-    """cv2's dense inverse search, which keeps its buffers from call to call."""
-    search = cv2.DISOpticalFlow.create(preset)
-
-    def calc(previous: Image, current: Image) -> Floats:
-        return np.asarray(search.calc(previous, current, None), np.float32)  # type: ignore[call-overload]
-
-    return calc
-
-
-def lucas_kanade(previous: Image, current: Image, pixels: NDArray[np.bool_]) -> Floats:
-    """cv2's pyramidal Lucas-Kanade of the given pixels, (H, W, 2), 0 elsewhere and where it loses them."""
-    points = np.argwhere(pixels)[:, None, ::-1].astype(np.float32)
-    moved, status, _ = cv2.calcOpticalFlowPyrLK(previous, current, points, None)  # type: ignore[call-overload]
-    flow = np.zeros((*pixels.shape, 2), np.float32)
-    flow[pixels] = np.where(status > 0, (moved - points)[:, 0], 0)
-    return flow
 
 
 def table(cases: Iterable[Frames], rounds: int = 10) -> str:

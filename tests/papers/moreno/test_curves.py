@@ -49,7 +49,7 @@ def test_errors_are_shares_of_the_distance():
 
 
 def test_consistent_covariances_have_a_mean_of_three():
-    """Errors drawn from the covariances have a mean normalised square of 3; twice as large ones, of 12."""
+    """Errors drawn from the covariances have a mean normalized square of 3; twice as large ones, of 12."""
     off = np.random.default_rng(1).normal(0, [0.01, 0.02, 0.03], (20, FRAMES, 3))
     for scale, expected in ((1, 3), (2, 12)):
         means = [curve(positions=place(TIME) + scale * each).nees.mean() for each in off]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A run as a thin picture, time to the right: the overlap as a shade, below it what the tracker said."""
+"""A run as a thin picture, time to the right: the overlap as a shade, the status below."""
 
 import base64
 
@@ -12,22 +12,25 @@ from tricue.evaluation.rows import Judged
 
 Array = NDArray[np.float64]
 
-WIDEST = 160  # columns; longer runs show the worst frame of each column
+MAX_COLUMNS = 160
+"""Of the picture; in longer runs each column has the worst of several frames."""
 SHADES = ("#7a1020", "#c9452f", "#f0a04b", "#f7e0a3", "#b7dfc4", "#8fcbaa")
-"""Of overlaps from 0 to 1: darker is worse, so that they are told apart by lightness too."""
-ABSENT, UNKNOWN, SILENT, SAID = "#b9c4d6", "#ffffff", "#3b4a63", "#ffffff"
+"""Of overlaps from 0 to 1: darker is worse, so that lightness distinguishes them too."""
+ABSENT, UNKNOWN, NOT_TRACKED, TRACKED = "#b9c4d6", "#ffffff", "#3b4a63", "#ffffff"
 _ROWS, _STATUS_ROWS = 6, 2  # of the picture, which the page stretches
 
 
-def strip(run: Judged, label: str) -> Html:
-    """The picture of a run; label: for who can't see it."""
-    columns = np.array_split(np.arange(len(run.overlaps)), min(WIDEST, len(run.overlaps)))
+def timeline(run: Judged, label: str) -> Html:
+    """The picture of a run; label: its text alternative."""
+    columns = np.array_split(np.arange(len(run.overlaps)), min(MAX_COLUMNS, len(run.overlaps)))
     overlap = np.array([_shade(run, frames) for frames in columns], np.uint8)
     status = np.array(
-        [_rgb(SILENT if (~run.tracked[frames]).any() else SAID) for frames in columns], np.uint8
+        [_rgb(NOT_TRACKED if (~run.tracked[frames]).any() else TRACKED) for frames in columns], np.uint8
     )
     rows = [overlap] * (_ROWS - _STATUS_ROWS) + [status] * _STATUS_ROWS
-    return tag("img", class_="strip", src=_png(np.stack(rows)), alt=label, width=len(columns), height=_ROWS)
+    return tag(
+        "img", class_="timeline", src=_png(np.stack(rows)), alt=label, width=len(columns), height=_ROWS
+    )
 
 
 def _shade(run: Judged, frames: NDArray[np.int64]) -> tuple[int, ...]:

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Matplotlib's figures as SVG that stands in an HTML page: no ids of its own twice, no addresses, no styles
-that reach the rest of the page; the same figure gives the same text (matplotlib, ``evaluate`` extra).
+"""Matplotlib figures as SVG inside an HTML page (matplotlib, ``evaluate`` extra).
+
+Ids are unique in the page; there are no URLs, and no styles that affect the rest of the page. The same figure
+gives the same text.
 """
 
 import io
@@ -22,9 +24,9 @@ _STYLE: dict[str, Any] = {
     "grid.linewidth": 0.8,
     "xtick.color": "#444444",
     "ytick.color": "#444444",
-    "svg.fonttype": "none",  # text stays text, in the page's letters
+    "svg.fonttype": "none",  # text stays text, in the page's font
 }
-_SIZE = (4.6, 3.4)  # inches; 331 points, no more than the pixels of a phone's width
+_SIZE = (4.6, 3.4)  # inches; 331 points, which fit the width of a phone
 
 
 def require() -> None:
@@ -36,8 +38,8 @@ def require() -> None:
         raise ImportError(message) from None
 
 
-def svg(draw: Callable[[Any], None], name: str, label: str) -> Html:
-    """The picture of the axes that ``draw`` fills. name: unique in the page. label: for who can't see it."""
+def render(draw: Callable[[Any], None], name: str, label: str) -> Html:
+    """The axes that ``draw`` fills, as SVG. name: unique in the page. label: the text alternative."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
