@@ -8,7 +8,6 @@ those of ``robustness`` on recorded color sequences; the last ones are the mean 
 by channels. CSRT uses color alone, which is the same for all channels, so it runs once.
 """
 
-import argparse
 import sys
 from collections.abc import Iterable, Sequence
 
@@ -19,7 +18,7 @@ from tricue.track.base.registry import tracker_class
 
 from benchmarks.quality import robustness, stress_scenes
 from benchmarks.quality.common import scene_runs
-from benchmarks.quality.common.arguments import add_output, seeds
+from benchmarks.quality.common.arguments import add_output, bare_parser, seeds
 from benchmarks.quality.common.parallel import run_parallel
 from benchmarks.quality.common.tables import Cell, markdown, write_csv
 from benchmarks.quality.common.variants import Variant, with_settings
@@ -77,7 +76,7 @@ def lines(
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    made = argparse.ArgumentParser(prog="python -m benchmarks.quality.ablation", description=__doc__)
+    made = bare_parser("ablation", __doc__)
     robustness.add_dataset(made)
     made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(SCENES), help="of scenes")
     made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="default 0:3")

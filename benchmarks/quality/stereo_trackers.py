@@ -7,7 +7,6 @@ The stereo head tracker searches between the distances at which the disparity is
 width and 4 pixels. Its other parameters are the defaults, or those of --params.
 """
 
-import argparse
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, replace
@@ -25,6 +24,7 @@ from tricue.track.base.track import Status
 from tricue.track.stereo_head.params import StereoHeadParams
 
 from benchmarks.quality.common import sequences, stereo_sequences
+from benchmarks.quality.common.arguments import bare_parser
 from benchmarks.quality.common.stereo_sequences import StereoSequence
 from benchmarks.quality.common.tables import markdown
 
@@ -113,7 +113,7 @@ def table(rows: Sequence[Row]) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure and print the table; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.stereo_trackers", description=__doc__)
+    parser = bare_parser("stereo_trackers", __doc__)
     parser.add_argument(
         "folder", type=Path, nargs="?", help="of one or more sequences; default in TRICUE_DATA"
     )

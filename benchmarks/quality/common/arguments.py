@@ -18,7 +18,7 @@ def parser(script: str, about: str | None, trackers: Sequence[str]) -> argparse.
     trackers: those of a run without --trackers, as far as they are tricue's or the installed cv2 has them.
     """
     known = (*names(), *baselines.available())
-    made = argparse.ArgumentParser(prog=f"python -m {PACKAGE}.{script}", description=about)
+    made = bare_parser(script, about)
     made.add_argument(
         "--trackers",
         nargs="+",
@@ -29,6 +29,15 @@ def parser(script: str, about: str | None, trackers: Sequence[str]) -> argparse.
     made.add_argument("--set", action="append", default=[], metavar="TRACKER.NAME=VALUE", help="a parameter")
     add_output(made)
     return made
+
+
+def bare_parser(script: str, about: str | None) -> argparse.ArgumentParser:
+    """No arguments; the help of a script starts with its docstring."""
+    return argparse.ArgumentParser(
+        prog=f"python -m {PACKAGE}.{script}",
+        description=about,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
 
 
 def add_output(made: argparse.ArgumentParser) -> None:

@@ -4,7 +4,6 @@
 The six are shifted by 8 % of the box's width or height, or smaller or larger by 6 %.
 """
 
-import argparse
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from tricue.evaluation.baselines import Maker
 from tricue.evaluation.one_pass import run
 
 from benchmarks.quality.common import sequences
+from benchmarks.quality.common.arguments import bare_parser
 from benchmarks.quality.common.tables import markdown
 
 SHIFT, SCALE = 0.08, 0.06
@@ -51,13 +51,17 @@ def table(trackers: Mapping[str, Maker], found: Sequence[sequences.Sequence]) ->
 
 
 def main(
-    script: str, names: Sequence[str], trackers: Mapping[str, Maker], arguments: Sequence[str] | None
+    script: str,
+    about: str | None,
+    names: Sequence[str],
+    trackers: Mapping[str, Maker],
+    arguments: Sequence[str] | None,
 ) -> int:
     """The main of a script with these trackers: parse the arguments and print the table; the exit code.
 
     names: the sequences of a run without --sequences.
     """
-    parser = argparse.ArgumentParser(prog=f"python -m benchmarks.quality.{script}")
+    parser = bare_parser(script, about)
     parser.add_argument("folder", type=Path, nargs="?", help="of sequences; default in TRICUE_DATA")
     parser.add_argument("--sequences", default=",".join(names), help="default %(default)s")
     options = parser.parse_args(arguments)

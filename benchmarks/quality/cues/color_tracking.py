@@ -31,7 +31,7 @@ def makers() -> dict[str, Maker]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    return perturbed_starts.main("cues.color_tracking", SEQUENCES, makers(), arguments)
+    return perturbed_starts.main("cues.color_tracking", __doc__, SEQUENCES, makers(), arguments)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ level fall nearly with these powers (``fit``). Pixels without a flow rank last. 
 rounds, on one thread; Lucas-Kanade's is for the half. "kept" pixels reach a tracker's minimum reliabilities.
 """
 
-import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
@@ -23,6 +22,7 @@ from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 from tricue.scenes.moving_waves import moving_waves
 
+from benchmarks.quality.common.arguments import bare_parser
 from benchmarks.quality.common.opencv_flows import Floats, Image, dis, farneback, lucas_kanade
 from benchmarks.quality.common.sequences import data_folder
 from benchmarks.quality.common.tables import markdown
@@ -182,7 +182,7 @@ def fit(cases: Iterable[Frames], sigma: float = SIGMA) -> tuple[float, float]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table and the fit; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.cues.dense_flow")
+    parser = bare_parser("cues.dense_flow", __doc__)
     parser.add_argument("folder", type=Path, nargs="?", help="of RubberWhale; default in TRICUE_DATA")
     parser.add_argument("--rounds", type=int, default=10, help="of timing, default %(default)s")
     options = parser.parse_args(arguments)

@@ -18,7 +18,6 @@ The default of three levels is compared with the paper's one level without windo
 one thread.
 """
 
-import argparse
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
@@ -30,6 +29,7 @@ from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 
 from benchmarks.quality.common import middlebury
+from benchmarks.quality.common.arguments import bare_parser
 from benchmarks.quality.common.middlebury import STEREO_BM_FRACTION, StereoPair
 from benchmarks.quality.common.tables import markdown
 from benchmarks.quality.common.timing import fastest
@@ -143,7 +143,7 @@ def table(pairs: Iterable[StereoPair], rounds: int = 5) -> str:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.cues.gradient_disparity")
+    parser = bare_parser("cues.gradient_disparity", __doc__)
     middlebury.add_arguments(parser)
     options = parser.parse_args(arguments)
     pairs = middlebury.load_all(parser, options)

@@ -10,7 +10,6 @@ computes only the others. The rates count the disparities of the pixels that bot
 second) in the fastest round, on one thread.
 """
 
-import argparse
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
@@ -22,6 +21,7 @@ from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 
 from benchmarks.quality.common import middlebury
+from benchmarks.quality.common.arguments import bare_parser
 from benchmarks.quality.common.middlebury import STEREO_BM_FRACTION, StereoPair
 from benchmarks.quality.common.tables import Cell, markdown
 from benchmarks.quality.common.timing import fastest
@@ -108,7 +108,7 @@ def report(pairs: Sequence[StereoPair], windows: Sequence[int], rounds: int = 25
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.cues.sad_disparity")
+    parser = bare_parser("cues.sad_disparity", __doc__)
     middlebury.add_arguments(parser)
     parser.add_argument("--windows", default="5", help="sides, separated by commas; default %(default)s")
     options = parser.parse_args(arguments)
