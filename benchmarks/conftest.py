@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame and samples of the usual size, made before any clock starts; OpenCV on one thread."""
+"""A frame and samples of typical size, made before any clock starts; OpenCV on one thread."""
 
 from collections.abc import Iterator
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 @pytest.fixture(autouse=True)
 def one_thread() -> Iterator[None]:
-    """Give OpenCV one thread for the length of a benchmark."""
+    """Give OpenCV one thread during a benchmark."""
     threads = cv2.getNumThreads()
     cv2.setNumThreads(1)
     yield
@@ -20,7 +20,7 @@ def one_thread() -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def frame() -> NDArray[np.uint8]:
-    """320x240 of colored clouds, at a threshold of 0.4 a quarter of them skin, in 33 blobs."""
+    """320x240 of smooth colored noise; at a threshold of 0.4 a quarter of it is skin, in 33 blobs."""
     noise = np.random.default_rng(0).normal(128, 900, (240, 320, 3))
     return cv2.GaussianBlur(noise, (0, 0), 8).clip(0, 255).astype(np.uint8)
 

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""What evaluating costs: ``python benchmarks/evaluation.py`` prints time by jobs, memory, the report's size.
+"""The cost of ``tricue evaluate``: time by jobs, memory, size of the report.
 
-The sequences are made in a temporary folder: a textured square that goes round over noise, 160x120.
+    python benchmarks/evaluation.py
+
+The sequences are made in a temporary folder: a textured square that circles over noise, 160x120.
 """
 
 import os
@@ -15,13 +17,13 @@ import cv2
 import numpy as np
 from tricue.evaluation.report.page import REPORT
 
-MANY, SHORT, LONG = 200, 60, 20_000  # sequences; frames
-REPORTED = 20  # sequences of the report
+SEQUENCES, REPORT_SEQUENCES = 200, 20
+SHORT, LONG = 60, 20_000  # frames
 TRACKERS = ("color-particle,meanShift", "color-particle,flow-depth,meanShift,still-box")
 
 
 def write_sequence(folder: Path, frames: int, seed: int) -> None:
-    """OTB's layout."""
+    """Write a sequence in OTB's layout."""
     rng = np.random.default_rng(seed)
     ground = rng.integers(20, 60, (120, 160, 3), dtype=np.uint8)
     square = cv2.resize(rng.integers(90, 255, (6, 6, 3), dtype=np.uint8), (40, 40)) // [4, 4, 1]
@@ -36,38 +38,38 @@ def write_sequence(folder: Path, frames: int, seed: int) -> None:
     (folder / "groundtruth_rect.txt").write_text("".join(lines))
 
 
-def evaluated(data: Path, output: Path, trackers: str, *options: str) -> tuple[float, float]:
-    """Seconds and peak memory in MB of the whole command."""
+def measure_evaluate(data: Path, output: Path, trackers: str, *options: str) -> tuple[float, float]:
+    """Run the command; its seconds, and its peak memory in MB."""
     command = [sys.executable, "-m", "tricue", "evaluate", str(data), "--trackers", trackers]
-    begin = time.monotonic()
+    start = time.monotonic()
     child = subprocess.Popen([*command, "--output", str(output), *options], stdout=subprocess.DEVNULL)
     _, status, used = os.wait4(child.pid, 0)
     if status:
         raise SystemExit(f"tricue evaluate failed: {status}")
-    return time.monotonic() - begin, used.ru_maxrss / 1024
+    return time.monotonic() - start, used.ru_maxrss / 1024
 
 
 def main() -> None:
-    """Make the sequences, evaluate, print."""
-    with tempfile.TemporaryDirectory() as place:
-        root = Path(place)
-        for index in range(MANY):
+    """Make the sequences, evaluate them, and print the costs."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = Path(folder)
+        for index in range(SEQUENCES):
             write_sequence(root / "many" / f"{index:03d}", SHORT, index)
         for name, frames in (("short", SHORT), ("long", LONG)):
             write_sequence(root / name, frames, 0)
-        for index in range(REPORTED):
+        for index in range(REPORT_SEQUENCES):
             (root / "some").mkdir(exist_ok=True)
             (root / "some" / f"{index:03d}").symlink_to(root / "many" / f"{index:03d}")
-        both, own = TRACKERS
+        two, four = TRACKERS
         for jobs in (1, 2):
-            seconds, _ = evaluated(root / "many", root / f"jobs{jobs}", both, "--jobs", str(jobs))
-            print(f"{MANY} sequences of {SHORT} frames, {both}, {jobs} jobs: {seconds:.1f} s", flush=True)
+            seconds, _ = measure_evaluate(root / "many", root / f"jobs{jobs}", two, "--jobs", str(jobs))
+            print(f"{SEQUENCES} sequences of {SHORT} frames, {two}, {jobs} jobs: {seconds:.1f} s", flush=True)
         for name, frames in (("short", SHORT), ("long", LONG)):
-            _, memory = evaluated(root / name, root / f"{name}-out", own, "--seeds", "1")
-            print(f"{frames:,} frames, {own}: {memory:.0f} MB at most", flush=True)
-        evaluated(root / "some", root / "report", own)
+            _, memory = measure_evaluate(root / name, root / f"{name}-out", four, "--seeds", "1")
+            print(f"{frames:,} frames, {four}: {memory:.0f} MB peak", flush=True)
+        measure_evaluate(root / "some", root / "report", four)
         size = (root / "report" / REPORT).stat().st_size / 1e6
-        print(f"report of {REPORTED} sequences: {size:.2f} MB", flush=True)
+        print(f"report of {REPORT_SEQUENCES} sequences: {size:.2f} MB", flush=True)
 
 
 if __name__ == "__main__":

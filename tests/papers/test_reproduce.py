@@ -9,7 +9,8 @@ import cv2
 import numpy as np
 import pytest
 from tricue.evaluation import baselines, metrics
-from tricue.papers import curves, reproduce
+from tricue.papers import reproduce
+from tricue.papers.sabeti_color import curves
 from tricue.scenes import BACKGROUNDS, light_change
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
@@ -40,16 +41,16 @@ def test_table_holds_the_errors_of_the_run(tmp_path):
 
 
 @pytest.mark.parametrize("name", reproduce.EXPERIMENTS)
-def test_figure_is_drawn_and_progress_is_told(name, tmp_path, monkeypatch):
+def test_figure_is_drawn_and_progress_reported(name, tmp_path, monkeypatch):
     """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""
     if name in ("moreno-fig3", "okada-fig8"):  # whose scenes take seconds each
         whole = reproduce.EXPERIMENTS[name]
         scenes = {scene: partial(make, frames=8, camera="160x120") for scene, make in whole.scenes.items()}
         monkeypatch.setitem(reproduce.EXPERIMENTS, name, replace(whole, scenes=scenes))
-    told = []
-    report = reproduce.run(name, 1, tmp_path, progress=lambda *done: told.append(done), models=STILL)
+    calls = []
+    report = reproduce.run(name, 1, tmp_path, progress=lambda *done: calls.append(done), models=STILL)
     scenes = reproduce.EXPERIMENTS[name].scenes
-    assert told == [(done, len(scenes)) for done in range(1, len(scenes) + 1)]
+    assert calls == [(done, len(scenes)) for done in range(1, len(scenes) + 1)]
     assert {row["scene"] for row in rows(report)} == set(scenes)
     image = cv2.imread(str(report.figure))
     assert image.shape[1] > 1000
@@ -68,7 +69,7 @@ def test_summary_counts_frames():
     """Mean, spread over runs, and both shares are those of hand-made curves."""
 
     def curve(errors, overlaps):
-        return curves.Curve("m", "s", 0, np.array(errors), np.array(overlaps), np.zeros((4, 4)))
+        return curves.ColorCurve("m", "s", 0, np.array(overlaps), np.array(errors), np.zeros((4, 4)))
 
     made = [curve([0.0, 0, 2, 2], [1.0, 1, 0.6, 0.4]), curve([25.0, 26, 0, 1], [0.5, 0, 0.7, 0.7])]
     *_, line = curves.summarize(made).splitlines()

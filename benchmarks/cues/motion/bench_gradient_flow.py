@@ -7,12 +7,12 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from benchmarks.quality.cues.flow import Dense
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.reference.base.gaussian import gaussian_taps
 
 from benchmarks.quality.cues import flow
-from benchmarks.quality.cues.flow import Dense
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]

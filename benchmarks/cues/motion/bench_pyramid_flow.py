@@ -7,11 +7,11 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
+from benchmarks.quality.cues.flow import Dense
 from numpy.typing import NDArray
 from tricue import _core, reference
 
 from benchmarks.quality.cues import flow
-from benchmarks.quality.cues.flow import Dense
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]

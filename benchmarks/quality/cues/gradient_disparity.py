@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: MIT
-"""gradient_disparity round predictions on Middlebury pairs.
+"""gradient_disparity around predicted disparities, on Middlebury's stereo pairs.
 
-``python -m benchmarks.quality.cues.gradient_disparity`` prints a table.
+    python -m benchmarks.quality.cues.gradient_disparity
 
-The prediction goes through the pair's disparities a pixel at a time, and each time the whole image is
-measured round it, as a tracker does round its target's. Pixels whose match the right image shows count as
+The prediction goes through the pair's disparities in steps of a pixel. For each, the whole image is measured
+around the prediction, as a tracker does around its target's. Pixels whose match is in the right image are
 
-- near, with a true disparity within 2 px of the prediction: the error's median over those that are read, and
-  how many are;
-- far, 4 px or more from it: how many are reported within 1 px of the prediction, of all far ones and of those
-  that are read, which is what a tracker would take for its target;
-- nearer, by 4 to 6 px, as what passes in front of a target: how many are read, and their errors' median.
+- near, with a true disparity within 2 px of the prediction: the median error of those that get a disparity,
+  and their share ("read");
+- far, 4 px or more from it: the share with a disparity within 1 px of the prediction, which a tracker would
+  take for its target, of all far pixels and of those that get a disparity;
+- nearer, by 4 to 6 px, as what passes in front of a target: the share that gets a disparity, and the median
+  error.
 
-Beside the default of three levels stand the paper's one level without windows, and cv2.StereoBM, 5x5, over
-the 16 disparities round the prediction. Times are of whole images, the fastest of some rounds, one thread.
+The default of three levels is compared with the paper's one level without windows, and with cv2.StereoBM,
+5x5, over the 16 disparities around the prediction. Times are of whole images, the fastest of some rounds, on
+one thread.
 """
 
-import argparse
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 import cv2
@@ -28,16 +28,21 @@ from numpy.typing import NDArray
 from tricue import _core
 from tricue.evaluation.one_pass import one_thread
 
-from benchmarks.quality.cues.disparity import FRACTION, PAIRS, Pair, fastest, load
-from benchmarks.quality.sequences import data_folder
+from benchmarks.quality.common import middlebury
+from benchmarks.quality.common.arguments import bare_parser
+from benchmarks.quality.common.middlebury import STEREO_BM_FRACTION, StereoPair
+from benchmarks.quality.common.tables import markdown
+from benchmarks.quality.common.timing import fastest
 
 Floats = NDArray[np.float32]
 Image = NDArray[np.uint8]
 Method = Callable[[Image, Image, float], Floats]
 
-NEAR, FAR, NEARER = 2.0, 4.0, 6.0  # px from the prediction
-REPORTED = 1.0  # px from the prediction: taken for the target
-COUNT = 16  # disparities of StereoBM
+MAX_NEAR, MIN_FAR, MAX_NEARER = 2.0, 4.0, 6.0
+"""Pixels between the true disparity and the prediction."""
+MAX_ON_TARGET = 1.0
+"""Pixels between a measured disparity and the prediction, within which it is taken for the target's."""
+STEREO_BM_DISPARITIES = 16
 COLUMNS = (
     *("pair", "method", "median px", "read %", "far as near %", "of those read %"),
     *("nearer: read %", "median px", "ms"),
@@ -45,7 +50,7 @@ COLUMNS = (
 
 
 class Result(NamedTuple):
-    """What one method did on one pair; shares in percent, NaN where there is no such pixel."""
+    """One method on one pair; shares in percent, NaN where there is no such pixel."""
 
     median: float  # px, of the errors of near pixels
     read: float  # of the near pixels
@@ -68,11 +73,11 @@ def one_level(left: Image, right: Image, prediction: float) -> Floats:
 
 def block_matching(left: Image, right: Image, prediction: float) -> Floats:
     """StereoBM over the same range, with its own rejection of 15 %."""
-    first = round(prediction) - COUNT // 2
-    matcher = cv2.StereoBM.create(COUNT, 5)
+    first = round(prediction) - STEREO_BM_DISPARITIES // 2
+    matcher = cv2.StereoBM.create(STEREO_BM_DISPARITIES, 5)
     matcher.setMinDisparity(first)
     matcher.setUniquenessRatio(15)
-    found = np.asarray(matcher.compute(left, right), np.float32) / FRACTION
+    found = np.asarray(matcher.compute(left, right), np.float32) / STEREO_BM_FRACTION
     return np.where(found >= first, found, np.float32(np.nan))
 
 
@@ -83,24 +88,24 @@ METHODS: dict[str, Method] = {
 }
 
 
-def predictions(pair: Pair) -> list[float]:
+def predictions(pair: StereoPair) -> list[float]:
     """A pixel apart, through all disparities of the pair, between whole numbers as well as on them."""
     return list(np.arange(float(np.nanmin(pair.truth)), float(np.nanmax(pair.truth)) + 0.01, 1.0))
 
 
-def measure(pair: Pair, method: Method, rounds: int = 5) -> Result:
+def measure(pair: StereoPair, method: Method, rounds: int = 5) -> Result:
     """All predictions' pixels together."""
     columns = np.arange(pair.left.shape[1], dtype=np.float32)
-    seen = pair.truth <= columns  # NaN isn't
-    counts = np.zeros(6)  # near, read of them; far, read, reported near; nearer
+    matched = pair.truth <= columns  # NaN isn't
+    counts = np.zeros(6)  # near, read of them; far, read, taken for the target; nearer
     errors, nearer_errors = [], []
     for prediction in predictions(pair):
         found = method(pair.left, pair.right, prediction)
         read, error = np.isfinite(found), abs(found - pair.truth)
         off = pair.truth - np.float32(prediction)
-        near, far = seen & (abs(off) <= NEAR), seen & (abs(off) >= FAR)
-        nearer = seen & (off >= FAR) & (off <= NEARER)
-        taken = far & read & (abs(found - np.float32(prediction)) <= REPORTED)
+        near, far = matched & (abs(off) <= MAX_NEAR), matched & (abs(off) >= MIN_FAR)
+        nearer = matched & (off >= MIN_FAR) & (off <= MAX_NEARER)
+        taken = far & read & (abs(found - np.float32(prediction)) <= MAX_ON_TARGET)
         counts += [each.sum() for each in (near, near & read, far, far & read, taken, nearer)]
         errors.append(error[near & read])
         nearer_errors.append(error[nearer & read])
@@ -119,39 +124,31 @@ def measure(pair: Pair, method: Method, rounds: int = 5) -> Result:
     )
 
 
-def table(pairs: Iterable[Pair], rounds: int = 5) -> Iterator[str]:
+def table(pairs: Iterable[StereoPair], rounds: int = 5) -> str:
     """Markdown: COLUMNS, a line per pair and method."""
-    yield _line(COLUMNS)
-    yield _line(["---"] * len(COLUMNS))
+    lines = []
     for pair in pairs:
         for name, method in METHODS.items():
             result = measure(pair, method, rounds)
-            yield _line(
+            shares = (result.read, result.far_as_near, result.far_as_near_read, result.nearer_read)
+            lines.append(
                 [
-                    pair.name,
-                    name,
-                    f"{result.median:.3f}",
-                    *(f"{value:.1f}" for value in (result.read, result.far_as_near, result.far_as_near_read)),
-                    f"{result.nearer_read:.1f}",
-                    f"{result.nearer_median:.3f}",
-                    f"{result.milliseconds:.2f}",
+                    *(pair.name, name, f"{result.median:.3f}"),
+                    *(f"{share:.1f}" for share in shares),
+                    *(f"{result.nearer_median:.3f}", f"{result.milliseconds:.2f}"),
                 ]
             )
+    return markdown(COLUMNS, lines)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.quality.cues.gradient_disparity")
-    parser.add_argument("folder", type=Path, nargs="?", help="of the pairs; found through TRICUE_DATA")
-    parser.add_argument("--rounds", type=int, default=25, help="of timing, default %(default)s")
+    parser = bare_parser("cues.gradient_disparity", __doc__)
+    middlebury.add_arguments(parser)
     options = parser.parse_args(arguments)
-    folder = options.folder or data_folder() / "disparity"
-    names = [name for name in PAIRS if (folder / name).is_dir()]
-    if not names:
-        parser.error(f"folder: expected pairs such as {next(iter(PAIRS))} under {folder}")
+    pairs = middlebury.load_all(parser, options)
     with one_thread():
-        for line in table([load(folder, name) for name in names], options.rounds):
-            print(line)
+        print(table(pairs, options.rounds))
     return 0
 
 
@@ -161,10 +158,6 @@ def _median(values: NDArray[np.floating]) -> float:
 
 def _percent(part: float, whole: float) -> float:
     return 100 * part / whole if whole else float("nan")
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
 
 
 if __name__ == "__main__":

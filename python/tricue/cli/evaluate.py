@@ -13,7 +13,7 @@ from tricue.cli.progress import Progress
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import Reading
 from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
-from tricue.evaluation.report import vector
+from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import perform
 from tricue.track.base.settings import read_settings
@@ -93,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
     """Run the command: progress on stderr, the table on stdout; the exit code is 1 if a sequence couldn't be
     read.
     """
-    vector.require()  # now, not after hours
+    svg.require()  # now, not after hours
     folder: Path = options.output
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,

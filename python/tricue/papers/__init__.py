@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The papers' experiments: scenes, error curves, figures."""
+"""The papers' experiments, a folder per paper: scenes and models, measured curves, figures."""

@@ -1,54 +1,84 @@
 # SPDX-License-Identifier: MIT
-"""Error curves: what an experiment measures, as a table and as a CSV."""
+"""What the curves of all experiments share: one model in one scene, with a value per frame."""
 
-import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-LOST = 25.0  # pixels; a face further off than this is counted as lost
+from tricue.track.base.track import Status
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+
+MIN_OVERLAP = 0.5
+"""The box is on the target above this intersection over union."""
+MIN_VISIBLE = 0.5
+"""Share of the target that is visible, from which a frame counts."""
+HIDDEN_BELOW = 0.15
+"""Share of the target that is visible, below which it counts as hidden."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Curve:
-    """One model on one scene: two numbers a frame."""
+    """One model in one scene, M frames."""
 
     model: str
     scene: str
     seed: int
-    errors: NDArray[np.float64]
-    """(M,) center errors in pixels."""
-    overlaps: NDArray[np.float64]
-    """(M,) intersection over union."""
-    boxes: NDArray[np.float64]
-    """(M, 4)"""
+    overlaps: Floats
+    """(M,) intersection over union with the true box, which is round the whole target."""
 
 
-def summarize(curves: Sequence[Curve]) -> str:
-    """Markdown, a line per model: mean error ± its spread over runs, share of frames lost, of frames held."""
-    lines = [
-        "| model | mean error px | frames > 25 px off | frames IoU > 0.5 | runs |",
-        "| --- | --- | --- | --- | --- |",
-    ]
-    for model in dict.fromkeys(curve.model for curve in curves):
-        errors = np.stack([curve.errors for curve in curves if curve.model == model])
-        overlaps = np.stack([curve.overlaps for curve in curves if curve.model == model])
-        spread = f"{errors.mean():.1f} ± {errors.mean(axis=1).std():.1f}"
-        shares = f"{np.mean(errors > LOST):.1%} | {np.mean(overlaps > 0.5):.1%}"
-        lines.append(f"| {model} | {spread} | {shares} | {len(errors)} |")
-    return "\n".join(lines)
+@dataclass(frozen=True, slots=True, eq=False)
+class OcclusionCurve(Curve):
+    """The curve of a target that others may hide."""
+
+    visible: Floats
+    """(M,) share of the target that nothing hides."""
+    statuses: tuple[Status, ...]
+
+    @property
+    def counted(self) -> Flags:
+        """(M,) where at least half of the target is visible."""
+        return np.asarray(self.visible >= MIN_VISIBLE)
+
+    @property
+    def tracked(self) -> Flags:
+        """(M,) where the status is TRACKED."""
+        return np.array([status is Status.TRACKED for status in self.statuses], np.bool_)
+
+    @property
+    def correct(self) -> Flags:
+        """(M,) where the status is TRACKED and the box is on the target."""
+        return self.tracked & (self.overlaps > MIN_OVERLAP)
 
 
-def write_csv(path: Path, curves: Iterable[Curve]) -> None:
-    """A line per model, scene, seed and frame."""
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["model", "scene", "seed", "frame", "error_px", "iou"])
-        for curve in curves:
-            for frame, (error, overlap) in enumerate(zip(curve.errors, curve.overlaps, strict=True)):
-                writer.writerow(
-                    [curve.model, curve.scene, curve.seed, frame, f"{error:.3f}", f"{overlap:.4f}"]
-                )
+AnyCurve = TypeVar("AnyCurve", bound=Curve)
+
+
+def models_of(curves: Sequence[Curve]) -> list[str]:
+    """The models' names, in the order in which they first occur."""
+    return list(dict.fromkeys(curve.model for curve in curves))
+
+
+def scenes_of(curves: Sequence[Curve]) -> list[str]:
+    """The scenes' names, in the order in which they first occur."""
+    return list(dict.fromkeys(curve.scene for curve in curves))
+
+
+def runs_of(curves: Sequence[AnyCurve], scene: str, model: str) -> list[AnyCurve]:
+    """The curves of one model in one scene, one per seed."""
+    return [curve for curve in curves if (curve.scene, curve.model) == (scene, model)]
+
+
+def first_runs(curves: Sequence[AnyCurve], scene: str) -> dict[str, AnyCurve]:
+    """The curves of seed 0 in a scene, by model."""
+    return {curve.model: curve for curve in curves if (curve.scene, curve.seed) == (scene, 0)}
+
+
+def stacked(curves: Sequence[Curve], model: str, values: str) -> Floats:
+    """(R, M) values, by their attribute's name, of one model's R runs."""
+    return np.stack([getattr(curve, values) for curve in curves if curve.model == model])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every experiment is: models on scenes from many seeds, and what becomes of their curves."""
+"""An experiment: models that run on scenes from many seeds, and how their curves are measured and written."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ class Case(NamedTuple):
 
 @dataclass(frozen=True)  # slots and type parameters don't go together in Python 3.11
 class Experiment(Generic[S, C]):
-    """Which models run on which scenes, what is measured, and how it is written down."""
+    """Models, scenes, and functions that measure a run, summarize curves, write and draw them."""
 
     models: Models
     scenes: Scenes[S]
@@ -41,5 +41,5 @@ class Experiment(Generic[S, C]):
     summarize: Callable[[Sequence[C]], str]
     write_csv: Callable[[Path, Iterable[C]], None]
     draw: figures.Draw[C, S]
-    at_most: Mapping[str, int] = field(default_factory=dict)
-    """The seeds of scenes that take too long for all of them."""
+    max_seeds: Mapping[str, int] = field(default_factory=dict)
+    """Limits on the seeds of scenes that take too long for all of them."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Kernels that are looked at while a tracker runs on them: their time, and what noise in one of them does."""
+"""Kernels that are timed while a tracker runs on them, and disparities that are perturbed with noise."""
 
 from collections import defaultdict
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from tricue.camera.frame import Frame
 from tricue.kernels import Kernels
 from tricue.track.base.track import Track
 
-MODULES = {
+KERNEL_MODULES = {
     "color_bins": "search",
     "ellipse_search": "search",
     "ellipse_histogram": "search",
@@ -25,15 +25,15 @@ MODULES = {
     "kalman_predict": "filter",
     "kalman_update": "filter",
 }
-"""What each kernel of the stereo head tracker belongs to, Moreno et al. 2002, figures 1 and 3(d)."""
+"""The module of each kernel of the stereo head tracker, Moreno et al. 2002, figures 1 and 3(d)."""
 
 
-class WatchedKernels:
-    """A set of kernels that does the same, adds up the time in each module, and may disturb disparities.
+class ProbedKernels:
+    """A set of kernels with the same results, which adds up the time in each module and may add noise.
 
-    noise: standard deviation, pixels, of what is added to each disparity that is back-projected. In the
-    stereo head tracker that is the one that was measured in the ellipse, in each frame: the search for the
-    head and the gates before it see it undisturbed, and the tracker isn't told.
+    noise: standard deviation, pixels, of what is added to each disparity that is back-projected. The stereo
+    head tracker back-projects one disparity per frame, the one measured in the ellipse. Its search for the
+    head and its gates see that disparity without the noise, and its filter doesn't know of the noise.
     """
 
     def __init__(self, kernels: Kernels, noise: float = 0.0, seed: int = 0) -> None:
@@ -42,7 +42,7 @@ class WatchedKernels:
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
         kernel: Callable[..., Any] = getattr(self._kernels, name)
-        module = MODULES[name]
+        module = KERNEL_MODULES[name]
 
         def timed(*arguments: Any, **keywords: Any) -> Any:
             start = perf_counter()
@@ -55,23 +55,23 @@ class WatchedKernels:
         return timed
 
     def back_project(self, pixels: NDArray[np.float64], *others: Any) -> Any:
-        """As the kernel, of pixels (N, 3) whose disparities, the last column, are disturbed."""
-        disturbed = pixels + self._rng.normal(0, 1, pixels.shape) * [0.0, 0.0, self._noise]
+        """As the kernel, of pixels (N, 3) whose disparities, the last column, are perturbed."""
+        perturbed = pixels + self._rng.normal(0, 1, pixels.shape) * [0.0, 0.0, self._noise]
         start = perf_counter()
         try:
-            return self._kernels.back_project(disturbed, *others)
+            return self._kernels.back_project(perturbed, *others)
         finally:
-            self.seconds[MODULES["back_project"]] += perf_counter() - start
+            self.seconds[KERNEL_MODULES["back_project"]] += perf_counter() - start
 
 
-class Watched:
-    """A tracker on watched kernels; one without kernels, as a peer, runs as it is, without times."""
+class ProbedTracker:
+    """A tracker on probed kernels; one without kernels, such as a baseline, runs as it is, without times."""
 
     def __init__(self, tracker: Any, noise: float = 0.0, seed: int = 0) -> None:
         self._tracker = tracker
-        self._kernels: WatchedKernels | None = None
-        if hasattr(tracker, "_k"):  # where a tracker keeps the set that it runs on
-            self._kernels = tracker._k = WatchedKernels(tracker._k, noise, seed)
+        self._kernels: ProbedKernels | None = None
+        if hasattr(tracker, "_k"):  # the tracker's set of kernels
+            self._kernels = tracker._k = ProbedKernels(tracker._k, noise, seed)
 
     def init(self, frame: Frame, box: Box) -> Track:
         track: Track = self._tracker.init(frame, box)
@@ -86,8 +86,8 @@ class Watched:
         return track
 
     def seconds(self, updates: NDArray[np.float64]) -> dict[str, float]:
-        """Of an update, in each module and outside of them, as "rest": medians over the updates since the
-        last init, of which each took ``updates`` (M - 1,) seconds as a whole.
+        """Seconds of an update in each module, and outside of them as "rest": medians over the updates since
+        init, which took ``updates`` (M - 1,) seconds as a whole.
         """
         names = sorted(set().union(*self._updates))
         spent = np.array([[each.get(name, 0.0) for name in names] for each in self._updates])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The papers' experiments, run again: curves over many seeds, as a figure, a CSV and a table."""
+"""Reproduce the papers' experiments: curves over many seeds, as a figure, a CSV and a table."""
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
@@ -10,23 +10,26 @@ from pathlib import Path
 from typing import Any
 
 from tricue.draw import figures
-from tricue.papers import color_experiments, depth_experiments, stereo_experiments, walk_experiments
 from tricue.papers.experiment import C, Case, Experiment, Maker, Models, S
+from tricue.papers.moreno import experiments as moreno
+from tricue.papers.okada import experiments as okada
+from tricue.papers.sabeti_color import experiments as sabeti_color
+from tricue.papers.sabeti_depth import experiments as sabeti_depth
 
-Task = tuple[str, Callable[..., S], int]
+SceneTask = tuple[str, Callable[..., S], int]
 """A scene's name, how to make it, and the seed."""
 
 EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
-    **color_experiments.EXPERIMENTS,
-    **depth_experiments.EXPERIMENTS,
-    **stereo_experiments.EXPERIMENTS,
-    **walk_experiments.EXPERIMENTS,
+    **sabeti_color.EXPERIMENTS,
+    **sabeti_depth.EXPERIMENTS,
+    **moreno.EXPERIMENTS,
+    **okada.EXPERIMENTS,
 }
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What an experiment found, and where it is written."""
+    """The summary of an experiment, and its files."""
 
     summary: str
     figure: Path
@@ -43,10 +46,9 @@ def run(
 ) -> Report:
     """Run an experiment and write ``output/NAME.png`` and ``output/NAME.csv``, a line per frame.
 
-    Every model runs on every scene from ``seeds`` seeds, on slow scenes from fewer.
-    ``progress(done, total)`` is called after each scene, ``jobs`` scenes run at once. ``models`` takes the
-    place of the paper's. ValueError for an unknown name, ImportError that names the extra where scikit-image
-    or matplotlib is missing.
+    Every model runs on every scene from ``seeds`` seeds, on slow scenes from fewer. ``jobs`` scenes run at
+    once, and ``progress(done, total)`` is called after each. ``models`` replaces the experiment's. ValueError
+    for an unknown name, ImportError that names the extra where scikit-image or matplotlib is missing.
     """
     if name not in EXPERIMENTS:
         raise ValueError(f"experiment: expected one of {', '.join(EXPERIMENTS)}, got {name!r}")
@@ -74,7 +76,7 @@ def _all_curves(
         (scene, make, seed)
         for seed in range(seeds)
         for scene, make in experiment.scenes.items()
-        if seed < experiment.at_most.get(scene, seeds)
+        if seed < experiment.max_seeds.get(scene, seeds)
     ]
     work = partial(_curves, experiment.measure, models)
     for done, curves in enumerate(_mapped(work, tasks, jobs), start=1):
@@ -83,7 +85,9 @@ def _all_curves(
         yield from curves
 
 
-def _mapped(work: Callable[[Task[S]], list[C]], tasks: list[Task[S]], jobs: int) -> Iterator[list[C]]:
+def _mapped(
+    work: Callable[[SceneTask[S]], list[C]], tasks: list[SceneTask[S]], jobs: int
+) -> Iterator[list[C]]:
     if jobs == 1:
         yield from map(work, tasks)
         return
@@ -91,7 +95,9 @@ def _mapped(work: Callable[[Task[S]], list[C]], tasks: list[Task[S]], jobs: int)
         yield from pool.map(work, tasks)
 
 
-def _curves(measure: Callable[[Case, Maker, S], C], models: Mapping[str, Maker], task: Task[S]) -> list[C]:
+def _curves(
+    measure: Callable[[Case, Maker, S], C], models: Mapping[str, Maker], task: SceneTask[S]
+) -> list[C]:
     """Every model on one scene, which is made once."""
     name, make, seed = task
     scene = make(seed=seed)

@@ -56,14 +56,14 @@ def write_depth(folder, scene):
 
 @pytest.fixture(scope="session")
 def evaluation(mixed, tmp_path_factory):
-    """Two trackers of ours and two peers on the mixed data set, from two seeds."""
+    """Two trackers of tricue and two baselines on the mixed data set, from two seeds."""
     options = Options(TRACKERS, settings={"color-particle": {"particles": 60}}, seeds=2)
     return evaluate(mixed, tmp_path_factory.mktemp("evaluation"), options)
 
 
 @pytest.fixture(scope="session")
 def about(evaluation, mixed):
-    """What the verb tells of it."""
+    """Its settings, as the command writes them."""
     return tables.settings(evaluation, dataset=str(mixed), jobs=1)
 
 
@@ -86,7 +86,7 @@ def chromium(tmp_path_factory):
 
 
 class Chromium:
-    """Talks the DevTools protocol over two pipes: JSON messages, each ended by a zero byte."""
+    """The DevTools protocol over two pipes: JSON messages, each ended by a zero byte."""
 
     def __init__(self, program, profile):
         (theirs, self._out), (self._in, other) = os.pipe(), os.pipe()
@@ -131,7 +131,7 @@ class Chromium:
         size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500}
         page.call("Emulation.setDeviceMetricsOverride", **size)
         page.call("Page.navigate", url=path.as_uri())
-        self._until(lambda message: page.said(message, "Page.loadEventFired"))
+        self._until(lambda message: page.is_event(message, "Page.loadEventFired"))
         return page
 
     def call(self, method, session=None, **params):
@@ -173,13 +173,13 @@ class Page:
     def call(self, method, **params):
         return self._browser.call(method, self._session, **params)
 
-    def said(self, message, *methods):
-        """Whether it is one of these events of this page."""
+    def is_event(self, message, *methods):
+        """Whether a message is one of these events of this page."""
         return message.get("sessionId") == self._session and message.get("method") in methods
 
     def events(self, *methods):
-        """What came with these events."""
-        return [each["params"] for each in self._browser.events if self.said(each, *methods)]
+        """The parameters of these events so far."""
+        return [each["params"] for each in self._browser.events if self.is_event(each, *methods)]
 
     def evaluate(self, script):
         """The value of an expression, promises awaited."""

@@ -3,7 +3,7 @@ import math
 
 import pytest
 from tricue.evaluation import tables
-from tricue.evaluation.report.sequences import FILMED
+from tricue.evaluation.report.sequences import MAX_PICTURED
 
 PHONE, DESK = 375, 1280
 OPEN_ALL = "document.querySelectorAll('details').forEach(each => each.open = true)"
@@ -17,8 +17,8 @@ def page(request, chromium, report):
     return page
 
 
-def test_nothing_is_complained_about(page):
-    """The console stays empty: no error, no warning, nothing refused by the page's own policy."""
+def test_console_is_empty(page):
+    """The console stays empty: no error, no warning, nothing blocked by the page's own policy."""
     page.evaluate("new Promise(done => setTimeout(done, 200))")
     assert page.events("Runtime.consoleAPICalled", "Runtime.exceptionThrown", "Log.entryAdded") == []
     assert page.events("Network.loadingFailed") == []
@@ -32,7 +32,7 @@ def test_nothing_is_loaded(page, report):
 
 
 def test_the_page_does_not_scroll_sideways(page):
-    """Wide tables and films scroll in their own frames; what is in no frame ends inside the window."""
+    """Wide tables and filmstrips scroll in their own frames; all else ends inside the window."""
     wide = page.evaluate("[document.documentElement.scrollWidth, window.innerWidth]")
     assert wide[0] <= wide[1]
     assert wide[1] in (PHONE, DESK)
@@ -53,12 +53,12 @@ def test_letters_are_large_enough_to_read(page):
 
 
 def test_every_picture_is_decoded(page, evaluation):
-    """Strips, films and plots are there: all images have a size, each sequence has its film."""
+    """Timelines, filmstrips and plots are there: all images have a size, each sequence has its filmstrip."""
     sizes = page.evaluate(
         "Promise.all([...document.images].map(each => each.decode().then(() => each.naturalWidth)))"
     )
     assert min(sizes) > 0
-    assert page.evaluate("document.querySelectorAll('.film').length") == len(evaluation.opened) < FILMED
+    assert page.evaluate("document.querySelectorAll('.film').length") == len(evaluation.opened) < MAX_PICTURED
     assert page.evaluate("document.querySelectorAll('.still img').length") >= 3 * len(evaluation.opened)
     assert page.evaluate("[...document.images].every(each => each.alt)")
     groups = len(evaluation.groups)
@@ -99,7 +99,7 @@ def test_names_from_outside_are_text(page, hostile):
     assert page.evaluate("document.scripts.length") == 1
 
 
-def test_complaints_would_be_seen(chromium, report, tmp_path):
+def test_violations_would_be_noticed(chromium, report, tmp_path):
     """What the tests above look for is noticed: an error, a script, a foreign image, a broken one, width."""
     bad = (
         "<p style='width: 2000px'>wide</p><script>console.error(1)</script>"
@@ -113,14 +113,14 @@ def test_complaints_would_be_seen(chromium, report, tmp_path):
     assert any("a.png" in text for text in refused)
     assert page.evaluate("document.documentElement.scrollWidth") > PHONE
     assert page.evaluate("[...document.images].some(each => each.naturalWidth === 0)")
-    page.evaluate("console.error('told')")
+    page.evaluate("console.error('late error')")
     page.evaluate("setTimeout(() => { throw new Error('late') })")
     page.evaluate("new Promise(done => setTimeout(done, 50))")
     assert page.events("Runtime.consoleAPICalled")
     assert page.events("Runtime.exceptionThrown")
 
 
-def test_a_click_on_a_head_sorts(chromium, report):
+def test_a_click_on_a_heading_sorts(chromium, report):
     """The best come first, then the worst; where there is no number it stays last."""
     page = chromium.open(report, DESK)
     table = "document.querySelector('table.sortable')"

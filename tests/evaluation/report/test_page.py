@@ -16,7 +16,7 @@ from tricue.evaluation.report import page, sequences
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.report.setup import command
 
-LARGEST = 5_000_000  # bytes for twenty sequences
+MAX_BYTES = 5_000_000  # of a report of twenty sequences
 
 
 def test_the_same_evaluation_gives_the_same_bytes(evaluation, about, report, tmp_path):
@@ -49,7 +49,7 @@ def test_twenty_sequences_stay_small(tmp_path):
     evaluation = evaluate(tmp_path / "data", tmp_path, options)
     text = write_report(evaluation, tmp_path, tables.settings(evaluation)).read_text(encoding="utf-8")
     assert text.count('class="still"') == 20 * (1 + 4)
-    assert len(text.encode()) < LARGEST
+    assert len(text.encode()) < MAX_BYTES
 
 
 def write_textured(folder, rng, size=(320, 240), frames=24):
@@ -73,28 +73,28 @@ def texture(rng, size):
 
 
 def test_only_the_worst_have_pictures_where_there_are_many(evaluation, about, tmp_path, monkeypatch):
-    """Beyond a number of sequences only the worst are filmed, and the page says so."""
+    """Beyond a number of sequences only the worst have pictures, and the page notes that."""
     for module in (page, sequences):
-        monkeypatch.setattr(module, "FILMED", 2)
+        monkeypatch.setattr(module, "MAX_PICTURED", 2)
     text = write_report(evaluation, tmp_path, about).read_text(encoding="utf-8")
     assert text.count('class="film"') == 2
-    assert f"Of the {len(evaluation.opened)} sequences in all the 2 worst have pictures" in text
+    assert f"Of all {len(evaluation.opened)} sequences the 2 worst have pictures" in text
     worst = sequences.worst_first(evaluation)
     assert [each.auc for each in worst] == sorted(each.auc for each in worst)
     assert len(worst) == len(evaluation.opened)
 
 
-def test_frames_that_are_gone_cost_only_their_pictures(folders, tmp_path):
+def test_missing_frames_cost_only_their_pictures(folders, tmp_path):
     """A report can be made where the images can't be read any more."""
     shutil.copytree(folders / "there", tmp_path / "data" / "there")
     evaluation = evaluate(tmp_path / "data", tmp_path, Options(("still-box",), restarts=False))
     shutil.rmtree(tmp_path / "data" / "there" / "img")
     text = write_report(evaluation, tmp_path, {}).read_text(encoding="utf-8")
-    assert "Its pictures can&#x27;t be read: " in text
+    assert "The images of this sequence can&#x27;t be read: " in text
     assert 'class="film"' not in text
 
 
-def test_what_did_not_run_is_told(evaluation, report):
+def test_what_did_not_run_is_listed(evaluation, report):
     """Sequences that couldn't be read, and trackers that couldn't run, with the reasons."""
     text = report.read_text(encoding="utf-8")
     (error,) = evaluation.failed.values()
@@ -105,7 +105,7 @@ def test_what_did_not_run_is_told(evaluation, report):
     assert "no color, 1 sequence" in text
 
 
-def test_parameters_and_versions_are_told(about, report):
+def test_parameters_and_versions_are_listed(about, report):
     """Each parameter of our trackers, the changed one beside its default, the versions and the machine."""
     text = report.read_text(encoding="utf-8")
     for tracker, values in about["parameters"].items():
@@ -127,7 +127,7 @@ def test_parameters_and_versions_are_told(about, report):
     ],
 )
 def test_the_command_runs_the_same(options):
-    """The verb's own parser makes of it the options that it was made of."""
+    """The command's own parser turns it back into the same options."""
     import shlex
 
     words = shlex.split(command(options, "a data set/"))

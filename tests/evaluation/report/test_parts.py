@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tricue.evaluation import tables
 from tricue.evaluation.baselines import available
-from tricue.evaluation.report import curves, labels, strips
-from tricue.evaluation.report.columns import COLUMNS, best, shown
-from tricue.evaluation.report.looks import looks
+from tricue.evaluation.report import curves, labels, timeline
+from tricue.evaluation.report.columns import COLUMNS, best, with_numbers
 from tricue.evaluation.report.markup import Html, joined, number, tag
-from tricue.evaluation.report.moments import MOST, moments
+from tricue.evaluation.report.plot_styles import line_styles
 from tricue.evaluation.report.plots import Group
 from tricue.evaluation.report.summary import summary_table
+from tricue.evaluation.report.worst_frames import MAX_WORST_FRAMES, worst_frames
 from tricue.evaluation.rows import Judged
 from tricue.evaluation.tracker_spec import Entrant
 from tricue.track.base.registry import names
@@ -31,10 +31,10 @@ def run(overlaps, tracked=None, absent=None):
     count = len(overlaps)
     box = np.tile([0.0, 0.0, 4.0, 4.0], (count, 1))
     gone = np.zeros(count, bool) if absent is None else np.array(absent, bool)
-    said = np.ones(count, bool) if tracked is None else np.array(tracked, bool)
-    statuses = tuple(Status.TRACKED if each else Status.LOST for each in said)
+    flags = np.ones(count, bool) if tracked is None else np.array(tracked, bool)
+    statuses = tuple(Status.TRACKED if each else Status.LOST for each in flags)
     overlap, unknown = np.array(overlaps, float), np.full(count, NAN)
-    return Judged(0, box, box, gone, overlap, np.ones(count), statuses, said, unknown)
+    return Judged(0, box, box, gone, overlap, np.ones(count), statuses, flags, unknown)
 
 
 @given(st.text(), st.text())
@@ -57,60 +57,63 @@ def test_html_is_left_as_it_is():
     assert number(1234.5678, 2) == "1,234.57"
 
 
-def test_moments_are_the_worst_apart():
+def test_worst_frames_are_apart():
     """The start, and the lowest overlaps, of which those near a lower one are left out."""
     overlaps = np.full(80, 0.9)
     overlaps[[20, 21, 40, 60, 75]] = [0.1, 0.0, 0.3, 0.2, 0.25]
-    assert moments(run(overlaps)) == [0, 21, 40, 60, 75]
+    assert worst_frames(run(overlaps)) == [0, 21, 40, 60, 75]
 
 
 def test_a_long_loss_is_shown_from_its_beginning():
     """Of equal overlaps the earliest is chosen, then others an eighth of the run apart."""
     overlaps = np.where(np.arange(160) < 50, 0.8, 0.0)
-    assert moments(run(overlaps)) == [0, 50, 70, 90, 110]
+    assert worst_frames(run(overlaps)) == [0, 50, 70, 90, 110]
 
 
-def test_false_alarms_are_moments():
-    """A frame without the target counts as worst if the tracker claims to see it, else not at all."""
+def test_false_alarms_are_worst_frames():
+    """A frame without the target counts as worst if its status is TRACKED, else not at all."""
     overlaps, absent, tracked = np.full(40, 0.5), np.zeros(40, bool), np.ones(40, bool)
     absent[[10, 30]], overlaps[[10, 30]] = True, NAN
     tracked[30] = False
-    chosen = moments(run(overlaps, tracked, absent))
+    chosen = worst_frames(run(overlaps, tracked, absent))
     assert 10 in chosen
     assert 30 not in chosen
 
 
 @given(st.lists(st.one_of(st.floats(0, 1), st.just(NAN)), min_size=1, max_size=60))
-def test_moments_are_frames_with_truth(overlaps):
-    """Rising, at most the start and four others, all but the start with a known overlap."""
-    chosen = moments(run(overlaps))
+def test_worst_frames_have_truth(overlaps):
+    """Ascending, at most the first frame and four others, all but the start with a known overlap."""
+    chosen = worst_frames(run(overlaps))
     assert chosen[0] == 0
     assert chosen == sorted(set(chosen))
-    assert len(chosen) <= 1 + MOST
+    assert len(chosen) <= 1 + MAX_WORST_FRAMES
     assert not any(math.isnan(overlaps[index]) for index in chosen[1:])
 
 
-def test_a_strip_shows_overlap_absence_and_status():
-    """Columns have the shade of the overlap, of absence, of nothing known; below stands what was said."""
-    made = strips.strip(run([0.0, 0.5, 1.0, NAN, NAN], [1, 1, 1, 0, 1], [0, 0, 0, 1, 0]), "label")
+def test_a_timeline_has_overlap_absence_and_status():
+    """Columns have the shade of the overlap, of absence, of nothing known; below is the status."""
+    made = timeline.timeline(run([0.0, 0.5, 1.0, NAN, NAN], [1, 1, 1, 0, 1], [0, 0, 0, 1, 0]), "label")
     data = re.search(r'src="data:image/png;base64,([^"]+)"', made)
     picture = cv2.imdecode(np.frombuffer(base64.b64decode(data[1]), np.uint8), cv2.IMREAD_COLOR)[:, :, ::-1]
     assert picture.shape[1] == 5
     assert [hexed(color) for color in picture[0]] == [
-        strips.SHADES[0], strips.SHADES[3], strips.SHADES[5], strips.ABSENT, strips.UNKNOWN
+        timeline.SHADES[0], timeline.SHADES[3], timeline.SHADES[5], timeline.ABSENT, timeline.UNKNOWN
     ]  # fmt: skip
-    assert [hexed(color) for color in picture[-1]] == [strips.SAID] * 3 + [strips.SILENT, strips.SAID]
+    assert [hexed(color) for color in picture[-1]] == [timeline.TRACKED] * 3 + [
+        timeline.NOT_TRACKED,
+        timeline.TRACKED,
+    ]
 
 
-def test_a_long_strip_keeps_short_losses():
+def test_a_long_timeline_keeps_short_losses():
     """One lost frame of thousands is seen: a column has the shade of its worst frame."""
     overlaps = np.ones(5000)
     overlaps[2345] = 0
-    made = strips.strip(run(overlaps), "label")
+    made = timeline.timeline(run(overlaps), "label")
     data = base64.b64decode(re.search(r'base64,([^"]+)"', made)[1])
     top = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)[0, :, ::-1]
-    assert len(top) == strips.WIDEST
-    assert [hexed(color) for color in top].count(strips.SHADES[0]) == 1
+    assert len(top) == timeline.MAX_COLUMNS
+    assert [hexed(color) for color in top].count(timeline.SHADES[0]) == 1
 
 
 def hexed(color):
@@ -119,8 +122,8 @@ def hexed(color):
 
 
 def test_shades_fall_in_lightness():
-    """Worse is darker, so that strips say the same to those who don't tell red from green."""
-    lab = cv2.cvtColor(np.array([[list(bytes.fromhex(s[1:]))[::-1] for s in strips.SHADES]], np.uint8),
+    """Worse is darker, so that timelines mean the same to readers who can't distinguish red from green."""
+    lab = cv2.cvtColor(np.array([[list(bytes.fromhex(s[1:]))[::-1] for s in timeline.SHADES]], np.uint8),
                        cv2.COLOR_BGR2LAB)[0, :, 0].astype(int)  # fmt: skip
     assert (np.diff(lab[:4]) > 20).all()
     assert lab[4:].min() > lab[2]
@@ -137,11 +140,11 @@ def test_curves_are_those_of_the_summary(evaluation):
         assert curves.reliability(results).counts.sum() == counted
 
 
-def test_looks_differ():
-    """Of all our trackers and all peers no two have the same color and dashes; ours are solid."""
+def test_line_styles_differ():
+    """All trackers and baselines have different colors or dashes; tricue's are solid."""
     every = [Entrant(name) for name in (*names(), *available())]
-    found = looks(every)
-    assert len({(look.color, look.dashes) for look in found.values()}) == len(every)
+    found = line_styles(every)
+    assert len({(style.color, style.dashes) for style in found.values()}) == len(every)
     assert all((found[each.name].dashes == "") == each.ours for each in every)
 
 
@@ -150,7 +153,7 @@ def test_labels_of_a_crowd_lie_apart():
     points = [(0.5, 0.5 + 0.01 * index) for index in range(6)]
     areas = [labels._area(label, "name") for label in labels.place(points, ["name"] * 6)]
     assert all(map(labels._fits, areas))
-    assert not any(a.meets(b) for index, a in enumerate(areas) for b in areas[:index])
+    assert not any(a.overlaps(b) for index, a in enumerate(areas) for b in areas[:index])
     assert not any(a.left < x < a.right and a.low < y < a.high for a in areas for x, y in points)
 
 
@@ -172,25 +175,25 @@ def line(tracker, sequences, **values):
 
 
 def test_only_trackers_that_ran_on_all_can_be_best():
-    """A mean over fewer sequences is told as such, and not marked, however good it is."""
+    """A mean over fewer sequences is noted as such, and not marked, however good it is."""
     lines = [line("a", 3, auc=0.5, failures=2.0), line("b", 3, auc=0.4, failures=1.0), line("c", 1, auc=0.9)]
-    made = summary_table("color", lines, 3, {"a"}, looks([Entrant("a"), Entrant("b"), Entrant("c")]))
+    made = summary_table("color", lines, 3, {"a"}, line_styles([Entrant("a"), Entrant("b"), Entrant("c")]))
     assert re.findall(r"<strong>([^<]*)</strong>", made) == ["0.500", "1.00"]
     assert "c (1 of 3)" in made
     assert made.count('class="badge"') == 1
 
 
-def test_columns_that_say_nothing_are_left_out():
+def test_columns_without_numbers_are_left_out():
     """A column needs a number; those of long-term tracking need absent frames."""
     few = line("a", 1, auc=0.5, f_score=0.6, true_positive=0.7)
-    assert [column.key for column in shown([few])] == ["auc"]
-    heads = [column.key for column in shown([few, line("b", 1, true_negative=0.1)])]
+    assert [column.key for column in with_numbers([few])] == ["auc"]
+    heads = [column.key for column in with_numbers([few, line("b", 1, true_negative=0.1)])]
     assert heads == ["auc", "f_score", "true_positive", "true_negative"]
 
 
 def test_the_best_is_the_highest_or_the_lowest():
     """By the column's direction, NaN left out."""
-    auc, failures = shown([line("a", 1, auc=0.1, failures=3.0)])
+    auc, failures = with_numbers([line("a", 1, auc=0.1, failures=3.0)])
     lines = [line("a", 1, auc=0.1, failures=3.0), line("b", 1, auc=0.2), line("c", 1, failures=0.0)]
     assert best(auc, lines) == 0.2
     assert best(failures, lines) == 0.0

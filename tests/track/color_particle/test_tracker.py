@@ -14,7 +14,7 @@ from tricue import Box, ColorParticleTracker, Frame, Status, Track
 from tricue.evaluation import metrics
 from tricue.scenes import Scene, face_over_clutter, light_change
 
-from benchmarks.quality import sequences
+from benchmarks.quality.common import sequences
 
 SEEDS = range(4)
 

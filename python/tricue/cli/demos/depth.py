@@ -79,7 +79,7 @@ def _table(results: Mapping[str, Result[DepthScene]]) -> str:
 def _plot(figure: Any, results: Mapping[str, Result[DepthScene]]) -> None:
     """A row a scene: the path from above, beside it the error over the frames."""
     from tricue.draw.paths import draw_path
-    from tricue.papers.depth_figures import shade_hidden
+    from tricue.papers.plots import shade_hidden
 
     figure.set_size_inches(11, 4.2 * len(results))
     rows = figure.subplots(len(results), 2, width_ratios=[1, 1.4], squeeze=False)

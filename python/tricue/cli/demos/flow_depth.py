@@ -84,7 +84,7 @@ def _table(results: Mapping[str, Result[WalkScene]]) -> str:
 def _plot(figure: Any, results: Mapping[str, Result[WalkScene]]) -> None:
     """A row a scene: the path from above where there is a position, beside it the overlap over the frames."""
     from tricue.draw.paths import draw_path
-    from tricue.papers.depth_figures import shade_hidden
+    from tricue.papers.plots import shade_hidden
 
     figure.set_size_inches(11, 3.6 * len(results))
     rows = figure.subplots(len(results), 2, width_ratios=[1, 1.6], squeeze=False)

@@ -101,7 +101,7 @@ def _plot(figure: Any, results: Mapping[str, Result[Scene]]) -> None:
     over the frames, with the names of what happens.
     """
     from tricue.draw.paths import draw_path
-    from tricue.papers.depth_figures import shade_hidden
+    from tricue.papers.plots import shade_hidden
 
     figure.set_size_inches(11, 3.6 * len(results))
     rows = figure.subplots(len(results), 2, width_ratios=[1, 2.2], squeeze=False)

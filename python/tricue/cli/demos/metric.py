@@ -12,7 +12,7 @@ from tricue.cli.progress import Progress
 from tricue.cli.steps import Clock
 from tricue.draw.overlays import OverlayWriter
 from tricue.evaluation import metrics
-from tricue.papers.depth_curves import HALF, HIDDEN
+from tricue.papers.curves import HIDDEN_BELOW, MIN_VISIBLE
 from tricue.scenes import DepthScene, StereoScene, WalkScene
 from tricue.scenes.stress_scene import Scene
 from tricue.track.base.track import Status, Track
@@ -44,11 +44,11 @@ class Result(Generic[S]):
     @property
     def seen(self) -> NDArray[np.bool_]:
         """(M,) where at least half of the target is visible."""
-        return np.asarray(self.scene.visible >= HALF)
+        return np.asarray(self.scene.visible >= MIN_VISIBLE)
 
     def said(self, *statuses: Status) -> str:
         """In how many of the frames in which the target is hidden the tracker says one of the statuses."""
-        hidden = np.flatnonzero(self.scene.visible < HIDDEN)
+        hidden = np.flatnonzero(self.scene.visible < HIDDEN_BELOW)
         said = sum(self.tracks[index].status in statuses for index in hidden)
         return f"{said}/{len(hidden)}"
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""The report of an evaluation: one HTML page that needs nothing else."""
+"""The report of an evaluation: one self-contained HTML page."""

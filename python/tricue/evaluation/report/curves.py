@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The curves of a group of sequences, a tracker each: means over sequences of the means over seeds."""
+"""Curves of a tracker on a group of sequences: means over sequences of the means over seeds."""
 
 from collections.abc import Callable, Sequence
 
@@ -13,12 +13,12 @@ Array = NDArray[np.float64]
 
 
 def success(results: Sequence[Result]) -> Array:
-    """(21,) the share of frames with an overlap above each of metrics.OVERLAP_THRESHOLDS; NaN unknown."""
+    """(21,) share of frames with an overlap above each of metrics.OVERLAP_THRESHOLDS; NaN where unknown."""
     return _mean(results, lambda each: metrics.success_curve(each.judged.overlaps))
 
 
 def precision(results: Sequence[Result]) -> Array:
-    """(51,) the share whose center is at most each of metrics.PRECISION_THRESHOLDS off; NaN unknown."""
+    """(51,) share with a center error of at most each of metrics.PRECISION_THRESHOLDS; NaN where unknown."""
 
     def curve(each: Result) -> Array:
         return metrics.precision_curve(metrics.center_errors(each.judged.boxes, each.judged.truth))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where the names beside the points of a plot go, so that they don't lie on each other."""
+"""Positions of the names beside the points of a plot, without overlaps."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -10,7 +10,7 @@ _STEPS = (0.0, 0.03, -0.03, 0.06, -0.06, 0.09, -0.09, 0.12, -0.12)  # up or down
 
 
 class Label(NamedTuple):
-    """Its end beside the point, in axes' shares from the lower left; side: the end that lies there."""
+    """(x, y): its end beside the point, shares of the axes from the lower left. side: which end that is."""
 
     x: float
     y: float
@@ -23,25 +23,27 @@ class _Area(NamedTuple):
     low: float
     high: float
 
-    def meets(self, other: "_Area") -> bool:
+    def overlaps(self, other: "_Area") -> bool:
         return min(self.right, other.right) > max(self.left, other.left) and min(self.high, other.high) > max(
             self.low, other.low
         )
 
 
 def place(points: Sequence[tuple[float, float]], names: Sequence[str]) -> list[Label]:
-    """A label for each point (x, y), shares of the axes: right or left of it, the first place that is free.
+    """A label for each point (x, y), shares of the axes: to its right or left, at the first free position.
 
-    Where none is, the one to the right stays.
+    Where none is free, the label is at the point's height.
     """
     taken = [_Area(x - _POINT, x + _POINT, y - _POINT, y + _POINT) for x, y in points]
     placed = []
     for (x, y), name in zip(points, names, strict=True):
-        places = [_label(x, y + step, side) for step in _STEPS for side in ("left", "right")]
+        positions = [_label(x, y + step, side) for step in _STEPS for side in ("left", "right")]
         free = [
-            each for each in places if _fits(area := _area(each, name)) and not any(map(area.meets, taken))
+            each
+            for each in positions
+            if _fits(area := _area(each, name)) and not any(map(area.overlaps, taken))
         ]
-        label = (free or [places[0] if x < 0.7 else places[1]])[0]
+        label = (free or [positions[0] if x < 0.7 else positions[1]])[0]
         taken.append(_area(label, name))
         placed.append(label)
     return placed

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""HTML as values: whatever isn't HTML yet is escaped on its way in, so nothing can be forgotten."""
+"""HTML as values: any other text is escaped when it becomes part of an element."""
 
 import math
 from html import escape
@@ -30,12 +30,12 @@ def joined(*parts: Any) -> Html:
 
 
 def scrolled(child: Html, label: str, class_: str = "scroll") -> Html:
-    """What may be wider than the page, in a frame that scrolls by itself, by keys too; label: its name."""
+    """Content that may be wider than the page, in a frame that scrolls, also by keyboard; label: its name."""
     return tag("div", child, class_=class_, tabindex=0, role="region", aria_label=label)
 
 
 def number(value: float, digits: int = 3) -> str:
-    """A number as the page shows it, a dash for NaN."""
+    """A number as text; a dash for NaN."""
     return "\N{EN DASH}" if math.isnan(value) else f"{value:,.{digits}f}"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The report of an evaluation as one HTML file that loads nothing, from nowhere."""
+"""The report of an evaluation as one HTML file that loads nothing else."""
 
 import base64
 import hashlib
@@ -9,14 +9,14 @@ from typing import Any
 
 from tricue.evaluation import tables
 from tricue.evaluation.evaluate import Evaluation
-from tricue.evaluation.report import vector
-from tricue.evaluation.report.looks import Look, looks
+from tricue.evaluation.report import svg
 from tricue.evaluation.report.markup import Html, joined, tag
+from tricue.evaluation.report.plot_styles import LineStyle, line_styles
 from tricue.evaluation.report.plots import Group, plots
-from tricue.evaluation.report.sequences import FILMED, Shown, sequences, worst_first
+from tricue.evaluation.report.sequences import MAX_PICTURED, RankedSequence, sequences, worst_first
 from tricue.evaluation.report.setup import setup, troubles
-from tricue.evaluation.report.strips import ABSENT, SHADES, SILENT
 from tricue.evaluation.report.summary import summary_table
+from tricue.evaluation.report.timeline import ABSENT, NOT_TRACKED, SHADES
 
 REPORT = "report.html"
 _TITLES = {
@@ -26,7 +26,7 @@ _TITLES = {
     "stereo": "Stereo pairs",
 }
 _FILES = {
-    tables.ROWS: "a line a run",
+    tables.ROWS: "a line per run",
     tables.SUMMARY: "means",
     tables.SPEEDS: "times",
     tables.JSON: "everything",
@@ -38,7 +38,7 @@ def write_report(evaluation: Evaluation, folder: Path, about: Mapping[str, Any])
 
     about: tables.settings. The same evaluation gives the same bytes. ImportError where matplotlib is missing.
     """
-    vector.require()
+    svg.require()
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / REPORT
     path.write_text(_page(evaluation, about), encoding="utf-8", newline="\n")
@@ -51,10 +51,10 @@ def _page(evaluation: Evaluation, about: Mapping[str, Any]) -> str:
         "head", _metas(), tag("title", f"{name}, tricue evaluation"), tag("style", _asset("style.css"))
     )
     groups = [Group.of(evaluation, each, _lines(evaluation)) for each in evaluation.groups]
-    shown = worst_first(evaluation)
-    filmed = {each.opened.entry.name for each in shown[:FILMED]}
-    drawn = looks(evaluation.entrants)
-    sections = [_group(each, evaluation, shown, filmed, drawn) for each in groups]
+    ranked = worst_first(evaluation)
+    pictured = {each.opened.entry.name for each in ranked[:MAX_PICTURED]}
+    styles = line_styles(evaluation.entrants)
+    sections = [_group(each, evaluation, ranked, pictured, styles) for each in groups]
     main = tag(
         "main", _header(evaluation, name, groups), sections, troubles(evaluation), setup(evaluation, about)
     )
@@ -64,7 +64,7 @@ def _page(evaluation: Evaluation, about: Mapping[str, Any]) -> str:
 
 
 def _metas() -> Html:
-    """The policy lets the browser load nothing, and run nothing but the script that sorts tables."""
+    """The policy lets the browser load nothing, and run only the script that sorts tables."""
     digest = base64.b64encode(hashlib.sha256(_script().encode()).digest()).decode()
     policy = f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{digest}'"
     return joined(
@@ -97,15 +97,15 @@ def _header(evaluation: Evaluation, name: str, groups: Sequence[Group]) -> Html:
 
 def _sentence(evaluation: Evaluation) -> str:
     ours = [each.name for each in evaluation.entrants if each.ours]
-    peers = [each.name for each in evaluation.entrants if not each.ours]
+    baselines = [each.name for each in evaluation.entrants if not each.ours]
     frames = {each.row.sequence: each.row.frames for each in evaluation.results}
     seeds = evaluation.options.seeds
-    drawn = f"; those that draw random numbers ran from {seeds} seeds" if seeds > 1 else ""
-    beside = f"{', beside ' if ours else ''}{_listed(peers)}" if peers else ""
+    seeded = f"; those that draw random numbers ran with {seeds} seeds" if seeds > 1 else ""
+    beside = f"{', beside ' if ours else ''}{_listed(baselines)}" if baselines else ""
     count = len(evaluation.opened)
     sequences_ = "one sequence" if count == 1 else f"{count} sequences"
-    trackers = f"{len(ours) + len(peers)} trackers" if len(ours) + len(peers) > 1 else "One tracker"
-    return f"{trackers} on {sequences_}, {sum(frames.values()):,} frames: {_listed(ours)}{beside}{drawn}."
+    trackers = f"{len(ours) + len(baselines)} trackers" if len(ours) + len(baselines) > 1 else "One tracker"
+    return f"{trackers} on {sequences_}, {sum(frames.values()):,} frames: {_listed(ours)}{beside}{seeded}."
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -118,13 +118,13 @@ def _how_to_read() -> Html:
         tag(
             "li",
             tag("span", "0", scale, "1", class_="scale"),
-            " overlap (IoU) with the true box, the worst of each stretch of time",
+            " overlap (IoU) with the true box, the lowest in each interval",
         ),
         tag("li", tag("span", class_="key", style=f"background:{ABSENT}"), " the target is absent"),
         tag(
             "li",
-            tag("span", class_="key", style=f"background:{SILENT}"),
-            " below: the tracker says that it doesn't see the target (not TRACKED)",
+            tag("span", class_="key", style=f"background:{NOT_TRACKED}"),
+            " below: the status is not TRACKED",
         ),
         tag("li", tag("span", class_="key truth"), " white and dashed in pictures: the true box"),
     ]
@@ -133,10 +133,10 @@ def _how_to_read() -> Html:
         tag("h2", "How to read this"),
         tag(
             "p",
-            "Every tracker starts on the first true box and follows it to the end without help. Arrows"
-            " in the tables say which way is better, the best numbers are marked, and a click on a head"
-            " sorts. tricue's trackers have solid lines, the others broken ones; a color means the same"
-            " tracker everywhere. In strips, time runs to the right:",
+            "Every tracker starts on the first true box and runs to the end without help. Arrows in the"
+            " tables show whether higher or lower is better, the best numbers are marked, and a click on a"
+            " heading sorts. tricue's trackers have solid lines, the baselines dashed ones; a tracker has the"
+            " same color everywhere. In timelines, time runs to the right:",
         ),
         tag("ul", keys, class_="keys"),
         class_="how",
@@ -144,28 +144,32 @@ def _how_to_read() -> Html:
 
 
 def _group(
-    group: Group, evaluation: Evaluation, shown: Sequence[Shown], filmed: set[str], drawn: Mapping[str, Look]
+    group: Group,
+    evaluation: Evaluation,
+    ranked: Sequence[RankedSequence],
+    pictured: set[str],
+    styles: Mapping[str, LineStyle],
 ) -> Html:
-    mine = [each for each in shown if each.opened.group == group.name]
+    mine = [each for each in ranked if each.opened.group == group.name]
     ours = set(group.ours)
     count = "one sequence" if len(mine) == 1 else f"{len(mine)} sequences"
     parts: list[Any] = [tag("h2", _TITLES.get(group.name, group.name), tag("small", count))]
     if group.lines:
-        parts += [summary_table(group.name, group.lines, len(mine), ours, drawn), plots(group, drawn)]
+        parts += [summary_table(group.name, group.lines, len(mine), ours, styles), plots(group, styles)]
     else:
         parts.append(tag("p", "No run on these sequences finished.", class_="note"))
-    parts += [tag("h3", "Sequences, worst first"), _order(len(shown))]
-    parts.append(sequences(mine, filmed, ours, drawn, evaluation.options.seeds > 1))
+    parts += [tag("h3", "Sequences, worst first"), _order(len(ranked))]
+    parts.append(sequences(mine, pictured, ours, styles, evaluation.options.seeds > 1))
     return tag("section", parts, id=group.name)
 
 
 def _order(total: int) -> Html:
-    """How the list is made."""
+    """How the list is sorted, and what its pictures show."""
     words = (
-        "By the AUC of tricue's best tracker on each. The pictures show its start and its worst moments, with"
-        " the boxes of tricue's trackers and of the two best others."
+        "By the AUC of tricue's best tracker on each. The pictures show its first and its worst frames, with"
+        " the boxes of tricue's trackers and of the two best baselines."
     )
-    few = f" Of the {total} sequences in all the {FILMED} worst have pictures." if total > FILMED else ""
+    few = f" Of all {total} sequences the {MAX_PICTURED} worst have pictures." if total > MAX_PICTURED else ""
     return tag("p", words + few, class_="note")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Plots of a group of sequences with their legends: success, precision, accuracy by speed, reliability."""
+"""Plots of a group of sequences with legends: success, precision, accuracy against speed, reliability."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -10,18 +10,21 @@ from numpy.typing import NDArray
 
 from tricue.evaluation import metrics
 from tricue.evaluation.evaluate import Evaluation, Result
-from tricue.evaluation.report import curves, vector
+from tricue.evaluation.report import curves, svg
 from tricue.evaluation.report.labels import place
-from tricue.evaluation.report.looks import Look, swatch
 from tricue.evaluation.report.markup import Html, number, tag
+from tricue.evaluation.report.plot_styles import LineStyle, swatch
 
 Line = dict[str, Any]
-_RISING = "a line that rises tells well from badly tracked frames. The number is AUROC."
-_FEWEST = 20  # frames in a bin of the reliability plot that are worth a point
+_RELIABILITY_NOTE = (
+    "Mean overlap by score, in bins of at least {} frames: a rising line means that scores distinguish good"
+    " from bad frames. The number is AUROC."
+)
+_MIN_BIN_FRAMES = 20  # for a point of the reliability plot
 
 
 class Group(NamedTuple):
-    """A group of sequences with what was found on it: the summary's and the speeds' lines, merged."""
+    """A group of sequences with its results; lines: of the summary and the speeds, merged."""
 
     name: str
     lines: Sequence[Line]
@@ -38,7 +41,7 @@ class Group(NamedTuple):
 
 
 class _Kind(NamedTuple):
-    """A plot of curves. key: the summary's number of a curve. mark: the place on the x axis that it is of."""
+    """A plot of curves. key: a curve's number in the summary. mark: where on the x axis that number is."""
 
     key: str
     title: str
@@ -68,19 +71,19 @@ _PRECISION = _Kind(
 )
 
 
-def plots(group: Group, looks: Mapping[str, Look]) -> Html:
-    """All plots of the group, those that have something to show."""
-    shown = [
-        _curves(group, looks, _SUCCESS),
-        _curves(group, looks, _PRECISION),
-        _speed(group, looks),
-        _reliability(group, looks),
+def plots(group: Group, styles: Mapping[str, LineStyle]) -> Html:
+    """The plots of the group that have data."""
+    figures = [
+        _curves(group, styles, _SUCCESS),
+        _curves(group, styles, _PRECISION),
+        _speed(group, styles),
+        _reliability(group, styles),
     ]
-    return tag("div", [each for each in shown if each is not None], class_="plots")
+    return tag("div", [each for each in figures if each is not None], class_="plots")
 
 
-def _curves(group: Group, looks: Mapping[str, Look], kind: _Kind) -> Html | None:
-    """A curve a tracker, where the truth tells one."""
+def _curves(group: Group, styles: Mapping[str, LineStyle], kind: _Kind) -> Html | None:
+    """A curve per tracker, where the truth is known; None without any."""
     found = {name: kind.curve(results) for name, results in group.results.items()}
     found = {name: curve for name, curve in found.items() if not np.isnan(curve).any()}
     if not found:
@@ -88,17 +91,17 @@ def _curves(group: Group, looks: Mapping[str, Look], kind: _Kind) -> Html | None
 
     def draw(axes: Any) -> None:
         for name, curve in found.items():
-            _line(axes, kind.thresholds, curve, looks[name])
+            _line(axes, kind.thresholds, curve, styles[name])
         axes.set(xlim=(0, kind.thresholds[-1]), ylim=(0, 1.01), xlabel=kind.x, ylabel="share of frames")
         if kind.mark is not None:
             axes.axvline(kind.mark, color="#777777", linewidth=1, linestyle=":", zorder=1)
 
     numbers = {line["tracker"]: line[kind.key] for line in group.lines if line["tracker"] in found}
-    picture = vector.svg(draw, f"{group.name}-{kind.key}", _said(kind.title, group, numbers))
-    return _figure(kind.title, kind.note, picture, _legend(looks, numbers))
+    picture = svg.render(draw, f"{group.name}-{kind.key}", _alternative_text(kind.title, group, numbers))
+    return _figure(kind.title, kind.note, picture, _legend(styles, numbers))
 
 
-def _speed(group: Group, looks: Mapping[str, Look]) -> Html | None:
+def _speed(group: Group, styles: Mapping[str, LineStyle]) -> Html | None:
     points = {
         line["tracker"]: (line["fps"], line["auc"]) for line in group.lines if not math.isnan(line["auc"])
     }
@@ -109,10 +112,10 @@ def _speed(group: Group, looks: Mapping[str, Look]) -> Html | None:
 
     def draw(axes: Any) -> None:
         width = limits[1] - limits[0]
-        at = [((math.log10(fps) - limits[0]) / width, auc) for fps, auc in points.values()]
-        for (name, (fps, auc)), label in zip(points.items(), place(at, list(points)), strict=True):
+        positions = [((math.log10(fps) - limits[0]) / width, auc) for fps, auc in points.values()]
+        for (name, (fps, auc)), label in zip(points.items(), place(positions, list(points)), strict=True):
             mine = name in group.ours
-            axes.plot(fps, auc, "o" if mine else "D", color=looks[name].color, markersize=9 if mine else 5)
+            axes.plot(fps, auc, "o" if mine else "D", color=styles[name].color, markersize=9 if mine else 5)
             axes.text(
                 label.x,
                 label.y,
@@ -132,10 +135,10 @@ def _speed(group: Group, looks: Mapping[str, Look]) -> Html | None:
         )
         axes.xaxis.set_major_formatter(lambda value, _: _short(value))
 
-    note = "Right and up is better. Large round points are tricue's."
+    note = "Up and to the right is better. Large round points are tricue's trackers."
     fast = {name: fps for name, (fps, _) in points.items()}
-    label = _said("Accuracy against speed, frames per second", group, fast, 0)
-    return _figure("Accuracy against speed", note, vector.svg(draw, f"{group.name}-speed", label), None)
+    label = _alternative_text("Accuracy against speed, frames per second", group, fast, 0)
+    return _figure("Accuracy against speed", note, svg.render(draw, f"{group.name}-speed", label), None)
 
 
 def _short(value: float) -> str:
@@ -146,36 +149,38 @@ def _short(value: float) -> str:
     return f"{value:g}"
 
 
-def _reliability(group: Group, looks: Mapping[str, Look]) -> Html | None:
+def _reliability(group: Group, styles: Mapping[str, LineStyle]) -> Html | None:
     bins = {name: curves.reliability(group.results[name]) for name in group.ours}
-    kept = {name: each for name, each in bins.items() if (each.counts >= _FEWEST).any()}
+    kept = {name: each for name, each in bins.items() if (each.counts >= _MIN_BIN_FRAMES).any()}
     if not kept:
         return None
 
     def draw(axes: Any) -> None:
         axes.plot([0, 1], [0, 1], color="#777777", linewidth=1, linestyle=":")
         for name, each in kept.items():
-            enough = each.counts >= _FEWEST
+            enough = each.counts >= _MIN_BIN_FRAMES
             axes.plot(
                 each.scores[enough],
                 each.overlaps[enough],
-                color=looks[name].color,
-                linewidth=looks[name].width,
+                color=styles[name].color,
+                linewidth=styles[name].width,
                 marker="o",
                 markersize=5,
             )
-        axes.set(xlim=(0, 1), ylim=(0, 1), xlabel="score that the tracker gave", ylabel="mean overlap (IoU)")
+        axes.set(xlim=(0, 1), ylim=(0, 1), xlabel="score", ylabel="mean overlap (IoU)")
 
     numbers = {line["tracker"]: line["auroc"] for line in group.lines if line["tracker"] in kept}
-    note = f"What a score stands for, by bins of {_FEWEST} frames or more: {_RISING}"
-    picture = vector.svg(draw, f"{group.name}-reliability", _said("Reliability, AUROC", group, numbers))
-    return _figure("Reliability of scores", note, picture, _legend(looks, numbers))
+    note = _RELIABILITY_NOTE.format(_MIN_BIN_FRAMES)
+    picture = svg.render(
+        draw, f"{group.name}-reliability", _alternative_text("Reliability, AUROC", group, numbers)
+    )
+    return _figure("Reliability of scores", note, picture, _legend(styles, numbers))
 
 
-def _line(axes: Any, x: NDArray[np.float64], y: NDArray[np.float64], look: Look) -> None:
-    (line,) = axes.plot(x, y, color=look.color, linewidth=look.width, zorder=3 if not look.dashes else 2)
-    if look.dashes:
-        line.set_linestyle((0, tuple(float(each) / look.width for each in look.dashes.split())))
+def _line(axes: Any, x: NDArray[np.float64], y: NDArray[np.float64], style: LineStyle) -> None:
+    (line,) = axes.plot(x, y, color=style.color, linewidth=style.width, zorder=3 if not style.dashes else 2)
+    if style.dashes:
+        line.set_linestyle((0, tuple(float(each) / style.width for each in style.dashes.split())))
 
 
 def _figure(title: str, note: str, picture: Html, legend: Html | None) -> Html:
@@ -183,13 +188,13 @@ def _figure(title: str, note: str, picture: Html, legend: Html | None) -> Html:
     return tag("figure", caption, picture, legend, class_="chart")
 
 
-def _legend(looks: Mapping[str, Look], numbers: Mapping[str, float], digits: int = 3) -> Html:
-    """The trackers by falling number; NaN last."""
+def _legend(styles: Mapping[str, LineStyle], numbers: Mapping[str, float], digits: int = 3) -> Html:
+    """The trackers by descending number; NaN last."""
     names = sorted(numbers, key=lambda name: (math.isnan(numbers[name]), -numbers[name]))
     items = [
         tag(
             "li",
-            swatch(looks[name]),
+            swatch(styles[name]),
             tag("span", name, class_="who"),
             tag("span", number(numbers[name], digits), class_="number"),
         )
@@ -198,6 +203,6 @@ def _legend(looks: Mapping[str, Look], numbers: Mapping[str, float], digits: int
     return tag("ul", items, class_="legend")
 
 
-def _said(title: str, group: Group, numbers: Mapping[str, float], digits: int = 3) -> str:
-    said = ", ".join(f"{name} {number(value, digits)}" for name, value in numbers.items())
-    return f"{title}, {group.name}: {said}"
+def _alternative_text(title: str, group: Group, numbers: Mapping[str, float], digits: int = 3) -> str:
+    values = ", ".join(f"{name} {number(value, digits)}" for name, value in numbers.items())
+    return f"{title}, {group.name}: {values}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was run, with which parameters, by which versions, where; and what couldn't be run."""
+"""The setup of an evaluation: parameters, versions, machine; and what could not be run."""
 
 import dataclasses
 import shlex
@@ -12,32 +12,32 @@ from tricue.track.base.registry import tracker_class
 
 _VERSIONS = ("tricue", "opencv", "numpy", "python", "machine")
 _READING = {"depth_scale": "--depth-scale", "fps": "--fps", "unit": "--unit", "truth": "--truth"}
-_MANY = 12  # names told in a sentence; more are folded
+_MAX_NAMES = 12  # in a sentence; more are folded
 
 
 def troubles(evaluation: Evaluation) -> Html | None:
-    """What was refused, what stopped, and what couldn't be read; None where there was nothing."""
-    refused: dict[tuple[str, str], list[str]] = {}
+    """Unsupported sequences, runs that ended with an error, unreadable sequences; None without any."""
+    unsupported: dict[tuple[str, str], list[str]] = {}
     for (tracker, sequence), why in evaluation.left_out.items():
-        refused.setdefault((tracker, why), []).append(sequence)
+        unsupported.setdefault((tracker, why), []).append(sequence)
     stopped = [each.row for each in evaluation.results if each.row.trouble]
     lists = [
         _list(
-            "Not run, as the sequence lacks what the tracker needs",
+            "Not run: the sequence lacks what the tracker needs",
             [
                 [tag("b", tracker), f": {why}, {_count(names)}", _names(names)]
-                for (tracker, why), names in refused.items()
+                for (tracker, why), names in unsupported.items()
             ],
         ),
         _list(
-            "Stopped by an error; from there on the run has no boxes",
+            "Stopped by an error; the run has no boxes from there on",
             [
                 [tag("b", row.tracker), f" on {row.sequence}, seed {row.seed}: {row.trouble}"]
                 for row in stopped
             ],
         ),
         _list(
-            "Couldn't be read, and are in no number above",
+            "Unreadable sequences, not part of any number above",
             [[tag("b", name), f": {error}"] for name, error in evaluation.failed.items()],
         ),
     ]
@@ -45,17 +45,17 @@ def troubles(evaluation: Evaluation) -> Html | None:
 
 
 def setup(evaluation: Evaluation, about: Mapping[str, Any]) -> Html:
-    """Parameters, versions, seeds, machine, reading options, and the command for the same again."""
+    """Parameters, versions, seeds, machine, reading options, and the command that repeats the evaluation."""
     options = evaluation.options
     reading = ", ".join(
         f"{name} {value}" for name, value in dataclasses.asdict(options.reading).items() if value is not None
     )
     facts = {
         **{name: about[name] for name in _VERSIONS if name in about},
-        "seeds": f"{options.seeds}, counted from 0; trackers that draw no random numbers ran once",
+        "seeds": f"{options.seeds}, counted from 0; deterministic trackers ran once",
         "restarts": "each run also with restarts after failures" if options.restarts else "none",
-        "read with": reading or "what the files tell themselves",
-        "again by": tag("code", command(options, str(about.get("dataset", "DATASET")))),
+        "reading options": reading or "none, as in the files",
+        "command": tag("code", command(options, str(about.get("dataset", "DATASET")))),
     }
     listed = [(tag("dt", name), tag("dd", value)) for name, value in facts.items()]
     ours = [
@@ -73,7 +73,7 @@ def setup(evaluation: Evaluation, about: Mapping[str, Any]) -> Html:
 
 
 def command(options: Options, dataset: str) -> str:
-    """The command line that runs the same."""
+    """The command line that repeats the evaluation."""
     words = ["tricue", "evaluate", dataset]
     if options.trackers:
         words += ["--trackers", ",".join(options.trackers)]
@@ -98,11 +98,13 @@ def _parameters(tracker: str, values: Mapping[str, Any], changed: Mapping[str, A
         cell = tag("td", tag("strong", _plain(value)) if default else _plain(value), default)
         row = tag("th", name, scope="row"), cell, tag("td", field.metadata.get("unit", ""))
         rows.append(tag("tr", row, class_="changed" if default else None))
-    head = tag("tr", [tag("th", each, scope="col") for each in ("parameter", "value", "unit")])
-    table = tag("table", tag("thead", head), tag("tbody", rows), class_="parameters")
-    told = f"{len(changed)} changed: {', '.join(changed)}" if changed else "all as by default"
+    heading = tag("tr", [tag("th", each, scope="col") for each in ("parameter", "value", "unit")])
+    table = tag("table", tag("thead", heading), tag("tbody", rows), class_="parameters")
+    summary = f"{len(changed)} changed: {', '.join(changed)}" if changed else "all defaults"
     return tag(
-        "details", tag("summary", tag("b", tracker), f" {told}"), scrolled(table, f"parameters of {tracker}")
+        "details",
+        tag("summary", tag("b", tracker), f" {summary}"),
+        scrolled(table, f"parameters of {tracker}"),
     )
 
 
@@ -116,7 +118,7 @@ def _count(names: list[str]) -> str:
 
 def _names(names: list[str]) -> Html:
     text = ", ".join(names)
-    if len(names) <= _MANY:
+    if len(names) <= _MAX_NAMES:
         return tag("span", f" ({text})")
     return tag("details", tag("summary", "their names"), tag("p", text))
 

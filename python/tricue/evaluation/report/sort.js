@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A click on a table's head sorts by that column, a second one the other way. Without it the page is whole.
+// A click on a table's heading sorts by that column, a second click in reverse. The page is complete without it.
 for (const table of document.querySelectorAll("table.sortable")) {
   const heads = [...table.tHead.rows[0].cells], body = table.tBodies[0];
   const value = (row, at) => {

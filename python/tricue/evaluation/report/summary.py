@@ -1,29 +1,29 @@
 # SPDX-License-Identifier: MIT
-"""The table of a group of sequences: a line a tracker, the best numbers marked."""
+"""The table of a group of sequences: a line per tracker, the best numbers marked."""
 
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from tricue.evaluation.report.columns import Column, best, shown
-from tricue.evaluation.report.looks import Look, swatch
+from tricue.evaluation.report.columns import Column, best, with_numbers
 from tricue.evaluation.report.markup import Html, scrolled, tag
+from tricue.evaluation.report.plot_styles import LineStyle, swatch
 
 Line = dict[str, Any]
 
 
 def summary_table(
-    name: str, lines: Sequence[Line], total: int, ours: set[str], looks: Mapping[str, Look]
+    name: str, lines: Sequence[Line], total: int, ours: set[str], styles: Mapping[str, LineStyle]
 ) -> Html:
     """lines: the summary's and the speeds' lines of the group, merged. total: the group's sequences."""
-    columns = shown(lines)
+    columns = with_numbers(lines)
     whole = [line for line in lines if line["sequences"] == total]
     tops = {column.key: best(column, whole) for column in columns}
-    heads = [_head(column) for column in columns]
+    headings = [_heading(column) for column in columns]
     rows = [
         tag(
             "tr",
-            _who(line, total, ours, looks),
+            _who(line, total, ours, styles),
             [_cell(column, line, whole, tops) for column in columns],
             class_="ours" if line["tracker"] in ours else None,
         )
@@ -31,23 +31,23 @@ def summary_table(
     ]
     table = tag(
         "table",
-        tag("thead", tag("tr", tag("th", "tracker", scope="col"), heads)),
+        tag("thead", tag("tr", tag("th", "tracker", scope="col"), headings)),
         tag("tbody", rows),
         class_="sortable",
     )
     return tag("div", scrolled(table, f"summary, {name}"), _partial(lines, total), _meanings(columns))
 
 
-def _head(column: Column) -> Html:
+def _heading(column: Column) -> Html:
     arrow = tag("span", "↑" if column.better > 0 else "↓", class_="way", aria_hidden="true")
-    return tag("th", column.head, arrow, scope="col", title=column.meaning)
+    return tag("th", column.heading, arrow, scope="col", title=column.meaning)
 
 
-def _who(line: Line, total: int, ours: set[str], looks: Mapping[str, Look]) -> Html:
+def _who(line: Line, total: int, ours: set[str], styles: Mapping[str, LineStyle]) -> Html:
     name, sequences = line["tracker"], line["sequences"]
     few = tag("small", f"{sequences} of {total}") if sequences < total else None
     badge = tag("span", "tricue", class_="badge") if name in ours else None
-    return tag("th", swatch(looks[name]), tag("span", name, class_="who"), badge, few, scope="row")
+    return tag("th", swatch(styles[name]), tag("span", name, class_="who"), badge, few, scope="row")
 
 
 def _cell(column: Column, line: Line, whole: Sequence[Line], tops: Mapping[str, float]) -> Html:
@@ -65,16 +65,16 @@ def _cell(column: Column, line: Line, whole: Sequence[Line], tops: Mapping[str, 
 
 
 def _partial(lines: Sequence[Line], total: int) -> Html | None:
-    """Means over other sequences don't compare."""
+    """Means over different sequences are not comparable."""
     few = [
         f"{line['tracker']} ({line['sequences']} of {total})" for line in lines if line["sequences"] < total
     ]
     if not few:
         return None
-    words = f"Not run on all of the {total} sequences, so that their means are of fewer: {', '.join(few)}."
-    return tag("p", words, " Only trackers that ran on all are marked as best.", class_="note")
+    words = f"Not run on all {total} sequences, so their means are over fewer: {', '.join(few)}."
+    return tag("p", words, " Only trackers that ran on all sequences are marked as best.", class_="note")
 
 
 def _meanings(columns: Sequence[Column]) -> Html:
-    items = [(tag("dt", column.head), tag("dd", f"{column.meaning}.")) for column in columns]
+    items = [(tag("dt", column.heading), tag("dd", f"{column.meaning}.")) for column in columns]
     return tag("details", tag("summary", "What the columns mean"), tag("dl", items, class_="meanings"))

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""The fused tracker without each of its cues.
+
+    python -m benchmarks.quality.ablation --jobs 2
+
+The rows are the tracker with all cues, without each of them, and cv2's CSRT. The first columns and AUROC are
+those of ``robustness`` on recorded color sequences; the last ones are the mean overlap in ``stress_scenes``,
+by channels. CSRT uses color alone, which is the same for all channels, so it runs once.
+"""
+
+import sys
+from collections.abc import Iterable, Sequence
+
+from tricue.evaluation import baselines
+from tricue.evaluation.tracker_spec import Entrant
+from tricue.scenes.stress_scene import KINDS
+from tricue.track.base.registry import tracker_class
+
+from benchmarks.quality import robustness, stress_scenes
+from benchmarks.quality.common import scene_runs
+from benchmarks.quality.common.arguments import add_output, bare_parser, seeds
+from benchmarks.quality.common.parallel import run_parallel
+from benchmarks.quality.common.tables import Cell, markdown, write_csv
+from benchmarks.quality.common.variants import Variant, with_settings
+
+TRACKER, BASELINE = "fused", "CSRT"
+CHANNELS = ("color", "rgbd", "stereo")
+SCENES = ("all", "fast", "lookalike", "hidden")
+HEAD = ("", *robustness.PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
+
+
+def ablated() -> list[Variant]:
+    """The tracker with all cues, without each of them where the others are enough, and the baseline."""
+    whole, cues = Variant(TRACKER, Entrant(TRACKER)), tracker_class(TRACKER).Params().cues
+    found = [whole]
+    for cue in cues:
+        rest = tuple(each for each in cues if each != cue)
+        if _possible(rest):
+            found.append(with_settings(whole, f"without {cue}", {"cues": rest}))
+    if BASELINE in baselines.available():
+        found.append(Variant(BASELINE, Entrant(BASELINE)))
+    return found
+
+
+def _possible(cues: tuple[str, ...]) -> bool:
+    try:
+        tracker_class(TRACKER).Params(cues=cues)
+    except ValueError:
+        return False
+    return True
+
+
+def _with_new_inputs(variants: Sequence[Variant], channels: str) -> list[Variant]:
+    """Those that get more of these channels than of color alone; all of them on color."""
+    return [each for each in variants if each.spec.ours or channels == "color"]
+
+
+def lines(
+    variants: Sequence[Variant],
+    recorded: Sequence[robustness.RobustnessResult],
+    rendered: Iterable[scene_runs.SceneResult],
+) -> list[list[Cell]]:
+    """HEAD for each variant; NaN where it didn't run."""
+    by_tracker, groups = robustness.by_tracker(recorded), stress_scenes.grouped(rendered)
+    made: list[list[Cell]] = []
+    for label in (variant.label for variant in variants):
+        runs = by_tracker.get(label, [])
+        frames = robustness.pooled(runs) if runs else None
+        line: list[Cell] = [label, *(robustness.means(runs)), frames.auroc if frames else float("nan")]
+        for channels in CHANNELS:
+            results = groups.get((channels, stress_scenes.ALL_KINDS, label))
+            line.append(stress_scenes.overall(results)[0] if results else float("nan"))
+        made.append([*line, frames.milliseconds if frames else float("nan")])
+    return made
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the table; the exit code."""
+    made = bare_parser("ablation", __doc__)
+    robustness.add_dataset(made)
+    made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(SCENES), help="of scenes")
+    made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="default 0:3")
+    add_output(made)
+    options = made.parse_args(arguments)
+    variants = ablated()
+    try:
+        todo = robustness.tasks(variants, options.dataset)
+    except (OSError, ValueError) as error:
+        made.error(str(error))
+    todo.sort(key=lambda task: -task.variant.spec.slowness)  # so that all processes end together
+    recorded = list(run_parallel(robustness.run_protocols, todo, options.jobs))
+    scenes = [
+        task
+        for channels in CHANNELS
+        for task in stress_scenes.tasks(
+            _with_new_inputs(variants, channels), (channels,), options.kinds, options.seeds
+        )
+    ]
+    rendered = [
+        each for several in run_parallel(scene_runs.run_scene, scenes, options.jobs) for each in several
+    ]
+    table = lines(variants, recorded, rendered)
+    print(markdown(HEAD, table))
+    write_csv(options.csv, HEAD, table)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

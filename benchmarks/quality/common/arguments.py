@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""Command line arguments that several scripts share."""
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+
+from tricue.cli.arguments import count
+from tricue.evaluation import baselines
+from tricue.track.base.registry import names
+
+PACKAGE = "benchmarks.quality"
+
+
+def parser(script: str, about: str | None, trackers: Sequence[str]) -> argparse.ArgumentParser:
+    """Trackers, their parameters, processes and a CSV.
+
+    trackers: those of a run without --trackers, as far as they are tricue's or the installed cv2 has them.
+    """
+    known = (*names(), *baselines.available())
+    made = bare_parser(script, about)
+    made.add_argument(
+        "--trackers",
+        nargs="+",
+        default=[each for each in trackers if each.partition(":")[0] in known],
+        metavar="NAME",
+        help="tricue's and baselines; fused:color and fused:color+depth get these channels only",
+    )
+    made.add_argument("--set", action="append", default=[], metavar="TRACKER.NAME=VALUE", help="a parameter")
+    add_output(made)
+    return made
+
+
+def bare_parser(script: str, about: str | None) -> argparse.ArgumentParser:
+    """No arguments; the help of a script starts with its docstring."""
+    return argparse.ArgumentParser(
+        prog=f"python -m {PACKAGE}.{script}",
+        description=about,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
+def add_output(made: argparse.ArgumentParser) -> None:
+    """The number of processes, and a file for the numbers."""
+    made.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
+    made.add_argument("--csv", type=Path, metavar="FILE", help="also write the numbers to this file")
+
+
+def seeds(text: str) -> tuple[int, ...]:
+    """Seeds from "0:20", which excludes 20, or from "1,5,7"."""
+    first, colon, last = text.partition(":")
+    try:
+        found = tuple(range(int(first), int(last))) if colon else tuple(map(int, text.split(",")))
+    except ValueError:
+        found = ()
+    if not found or min(found) < 0:
+        raise argparse.ArgumentTypeError(f"expected seeds such as 0:20 or 1,5,7, got {text!r}")
+    return found

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: MIT
+"""Variants of trackers: with parameters, under a label, limited to some of a sequence's channels."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from tricue.camera.frame import Frame
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.evaluation.tracker_spec import Entrant, Guarded, Offer, View, entrants
+from tricue.track.base.settings import read_settings
+
+CHANNELS = ("color", "depth", "right")
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What a sequence has for trackers: channels and cameras, as the protocol ``Offer`` has them."""
+
+    channels: tuple[str, ...]
+    intrinsics: Intrinsics | None = None
+    rig: StereoRig | None = None
+    registered: bool = True
+
+    @property
+    def channel(self) -> str:
+        """The one whose pixels the boxes count; depth only where there is no color."""
+        return "color" if "color" in self.channels else "depth"
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A tracker spec with a label. only: the channels that it gets, None for all that it can use."""
+
+    label: str
+    spec: Entrant
+    only: tuple[str, ...] | None = None
+
+    def unsupported(self, inputs: Offer) -> str:
+        """Why it can't run on such inputs, "" where it can."""
+        missing = [name for name in self.only or () if name not in inputs.channels]
+        return f"no {missing[0]}" if missing else self.spec.refuses(self._limited(inputs))
+
+    def make(self, inputs: Offer) -> Guarded:
+        """The tracker with its cameras, from seed 0."""
+        return self.spec.contender(self._limited(inputs), 0)
+
+    def view(self, inputs: Offer) -> View:
+        """What it gets of a frame."""
+        only, view = self.only, self.spec.view(self._limited(inputs))
+        if only is None:
+            return view
+        return lambda frame: view(
+            Frame(**{name: getattr(frame, name) for name in only}, timestamp=frame.timestamp)
+        )
+
+    def _limited(self, inputs: Offer) -> Offer:
+        if self.only is None:
+            return inputs
+        return Inputs(
+            self.only,
+            inputs.intrinsics if "depth" in self.only else None,
+            inputs.rig if "right" in self.only else None,
+            inputs.registered,
+        )
+
+
+def parse_variants(words: Sequence[str], settings: Sequence[str] = ()) -> list[Variant]:
+    """From names such as CSRT, fused, or fused:color and fused:color+depth, which get these channels only.
+
+    settings: "name.parameter=value", for tricue's trackers. ValueError for what is unknown.
+    """
+    names = [word.partition(":")[0] for word in words]
+    values = parse_settings(settings)
+    if unused := [name for name in values if name not in names]:
+        raise ValueError(f"--set: expected one of {', '.join(names)}, got {unused[0]!r}")
+    specs = entrants(names, values)
+    return [Variant(word, spec, _channels(word)) for word, spec in zip(words, specs, strict=True)]
+
+
+def parse_settings(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """Parameters by tracker from "name.parameter=value"; ValueError for anything else."""
+    lines: dict[str, list[str]] = {}
+    for setting in settings:
+        name, dot, rest = setting.partition(".")
+        if not dot or "=" in name:
+            raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
+        lines.setdefault(name, []).append(rest)
+    return {name: read_settings(name, None, each) for name, each in lines.items()}
+
+
+def with_settings(variant: Variant, label: str, values: Mapping[str, Any]) -> Variant:
+    """The same tracker under another label with further parameters."""
+    settings = dict(variant.spec.settings) | dict(values)
+    return replace(variant, label=label, spec=replace(variant.spec, settings=tuple(settings.items())))
+
+
+def _channels(word: str) -> tuple[str, ...] | None:
+    _, colon, text = word.partition(":")
+    if not colon:
+        return None
+    channels = tuple(text.split("+"))
+    if unknown := [name for name in channels if name not in CHANNELS]:
+        raise ValueError(f"--trackers: expected channels of {', '.join(CHANNELS)}, got {unknown[0]!r}")
+    return channels

@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""The cues alone, beside OpenCV's, on recorded data."""

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: MIT
+"""Figure 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo, in meters.
+
+The tracker with its defaults, without one part at a time, with the paper's own filter, and in the form that
+the paper prints.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import tricue
+from tricue.evaluation import metrics
+from tricue.evaluation.one_pass import run
+from tricue.papers.experiment import Case, Experiment, Maker
+from tricue.papers.kernel_probes import ProbedTracker
+from tricue.papers.moreno import curves, figures
+from tricue.papers.moreno.curves import FUSED, PAPERS_FILTER, UNFUSED, StereoCurve
+from tricue.scenes import StereoScene, head
+
+DISPARITY_NOISE = 0.3
+"""Pixels, standard deviation, in the perturbed scene."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trial:
+    """A scene, and the noise that is added to the disparities measured in it: standard deviation, pixels."""
+
+    scene: StereoScene
+    noise: float
+
+    @classmethod
+    def make(cls, seed: int, noise: float = 0.0, **scene: Any) -> "Trial":
+        """A scene with a head; its keywords are those of tricue.scenes.head."""
+        return cls(head(seed, **scene), noise)
+
+
+def measure(case: Case, make: Maker, trial: Trial) -> StereoCurve:
+    """Positions, overlaps and times of a tracker that starts on the first true box."""
+    scene = trial.scene
+    probed = ProbedTracker(make(seed=case.seed, rig=scene.rig), trial.noise, case.seed)
+    result = run(probed, scene.frames, scene.boxes[0])
+    return StereoCurve(
+        *case,
+        overlaps=metrics.overlaps(result.boxes, np.array(scene.boxes)),
+        visible=scene.visible,
+        statuses=result.statuses,
+        positions=result.positions,
+        truth=scene.positions,
+        covariances=result.covariances,
+        seconds=probed.seconds(result.seconds),
+    )
+
+
+def _stereo(**parameters: Any) -> Maker:
+    return partial(tricue.create, "stereo-head", **parameters)
+
+
+def _scene(kind: str = "normal", camera: str = "160x120", noise: float = 0.0) -> Callable[..., Trial]:
+    return partial(Trial.make, kind=kind, camera=camera, noise=noise)
+
+
+PAPERS_FILTER_PARAMS: dict[str, Any] = {"motion": "constant", "noise": "polynomial", "disparity_noise": 1.0}
+PRINTED_PARAMS: dict[str, Any] = {
+    **PAPERS_FILTER_PARAMS,
+    "ring_weight": 0.0,
+    "depth_weight": 0.0,
+    "light": False,
+    "learn": "all",
+    "learning_rate": 0.1,
+    "anchor": 0.0,
+    "rim": 0.0,
+    "center": "mean",
+    "feedback": True,
+}
+
+COLOR_ONLY_PARAMS: dict[str, Any] = {"light": False, "depth_weight": 0.0}  # of the search for the head
+
+EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
+    "moreno-fig3": Experiment(
+        models={
+            FUSED: _stereo(),
+            UNFUSED: _stereo(fuse=False),
+            PAPERS_FILTER: _stereo(**PAPERS_FILTER_PARAMS),
+            "as printed": _stereo(**PRINTED_PARAMS),
+            "without depth in the search": _stereo(depth_weight=0.0),
+            "without updating": _stereo(learning_rate=0.0),
+            "light not compensated": _stereo(light=False),
+            "light not compensated, without updating": _stereo(light=False, learning_rate=0.0),
+            "color alone": _stereo(**COLOR_ONLY_PARAMS),
+            "color alone, without updating": _stereo(**COLOR_ONLY_PARAMS, learning_rate=0.0),
+        },
+        scenes={
+            figures.NORMAL: _scene(),
+            figures.NOISY: _scene(noise=DISPARITY_NOISE),
+            "distractor": _scene("distractor"),
+            "turning": _scene("turning"),
+            "ramp": _scene("ramp"),
+            "jump": _scene("jump"),
+            "hidden": _scene("hidden"),
+            figures.LARGE: _scene(camera="640x480"),
+        },
+        measure=measure,
+        summarize=curves.summarize,
+        write_csv=curves.write_csv,
+        draw=figures.paths,
+        max_seeds={figures.LARGE: 4},
+    )
+}

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""What the papers' figures share: a frame of a scene, a band of curves, shaded occlusions."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.papers.curves import MIN_VISIBLE, Floats
+
+HIDDEN_SHADE = "0.88"
+
+
+def show_frame(axes: Any, image: NDArray[np.uint8] | None, title: str) -> None:
+    """A BGR image without ticks, its title over the left edge."""
+    assert image is not None
+    axes.imshow(image[..., ::-1])
+    axes.set_title(title, loc="left")
+    axes.axis("off")
+
+
+def plot_band(
+    axes: Any,
+    center: Floats,
+    runs: Floats,
+    color: str,
+    label: str,
+    *,
+    ranks: tuple[float, float] = (25, 75),
+    alpha: float = 0.15,
+    linewidth: float = 1.4,
+) -> None:
+    """A line through ``center`` (M,), and a band between two percentiles of ``runs`` (R, M)."""
+    low, high = np.percentile(runs, ranks, axis=0)
+    axes.fill_between(np.arange(len(center)), low, high, color=color, alpha=alpha, linewidth=0)
+    axes.plot(center, color=color, linewidth=linewidth, label=label)
+
+
+def shade_hidden(axes: Any, visible: Floats) -> None:
+    """Shade the frames in which less than half of the target is visible, and set the axis of frames.
+
+    visible: (M,) share of the target.
+    """
+    frames = np.arange(len(visible))
+    style = {"transform": axes.get_xaxis_transform(), "step": "mid", "color": HIDDEN_SHADE, "linewidth": 0}
+    axes.fill_between(frames, 0, 1, where=visible < MIN_VISIBLE, **style)
+    axes.set_xlim(0, max(1, len(visible) - 1))
