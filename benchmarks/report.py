@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from tricue import _core
 from tricue.camera.box import Box
 from tricue.evaluation import baselines, metrics
-from tricue.evaluation.one_pass import Contender, Run, one_thread, run
+from tricue.evaluation.one_pass import AnyTracker, Run, one_thread, run
 from tricue.evaluation.tracker_spec import pictured
 from tricue.scenes import (
     DepthScene,
@@ -46,9 +46,9 @@ WALK_FRAMES = 100
 SLOW = 3  # rounds for what takes over 2 ms a frame
 OUT = Path(__file__).parents[1] / "docs" / "benchmarks.md"
 EXPORTED = frozenset(name for name in dir(_core) if not name.startswith("_"))
-SIDES = {"native": "native", "reference": "reference", "peer": "baseline", "script": "baseline"}
+SIDES = {"native": "native", "reference": "reference", "baseline": "baseline", "script": "baseline"}
 """Ids of a kernel's benchmarks, and the columns that they fill; others are not in the table."""
-Make = Callable[[], Contender]
+Make = Callable[[], AnyTracker]
 
 HEAD = """\
 # Benchmarks

@@ -17,7 +17,7 @@ CAMERA, BASELINE = np.array([560.0, 560.0, 319.5, 239.5]), 0.12
 
 
 def script(measurements: Floats, variances: Floats, camera: Floats, baseline: float) -> tuple[Floats, Floats]:
-    """The peer: all Jacobians at once."""
+    """The baseline: all Jacobians at once."""
     fx, fy, cx, cy = camera
     u, v, d = measurements.T
     z = fx * baseline / d
@@ -28,11 +28,11 @@ def script(measurements: Floats, variances: Floats, camera: Floats, baseline: fl
     return points, (jacobians * variances) @ jacobians.transpose(0, 2, 1)
 
 
-CONTENDERS = {"native": _core.back_project, "reference": reference.back_project, "peer": script}
+IMPLEMENTATIONS = {"native": _core.back_project, "reference": reference.back_project, "baseline": script}
 
 
 @pytest.mark.benchmark(group="back_project")
-@pytest.mark.parametrize("back_project", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("back_project", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_back_project(benchmark: Any, back_project: Callable[..., tuple[Floats, Floats]]) -> None:
     """All see the same points, as sure of them."""
     arguments = MEASUREMENTS, VARIANCES, CAMERA, BASELINE

@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 ANGLE, FOCAL = 0.1, 600.0
 
 
-def peer(image: Image, angle: float, focal: float) -> Image:
+def baseline(image: Image, angle: float, focal: float) -> Image:
     """The homography K R K^-1."""
     height, width = image.shape[:2]
     camera = np.array([[focal, 0, (width - 1) / 2], [0, focal, (height - 1) / 2], [0, 0, 1]])
@@ -25,10 +25,14 @@ def peer(image: Image, angle: float, focal: float) -> Image:
     return np.asarray(cv2.warpPerspective(image, back, (width, height), flags=flags), np.uint8)
 
 
-CONTENDERS = {"native": _core.rectify_verged, "reference": reference.rectify_verged, "peer": peer}
+IMPLEMENTATIONS = {
+    "native": _core.rectify_verged,
+    "reference": reference.rectify_verged,
+    "baseline": baseline,
+}
 
 
-@pytest.mark.parametrize("rectify", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("rectify", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 @pytest.mark.parametrize(
     "color",
     [
@@ -43,7 +47,7 @@ def bench_rectify_verged(benchmark: Any, rectify: Callable[..., Image], color: b
     image = cv2.GaussianBlur(noise, (0, 0), 3).astype(np.uint8)
     image = image if color else np.ascontiguousarray(image[..., 0])
     found = benchmark(rectify, image, ANGLE, FOCAL)
-    expected = peer(image, ANGLE, FOCAL)
+    expected = baseline(image, ANGLE, FOCAL)
     seen = cv2.erode(((found > 0) & (expected > 0)).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
     assert seen.mean() > 0.8  # but for the edge, which cv2 blends with what lies beyond
     assert abs(found.astype(int) - expected)[seen].max() <= 2

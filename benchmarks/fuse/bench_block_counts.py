@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 
 def script(mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floats) -> tuple[Any, ...]:
-    """The peer: integral images of the part with blocks, whose corners are whole numbers here."""
+    """The baseline: integral images of the part with blocks, whose corners are whole numbers here."""
     corners = blocks.astype(int)
     left, top = corners[:, :2].min(axis=0)
     right, bottom = corners[:, 2:].max(axis=0)
@@ -29,7 +29,7 @@ def script(mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floa
     return (x1 - x0) * (y1 - y0), sums[0], sums[1], mean
 
 
-CONTENDERS = {"native": _core.block_counts, "reference": reference.block_counts, "peer": script}
+IMPLEMENTATIONS = {"native": _core.block_counts, "reference": reference.block_counts, "baseline": script}
 
 
 def check(benchmark: Any, block_counts: Callable[..., Any], target: Any, size: int) -> None:
@@ -47,14 +47,14 @@ def check(benchmark: Any, block_counts: Callable[..., Any], target: Any, size: i
 
 
 @pytest.mark.benchmark(group="block_counts, 200 of 6x6")
-@pytest.mark.parametrize("block_counts", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("block_counts", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_counts(benchmark: Any, block_counts: Callable[..., Any], small: Any) -> None:
     """In the paper's frame."""
     check(benchmark, block_counts, small, 6)
 
 
 @pytest.mark.benchmark(group="block_counts, 200 of 24x24")
-@pytest.mark.parametrize("block_counts", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("block_counts", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_counts_of_many(benchmark: Any, block_counts: Callable[..., Any], large: Any) -> None:
     """In a usual frame."""
     check(benchmark, block_counts, large, 24)

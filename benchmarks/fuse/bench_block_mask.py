@@ -15,14 +15,14 @@ Mask = NDArray[np.uint8]
 
 
 def script(blocks: NDArray[np.float64], height: int, width: int) -> Mask:
-    """The peer: cv2.rectangle, of corners that are whole numbers here."""
+    """The baseline: cv2.rectangle, of corners that are whole numbers here."""
     mask = np.zeros((height, width), np.uint8)
     for x0, y0, x1, y1 in blocks.astype(int).tolist():
         cv2.rectangle(mask, (x0, y0), (x1 - 1, y1 - 1), 1, cv2.FILLED)
     return mask
 
 
-CONTENDERS = {"native": _core.block_mask, "reference": reference.block_mask, "peer": script}
+IMPLEMENTATIONS = {"native": _core.block_mask, "reference": reference.block_mask, "baseline": script}
 
 
 def check(benchmark: Any, block_mask: Callable[..., Mask], size: int) -> None:
@@ -36,14 +36,14 @@ def check(benchmark: Any, block_mask: Callable[..., Mask], size: int) -> None:
 
 
 @pytest.mark.benchmark(group="block_mask, 100 of 6x6")
-@pytest.mark.parametrize("block_mask", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("block_mask", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_mask(benchmark: Any, block_mask: Callable[..., Mask]) -> None:
     """Of a target in the paper's frame: 60x100 pixels round it."""
     check(benchmark, block_mask, 6)
 
 
 @pytest.mark.benchmark(group="block_mask, 100 of 24x24")
-@pytest.mark.parametrize("block_mask", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("block_mask", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_mask_of_many(benchmark: Any, block_mask: Callable[..., Mask]) -> None:
     """Of a target in a usual frame."""
     check(benchmark, block_mask, 24)

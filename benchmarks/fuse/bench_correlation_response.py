@@ -21,7 +21,7 @@ DENOMINATORS = random.uniform(1, 2, (2, 32, 17)).astype(np.float32)
 
 
 def prepared(numerator: Complexes, denominator: Floats) -> tuple[list[Floats], Floats]:
-    """A filter as the peer's tracker would hold it: whole spectra (32, 32, 2), made before the clock."""
+    """A filter as the baseline's tracker would hold it: whole spectra (32, 32, 2), made before the clock."""
     weights = np.fft.irfft2(numerator, (32, 32)).astype(np.float32)
     half = denominator + 0.01 * denominator.mean()
     whole = np.concatenate([half, np.roll(half[::-1, 15:0:-1], 1, axis=0)], axis=1)
@@ -44,15 +44,15 @@ def script(cells: Floats, numerators: Complexes, denominators: Floats, ridge: fl
     return np.array(answers)
 
 
-CONTENDERS = {
+IMPLEMENTATIONS = {
     "native": _core.correlation_response,
     "reference": reference.correlation_response,
-    "peer": script,
+    "baseline": script,
 }
 
 
 @pytest.mark.benchmark(group="correlation_response, 2 filters, 11 x 32x32")
-@pytest.mark.parametrize("respond", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("respond", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_correlation_response(benchmark: Any, respond: Callable[..., Floats]) -> None:
     """All answer the same."""
     answer = benchmark(respond, CELLS, NUMERATORS, DENOMINATORS, 0.01)

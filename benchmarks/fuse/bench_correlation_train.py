@@ -50,11 +50,15 @@ def script(
     return numerator + rate * (upper - numerator), denominator + rate * (energy - denominator)
 
 
-CONTENDERS = {"native": _core.correlation_train, "reference": reference.correlation_train, "peer": script}
+IMPLEMENTATIONS = {
+    "native": _core.correlation_train,
+    "reference": reference.correlation_train,
+    "baseline": script,
+}
 
 
 @pytest.mark.benchmark(group="correlation_train, 11 x 32x32")
-@pytest.mark.parametrize("train", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("train", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_correlation_train(benchmark: Any, train: Callable[..., Filter]) -> None:
     """All learn the same."""
     arguments = CELLS, FOCUS, LABEL, *NONE, 0.5, 1.0

@@ -15,21 +15,25 @@ Floats = NDArray[np.float64]
 random = np.random.default_rng(0)
 ROOT = random.normal(size=(7, 7))
 ARGUMENTS = random.normal(size=7), ROOT @ ROOT.T, np.eye(7) + np.eye(7, k=3) / 30, 0.01 * np.eye(7)
-PEER = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
+BASELINE = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
 
 
-def peer(mean: Floats, covariance: Floats, transition: Floats, noise: Floats) -> tuple[Floats, Floats]:
+def baseline(mean: Floats, covariance: Floats, transition: Floats, noise: Floats) -> tuple[Floats, Floats]:
     """OpenCV's, which has a state of its own that must be set, and writes into what it was set to."""
-    PEER.statePost, PEER.errorCovPost = mean[:, None].copy(), covariance.copy()
-    PEER.transitionMatrix, PEER.processNoiseCov = transition, noise
-    return PEER.predict()[:, 0], PEER.errorCovPre
+    BASELINE.statePost, BASELINE.errorCovPost = mean[:, None].copy(), covariance.copy()
+    BASELINE.transitionMatrix, BASELINE.processNoiseCov = transition, noise
+    return BASELINE.predict()[:, 0], BASELINE.errorCovPre
 
 
-CONTENDERS = {"native": _core.kalman_predict, "reference": reference.kalman_predict, "peer": peer}
+IMPLEMENTATIONS = {
+    "native": _core.kalman_predict,
+    "reference": reference.kalman_predict,
+    "baseline": baseline,
+}
 
 
 @pytest.mark.benchmark(group="kalman_predict")
-@pytest.mark.parametrize("predict", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("predict", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_kalman_predict(benchmark: Any, predict: Callable[..., tuple[Floats, Floats]]) -> None:
     """All predict the same."""
     for ours, theirs in zip(

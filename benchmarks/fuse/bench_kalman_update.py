@@ -15,23 +15,23 @@ Floats = NDArray[np.float64]
 random = np.random.default_rng(0)
 ROOT = random.normal(size=(7, 7))
 ARGUMENTS = random.normal(size=7), ROOT @ ROOT.T, random.normal(size=7), np.eye(7), 0.1 * np.eye(7)
-PEER = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
+BASELINE = cv2.KalmanFilter(7, 7, 0, cv2.CV_64F)
 
 
-def peer(
+def baseline(
     mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
 ) -> tuple[Floats, ...]:
     """OpenCV's, which has a state of its own that must be set, and tells no innovation covariance."""
-    PEER.statePre, PEER.errorCovPre = mean[:, None].copy(), covariance.copy()
-    PEER.measurementMatrix, PEER.measurementNoiseCov = observation, noise
-    return PEER.correct(measurement[:, None])[:, 0], PEER.errorCovPost
+    BASELINE.statePre, BASELINE.errorCovPre = mean[:, None].copy(), covariance.copy()
+    BASELINE.measurementMatrix, BASELINE.measurementNoiseCov = observation, noise
+    return BASELINE.correct(measurement[:, None])[:, 0], BASELINE.errorCovPost
 
 
-CONTENDERS = {"native": _core.kalman_update, "reference": reference.kalman_update, "peer": peer}
+IMPLEMENTATIONS = {"native": _core.kalman_update, "reference": reference.kalman_update, "baseline": baseline}
 
 
 @pytest.mark.benchmark(group="kalman_update")
-@pytest.mark.parametrize("update", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("update", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_kalman_update(benchmark: Any, update: Callable[..., tuple[Floats, ...]]) -> None:
     """All correct the same."""
     expected = reference.kalman_update(*ARGUMENTS)[:2]

@@ -36,18 +36,18 @@ def script(
     lower: Floats,
     upper: Floats,
 ) -> Floats:
-    """The peer: the same without any check."""
+    """The baseline: the same without any check."""
     moved = particles + drift + scale * noise
     every = round(1 / share)
     moved[every - 1 :: every, :2] = mean + noise[every - 1 :: every, :2] @ root.T
     return np.minimum(np.maximum(moved, lower), upper)
 
 
-CONTENDERS = {"native": _core.propose, "reference": reference.propose, "peer": script}
+IMPLEMENTATIONS = {"native": _core.propose, "reference": reference.propose, "baseline": script}
 
 
 @pytest.mark.benchmark(group="propose")
-@pytest.mark.parametrize("propose", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("propose", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_propose(benchmark: Any, propose: Callable[..., Floats]) -> None:
     """All draw the same particles."""
     moved = benchmark(propose, *ARGUMENTS)

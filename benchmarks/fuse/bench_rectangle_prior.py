@@ -26,16 +26,20 @@ ARGUMENTS = (
 def script(
     states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
 ) -> Floats:
-    """The peer: the same without any check."""
+    """The baseline: the same without any check."""
     off, away = np.log(states[:, 3:] / size) / spread, (states - state) / deviation
     return -(off * off).sum(axis=1) / 2 - np.minimum((away * away).sum(axis=1) / 2, most)
 
 
-CONTENDERS = {"native": _core.rectangle_prior, "reference": reference.rectangle_prior, "peer": script}
+IMPLEMENTATIONS = {
+    "native": _core.rectangle_prior,
+    "reference": reference.rectangle_prior,
+    "baseline": script,
+}
 
 
 @pytest.mark.benchmark(group="rectangle_prior")
-@pytest.mark.parametrize("rectangle_prior", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("rectangle_prior", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_rectangle_prior(benchmark: Any, rectangle_prior: Callable[..., Floats]) -> None:
     """All know the same, to the rounding of seven squares."""
     prior = benchmark(rectangle_prior, *ARGUMENTS)

@@ -15,18 +15,18 @@ OFFSET = 0.3
 
 
 def script(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:
-    """The peer: comb through the cumulative sum."""
+    """The baseline: comb through the cumulative sum."""
     cumulative = np.cumsum(weights / weights.sum())
     cumulative[-1] = 1.0
     teeth = (np.arange(len(weights)) + offset) / len(weights)
     return np.searchsorted(cumulative, teeth, side="right")
 
 
-CONTENDERS = {"native": _core.resample, "reference": reference.resample, "peer": script}
+IMPLEMENTATIONS = {"native": _core.resample, "reference": reference.resample, "baseline": script}
 
 
 @pytest.mark.benchmark(group="resample")
-@pytest.mark.parametrize("resample", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("resample", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_resample(benchmark: Any, resample: Callable[..., NDArray[np.int64]]) -> None:
     """All choose the same particles."""
     chosen = benchmark(resample, WEIGHTS, OFFSET)

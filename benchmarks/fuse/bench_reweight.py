@@ -35,7 +35,7 @@ def script(
     root: Floats,
     share: float,
 ) -> tuple[Floats, float]:
-    """The peer: densities as in the textbook; NaN as soon as all of them underflow."""
+    """The baseline: densities as in the textbook; NaN as soon as all of them underflow."""
     position = proposed[:, :2]
     z = (position - previous[:, :2] - drift[:2]) / scale[:2]
     p = np.exp(-0.5 * (z * z).sum(axis=1)) / (scale[0] * scale[1])
@@ -47,11 +47,11 @@ def script(
     return weights / weights.sum(), float(np.log(weights.mean()))
 
 
-CONTENDERS = {"native": _core.reweight, "reference": reference.reweight, "peer": script}
+IMPLEMENTATIONS = {"native": _core.reweight, "reference": reference.reweight, "baseline": script}
 
 
 @pytest.mark.benchmark(group="reweight")
-@pytest.mark.parametrize("reweight", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("reweight", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_reweight(benchmark: Any, reweight: Callable[..., tuple[Floats, float]]) -> None:
     """All give the same weights and evidence."""
     weights, log_evidence = benchmark(reweight, *ARGUMENTS)

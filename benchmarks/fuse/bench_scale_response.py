@@ -30,11 +30,11 @@ def script(looks: Floats, numerator: Complexes, denominator: Floats, ridge: floa
     return np.fft.fftshift(answer[0])
 
 
-CONTENDERS = {"native": _core.scale_response, "reference": reference.scale_response, "peer": script}
+IMPLEMENTATIONS = {"native": _core.scale_response, "reference": reference.scale_response, "baseline": script}
 
 
 @pytest.mark.benchmark(group="scale_response, 11 x 576")
-@pytest.mark.parametrize("respond", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("respond", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_scale_response(benchmark: Any, respond: Callable[..., Floats]) -> None:
     """All answer the same."""
     answer = benchmark(respond, LOOKS, NUMERATOR, DENOMINATOR, 0.01)

@@ -29,11 +29,11 @@ def script(looks: Floats, label: Complexes, numerator: Complexes, denominator: F
     return numerator + rate * (new - numerator), denominator + rate * (energy - denominator)
 
 
-CONTENDERS = {"native": _core.scale_train, "reference": reference.scale_train, "peer": script}
+IMPLEMENTATIONS = {"native": _core.scale_train, "reference": reference.scale_train, "baseline": script}
 
 
 @pytest.mark.benchmark(group="scale_train, 11 x 576")
-@pytest.mark.parametrize("train", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("train", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_scale_train(benchmark: Any, train: Callable[..., Filter]) -> None:
     """All learn the same."""
     arguments = LOOKS, LABEL, *NONE, 0.5

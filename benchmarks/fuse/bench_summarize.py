@@ -18,16 +18,16 @@ WEIGHTS /= WEIGHTS.sum()
 
 
 def script(particles: Floats, weights: Floats) -> tuple[Floats, Floats, float]:
-    """The peer: np.average and np.cov."""
+    """The baseline: np.average and np.cov."""
     mean = np.average(particles, axis=0, weights=weights)
     return mean, np.cov(particles.T, aweights=weights, ddof=0), 1 / float(np.square(weights).sum())
 
 
-CONTENDERS = {"native": _core.summarize, "reference": reference.summarize, "peer": script}
+IMPLEMENTATIONS = {"native": _core.summarize, "reference": reference.summarize, "baseline": script}
 
 
 @pytest.mark.benchmark(group="summarize")
-@pytest.mark.parametrize("summarize", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("summarize", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_summarize(benchmark: Any, summarize: Callable[..., tuple[Floats, Floats, float]]) -> None:
     """All give the same moments."""
     summary = benchmark(summarize, PARTICLES, WEIGHTS)

@@ -23,7 +23,7 @@ def script(
     threshold: float,
     alternatives: list[NDArray[np.float64]],
 ) -> tuple[NDArray[np.uint8], Plane]:
-    """The peer: the same on the candidate region's pixels, of whole numbers here; the prior by np.interp."""
+    """The baseline: the same on the candidate region's pixels, whole numbers here; the prior by np.interp."""
     x0, y0, x1, y1 = map(int, candidate)
     part = np.s_[y0:y1, x0:x1]
     columns = np.interp(np.arange(x0, x1) + 0.5, [x0, window[0], window[2], x1], [0, 1, 1, 0])
@@ -40,7 +40,7 @@ def script(
     return (posterior >= threshold).astype(np.uint8), posterior
 
 
-CONTENDERS = {"native": _core.target_pixels, "reference": reference.target_pixels, "peer": script}
+IMPLEMENTATIONS = {"native": _core.target_pixels, "reference": reference.target_pixels, "baseline": script}
 
 
 def check(benchmark: Any, target_pixels: Callable[..., Any], target: Any) -> None:
@@ -60,14 +60,14 @@ def check(benchmark: Any, target_pixels: Callable[..., Any], target: Any) -> Non
 
 
 @pytest.mark.benchmark(group="target_pixels, 160x120")
-@pytest.mark.parametrize("target_pixels", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("target_pixels", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_pixels(benchmark: Any, target_pixels: Callable[..., Any], small: Any) -> None:
     """Of a target in the paper's frame."""
     check(benchmark, target_pixels, small)
 
 
 @pytest.mark.benchmark(group="target_pixels, 640x480")
-@pytest.mark.parametrize("target_pixels", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("target_pixels", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_pixels_of_many(benchmark: Any, target_pixels: Callable[..., Any], large: Any) -> None:
     """Of a target in a usual frame."""
     check(benchmark, target_pixels, large)

@@ -17,7 +17,7 @@ NEIGHBOURS, SHARE, TRIM = 3, 0.2, 0.02
 
 
 def script(mask: Mask, neighbours: int, share: float, trim: float) -> tuple[Any, int, Mask]:
-    """The peer: filter2D for the neighbours, connected components, cumulative sums of rows and columns."""
+    """The baseline: filter2D for the neighbors, connected components, cumulative sums of rows, columns."""
     counts = cv2.filter2D(mask, cv2.CV_8U, AROUND, borderType=cv2.BORDER_CONSTANT)
     enough = mask * (counts >= neighbours)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(enough, ltype=cv2.CV_32S)
@@ -33,7 +33,11 @@ def script(mask: Mask, neighbours: int, share: float, trim: float) -> tuple[Any,
     return (box[0][0], box[1][0], box[0][1], box[1][1]), count, left
 
 
-CONTENDERS = {"native": _core.temporal_window, "reference": reference.temporal_window, "peer": script}
+IMPLEMENTATIONS = {
+    "native": _core.temporal_window,
+    "reference": reference.temporal_window,
+    "baseline": script,
+}
 
 
 def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> None:
@@ -54,14 +58,14 @@ def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> N
 
 
 @pytest.mark.benchmark(group="temporal_window, 160x120")
-@pytest.mark.parametrize("temporal_window", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("temporal_window", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_temporal_window(benchmark: Any, temporal_window: Callable[..., Any], small: Any) -> None:
     """In the paper's frame."""
     check(benchmark, temporal_window, small)
 
 
 @pytest.mark.benchmark(group="temporal_window, 640x480")
-@pytest.mark.parametrize("temporal_window", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("temporal_window", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_temporal_window_of_many(benchmark: Any, temporal_window: Callable[..., Any], large: Any) -> None:
     """In a usual frame."""
     check(benchmark, temporal_window, large)

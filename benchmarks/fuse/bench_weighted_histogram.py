@@ -17,7 +17,7 @@ RANGES = [(-4.0, 4.0), (-4.0, 4.0), (0.0, 16.0)]
 def script(
     values: Plane, weights: Plane, region: Any, low: float, high: float, bins: int, mask: NDArray[np.uint8]
 ) -> NDArray[np.float64]:
-    """The peer: NumPy's histogram, which has weights; OpenCV's has none."""
+    """The baseline: NumPy's histogram, which has weights; OpenCV's has none."""
     x0, y0, x1, y1 = map(int, region)
     part = np.s_[y0:y1, x0:x1]
     seen = (mask[part] > 0) & np.isfinite(values[part])
@@ -32,7 +32,11 @@ def run(histogram: Histogram, target: Any, mask: NDArray[np.uint8]) -> list[NDAr
     ]
 
 
-CONTENDERS = {"native": _core.weighted_histogram, "reference": reference.weighted_histogram, "peer": script}
+IMPLEMENTATIONS = {
+    "native": _core.weighted_histogram,
+    "reference": reference.weighted_histogram,
+    "baseline": script,
+}
 
 
 def check(benchmark: Any, histogram: Histogram, target: Any) -> None:
@@ -45,14 +49,14 @@ def check(benchmark: Any, histogram: Histogram, target: Any) -> None:
 
 
 @pytest.mark.benchmark(group="weighted_histogram, 3 of 160x120")
-@pytest.mark.parametrize("histogram", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("histogram", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_weighted_histogram(benchmark: Any, histogram: Histogram, small: Any) -> None:
     """Of a target in the paper's frame."""
     check(benchmark, histogram, small)
 
 
 @pytest.mark.benchmark(group="weighted_histogram, 3 of 640x480")
-@pytest.mark.parametrize("histogram", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("histogram", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_weighted_histogram_of_many(benchmark: Any, histogram: Histogram, large: Any) -> None:
     """Of a target in a usual frame."""
     check(benchmark, histogram, large)

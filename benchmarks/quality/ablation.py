@@ -12,7 +12,7 @@ import sys
 from collections.abc import Iterable, Sequence
 
 from tricue.evaluation import baselines
-from tricue.evaluation.tracker_spec import Entrant
+from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.scenes.stress_scene import KINDS
 from tricue.track.base.registry import tracker_class
 
@@ -31,14 +31,14 @@ HEAD = ("", *robustness.PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
 
 def ablated() -> list[Variant]:
     """The tracker with all cues, without each of them where the others are enough, and the baseline."""
-    whole, cues = Variant(TRACKER, Entrant(TRACKER)), tracker_class(TRACKER).Params().cues
+    whole, cues = Variant(TRACKER, TrackerSpec(TRACKER)), tracker_class(TRACKER).Params().cues
     found = [whole]
     for cue in cues:
         rest = tuple(each for each in cues if each != cue)
         if _possible(rest):
             found.append(with_settings(whole, f"without {cue}", {"cues": rest}))
     if BASELINE in baselines.available():
-        found.append(Variant(BASELINE, Entrant(BASELINE)))
+        found.append(Variant(BASELINE, TrackerSpec(BASELINE)))
     return found
 
 

@@ -19,7 +19,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.rig import StereoRig
 from tricue.evaluation import baselines, metrics
-from tricue.evaluation.one_pass import Contender, run
+from tricue.evaluation.one_pass import AnyTracker, run
 from tricue.track.base.track import Status
 from tricue.track.stereo_head.params import StereoHeadParams
 
@@ -38,7 +38,7 @@ COLUMNS = (
     *("sequence", "tracker", "TRACKED", "AUC", "mean IoU", "IoU > 0.5", "disparity error", "updates/s"),
 )
 
-Maker = Callable[[StereoRig], Contender]
+Maker = Callable[[StereoRig], AnyTracker]
 
 
 class Row(NamedTuple):
@@ -73,13 +73,13 @@ def makers(params: StereoHeadParams | None = None) -> dict[str, Maker]:
     return found
 
 
-def _head(params: StereoHeadParams, rig: StereoRig) -> Contender:
+def _head(params: StereoHeadParams, rig: StereoRig) -> AnyTracker:
     product = rig.intrinsics.fx * rig.baseline
     near, far = product / (MAX_DISPARITY_SHARE * rig.intrinsics.width), product / MIN_DISPARITY
     return tricue.StereoHeadTracker(rig=rig, **asdict(replace(params, near=near, far=far)))
 
 
-def _flow_depth(cues: tuple[str, ...], rig: StereoRig) -> Contender:
+def _flow_depth(cues: tuple[str, ...], rig: StereoRig) -> AnyTracker:
     return tricue.FlowDepthTracker(rig=rig, cues=cues)
 
 

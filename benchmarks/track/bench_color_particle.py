@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import tricue
 from tricue.evaluation import baselines, metrics
-from tricue.evaluation.one_pass import Contender
+from tricue.evaluation.one_pass import AnyTracker
 from tricue.scenes import Scene, face_over_clutter
 
-MAKERS: dict[str, Callable[[], Contender]] = {
+MAKERS: dict[str, Callable[[], AnyTracker]] = {
     "native": lambda: tricue.create("color-particle", seed=0),
     "reference": lambda: tricue.create("color-particle", seed=0, kernels="reference"),
     **{name: (lambda make=make: make(0)) for name, make in baselines.available().items()},

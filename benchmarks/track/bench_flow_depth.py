@@ -19,7 +19,9 @@ OURS: dict[str, dict[str, Any]] = {
     "disparity alone": {"cues": ("disparity",)},
     "reference": {"kernels": "reference"},
 }
-PEERS = {name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT", "MedianFlow")}
+BASELINES = {
+    name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT", "MedianFlow")
+}
 FRAMES = {"reference": 5}  # of those that take long
 USUAL = 60
 
@@ -37,12 +39,12 @@ def seen(size: str, name: str) -> list[Frame]:
 
 def maker(size: str, name: str) -> Callable[[], Any]:
     """How to make the tracker."""
-    if name in PEERS:
-        return lambda: PEERS[name](0)
+    if name in BASELINES:
+        return lambda: BASELINES[name](0)
     return lambda: tricue.create("flow-depth", rig=scene(size).rig, **OURS[name])
 
 
-@pytest.mark.parametrize("name", [*OURS, *PEERS])
+@pytest.mark.parametrize("name", [*OURS, *BASELINES])
 @pytest.mark.parametrize("size", SIZES)
 def bench_flow_depth(benchmark: Any, size: str, name: str) -> None:
     """A round is a pair; init is left out. Both sets of kernels give one track, within 1e-3 px."""

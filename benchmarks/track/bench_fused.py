@@ -16,7 +16,9 @@ from tricue.track.base.track import Status
 
 SEES = ("color", "color and depth", "pair")
 CHANNELS = {"color and depth": "rgbd", "pair": "stereo"}
-PEERS = {name: make for name, make in baselines.available().items() if name in ("CSRT", "KCF", "MedianFlow")}
+BASELINES = {
+    name: make for name, make in baselines.available().items() if name in ("CSRT", "KCF", "MedianFlow")
+}
 FRAMES = {"reference": 8}  # of those that take long
 USUAL = 60
 GROUP = "fused, 320x240, one update"
@@ -41,8 +43,8 @@ def seen(name: str) -> list[Frame]:
 
 def maker(name: str) -> Callable[[], Any]:
     """How to make the tracker."""
-    if name in PEERS:
-        return lambda: PEERS[name](0)
+    if name in BASELINES:
+        return lambda: BASELINES[name](0)
     camera: dict[str, Any] = {"rig": scene_of(name).rig} if name == "pair" else {}
     if name == "color and depth":
         camera["intrinsics"] = scene_of(name).intrinsics
@@ -51,7 +53,7 @@ def maker(name: str) -> Callable[[], Any]:
 
 
 @pytest.mark.benchmark(group=GROUP)
-@pytest.mark.parametrize("name", [*SEES, "reference", *PEERS])
+@pytest.mark.parametrize("name", [*SEES, "reference", *BASELINES])
 def bench_fused(benchmark: Any, name: str) -> None:
     """A round is a frame; init is left out. Both sets of kernels give one track, within a tenth of a pixel: a
     sample that is rounded to another level of 255 changes what is learnt.

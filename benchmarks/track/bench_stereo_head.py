@@ -14,7 +14,7 @@ from tricue.scenes import StereoScene, head
 
 SIZES = ("160x120", "640x480")
 OURS = {"native": {}, "reference": {"kernels": "reference"}}
-PEERS = {name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT")}
+BASELINES = {name: make for name, make in baselines.available().items() if name in ("KCF", "CSRT")}
 FRAMES = {"reference": 6}  # of those that take long
 USUAL = 60
 
@@ -32,12 +32,12 @@ def seen(size: str, name: str) -> list[Frame]:
 
 def maker(size: str, name: str) -> Callable[[], Any]:
     """How to make the tracker."""
-    if name in PEERS:
-        return lambda: PEERS[name](0)
+    if name in BASELINES:
+        return lambda: BASELINES[name](0)
     return lambda: tricue.create("stereo-head", rig=scene(size).rig, **OURS[name])
 
 
-@pytest.mark.parametrize("name", [*OURS, *PEERS])
+@pytest.mark.parametrize("name", [*OURS, *BASELINES])
 @pytest.mark.parametrize("size", SIZES)
 def bench_stereo_head(benchmark: Any, size: str, name: str) -> None:
     """A round is a pair; init is left out. Both sets of kernels give one track, within 1e-6 px."""

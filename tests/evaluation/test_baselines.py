@@ -13,7 +13,7 @@ MOVING = [name for name in baselines.available() if name != "still-box"]
 
 @pytest.mark.parametrize("name", MOVING)
 def test_peer_follows_an_easy_target(name, patrol):
-    """Every peer that moves stays with a square that moves 38 px in 20 frames."""
+    """Every baseline that moves stays with a square that moves 38 px in 20 frames."""
     frames, boxes = patrol
     result = run(baselines.available()[name](0), frames, boxes[0])
     error = metrics.center_errors(result.boxes, np.array(boxes))
@@ -58,7 +58,7 @@ def test_scripted_filter_is_seeded(patrol):
 
 
 def test_peers_name_the_channel_they_lack():
-    """A peer that gets no color says so."""
+    """A baseline that gets no color says so."""
     depth = Frame(depth=np.ones((8, 8), np.float32))
     with pytest.raises(ValueError, match="channel color"):
         baselines.ScriptedParticleFilter().init(depth, Box(1.0, 1.0, 4.0, 4.0))

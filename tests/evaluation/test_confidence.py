@@ -46,17 +46,17 @@ def test_absent_frames_are_lost_and_unknown_ones_do_not_count():
     np.testing.assert_array_equal(confidence.lost(overlaps, absent), [False, True, True, False])
     assert confidence.auroc(overlaps, [0.8, 0.2, 0.9, 0.0], absent) == 0.5
     said = np.array([True, True, False, True])
-    assert confidence.said_ok_while_lost(overlaps, said, absent) == (0.5, 1 / 3)
+    assert confidence.tracked_while_lost(overlaps, said, absent) == (0.5, 1 / 3)
     np.testing.assert_array_equal(
         confidence.reliability(overlaps, [0.8, 0.2, 0.9, 0.0], absent).counts.sum(), 3
     )
 
 
-def test_said_ok_while_lost_counts_frames():
+def test_tracked_while_lost_counts_frames():
     """Of five frames three are lost, in two of which the tracker says that all is well."""
     overlaps = np.array([0.5, 0.0, 0.09, 0.05, 0.1])
     said = np.array([True, True, True, False, True])
-    assert confidence.said_ok_while_lost(overlaps, said) == (pytest.approx(2 / 3), pytest.approx(0.4))
+    assert confidence.tracked_while_lost(overlaps, said) == (pytest.approx(2 / 3), pytest.approx(0.4))
 
 
 def test_empty_classes_are_nan():
@@ -64,8 +64,8 @@ def test_empty_classes_are_nan():
     assert np.isnan(confidence.auroc([0.8, 0.9], [0.1, 0.2]))
     assert np.isnan(confidence.auroc([0.0, 0.0], [0.1, 0.2]))
     assert np.isnan(confidence.auroc([np.nan], [0.1]))
-    np.testing.assert_array_equal(confidence.said_ok_while_lost([0.8], np.array([True])), [np.nan, 0.0])
-    np.testing.assert_array_equal(confidence.said_ok_while_lost([np.nan], np.array([True])), [np.nan, np.nan])
+    np.testing.assert_array_equal(confidence.tracked_while_lost([0.8], np.array([True])), [np.nan, 0.0])
+    np.testing.assert_array_equal(confidence.tracked_while_lost([np.nan], np.array([True])), [np.nan, np.nan])
 
 
 def test_reliability_is_the_mean_in_each_bin():
@@ -96,7 +96,7 @@ def test_reliability_of_few_frames_has_gaps():
         (lambda: confidence.auroc([0.5], [1.5]), r"scores: expected numbers in \[0, 1\]"),
         (lambda: confidence.auroc([0.5], [np.nan]), r"scores: expected numbers in \[0, 1\]"),
         (lambda: confidence.auroc([0.5], [0.5], [1]), "absent: expected bool"),
-        (lambda: confidence.said_ok_while_lost([0.5], [0.9]), "said_present: expected bool"),
+        (lambda: confidence.tracked_while_lost([0.5], [0.9]), "said_present: expected bool"),
         (lambda: confidence.reliability([0.5], [0.5], bins=0), "bins: expected 1 or more"),
     ],
 )

@@ -11,7 +11,7 @@ from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
 from tricue.evaluation.rows import judged, row_of
 from tricue.evaluation.tasks import Task, perform
-from tricue.evaluation.tracker_spec import Entrant, entrants
+from tricue.evaluation.tracker_spec import TrackerSpec, tracker_specs
 from tricue.track.base.track import Status
 
 BOX = "8,6,16,20\n"
@@ -117,28 +117,28 @@ def test_trackers_are_shown_what_they_can_use(tmp_path):
         "still-box": (("color",), ("color",), ("color",)),
     }
     for name, each in expected.items():
-        entrant = Entrant(name)
+        spec = TrackerSpec(name)
         for opened, wanted in zip((rgbd, apart, pair), each, strict=True):
             if isinstance(wanted, str):
-                assert entrant.refuses(opened) == wanted
+                assert spec.refuses(opened) == wanted
             else:
-                assert entrant.refuses(opened) == ""
+                assert spec.refuses(opened) == ""
                 frame = next(iter(opened.source))
-                assert entrant.view(opened)(frame).channels == wanted
+                assert spec.view(opened)(frame).channels == wanted
 
 
 def test_depth_of_another_camera_is_not_taken_for_the_colors(tmp_path):
     """Where the true boxes are in the color image and the depth isn't registered, only color is used."""
     opened = Entry("walk", write_rgbd(tmp_path / "walk", cameras=TWO)).open()
-    assert Entrant("depth-particle").refuses(opened) == "no depth"
+    assert TrackerSpec("depth-particle").refuses(opened) == "no depth"
     for name in ("flow-depth", "fused"):
-        assert Entrant(name).view(opened)(next(iter(opened.source))).channels == ("color",)
+        assert TrackerSpec(name).view(opened)(next(iter(opened.source))).channels == ("color",)
 
 
 def test_peers_see_depth_as_a_picture_with_steady_shades(tmp_path):
     """Gray by the first frame's range, so that the same distance keeps its shade."""
     opened = Entry("walk", write_rgbd(tmp_path / "walk", cameras=TWO, positions=True)).open()
-    view = Entrant("CSRT").view(opened)
+    view = TrackerSpec("CSRT").view(opened)
     pictures = [view(frame).color for frame in opened.source]
     assert len({picture[15, 20].tobytes() for picture in pictures}) == 1
     assert pictures[0][15, 16].tolist() != pictures[0][0, 0].tolist()
@@ -148,7 +148,7 @@ def test_a_depth_tracker_is_judged_in_metres(tmp_path):
     """The position's error along z against the median depth of the target."""
     folder = write_rgbd(tmp_path / "walk", count=8, cameras=TWO, positions=True)
     entry = Entry("walk", folder)
-    record = perform(Task(Entrant("flow-depth"), entry))
+    record = perform(Task(TrackerSpec("flow-depth"), entry))
     row = row_of(entry.open(), "flow-depth", 0, judged(record, entry.open()))
     assert record.trouble == ""
     assert row.position_error < 0.2
@@ -179,7 +179,7 @@ def test_runs_start_where_the_truth_starts(tmp_path):
     folder = write_rgbd(tmp_path / "walk")
     (folder / "groundtruth.txt").write_text("nan,nan,nan,nan\n" * 2 + BOX * 4)
     entry = Entry("walk", folder)
-    record = perform(Task(Entrant("still-box"), entry))
+    record = perform(Task(TrackerSpec("still-box"), entry))
     assert record.starts == (2,)
     assert np.isnan(record.run.boxes[:2]).all()
     row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()))
@@ -192,7 +192,7 @@ def test_absent_frames_make_rates(tmp_path):
     folder = write_rgbd(tmp_path / "walk")
     (folder / "groundtruth.txt").write_text(BOX * 3 + "nan,nan,nan,nan\n" * 3)
     entry = Entry("walk", folder)
-    record = perform(Task(Entrant("still-box"), entry))
+    record = perform(Task(TrackerSpec("still-box"), entry))
     row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()))
     assert (row.true_positive, row.true_negative, row.ok_while_lost) == (1.0, 0.0, 0.5)
 
@@ -206,7 +206,7 @@ def test_kitti_has_ten_pairs_a_second(data):
 
 def test_all_trackers_of_this_package_and_of_cv2_take_part():
     """Without names everybody does, each once."""
-    found = [entrant.name for entrant in entrants(None, {})]
+    found = [spec.name for spec in tracker_specs(None, {})]
     assert len(set(found)) == len(found)
     ours = {"color-particle", "depth-particle", "stereo-head", "flow-depth", "fused"}
     assert ours | {"CamShift", "meanShift"} <= set(found)
@@ -217,9 +217,9 @@ def test_all_trackers_of_this_package_and_of_cv2_take_part():
 )
 def test_a_seed_gives_the_same_run_whoever_ran_before(tmp_path, name):
     """Peers included: OpenCV's own generator starts from the task's seed."""
-    if name not in {entrant.name for entrant in entrants(None, {})}:
+    if name not in {spec.name for spec in tracker_specs(None, {})}:
         pytest.skip(f"this cv2 has no {name}")
-    task = Task(Entrant(name), Entry("walk", write_rgbd(tmp_path / "walk", cameras=ONE)), seed=4)
+    task = Task(TrackerSpec(name), Entry("walk", write_rgbd(tmp_path / "walk", cameras=ONE)), seed=4)
     first = perform(task)
     cv2.setRNGSeed(99)
     np.testing.assert_array_equal(first.run.boxes, perform(task).run.boxes)
@@ -227,7 +227,7 @@ def test_a_seed_gives_the_same_run_whoever_ran_before(tmp_path, name):
 
 def measured(name, entry):
     """The row of a tracker on a recorded sequence."""
-    record = perform(Task(Entrant(name), entry))
+    record = perform(Task(TrackerSpec(name), entry))
     return row_of(entry.open(), name, 0, judged(record, entry.open()))
 
 
@@ -240,7 +240,7 @@ def test_ours_follows_real_people(data):
 
 def test_a_peer_gets_the_published_score(data):
     """CSRT follows Crossing as measured elsewhere (AUC 0.70): loop, truth and metric are right."""
-    if "CSRT" not in {entrant.name for entrant in entrants(None, {})}:
+    if "CSRT" not in {spec.name for spec in tracker_specs(None, {})}:
         pytest.skip("this cv2 has no CSRT: opencv-contrib-python-headless has")
     row = measured("CSRT", Entry("Crossing", data / "color" / "Crossing"))
     assert row.auc == pytest.approx(0.70, abs=0.03)

@@ -100,7 +100,7 @@ def test_damaged_and_old_files_count_for_nothing(undisturbed, folders, tmp_path)
     assert len(counted.tasks) == 2
     other = Options(FEW.trackers, {"color-particle": {"particles": 50}}, FEW.seeds)
     evaluate(folders, tmp_path, other, work=(changed := Counted()))
-    assert {task.entrant.name for task in changed.tasks} == {"color-particle"}
+    assert {task.tracker.name for task in changed.tasks} == {"color-particle"}
     assert len(changed.tasks) == 3 * 2 * 2
 
 

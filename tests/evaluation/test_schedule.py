@@ -12,7 +12,7 @@ from tricue.evaluation.dataset import Entry
 from tricue.evaluation.evaluate import Options, evaluate
 from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task, perform
-from tricue.evaluation.tracker_spec import Entrant
+from tricue.evaluation.tracker_spec import TrackerSpec
 
 FEW = Options(("color-particle", "still-box"), seeds=4)
 
@@ -62,7 +62,7 @@ def test_a_cluster_says_what_one_process_says_though_a_worker_dies(cluster, fold
 def test_errors_of_a_sequence_come_back_from_the_cluster(cluster, tmp_path):
     """A task whose sequence isn't there is told; the others have their records."""
     (tmp_path / "empty").mkdir()
-    tasks = [Task(Entrant("still-box"), Entry(name, tmp_path / name)) for name in ("gone", "empty")]
+    tasks = [Task(TrackerSpec("still-box"), Entry(name, tmp_path / name)) for name in ("gone", "empty")]
     found = {each.place: each for each in schedule.completed(tasks, perform, scheduler=cluster)}
     assert all(each.record is None for each in found.values())
     assert "gone: there is no such file or folder" in found[0].error
@@ -71,7 +71,9 @@ def test_errors_of_a_sequence_come_back_from_the_cluster(cluster, tmp_path):
 
 def test_processes_give_what_is_finished_as_it_comes(tmp_path):
     """Each task comes back with its place; errors don't stop the others."""
-    tasks = [Task(Entrant("still-box"), Entry(str(number), tmp_path / str(number))) for number in range(5)]
+    tasks = [
+        Task(TrackerSpec("still-box"), Entry(str(number), tmp_path / str(number))) for number in range(5)
+    ]
     for jobs in (1, 2):
         found = list(schedule.completed(tasks, perform, jobs))
         assert sorted(each.place for each in found) == list(range(5))
@@ -84,6 +86,6 @@ def test_no_scheduler_is_told_by_its_address():
     with pytest.raises(OSError, match=r"127\.0\.0\.1:9"):
         list(
             schedule.completed(
-                [Task(Entrant("still-box"), Entry("a", Path("a")))], perform, 1, "tcp://127.0.0.1:9"
+                [Task(TrackerSpec("still-box"), Entry("a", Path("a")))], perform, 1, "tcp://127.0.0.1:9"
             )
         )

@@ -59,13 +59,16 @@ def test_agrees_with_opencv(kernels: Kernels) -> None:
     """cv2.KalmanFilter.predict, in float64, gives the same."""
     for seed in range(10):
         arguments = case(seed, 5)
-        peer = cv2.KalmanFilter(5, 1, 0, cv2.CV_64F)
-        peer.statePost = arguments["mean"][:, None].copy()
-        peer.errorCovPost, peer.transitionMatrix = arguments["covariance"].copy(), arguments["transition"]
-        peer.processNoiseCov = arguments["noise"]
+        baseline = cv2.KalmanFilter(5, 1, 0, cv2.CV_64F)
+        baseline.statePost = arguments["mean"][:, None].copy()
+        baseline.errorCovPost, baseline.transitionMatrix = (
+            arguments["covariance"].copy(),
+            arguments["transition"],
+        )
+        baseline.processNoiseCov = arguments["noise"]
         mean, covariance = kernels.kalman_predict(**arguments)
-        assert_allclose(mean, peer.predict()[:, 0], rtol=1e-12, atol=1e-12)
-        assert_allclose(covariance, peer.errorCovPre, rtol=1e-12, atol=1e-12)
+        assert_allclose(mean, baseline.predict()[:, 0], rtol=1e-12, atol=1e-12)
+        assert_allclose(covariance, baseline.errorCovPre, rtol=1e-12, atol=1e-12)
 
 
 def test_covariance_of_a_sample(kernels: Kernels) -> None:

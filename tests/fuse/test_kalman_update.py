@@ -74,13 +74,19 @@ def test_agrees_with_opencv(kernels: Kernels) -> None:
     """cv2.KalmanFilter.correct, in float64, gives the same, though not in Joseph's form."""
     for seed in range(10):
         arguments = case(seed, 6, 3)
-        peer = cv2.KalmanFilter(6, 3, 0, cv2.CV_64F)
-        peer.statePre, peer.errorCovPre = arguments["mean"][:, None].copy(), arguments["covariance"].copy()
-        peer.measurementMatrix, peer.measurementNoiseCov = arguments["observation"], arguments["noise"]
-        expected = peer.correct(arguments["measurement"][:, None])[:, 0]
+        baseline = cv2.KalmanFilter(6, 3, 0, cv2.CV_64F)
+        baseline.statePre, baseline.errorCovPre = (
+            arguments["mean"][:, None].copy(),
+            arguments["covariance"].copy(),
+        )
+        baseline.measurementMatrix, baseline.measurementNoiseCov = (
+            arguments["observation"],
+            arguments["noise"],
+        )
+        expected = baseline.correct(arguments["measurement"][:, None])[:, 0]
         mean, covariance, _, _ = kernels.kalman_update(**arguments)
         assert_allclose(mean, expected, rtol=1e-10, atol=1e-10)
-        assert_allclose(covariance, peer.errorCovPost, rtol=1e-9, atol=1e-10)
+        assert_allclose(covariance, baseline.errorCovPost, rtol=1e-9, atol=1e-10)
 
 
 def test_one_by_one_is_all_at_once(kernels: Kernels) -> None:

@@ -36,11 +36,11 @@ def script(plane: Plane, width: float, height: float, outer: float, around: floa
     return inner / area - around * (whole - inner) / (area * (outer * outer - 1))
 
 
-CONTENDERS = {"native": _core.box_contrast, "reference": reference.box_contrast, "peer": script}
+IMPLEMENTATIONS = {"native": _core.box_contrast, "reference": reference.box_contrast, "baseline": script}
 
 
 @pytest.mark.benchmark(group="box_contrast, 64x64")
-@pytest.mark.parametrize("contrast", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("contrast", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_box_contrast(benchmark: Any, contrast: Callable[..., Plane]) -> None:
     """All agree; remap's places are rounded to 1/32 pixel, which is a hundredth of the box."""
     found = benchmark(contrast, PLANE, 23.4, 30.1, 1.5, 1.0)

@@ -30,11 +30,11 @@ def script(plane: NDArray[np.float32], x: float, y: float, widths: Floats, heigh
     return (corners[3] - corners[2] - corners[1] + corners[0]) / (widths * heights)
 
 
-CONTENDERS = {"native": _core.box_means, "reference": reference.box_means, "peer": script}
+IMPLEMENTATIONS = {"native": _core.box_means, "reference": reference.box_means, "baseline": script}
 
 
 @pytest.mark.benchmark(group="box_means, 64x64")
-@pytest.mark.parametrize("means_of", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("means_of", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_box_means(benchmark: Any, means_of: Callable[..., Floats]) -> None:
     """All agree; remap's places are rounded to 1/32 pixel, which is a hundredth of a box."""
     found = benchmark(means_of, PLANE, *MIDDLE, 23.4 * STEPS, 30.1 * STEPS)

@@ -16,7 +16,7 @@ Image = NDArray[np.uint8]
 def script(
     image: Image, region: tuple[int, int, int, int], bins: tuple[int, int, int], chroma: int, step: int
 ) -> NDArray[np.uint16]:
-    """The peer: slices, differences, shifts, as powers of two need no division."""
+    """The baseline: slices, differences, shifts, as powers of two need no division."""
     x0, y0, x1, y1 = region
     b, g, r = np.moveaxis(image[y0:y1:step, x0:x1:step].astype(np.int32), 2, 0)
     first = np.clip(b - g + chroma, 0, 2 * chroma - 1) * bins[0] // (2 * chroma)
@@ -29,7 +29,7 @@ def script(
 @pytest.mark.parametrize(
     "color_bins",
     [_core.color_bins, reference.color_bins, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_color_bins(benchmark: Any, color_bins: Callable[..., Any], frame: Image) -> None:
     """All find the same bins."""

@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image, bins: int) -> NDArray[np.float32]:
-    """The peer: calcHist, plane by plane."""
+    """The baseline: calcHist, plane by plane."""
     ellipses, _, n = samples.shape
     histograms = np.empty((ellipses, 3, bins), np.float32)
     for i in range(ellipses):
@@ -28,7 +28,7 @@ def script(samples: Image, bins: int) -> NDArray[np.float32]:
 @pytest.mark.parametrize(
     "color_histogram",
     [_core.color_histogram, reference.color_histogram, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_color_histogram(benchmark: Any, color_histogram: Callable[..., Any], samples: Image) -> None:
     """All count the same."""

@@ -14,7 +14,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image, table: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The peer: take by one index, on tables of 32 levels."""
+    """The baseline: take by one index, on tables of 32 levels."""
     b, g, r = (samples >> 3).astype(np.int32).transpose(1, 0, 2)
     result: NDArray[np.float32] = table.ravel().take(b << 10 | g << 5 | r)
     return result
@@ -22,7 +22,9 @@ def script(samples: Image, table: NDArray[np.float32]) -> NDArray[np.float32]:
 
 @pytest.mark.benchmark(group="color_lookup")
 @pytest.mark.parametrize(
-    "color_lookup", [_core.color_lookup, reference.color_lookup, script], ids=["native", "reference", "peer"]
+    "color_lookup",
+    [_core.color_lookup, reference.color_lookup, script],
+    ids=["native", "reference", "baseline"],
 )
 def bench_color_lookup(benchmark: Any, color_lookup: Callable[..., Any], samples: Image) -> None:
     """All read the same."""

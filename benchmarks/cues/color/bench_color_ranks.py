@@ -15,13 +15,13 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image) -> NDArray[np.float64]:
-    """The peer: average ranks, moved to the same origin."""
+    """The baseline: average ranks, moved to the same origin."""
     return (rankdata(samples, axis=2) - 0.5) / samples.shape[2]  # type: ignore[no-any-return]
 
 
 @pytest.mark.benchmark(group="color_ranks")
 @pytest.mark.parametrize(
-    "color_ranks", [_core.color_ranks, reference.color_ranks, script], ids=["native", "reference", "peer"]
+    "color_ranks", [_core.color_ranks, reference.color_ranks, script], ids=["native", "reference", "baseline"]
 )
 def bench_color_ranks(benchmark: Any, color_ranks: Callable[..., Any], samples: Image) -> None:
     """All rank the same."""

@@ -16,7 +16,7 @@ Grid = tuple[int, int, int]
 
 
 def script(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:
-    """The peer: Sobel of a part of the picture, and one fancy index for all places."""
+    """The baseline: Sobel of a part of the picture, and one fancy index for all places."""
     rows, cols, step = grid
     reach = np.ceil(ellipse[2:] + step * np.array([cols, rows])).astype(int) + 1
     left, top = ellipse[:2].astype(int) - reach
@@ -35,7 +35,7 @@ def script(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats
 @pytest.mark.parametrize(
     "ellipse_gradient",
     [_core.ellipse_gradient, reference.ellipse_gradient, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_ellipse_gradient(
     benchmark: Any, ellipse_gradient: Callable[..., Floats], frame: NDArray[np.uint8]

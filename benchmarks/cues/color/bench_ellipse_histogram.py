@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 def script(bins: Bins, ellipses: Floats, size: int, margin: float) -> tuple[Floats, Floats]:
-    """The peer: masks from the equation of an ellipse, calcHist."""
+    """The baseline: masks from the equation of an ellipse, calcHist."""
     y, x = np.mgrid[: bins.shape[0], : bins.shape[1]] + 0.5
     x0, y0, minor, major = ellipses[0]
     distance = ((x - x0) / minor) ** 2 + ((y - y0) / major) ** 2
@@ -31,7 +31,7 @@ def script(bins: Bins, ellipses: Floats, size: int, margin: float) -> tuple[Floa
 @pytest.mark.parametrize(
     "ellipse_histogram",
     [_core.ellipse_histogram, reference.ellipse_histogram, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_ellipse_histogram(
     benchmark: Any, ellipse_histogram: Callable[..., Any], region_bins: Bins, ellipse: Floats

@@ -33,7 +33,7 @@ def full(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float, 
 
 
 def script(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float, mask: None) -> Floats:
-    """The peer: the ellipse's mask moved from place to place, calcHist, and compareHist of shares."""
+    """The baseline: the ellipse's mask moved from place to place, calcHist, and compareHist of shares."""
     size, target = model.size, (model / model.sum()).astype(np.float32)
     found = np.zeros((grid[0] * grid[1], 4))
     y, x = np.mgrid[: bins.shape[0], : bins.shape[1]] + 0.5
@@ -49,7 +49,7 @@ def script(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float
 @pytest.mark.parametrize(
     "ellipse_search",
     [_core.ellipse_search, full, reference.ellipse_search, script],
-    ids=["native", "full", "reference", "peer"],
+    ids=["native", "full", "reference", "baseline"],
 )
 def bench_ellipse_search(
     benchmark: Any, ellipse_search: Callable[..., Floats], region_bins: Bins, ellipse: Floats

@@ -40,15 +40,15 @@ def script(patch: Image, taper: Planes) -> Planes:
     return np.concatenate([normal, colors - colors.mean(axis=(1, 2), keepdims=True)]) * taper
 
 
-CONTENDERS = {
+IMPLEMENTATIONS = {
     "native": _core.gradient_color_cells,
     "reference": reference.gradient_color_cells,
-    "peer": script,
+    "baseline": script,
 }
 
 
 @pytest.mark.benchmark(group="gradient_color_cells, 64x64")
-@pytest.mark.parametrize("cells_of", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("cells_of", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_gradient_color_cells(benchmark: Any, cells_of: Callable[..., Planes], frame: Image) -> None:
     """All agree to float32's rounding."""
     patch = np.ascontiguousarray(frame[80:144, 100:164])

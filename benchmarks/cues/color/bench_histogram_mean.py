@@ -15,7 +15,7 @@ BINS, CHROMA = (32, 32, 4), 64
 
 
 def script(histogram: Floats, bins: tuple[int, int, int], chroma: int) -> Floats:
-    """The peer: the marginals, one tensor product an axis."""
+    """The baseline: the marginals, one tensor product an axis."""
     cube = histogram.reshape(bins)
     chromas = [-chroma + (np.arange(n) + 0.5) * 2 * chroma / n - 0.5 for n in bins[:2]]
     light = (np.arange(bins[2]) + 0.5) * 766 / bins[2] - 0.5
@@ -27,7 +27,7 @@ def script(histogram: Floats, bins: tuple[int, int, int], chroma: int) -> Floats
 @pytest.mark.parametrize(
     "histogram_mean",
     [_core.histogram_mean, reference.histogram_mean, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_histogram_mean(
     benchmark: Any, histogram_mean: Callable[..., Floats], region_bins: NDArray[np.uint16]

@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image, bins: int) -> NDArray[np.float32]:
-    """The peer: calcHist of the three planes of each ellipse."""
+    """The baseline: calcHist of the three planes of each ellipse."""
     n = samples.shape[2]
     counts = [
         cv2.calcHist(list(planes[:, None]), [0, 1, 2], None, 3 * [bins], 3 * [0, 256]) for planes in samples
@@ -27,7 +27,7 @@ def script(samples: Image, bins: int) -> NDArray[np.float32]:
 @pytest.mark.parametrize(
     "joint_histogram",
     [_core.joint_histogram, reference.joint_histogram, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_joint_histogram(benchmark: Any, joint_histogram: Callable[..., Any], samples: Image) -> None:
     """All count the same."""

@@ -18,7 +18,7 @@ Cube = NDArray[np.float32]
 def script(
     inside: Image, around: Image, target: Cube, surround: Cube, rate: float, rare: float
 ) -> list[Cube]:
-    """The peer: calcHist and addWeighted."""
+    """The baseline: calcHist and addWeighted."""
     learnt = []
     for samples, old in ((inside, target), (around, surround)):
         planes = list(samples[0][:, None])
@@ -32,7 +32,7 @@ def script(
 @pytest.mark.parametrize(
     "learn_contrast",
     [_core.learn_contrast, reference.learn_contrast, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_learn_contrast(benchmark: Any, learn_contrast: Callable[..., Any]) -> None:
     """All learn the same."""

@@ -20,7 +20,7 @@ Singles = NDArray[np.float32]
 def script(
     image: Image, ellipses: Floats, inside: Floats, around: Floats, maps: Singles, table: Singles
 ) -> tuple[Floats, Floats]:
-    """The peer: remap reads the pixels, calcHist and cumsum rank them, a table is indexed."""
+    """The baseline: remap reads the pixels, calcHist and cumsum rank them, a table is indexed."""
     cells = (image >> 4).astype(np.int32)
     likely = table[cells[..., 0], cells[..., 1], cells[..., 2]]
     means = []
@@ -45,7 +45,7 @@ def script(
 @pytest.mark.parametrize(
     "rank_contrast",
     [_core.rank_contrast, reference.rank_contrast, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_rank_contrast(benchmark: Any, rank_contrast: Callable[..., Any], frame: Image) -> None:
     """Twins agree; the script's places are rounded to 1/32 of a pixel, which moves a few samples by one."""

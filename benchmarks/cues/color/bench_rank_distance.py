@@ -16,7 +16,7 @@ Maps = NDArray[np.float32]
 
 
 def script(samples: Image, models: Maps) -> Maps:
-    """The peer: calcHist and cumsum make a look-up table, channel by channel."""
+    """The baseline: calcHist and cumsum make a look-up table, channel by channel."""
     ellipses, _, n = samples.shape
     distances = np.empty((ellipses, len(models)), np.float32)
     ranks = np.empty((3, n), np.float32)
@@ -32,7 +32,7 @@ def script(samples: Image, models: Maps) -> Maps:
 @pytest.mark.parametrize(
     "rank_distance",
     [_core.rank_distance, reference.rank_distance, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_rank_distance(benchmark: Any, rank_distance: Callable[..., Any], samples: Image) -> None:
     """All measure the same."""

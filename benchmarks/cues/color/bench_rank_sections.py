@@ -14,7 +14,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image, sections: int) -> NDArray[np.float32]:
-    """The peer: all histograms at once, then a loop over sections."""
+    """The baseline: all histograms at once, then a loop over sections."""
     n = samples.shape[2]
     planes = samples.reshape(-1, n) + 256 * np.arange(samples.shape[0] * 3)[:, None]
     rank = np.bincount(planes.ravel(), minlength=planes.shape[0] * 256).reshape(-1, 256).cumsum(axis=1)
@@ -34,7 +34,7 @@ def script(samples: Image, sections: int) -> NDArray[np.float32]:
 @pytest.mark.parametrize(
     "rank_sections",
     [_core.rank_sections, reference.rank_sections, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_rank_sections(benchmark: Any, rank_sections: Callable[..., Any], samples: Image) -> None:
     """All describe the same."""

@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 def script(image: Image, ellipses: Floats, pattern: Floats) -> Image:
-    """The peer: one remap of all places. It rounds where we take the floor, so half a pixel is taken off."""
+    """The baseline: one remap of all places. It rounds where we take the floor: half a pixel is taken off."""
     places = (ellipses[:, None, :2] + ellipses[:, None, 2:] * pattern - 0.5).astype(np.float32)
     pixels = cv2.remap(image, places, None, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REPLICATE)
     return np.ascontiguousarray(pixels.transpose(0, 2, 1))
@@ -26,7 +26,7 @@ def script(image: Image, ellipses: Floats, pattern: Floats) -> Image:
 @pytest.mark.parametrize(
     "sample_ellipses",
     [_core.sample_ellipses, reference.sample_ellipses, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_sample_ellipses(benchmark: Any, sample_ellipses: Callable[..., Any], frame: Image) -> None:
     """Twins read the same pixels; remap's places are rounded to 1/32 of a pixel, so it differs where they are

@@ -18,7 +18,7 @@ SCALES = np.array([[160 - s, 120 - s, 2 * s, 2 * s] for s in 37.5 * 1.03 ** np.a
 
 
 def script(image: Image, windows: Floats, rows: int, columns: int) -> Image:
-    """The peer: INTER_AREA where windows shrink, as they all do here."""
+    """The baseline: INTER_AREA where windows shrink, as they all do here."""
     samples = []
     for x, y, width, height in np.rint(windows).astype(int).tolist():
         part = image[y : y + height, x : x + width]
@@ -26,10 +26,10 @@ def script(image: Image, windows: Floats, rows: int, columns: int) -> Image:
     return np.stack(samples)
 
 
-CONTENDERS = {"native": _core.sample_windows, "reference": reference.sample_windows, "peer": script}
+IMPLEMENTATIONS = {"native": _core.sample_windows, "reference": reference.sample_windows, "baseline": script}
 
 
-@pytest.mark.parametrize("sample_windows", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("sample_windows", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 @pytest.mark.parametrize(
     ("windows", "side"),
     [
@@ -41,8 +41,8 @@ CONTENDERS = {"native": _core.sample_windows, "reference": reference.sample_wind
 def bench_sample_windows(
     benchmark: Any, sample_windows: Callable[..., Image], frame: Image, windows: Floats, side: int
 ) -> None:
-    """Twins give the same bytes; on clouds without sharp edges the peer's areas, moved by up to half a pixel,
-    are a level from our readings in the mean.
+    """Twins give the same bytes; on clouds without sharp edges the baseline's areas, moved by up to half a
+    pixel, are a level from our readings in the mean.
     """
     samples = benchmark(sample_windows, frame, windows, side, side)
     differences = abs(samples.astype(int) - reference.sample_windows(frame, windows, side, side))

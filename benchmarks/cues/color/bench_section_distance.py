@@ -14,7 +14,7 @@ Image = NDArray[np.uint8]
 
 
 def script(sections: NDArray[np.float32], model: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The peer: norms of the channels, in floats as they come."""
+    """The baseline: norms of the channels, in floats as they come."""
     result: NDArray[np.float32] = np.linalg.norm(sections - model, axis=2).sum(axis=1) / np.float32(
         3 * np.sqrt(2)
     )
@@ -25,10 +25,10 @@ def script(sections: NDArray[np.float32], model: NDArray[np.float32]) -> NDArray
 @pytest.mark.parametrize(
     "section_distance",
     [_core.section_distance, reference.section_distance, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_section_distance(benchmark: Any, section_distance: Callable[..., Any], samples: Image) -> None:
-    """All measure the same; the peer's differences are floats."""
+    """All measure the same; the baseline's differences are floats."""
     sections = reference.rank_sections(samples, 16)
     distances = benchmark(section_distance, sections, sections[0])
     assert_allclose(distances, reference.section_distance(sections, sections[0]), rtol=0, atol=1e-6)

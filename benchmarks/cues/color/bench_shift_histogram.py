@@ -16,7 +16,7 @@ BINS, CHROMA = (32, 32, 4), 64
 
 
 def script(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:
-    """The peer: the center of mass, and a shift with linear interpolation; mass that leaves is lost."""
+    """The baseline: the center of mass, and a shift with linear interpolation; mass that leaves is lost."""
     cube = histogram.reshape(bins)
     widths = np.array([2 * chroma, 2 * chroma, 766]) / bins
     target = (mean + 0.5 - np.array([-chroma, -chroma, 0])) / widths - 0.5
@@ -28,7 +28,7 @@ def script(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Flo
 @pytest.mark.parametrize(
     "shift_histogram",
     [_core.shift_histogram, reference.shift_histogram, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_shift_histogram(benchmark: Any, shift_histogram: Callable[..., Floats]) -> None:
     """All move a histogram that stays clear of the ends to the same bins."""

@@ -16,7 +16,7 @@ THRESHOLD, MIN_AREA = 0.4, 20
 
 
 def script(image: Image, color: Image, threshold: float, min_area: int) -> NDArray[np.float64]:
-    """The peer: classify by planes, then connectedComponentsWithStats."""
+    """The baseline: classify by planes, then connectedComponentsWithStats."""
     b, g, r = cv2.split(image)
     eta = cv2.max(cv2.max(b, g), r)
     b, g, r = cv2.split(cv2.absdiff(image, np.array([*color, 0.0])))
@@ -30,7 +30,7 @@ def script(image: Image, color: Image, threshold: float, min_area: int) -> NDArr
 
 @pytest.mark.benchmark(group="skin_blobs")
 @pytest.mark.parametrize(
-    "skin_blobs", [_core.skin_blobs, reference.skin_blobs, script], ids=["native", "reference", "peer"]
+    "skin_blobs", [_core.skin_blobs, reference.skin_blobs, script], ids=["native", "reference", "baseline"]
 )
 def bench_skin_blobs(benchmark: Any, skin_blobs: Callable[..., Any], frame: Image, color: Image) -> None:
     """All find the same blobs in the same order."""

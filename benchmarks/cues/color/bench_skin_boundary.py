@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def script(image: Image, color: Image) -> NDArray[np.int16]:
-    """The peer: differences and maxima of whole planes."""
+    """The baseline: differences and maxima of whole planes."""
     b, g, r = cv2.split(image)
     eta = cv2.max(cv2.max(b, g), r)
     b, g, r = cv2.split(cv2.absdiff(image, np.array([*color, 0.0])))
@@ -26,7 +26,7 @@ def script(image: Image, color: Image) -> NDArray[np.int16]:
 @pytest.mark.parametrize(
     "skin_boundary",
     [_core.skin_boundary, reference.skin_boundary, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_skin_boundary(
     benchmark: Any, skin_boundary: Callable[..., Any], frame: Image, color: Image

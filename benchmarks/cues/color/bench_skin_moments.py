@@ -18,7 +18,7 @@ THRESHOLD, REGION = 0.4, (50, 50, 180, 193)
 def script(
     image: Image, color: Image, threshold: float, region: tuple[int, int, int, int]
 ) -> NDArray[np.float64]:
-    """The peer: classify the region by planes, then cv2.moments of the mask."""
+    """The baseline: classify the region by planes, then cv2.moments of the mask."""
     x0, y0, x1, y1 = region
     part = image[y0:y1, x0:x1]
     b, g, r = cv2.split(part)
@@ -32,7 +32,9 @@ def script(
 
 @pytest.mark.benchmark(group="skin_moments")
 @pytest.mark.parametrize(
-    "skin_moments", [_core.skin_moments, reference.skin_moments, script], ids=["native", "reference", "peer"]
+    "skin_moments",
+    [_core.skin_moments, reference.skin_moments, script],
+    ids=["native", "reference", "baseline"],
 )
 def bench_skin_moments(benchmark: Any, skin_moments: Callable[..., Any], frame: Image, color: Image) -> None:
     """All have the same moments, within rounding."""

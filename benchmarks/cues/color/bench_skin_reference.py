@@ -14,7 +14,7 @@ Image = NDArray[np.uint8]
 
 
 def script(patch: Image) -> Image:
-    """The peer: the cells that occur, their counts, the mean of the fullest one."""
+    """The baseline: the cells that occur, their counts, the mean of the fullest one."""
     pixels = patch.reshape(-1, 3)
     _, inverse, counts = np.unique(
         pixels // 8 @ np.array([1024, 32, 1]), return_inverse=True, return_counts=True
@@ -27,7 +27,7 @@ def script(patch: Image) -> Image:
 @pytest.mark.parametrize(
     "skin_reference",
     [_core.skin_reference, reference.skin_reference, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_skin_reference(benchmark: Any, skin_reference: Callable[..., Any], frame: Image) -> None:
     """All find the same color."""

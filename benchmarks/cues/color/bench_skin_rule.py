@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def script(samples: Image) -> NDArray[np.float32]:
-    """The peer: saturating differences and thresholds of whole planes."""
+    """The baseline: saturating differences and thresholds of whole planes."""
     b, g, r = (np.ascontiguousarray(samples[:, k]) for k in range(3))
     bright = (r > 95) & (g > 40) & (b > 20) & (r > b)
     spread = cv2.subtract(r, cv2.min(g, b)) > 15
@@ -24,7 +24,7 @@ def script(samples: Image) -> NDArray[np.float32]:
 
 @pytest.mark.benchmark(group="skin_rule")
 @pytest.mark.parametrize(
-    "skin_rule", [_core.skin_rule, reference.skin_rule, script], ids=["native", "reference", "peer"]
+    "skin_rule", [_core.skin_rule, reference.skin_rule, script], ids=["native", "reference", "baseline"]
 )
 def bench_skin_rule(benchmark: Any, skin_rule: Callable[..., Any], samples: Image) -> None:
     """All decide the same."""

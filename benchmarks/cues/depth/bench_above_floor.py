@@ -16,7 +16,7 @@ NEAR, FAR, CLEAR = 0.3, 7.5, 0.12
 
 
 def script(depth: Depth, camera: Floats, plane: Floats, near: float, far: float, clear: float) -> Depth:
-    """The peer: back-project all pixels, one product, and where."""
+    """The baseline: back-project all pixels, one product, and where."""
     fx, fy, cx, cy = camera.astype(np.float32)
     v, u = np.indices(depth.shape, np.float32)
     points = np.dstack([(u - cx) / fx * depth, (v - cy) / fy * depth, depth])
@@ -26,7 +26,7 @@ def script(depth: Depth, camera: Floats, plane: Floats, near: float, far: float,
 
 @pytest.mark.benchmark(group="above_floor")
 @pytest.mark.parametrize(
-    "above_floor", [_core.above_floor, reference.above_floor, script], ids=["native", "reference", "peer"]
+    "above_floor", [_core.above_floor, reference.above_floor, script], ids=["native", "reference", "baseline"]
 )
 def bench_above_floor(benchmark: Any, above_floor: Callable[..., Any], room: Depth, camera: Floats) -> None:
     """All keep the same pixels, none of which is within float32's rounding of the limit."""

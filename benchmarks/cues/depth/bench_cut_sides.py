@@ -32,7 +32,7 @@ TABLE = np.array(
 def script(
     depth: Depth, table: Floats, camera: Floats, border: int, beside: float, nearer: float, share: float
 ) -> NDArray[np.bool_]:
-    """The peer: one remap of all places, which rounds where we take the floor, and a mean of each side."""
+    """The baseline: one remap of all places, which rounds where we take the floor; a mean of each side."""
     height, width = depth.shape
     x, y, w, h, z = table[:, [0, 1, 2, 3, 5]].T
     along = (2 * np.arange(12) + 1) / 12 - 1
@@ -50,7 +50,7 @@ def script(
 
 @pytest.mark.benchmark(group="cut_sides")
 @pytest.mark.parametrize(
-    "cut_sides", [_core.cut_sides, reference.cut_sides, script], ids=["native", "reference", "peer"]
+    "cut_sides", [_core.cut_sides, reference.cut_sides, script], ids=["native", "reference", "baseline"]
 )
 def bench_cut_sides(benchmark: Any, cut_sides: Callable[..., Any], room: Depth, camera: Floats) -> None:
     """All find the same sides cut, some of all four kinds."""

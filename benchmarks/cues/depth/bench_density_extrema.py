@@ -17,7 +17,7 @@ PROMINENCE = 2e-4
 
 
 def script(density: Floats, prominence: float) -> tuple[Any, Any]:
-    """The peer: find_peaks on the density between zeros, and the least of each part between two peaks."""
+    """The baseline: find_peaks on the density between zeros, and the least of each part between two peaks."""
     maxima = find_peaks(np.pad(density, 1), prominence=prominence)[0] - 1
     minima = [a + density[a:b].argmin() for a, b in pairwise(maxima)]
     return maxima, np.array(minima, np.int64)
@@ -27,7 +27,7 @@ def script(density: Floats, prominence: float) -> tuple[Any, Any]:
 @pytest.mark.parametrize(
     "density_extrema",
     [_core.density_extrema, reference.density_extrema, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_density_extrema(benchmark: Any, density_extrema: Callable[..., Any]) -> None:
     """All find the same levels."""

@@ -29,7 +29,7 @@ def scene() -> tuple[Labels, Depth]:
 def script(
     labels: Labels, depth: Depth, near: float, far: float, levels: int, bins: int, min_area: int, image: bool
 ) -> tuple[Any, ...]:
-    """The peer: connectedComponentsWithStats for every label, then masks, calcHist and bincount."""
+    """The baseline: connectedComponentsWithStats for every label, then masks, calcHist and bincount."""
     found = []
     for label in np.unique(labels[labels > 0]):
         _, image, stats, _ = cv2.connectedComponentsWithStats((labels == label).astype(np.uint8))
@@ -56,7 +56,7 @@ def script(
 @pytest.mark.parametrize(
     "depth_components",
     [_core.depth_components, reference.depth_components, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_depth_components(
     benchmark: Any, depth_components: Callable[..., Any], scene: tuple[Labels, Depth]

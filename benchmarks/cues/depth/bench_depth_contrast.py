@@ -34,7 +34,7 @@ def script(
     reach: float,
     nearer: float,
 ) -> Floats:
-    """The peer: two remaps, which round where we take the floor, and calcHist of each rectangle."""
+    """The baseline: two remaps, which round where we take the floor, and calcHist of each rectangle."""
     v, u = middles(grid)
     along, off = (2 * np.arange(ring[1]) + 1) / ring[1] - 1, np.full(ring[1], ring[0])
     inside = read(depth, camera, states, u, v)
@@ -66,7 +66,7 @@ def middles(grid: tuple[int, int]) -> tuple[Floats, Floats]:
 @pytest.mark.parametrize(
     "depth_contrast",
     [_core.depth_contrast, reference.depth_contrast, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_depth_contrast(benchmark: Any, depth_contrast: Callable[..., Any], camera: Floats) -> None:
     """Twins measure the same; remap's places are rounded to 1/32 of a pixel, so a few differ."""

@@ -16,7 +16,7 @@ BANDWIDTH = 4.0
 
 
 def script(histogram: Floats, bandwidth: float) -> Floats:
-    """The peer: the histogram as an image of one row, blurred."""
+    """The baseline: the histogram as an image of one row, blurred."""
     size = (2 * int(np.ceil(4 * bandwidth)) + 1, 1)
     shares = histogram[None] / histogram.sum()
     return cv2.GaussianBlur(shares, size, bandwidth, borderType=cv2.BORDER_REFLECT)[0]
@@ -26,7 +26,7 @@ def script(histogram: Floats, bandwidth: float) -> Floats:
 @pytest.mark.parametrize(
     "depth_density",
     [_core.depth_density, reference.depth_density, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_depth_density(benchmark: Any, depth_density: Callable[..., Any]) -> None:
     """All have the same density, within rounding."""

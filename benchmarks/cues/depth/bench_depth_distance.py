@@ -20,7 +20,7 @@ LEVELS, REACH, NEARER = 64, 0.5, 0.2
 def script(
     depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, nearer: float
 ) -> Floats:
-    """The peer: one remap of all places, which rounds where we take the floor, and calcHist of each."""
+    """The baseline: one remap of all places, which rounds where we take the floor, and calcHist of each."""
     places = (rectangles[:, None, :2] + rectangles[:, None, 2:4] / 2 * pattern - 0.5).astype(np.float32)
     seen = cv2.remap(depth, places, None, cv2.INTER_NEAREST, borderValue=np.nan)
     # calcHist counts NaN, so what isn't measured goes beyond reach.
@@ -38,7 +38,7 @@ def script(
 @pytest.mark.parametrize(
     "depth_distance",
     [_core.depth_distance, reference.depth_distance, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_depth_distance(benchmark: Any, depth_distance: Callable[..., Any]) -> None:
     """Twins measure the same; remap's places are rounded to 1/32 of a pixel, so a few differ."""

@@ -16,14 +16,14 @@ GAP, SLOPE = 0.1, 0.02
 
 
 def script(depth: Depth, gap: float, slope: float) -> NDArray[np.uint8]:
-    """The peer: the least of 3x3 by erosion, then NumPy."""
+    """The baseline: the least of 3x3 by erosion, then NumPy."""
     nearest = cv2.erode(np.where(depth > 0, depth, np.float32(1e9)), np.ones((3, 3), np.uint8))
     return (depth - nearest > np.float32(gap) + np.float32(slope) * (nearest * nearest)).view(np.uint8)
 
 
 @pytest.mark.benchmark(group="depth_edges")
 @pytest.mark.parametrize(
-    "depth_edges", [_core.depth_edges, reference.depth_edges, script], ids=["native", "reference", "peer"]
+    "depth_edges", [_core.depth_edges, reference.depth_edges, script], ids=["native", "reference", "baseline"]
 )
 def bench_depth_edges(benchmark: Any, depth_edges: Callable[..., Any], room: Depth) -> None:
     """All find the same edges."""

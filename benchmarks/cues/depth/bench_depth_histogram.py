@@ -15,7 +15,7 @@ Mask = NDArray[np.uint8]
 
 
 def script(depth: Depth, mask: Mask, near: float, far: float, levels: int) -> Depth:
-    """The peer: calcHist, which leaves out what is beyond the range, but takes NaN for the first level."""
+    """The baseline: calcHist, which leaves out what is out of range, but takes NaN for the first level."""
     seen = mask & (depth > 0)
     return cv2.calcHist([depth], [0], seen, [levels], [near, far]).ravel()
 
@@ -24,7 +24,7 @@ def script(depth: Depth, mask: Mask, near: float, far: float, levels: int) -> De
 @pytest.mark.parametrize(
     "depth_histogram",
     [_core.depth_histogram, reference.depth_histogram, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_depth_histogram(benchmark: Any, depth_histogram: Callable[..., Any], room: Depth) -> None:
     """All count the same but for a few pixels whose level rounding decides."""

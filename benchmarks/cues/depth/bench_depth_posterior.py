@@ -26,7 +26,7 @@ def script(
     sigma: float,
     near_margin: float,
 ) -> Answer:
-    """The peer: nearest samples by remap, then whole planes."""
+    """The baseline: nearest samples by remap, then whole planes."""
     x = np.floor(x0 + (np.arange(columns) + 0.5) * step).astype(np.float32)
     y = np.floor(y0 + (np.arange(rows) + 0.5) * step).astype(np.float32)
     places = np.meshgrid(x, y)
@@ -38,7 +38,9 @@ def script(
 
 @pytest.mark.benchmark(group="depth_posterior, 64x64")
 @pytest.mark.parametrize(
-    "judge", [_core.depth_posterior, reference.depth_posterior, script], ids=["native", "reference", "peer"]
+    "judge",
+    [_core.depth_posterior, reference.depth_posterior, script],
+    ids=["native", "reference", "baseline"],
 )
 def bench_depth_posterior(benchmark: Any, judge: Callable[..., Answer], room: Depth) -> None:
     """All judge the same."""

@@ -16,7 +16,7 @@ DIVIDERS = np.array([0.3, 1.5, 2.2, 2.9, 3.7, 4.6, 7.5])
 
 
 def script(depth: Depth, mask: Mask, dividers: NDArray[np.float64]) -> Mask:
-    """The peer: numpy.digitize."""
+    """The baseline: numpy.digitize."""
     labels = np.digitize(depth, dividers).astype(np.uint8)
     labels[(labels == len(dividers)) | (mask == 0)] = 0
     return labels
@@ -24,7 +24,9 @@ def script(depth: Depth, mask: Mask, dividers: NDArray[np.float64]) -> Mask:
 
 @pytest.mark.benchmark(group="divide_depth")
 @pytest.mark.parametrize(
-    "divide_depth", [_core.divide_depth, reference.divide_depth, script], ids=["native", "reference", "peer"]
+    "divide_depth",
+    [_core.divide_depth, reference.divide_depth, script],
+    ids=["native", "reference", "baseline"],
 )
 def bench_divide_depth(benchmark: Any, divide_depth: Callable[..., Any], room: Depth) -> None:
     """All give the same labels."""

@@ -18,7 +18,7 @@ RING = np.uint8([[1, 1, 1], [1, 0, 1], [1, 1, 1]])
 
 
 def script(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -> Depth:
-    """The peer: the nearest by erosion, then a padded copy and its eight views in NumPy."""
+    """The baseline: the nearest by erosion, then a padded copy and its eight views in NumPy."""
     height, width = depth.shape
     for number in range(passes):
         known = depth > 0
@@ -43,7 +43,7 @@ def script(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -
 
 @pytest.mark.benchmark(group="fill_gaps")
 @pytest.mark.parametrize(
-    "fill_gaps", [_core.fill_gaps, reference.fill_gaps, script], ids=["native", "reference", "peer"]
+    "fill_gaps", [_core.fill_gaps, reference.fill_gaps, script], ids=["native", "reference", "baseline"]
 )
 def bench_fill_gaps(benchmark: Any, fill_gaps: Callable[..., Any], room: Depth) -> None:
     """All fill the same gaps with the same depths."""

@@ -24,7 +24,7 @@ def script(
     up: Floats,
     least_cosine: float,
 ) -> Floats:
-    """The peer: all planes at once, one product for all heights, then SVD."""
+    """The baseline: all planes at once, one product for all heights, then SVD."""
     fx, fy, cx, cy = camera.astype(np.float32)
     v, u = np.indices(depth.shape, np.float32)
     points = np.dstack([(u - cx) / fx * depth, (v - cy) / fy * depth, depth]).reshape(-1, 3)
@@ -50,7 +50,7 @@ def script(
 
 @pytest.mark.benchmark(group="floor_plane")
 @pytest.mark.parametrize(
-    "floor_plane", [_core.floor_plane, reference.floor_plane, script], ids=["native", "reference", "peer"]
+    "floor_plane", [_core.floor_plane, reference.floor_plane, script], ids=["native", "reference", "baseline"]
 )
 def bench_floor_plane(benchmark: Any, floor_plane: Callable[..., Any], room: Depth, camera: Floats) -> None:
     """Twins find the same floor; the script, all in float32, to a millimetre."""

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 
 def script(depth: Depth, camera: Floats, plane: Floats) -> Depth:
-    """The peer: back-project all pixels, then one product."""
+    """The baseline: back-project all pixels, then one product."""
     fx, fy, cx, cy = camera.astype(np.float32)
     v, u = np.indices(depth.shape, np.float32)
     points = np.dstack([(u - cx) / fx * depth, (v - cy) / fy * depth, depth])
@@ -24,7 +24,9 @@ def script(depth: Depth, camera: Floats, plane: Floats) -> Depth:
 
 @pytest.mark.benchmark(group="height_above")
 @pytest.mark.parametrize(
-    "height_above", [_core.height_above, reference.height_above, script], ids=["native", "reference", "peer"]
+    "height_above",
+    [_core.height_above, reference.height_above, script],
+    ids=["native", "reference", "baseline"],
 )
 def bench_height_above(benchmark: Any, height_above: Callable[..., Any], room: Depth, camera: Floats) -> None:
     """All give the same heights, within the rounding of float32."""

@@ -46,7 +46,7 @@ def script(
     feet: float,
     legs: float,
 ) -> Floats:
-    """The peer: the same without any check, corners first."""
+    """The baseline: the same without any check, corners first."""
     z = table[:, 5]
     scale = z[:, None] / camera[:2]
     low = (table[:, :2] - 0.5 - camera[2:]) * scale
@@ -66,7 +66,7 @@ def script(
 @pytest.mark.parametrize(
     "measure_objects",
     [_core.measure_objects, reference.measure_objects, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_measure_objects(benchmark: Any, measure_objects: Callable[..., Any]) -> None:
     """All measure the same, to the rounding of some ten operations on lengths below 8 m; some stand."""

@@ -18,7 +18,7 @@ TOLERANCE, STEP = 0.04, 2
 
 
 def script(depth: Depth, camera: Floats, plane: Floats, tolerance: float, step: int) -> Floats:
-    """The peer: back-project the thinned image, one product, two means."""
+    """The baseline: back-project the thinned image, one product, two means."""
     fx, fy, cx, cy = camera.astype(np.float32) / step
     thin = depth[::step, ::step]
     v, u = np.indices(thin.shape, np.float32)
@@ -31,7 +31,7 @@ def script(depth: Depth, camera: Floats, plane: Floats, tolerance: float, step: 
 @pytest.mark.parametrize(
     "plane_support",
     [_core.plane_support, reference.plane_support, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_plane_support(
     benchmark: Any, plane_support: Callable[..., Any], room: Depth, camera: Floats

@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 def script(
     depth: NDArray[np.float32], rectangle: Floats, levels: int, pattern: Floats, reach: float
 ) -> Floats:
-    """The peer: index, subtract, numpy.histogram."""
+    """The baseline: index, subtract, numpy.histogram."""
     x, y, width, height, z = rectangle
     rows = np.clip((y + height / 2 * pattern[:, 1]).astype(int), 0, depth.shape[0] - 1)
     columns = np.clip((x + width / 2 * pattern[:, 0]).astype(int), 0, depth.shape[1] - 1)
@@ -29,7 +29,7 @@ def script(
 @pytest.mark.parametrize(
     "rectangle_histogram",
     [_core.rectangle_histogram, reference.rectangle_histogram, script],
-    ids=["native", "reference", "peer"],
+    ids=["native", "reference", "baseline"],
 )
 def bench_rectangle_histogram(benchmark: Any, rectangle_histogram: Callable[..., Floats]) -> None:
     """All count the same."""

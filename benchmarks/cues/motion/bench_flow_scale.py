@@ -33,11 +33,11 @@ def script(u: Plane, v: Plane, outliers: float, least: int) -> tuple[float, floa
     return float(a), float(spread), count
 
 
-CONTENDERS = {"native": _core.flow_scale, "reference": reference.flow_scale, "peer": script}
+IMPLEMENTATIONS = {"native": _core.flow_scale, "reference": reference.flow_scale, "baseline": script}
 
 
 @pytest.mark.benchmark(group="flow_scale, 24x24")
-@pytest.mark.parametrize("scale", CONTENDERS.values(), ids=list(CONTENDERS))
+@pytest.mark.parametrize("scale", IMPLEMENTATIONS.values(), ids=list(IMPLEMENTATIONS))
 def bench_flow_scale(benchmark: Any, scale: Scale) -> None:
     """All find the same scale and spread by the same pixels."""
     rng = np.random.default_rng(0)

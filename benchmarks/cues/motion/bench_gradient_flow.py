@@ -53,23 +53,23 @@ def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
     return calc
 
 
-CONTENDERS = {
+IMPLEMENTATIONS = {
     "native": ours(_core.gradient_flow),
     "reference": ours(reference.gradient_flow),
-    "peer": script,
+    "baseline": script,
     "dis": planes(flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 
 @pytest.mark.benchmark(group="gradient_flow, 160x120")
-@pytest.mark.parametrize("flow", CONTENDERS.values(), ids=list(CONTENDERS))
+@pytest.mark.parametrize("flow", IMPLEMENTATIONS.values(), ids=list(IMPLEMENTATIONS))
 def bench_gradient_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
     """Half of the pixels that the kernel keeps all find within 0.2 px, and the first three alike."""
     u, v = benchmark(flow, *frames)
-    theirs = CONTENDERS["reference"](*frames)
+    theirs = IMPLEMENTATIONS["reference"](*frames)
     kept = np.isfinite(theirs[0])
     assert kept.mean() > 0.5
     assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)[kept]) < 0.2
-    if flow is not CONTENDERS["dis"]:
+    if flow is not IMPLEMENTATIONS["dis"]:
         assert np.isfinite(u[kept]).mean() > 0.999
         assert np.nanmax(abs(u - theirs[0])) < 0.02

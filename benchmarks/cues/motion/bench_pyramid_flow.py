@@ -34,20 +34,20 @@ def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
     return calc
 
 
-CONTENDERS = {
+IMPLEMENTATIONS = {
     "native": ours(_core.pyramid_flow),
     "reference": ours(reference.pyramid_flow),
-    "peer": planes(flow.farneback()),
+    "baseline": planes(flow.farneback()),
     "dis": planes(flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 
 @pytest.mark.benchmark(group="pyramid_flow, 160x120")
-@pytest.mark.parametrize("flow", CONTENDERS.values(), ids=list(CONTENDERS))
+@pytest.mark.parametrize("flow", IMPLEMENTATIONS.values(), ids=list(IMPLEMENTATIONS))
 def bench_pyramid_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
     """Half of the pixels are found within 0.2 px by all, and the kernels agree."""
     u, v = benchmark(flow, *frames)
     assert np.isfinite(u).mean() > 0.9
     assert np.nanmedian(np.hypot(u - 0.6, v + 0.4)) < 0.2
-    if flow is CONTENDERS["native"]:
-        assert np.nanmax(abs(u - CONTENDERS["reference"](*frames)[0])) < 1e-3
+    if flow is IMPLEMENTATIONS["native"]:
+        assert np.nanmax(abs(u - IMPLEMENTATIONS["reference"](*frames)[0])) < 1e-3

@@ -77,7 +77,7 @@ def block_matching() -> Measure:
     return compute
 
 
-CONTENDERS = {
+IMPLEMENTATIONS = {
     "native": kernel(_core.gradient_disparity),
     "reference": kernel(reference.gradient_disparity),
     "script": script,
@@ -96,14 +96,14 @@ def check(benchmark: Any, measure: Measure, height: int) -> None:
 
 
 @pytest.mark.benchmark(group="gradient_disparity, 160x120")
-@pytest.mark.parametrize("measure", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("measure", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_gradient_disparity(benchmark: Any, measure: Measure) -> None:
     """All find the same."""
     check(benchmark, measure, 120)
 
 
 @pytest.mark.benchmark(group="gradient_disparity, 640x480")
-@pytest.mark.parametrize("measure", CONTENDERS.values(), ids=CONTENDERS)
+@pytest.mark.parametrize("measure", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_gradient_disparity_large(benchmark: Any, measure: Measure) -> None:
     """All find the same."""
     check(benchmark, measure, 480)

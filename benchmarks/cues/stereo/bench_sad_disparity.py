@@ -38,7 +38,7 @@ def head(kernel: Callable[..., Disparity]) -> Matcher:
     return lambda left, right: kernel(left, right, HEAD, True, 4, 12, WINDOW, 15)
 
 
-def peer(region: tuple[int, int, int, int]) -> Matcher:
+def baseline(region: tuple[int, int, int, int]) -> Matcher:
     """StereoBM over the whole image, which has no regions, and at least 16 disparities."""
     matcher = cv2.StereoBM_create(COUNT, WINDOW)
     x0, y0, x1, y1 = region
@@ -50,7 +50,7 @@ def peer(region: tuple[int, int, int, int]) -> Matcher:
     return compute
 
 
-CONTENDERS = {"native": _core.sad_disparity, "reference": reference.sad_disparity}
+IMPLEMENTATIONS = {"native": _core.sad_disparity, "reference": reference.sad_disparity}
 
 
 def check(benchmark: Any, match: Matcher) -> None:
@@ -64,14 +64,18 @@ def check(benchmark: Any, match: Matcher) -> None:
 
 
 @pytest.mark.benchmark(group="sad_disparity, 160x120")
-@pytest.mark.parametrize("match", [*map(whole, CONTENDERS.values()), peer(WHOLE)], ids=[*CONTENDERS, "peer"])
+@pytest.mark.parametrize(
+    "match", [*map(whole, IMPLEMENTATIONS.values()), baseline(WHOLE)], ids=[*IMPLEMENTATIONS, "baseline"]
+)
 def bench_sad_disparity(benchmark: Any, match: Matcher) -> None:
     """All find the same."""
     check(benchmark, match)
 
 
 @pytest.mark.benchmark(group="sad_disparity, head of 30x36")
-@pytest.mark.parametrize("match", [*map(head, CONTENDERS.values()), peer(HEAD)], ids=[*CONTENDERS, "peer"])
+@pytest.mark.parametrize(
+    "match", [*map(head, IMPLEMENTATIONS.values()), baseline(HEAD)], ids=[*IMPLEMENTATIONS, "baseline"]
+)
 def bench_sad_disparity_head(benchmark: Any, match: Matcher) -> None:
     """All find the same."""
     check(benchmark, match)

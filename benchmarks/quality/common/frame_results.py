@@ -61,7 +61,7 @@ class FrameResults:
     @property
     def tracked_of_lost(self) -> float:
         """Share of the lost frames with status TRACKED."""
-        return confidence.said_ok_while_lost(self.overlaps, self.tracked, self.absent).of_lost
+        return confidence.tracked_while_lost(self.overlaps, self.tracked, self.absent).of_lost
 
     @property
     def untracked_of_good(self) -> float:

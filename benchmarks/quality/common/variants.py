@@ -7,7 +7,7 @@ from typing import Any
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.evaluation.tracker_spec import Entrant, Guarded, Offer, View, entrants
+from tricue.evaluation.tracker_spec import Offer, SafeTracker, TrackerSpec, View, tracker_specs
 from tricue.track.base.settings import read_settings
 
 CHANNELS = ("color", "depth", "right")
@@ -33,7 +33,7 @@ class Variant:
     """A tracker spec with a label. only: the channels that it gets, None for all that it can use."""
 
     label: str
-    spec: Entrant
+    spec: TrackerSpec
     only: tuple[str, ...] | None = None
 
     def unsupported(self, inputs: Offer) -> str:
@@ -41,9 +41,9 @@ class Variant:
         missing = [name for name in self.only or () if name not in inputs.channels]
         return f"no {missing[0]}" if missing else self.spec.refuses(self._limited(inputs))
 
-    def make(self, inputs: Offer) -> Guarded:
+    def make(self, inputs: Offer) -> SafeTracker:
         """The tracker with its cameras, from seed 0."""
-        return self.spec.contender(self._limited(inputs), 0)
+        return self.spec.make(self._limited(inputs), 0)
 
     def view(self, inputs: Offer) -> View:
         """What it gets of a frame."""
@@ -74,7 +74,7 @@ def parse_variants(words: Sequence[str], settings: Sequence[str] = ()) -> list[V
     values = parse_settings(settings)
     if unused := [name for name in values if name not in names]:
         raise ValueError(f"--set: expected one of {', '.join(names)}, got {unused[0]!r}")
-    specs = entrants(names, values)
+    specs = tracker_specs(names, values)
     return [Variant(word, spec, _channels(word)) for word, spec in zip(words, specs, strict=True)]
 
 

@@ -154,4 +154,4 @@ def _left(told: Told) -> str:
     if told.last is None or told.seconds_left is None:
         return ""
     minutes, seconds = divmod(round(told.seconds_left), 60)
-    return f"{minutes}:{seconds:02d} left, {told.last.entrant.name} {told.last.entry.name}"
+    return f"{minutes}:{seconds:02d} left, {told.last.tracker.name} {told.last.entry.name}"

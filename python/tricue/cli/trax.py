@@ -14,7 +14,7 @@ from pathlib import Path
 
 from tricue.cli.program import USAGE, Parser, silence_opencv
 from tricue.errors import one_line
-from tricue.evaluation.toolkits.trax_server import Contestant, serve
+from tricue.evaluation.toolkits.trax_server import ServedTracker, serve
 from tricue.track.base.registry import names
 from tricue.track.base.settings import read_settings
 
@@ -39,10 +39,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     silence_opencv()
     options = _parser(os.environ).parse_args(arguments)
     try:
-        contestant = _contestant(options, os.environ)
+        served = _served(options, os.environ)
         if "TRAX_SOCKET" not in os.environ:
             _quit_at_the_end()
-        serve(contestant)
+        serve(served)
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"{PROGRAM}: {one_line(error)}", file=sys.stderr)
         return USAGE
@@ -76,10 +76,10 @@ def _parser(environment: Mapping[str, str]) -> Parser:
     return parser
 
 
-def _contestant(options: argparse.Namespace, environment: Mapping[str, str]) -> Contestant:
+def _served(options: argparse.Namespace, environment: Mapping[str, str]) -> ServedTracker:
     settings = [*shlex.split(environment.get("TRICUE_SET", "")), *options.set]  # the later one wins
     values = read_settings(options.tracker, options.params, settings)
-    return Contestant(options.tracker, values, options.seed, options.kernels, options.calibration)
+    return ServedTracker(options.tracker, values, options.seed, options.kernels, options.calibration)
 
 
 def _quit_at_the_end() -> None:

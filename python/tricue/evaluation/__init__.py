@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""How well a tracker does: metrics, ROC curves, peers, and the papers' experiments."""
+"""How well a tracker does: metrics, ROC curves, baselines, and the papers' experiments."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What users would take instead: OpenCV's trackers, a scripted particle filter, and a box that never moves.
 
-All run in the same loop as tricue's trackers. Where a peer reports failure its last box stands, and the
+All run in the same loop as tricue's trackers. Where a baseline reports failure its last box stands, and the
 status is LOST.
 """
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.evaluation.one_pass import Contender
+from tricue.evaluation.one_pass import AnyTracker
 from tricue.track.base.track import Status, Track
 
 Image = NDArray[np.uint8]
@@ -24,7 +24,7 @@ NAMES = (
     *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, as far as the installed one has them
     *("CamShift", "meanShift", "script-pf", "still-box"),
 )
-Maker = Callable[[int], Contender]
+Maker = Callable[[int], AnyTracker]
 """Makes a tracker from a seed."""
 
 
@@ -123,7 +123,7 @@ class ScriptedParticleFilter:
 
 
 def bgr(frame: Frame) -> Any:
-    """The color image; peers need no other channel. ValueError where it isn't there."""
+    """The color image; baselines need no other channel. ValueError where it isn't there."""
     frame.require("color")
     return frame.color
 
@@ -163,7 +163,7 @@ def seed(value: int) -> None:
 
 
 def available() -> dict[str, Maker]:
-    """The peers that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
+    """The baselines that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
 
     def opencv(make: Callable[[], Any]) -> Maker:
         return lambda seed: OpenCvTracker(make)

@@ -63,7 +63,7 @@ def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = Non
     return float(wins / (good * (bad.size - good)))
 
 
-def said_ok_while_lost(
+def tracked_while_lost(
     overlaps: ArrayLike, said_present: ArrayLike, absent: ArrayLike | None = None
 ) -> SaidOk:
     """How often status was TRACKED, (M,) bool, in lost frames."""

@@ -15,19 +15,19 @@ from tricue.errors import one_line
 from tricue.evaluation.dataset import Entry, Opened, Reading, find_entries
 from tricue.evaluation.eta import Remaining
 from tricue.evaluation.record import Record
-from tricue.evaluation.rows import Judged, Row, Speed, judged, robustness_of, row_of, speed_of
+from tricue.evaluation.rows import Row, ScoredRun, Speed, judged, robustness_of, row_of, speed_of
 from tricue.evaluation.schedule import Perform, completed
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
-from tricue.evaluation.tracker_spec import Entrant, entrants
+from tricue.evaluation.tracker_spec import TrackerSpec, tracker_specs
 
 RUNS = "runs"  # the folder of finished runs in an evaluation's
 
 
 @dataclass(frozen=True)
 class Options:
-    """What is run. trackers: names of ours and of the peers, None for all. settings: parameters that aren't
-    the defaults, by our trackers' names. seeds: runs of those that draw random numbers. restarts: whether
+    """What is run. trackers: names of ours and of the baselines, None for all. settings: parameters that
+    aren't the defaults, by our trackers' names. seeds: runs of those that draw random numbers. restarts: whether
     each is also run with restarts. reading: how the data set's files are read.
     """
 
@@ -42,20 +42,20 @@ class Result(NamedTuple):
     """A run in one pass against the truth, and its numbers."""
 
     task: Task
-    judged: Judged
+    judged: ScoredRun
     row: Row
     speed: Speed
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """All that is known at the end. left_out: why an entrant didn't run on a sequence, by both names. failed:
+    """All that is known at the end. left_out: why a tracker didn't run on a sequence, by both names. failed:
     the errors of what couldn't be read, by the names of sequences or tasks.
     """
 
     options: Options
     opened: tuple[Opened, ...]
-    entrants: tuple[Entrant, ...]
+    trackers: tuple[TrackerSpec, ...]
     results: tuple[Result, ...]
     left_out: Mapping[tuple[str, str], str]
     failed: Mapping[str, str]
@@ -123,12 +123,12 @@ class _Plan:
 
     def __init__(self, root: Path, options: Options) -> None:
         self.options = options
-        self.entrants = tuple(entrants(options.trackers, options.settings))
+        self.trackers = tuple(tracker_specs(options.trackers, options.settings))
         self.failed: dict[str, str] = {}
         self.opened = dict(self._opened(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
         self.taken: dict[Task, Any] = {}
-        self._described = {entrant: entrant.described for entrant in self.entrants}
+        self._described = {spec: spec.described for spec in self.trackers}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
         self.tasks = [task for opened in self.opened.values() for task in self._tasks(opened)]
 
@@ -146,22 +146,22 @@ class _Plan:
     def _tasks(self, opened: Opened) -> list[Task]:
         kinds = (ONE_PASS, RESTARTS) if self.options.restarts else (ONE_PASS,)
         tasks = []
-        for entrant in self.entrants:
-            if why := entrant.refuses(opened):
-                self.left_out[entrant.name, opened.entry.name] = why
+        for spec in self.trackers:
+            if why := spec.refuses(opened):
+                self.left_out[spec.name, opened.entry.name] = why
                 continue
-            seeds = range(self.options.seeds if entrant.random else 1)
-            tasks += [Task(entrant, opened.entry, seed, kind) for kind in kinds for seed in seeds]
+            seeds = range(self.options.seeds if spec.random else 1)
+            tasks += [Task(spec, opened.entry, seed, kind) for kind in kinds for seed in seeds]
         return tasks
 
     def fingerprint(self, task: Task) -> str:
-        return task.fingerprint(self._digests[task.entry.name], self._described[task.entrant])
+        return task.fingerprint(self._digests[task.entry.name], self._described[task.tracker])
 
     def weight(self, task: Task) -> float:
         """How long a task may take, beside others: long ones begin first, so that none is left over."""
         opened = self.opened[task.entry.name]
         source = opened.source
-        return float(source.length or len(opened.boxes)) * task.entrant.slowness
+        return float(source.length or len(opened.boxes)) * task.tracker.slowness
 
     def take(self, task: Task, record: Record) -> None:
         """Judge a finished run, of which no more is kept than that needs: there may be many long ones."""
@@ -169,21 +169,21 @@ class _Plan:
         if task.kind == RESTARTS:
             self.taken[task] = robustness_of(record, opened)
         else:
-            speed = speed_of(opened, task.entrant.name, task.seed, record.run)
+            speed = speed_of(opened, task.tracker.name, task.seed, record.run)
             self.taken[task] = judged(record, opened), speed
 
     def evaluation(self, failed: Mapping[str, str]) -> Evaluation:
         """What was taken, in the order of the tasks."""
         results = tuple(self._results())
         opened = tuple(self.opened.values())
-        return Evaluation(self.options, opened, self.entrants, results, self.left_out, failed)
+        return Evaluation(self.options, opened, self.trackers, results, self.left_out, failed)
 
     def _results(self) -> Iterator[Result]:
         for task in self.tasks:
             if task.kind == ONE_PASS and task in self.taken:
                 run, speed = self.taken[task]
                 fails = self.taken.get(replace(task, kind=RESTARTS))
-                row = row_of(self.opened[task.entry.name], task.entrant.name, task.seed, run, fails)
+                row = row_of(self.opened[task.entry.name], task.tracker.name, task.seed, run, fails)
                 yield Result(task, run, row, speed)
 
 

@@ -19,8 +19,8 @@ _NOWHERE, _UNKNOWN, _UNSURE = np.full(4, np.nan), np.full(3, np.nan), np.full((3
 _NOTHING = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
 
 
-class Contender(Protocol):
-    """What can be evaluated: every tricue tracker, and the peers."""
+class AnyTracker(Protocol):
+    """What can be evaluated: every tricue tracker, and the baselines."""
 
     def init(self, frame: Frame, box: Box) -> Track: ...
 
@@ -54,7 +54,7 @@ class Run:
         return self.statuses.count(Status.LOST) / len(self.statuses)
 
 
-def run(tracker: Contender, frames: Iterable[Frame], box: Box, start: int = 0) -> Run:
+def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) -> Run:
     """Track through ``frames``, from ``box`` in frame ``start``, with OpenCV held to one thread.
 
     Frames are taken one by one and not kept; those before the start have no box. ValueError where fewer than
@@ -81,13 +81,13 @@ class Log:
         self.tracks: list[Track | None] = []
         self.seconds: list[float] = []
 
-    def init(self, tracker: Contender, frame: Frame, box: Box) -> Track:
+    def init(self, tracker: AnyTracker, frame: Frame, box: Box) -> Track:
         """Start the tracker, off the clock."""
         track = tracker.init(frame, box)
         self.tracks.append(track)
         return track
 
-    def update(self, tracker: Contender, frame: Frame) -> Track:
+    def update(self, tracker: AnyTracker, frame: Frame) -> Track:
         """Let the tracker follow, on the clock."""
         start = perf_counter()
         track = tracker.update(frame)

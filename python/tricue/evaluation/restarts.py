@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
-from tricue.evaluation.one_pass import Contender, Log, one_thread
+from tricue.evaluation.one_pass import AnyTracker, Log, one_thread
 from tricue.evaluation.record import Record
 
 SKIPPED = 5  # frames from a failure to the next start
@@ -33,12 +33,12 @@ class Robustness(NamedTuple):
     accuracy: float
 
 
-def run(make: Callable[[], Contender], frames: Iterable[Frame], truth: NDArray[np.float64]) -> Record:
+def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[np.float64]) -> Record:
     """Track with restarts; truth is (M, 4), NaN in frames in which nothing starts or fails, as in all frames
     beyond M. Boxes are NaN where no tracker runs.
     """
     log, starts, resume = Log(), [], 0
-    tracker: Contender | None = None
+    tracker: AnyTracker | None = None
     with one_thread():
         for frame, true in zip(frames, chain(truth, repeat(_UNKNOWN)), strict=False):
             index, known = len(log.tracks), not np.isnan(true).any()

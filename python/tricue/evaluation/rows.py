@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Judged:
+class ScoredRun:
     """A run against the truth, over the N frames from its start on: arrays of that length.
 
     start: the frame, counted from the sequence's first. trouble: the error that ended the tracker, or "".
@@ -82,13 +82,13 @@ class Speed:
     p99_ms: float
 
 
-def judged(record: Record, opened: Opened) -> Judged:
+def judged(record: Record, opened: Opened) -> ScoredRun:
     """The frames of a run with one start, from that on."""
     run, frames = record.run, len(record.run.scores)
     since = slice(record.starts[0], frames)
     boxes = bounded(run.boxes, opened)[since]
     truth, absent = opened.truth(frames)[since], opened.absent(frames)[since]
-    return Judged(
+    return ScoredRun(
         record.starts[0],
         boxes,
         truth,
@@ -114,7 +114,7 @@ def bounded(boxes: Array, opened: Opened) -> Array:
 
 
 def row_of(
-    opened: Opened, tracker: str, seed: int, run: Judged, fails: restarts.Robustness | None = None
+    opened: Opened, tracker: str, seed: int, run: ScoredRun, fails: restarts.Robustness | None = None
 ) -> Row:
     """The numbers of a run in one pass, with those of the one with restarts if there is one."""
     score = metrics.score(run.boxes, run.truth)
@@ -135,7 +135,7 @@ def row_of(
         rates.true_negative,
         best_f([run]),
         confidence.auroc(run.overlaps, run.scores, run.absent),
-        confidence.said_ok_while_lost(run.overlaps, run.tracked, run.absent).of_all,
+        confidence.tracked_while_lost(run.overlaps, run.tracked, run.absent).of_all,
         _median(run.position_errors),
         float("nan") if fails is None else float(fails.failures),
         float("nan") if fails is None else fails.accuracy,
@@ -143,14 +143,14 @@ def row_of(
     )
 
 
-def best_f(runs: Sequence[Judged]) -> float:
+def best_f(runs: Sequence[ScoredRun]) -> float:
     """VOT long-term's F of several sequences; NaN without any visible frame after the first."""
     frames = [long_term.vot_frames(run.boxes, run.truth, run.scores, run.absent) for run in runs]
     known = [each for each in frames if each.visible.any()]
     return long_term.precision_recall(known).best.f if known else float("nan")
 
 
-def pooled_auroc(runs: Sequence[Judged]) -> float:
+def pooled_auroc(runs: Sequence[ScoredRun]) -> float:
     """Over the frames of several runs: whether one threshold on the score holds for all of them."""
     overlaps, scores, absent = (
         np.concatenate([getattr(run, name) for run in runs]) for name in ("overlaps", "scores", "absent")

@@ -37,11 +37,11 @@ class Store:
         path.parent.mkdir(parents=True, exist_ok=True)
         about = {
             "fingerprint": fingerprint,
-            "tracker": task.entrant.name,
+            "tracker": task.tracker.name,
             "sequence": task.entry.name,
             "seed": task.seed,
             "kind": task.kind,
-            "settings": dict(task.entrant.settings),
+            "settings": dict(task.tracker.settings),
         }
         unfinished = path.with_suffix(f".{os.getpid()}.part")
         unfinished.write_text(record.to_json(about) + "\n", encoding="utf-8")

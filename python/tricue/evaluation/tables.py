@@ -118,7 +118,7 @@ def settings(evaluation: Evaluation, **how: Any) -> Line:
         "seeds": options.seeds,
         "restarts": options.restarts,
         "reading": asdict(options.reading),
-        "parameters": {each.name: json.loads(each.described) for each in evaluation.entrants if each.ours},
+        "parameters": {each.name: json.loads(each.described) for each in evaluation.trackers if each.ours},
         "changed": {name: dict(values) for name, values in options.settings.items()},
         **how,
     }
@@ -135,9 +135,9 @@ def processor() -> str:
 
 def _compared(evaluation: Evaluation) -> Iterator[tuple[str, str, list[Result]]]:
     for group in evaluation.groups:
-        for entrant in evaluation.entrants:
-            if results := evaluation.of(group, entrant.name):
-                yield group, entrant.name, results
+        for spec in evaluation.trackers:
+            if results := evaluation.of(group, spec.name):
+                yield group, spec.name, results
 
 
 def _group_table(group: str, lines: Sequence[Line], fast: Mapping[tuple[str, str], Line]) -> str:

@@ -19,7 +19,7 @@ from tricue.data.prefetch import prefetched
 from tricue.evaluation import one_pass, restarts
 from tricue.evaluation.dataset import Entry, Opened
 from tricue.evaluation.record import Record
-from tricue.evaluation.tracker_spec import Entrant, Guarded
+from tricue.evaluation.tracker_spec import SafeTracker, TrackerSpec
 
 ONE_PASS, RESTARTS = "one-pass", "restarts"
 _DECIDING = (
@@ -32,7 +32,7 @@ _DECIDING = (
 class Task:
     """kind: ONE_PASS, from the first true box to the end, or RESTARTS, started again after each failure."""
 
-    entrant: Entrant
+    tracker: TrackerSpec
     entry: Entry
     seed: int = 0
     kind: str = ONE_PASS
@@ -40,10 +40,10 @@ class Task:
     @property
     def name(self) -> str:
         """Unique among the tasks of an evaluation; a relative path."""
-        return f"{self.kind}/{self.entrant.name}/{self.entry.name}/seed-{self.seed}"
+        return f"{self.kind}/{self.tracker.name}/{self.entry.name}/seed-{self.seed}"
 
     def fingerprint(self, digest: str, described: str) -> str:
-        """Changes with all that the result depends on; digest: the opened entry's; described: the entrant."""
+        """Changes with all that the result depends on; digest: the opened entry's; described: the spec."""
         parts = (self.name, digest, described, code_digest())
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
@@ -56,23 +56,23 @@ def perform(task: Task, ahead: int = 0) -> Record:
     changes no result, but the times a little.
     """
     opened = task.entry.open()
-    frames = map(task.entrant.view(opened), opened.source)
+    frames = map(task.tracker.view(opened), opened.source)
     with closing(prefetched(frames, ahead)) if ahead else nullcontext(frames) as shown:
         return _restarted(task, opened, shown) if task.kind == RESTARTS else _one_pass(task, opened, shown)
 
 
 def _one_pass(task: Task, opened: Opened, frames: Iterable[Frame]) -> Record:
     """From the first frame with a true box, which hand-made truth may have later than the images."""
-    tracker, start = task.entrant.contender(opened, task.seed), opened.start
+    tracker, start = task.tracker.make(opened, task.seed), opened.start
     run = one_pass.run(tracker, frames, Box(*opened.boxes[start].tolist()), start)
     return Record(run, (start,), tracker.trouble)
 
 
 def _restarted(task: Task, opened: Opened, frames: Iterable[Frame]) -> Record:
-    made: list[Guarded] = []
+    made: list[SafeTracker] = []
 
-    def make() -> Guarded:
-        made.append(task.entrant.contender(opened, task.seed + len(made)))
+    def make() -> SafeTracker:
+        made.append(task.tracker.make(opened, task.seed + len(made)))
         return made[-1]
 
     record = restarts.run(make, frames, opened.boxes)

@@ -16,13 +16,13 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.draw.overlays import depth_picture, depth_range
 from tricue.errors import one_line
 from tricue.evaluation import baselines
-from tricue.evaluation.one_pass import Contender
+from tricue.evaluation.one_pass import AnyTracker
 from tricue.track.base import registry
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
 View = Callable[[Frame], Frame]
-"""What a contender is shown of a frame; made off the clock."""
+"""What a tracker is shown of a frame; made off the clock."""
 
 MAX_DISPARITY, MIN_DISPARITY = 0.25, 4.0  # of a target in a stereo pair: of the image's width; pixels
 _SLOWNESS = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
@@ -48,7 +48,7 @@ class Offer(Protocol):
 
 
 @dataclass(frozen=True)
-class Entrant:
+class TrackerSpec:
     """A tracker by its name: one of ours, of a package, of a module (``module:Class``), or a baseline.
 
     settings: parameters that aren't the defaults; baselines take none.
@@ -97,13 +97,13 @@ class Entrant:
             return "no stereo pair"
         return f"no {', '.join(sorted(absent))}" if absent else "boxes of the depth image"
 
-    def contender(self, opened: Offer, seed: int) -> "Guarded":
+    def make(self, opened: Offer, seed: int) -> "SafeTracker":
         """The tracker for a sequence, with its cameras."""
         baselines.seed(seed)
         if not self.ours:
-            return Guarded(baselines.available()[self.name](seed))
+            return SafeTracker(baselines.available()[self.name](seed))
         keywords = _keywords(self.traits, opened) | dict(self.settings)
-        return Guarded(tricue.create(self.name, seed=seed, **keywords))
+        return SafeTracker(tricue.create(self.name, seed=seed, **keywords))
 
     def view(self, opened: Offer) -> View:
         """What the tracker is shown: the channels that it uses. Baselines see depth as a picture where the
@@ -115,10 +115,10 @@ class Entrant:
         return partial(_only, frozenset({"color"}) if chosen is None else chosen.names)
 
 
-class Guarded:
-    """A contender that never raises: from its first error on, which is ``trouble``, it finds nothing."""
+class SafeTracker:
+    """A tracker that never raises: from its first error on, which is ``trouble``, it finds nothing."""
 
-    def __init__(self, tracker: Contender) -> None:
+    def __init__(self, tracker: AnyTracker) -> None:
         self.trouble = ""
         self._tracker = tracker
 
@@ -153,7 +153,9 @@ def pictured() -> View:
     return view
 
 
-def entrants(chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]) -> list[Entrant]:
+def tracker_specs(
+    chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]
+) -> list[TrackerSpec]:
     """Those of the given names, by default all that are installed; settings: parameters by trackers' names.
 
     ValueError for an unknown name lists the known ones.
@@ -163,21 +165,21 @@ def entrants(chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, A
         if name not in known and ":" not in name:
             expected = f"some of {', '.join(known)} or module:Class"
             raise ValueError(f"--trackers: expected {expected}, got {name!r}")
-    found = [Entrant(name, tuple(settings.get(name, {}).items())) for name in chosen or known]
+    found = [TrackerSpec(name, tuple(settings.get(name, {}).items())) for name in chosen or known]
     for each in found:
         _check(each)
     return found
 
 
-def _check(entrant: Entrant) -> None:
+def _check(spec: TrackerSpec) -> None:
     """Errors of names and parameters come before the first run."""
-    if not entrant.ours:
-        if entrant.settings:
-            raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {entrant.name}")
+    if not spec.ours:
+        if spec.settings:
+            raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {spec.name}")
         return
-    kind = registry.tracker_class(entrant.name).Params
+    kind = registry.tracker_class(spec.name).Params
     if kind is not None:
-        kind(**dict(entrant.settings))
+        kind(**dict(spec.settings))
 
 
 def _usable(opened: Offer) -> frozenset[str]:

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Generic, NamedTuple, TypeVar
 
 from tricue.draw import figures
-from tricue.evaluation.one_pass import Contender
+from tricue.evaluation.one_pass import AnyTracker
 
 S = TypeVar("S")  # a scene
 C = TypeVar("C")  # a curve: what one model did in one scene
 
-Maker = Callable[..., Contender]
+Maker = Callable[..., AnyTracker]
 """Makes a tracker, called with ``seed=``, and with ``intrinsics=`` or ``rig=`` where the scene has one."""
 
 Models = Mapping[str, Maker]

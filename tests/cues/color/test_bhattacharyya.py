@@ -55,9 +55,11 @@ def test_twin_measures_the_same_at_every_size(rows: int, bins: int) -> None:
 def test_agrees_with_opencv(kernels: Kernels) -> None:
     """OpenCV gives the same for one histogram; it divides by the sums, 1 within rounding."""
     histograms = random_histograms(20, 1, 16)
-    peer = [cv2.compareHist(histogram, histograms[0], cv2.HISTCMP_BHATTACHARYYA) for histogram in histograms]
+    baseline = [
+        cv2.compareHist(histogram, histograms[0], cv2.HISTCMP_BHATTACHARYYA) for histogram in histograms
+    ]
     ours = kernels.bhattacharyya(histograms, histograms[0], 1)
-    assert_allclose(ours**2, np.square(peer), rtol=0, atol=16 * ROUNDING)
+    assert_allclose(ours**2, np.square(baseline), rtol=0, atol=16 * ROUNDING)
 
 
 def test_two_bins_in_closed_form(kernels: Kernels) -> None:

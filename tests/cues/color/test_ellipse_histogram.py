@@ -66,8 +66,8 @@ def test_agrees_with_opencv(kernels: Kernels) -> None:
     bins = some_bins(3, (240, 320)) % np.uint16(SIZE)
     inside, _ = kernels.ellipse_histogram(bins, np.array([[160.5, 120.5, 50, 60]]), SIZE, 1.0)
     mask = cv2.ellipse(np.zeros(bins.shape, np.uint8), (160, 120), (50, 60), 0, 0, 360, 255, -1)
-    peer = cv2.calcHist([bins], [0], mask, [SIZE], [0, SIZE]).ravel()
-    assert np.abs(inside[0] - peer).sum() < 2 * np.pi * 60
+    baseline = cv2.calcHist([bins], [0], mask, [SIZE], [0, SIZE]).ravel()
+    assert np.abs(inside[0] - baseline).sum() < 2 * np.pi * 60
 
 
 def test_area(kernels: Kernels) -> None:

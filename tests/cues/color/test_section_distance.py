@@ -39,8 +39,8 @@ def test_twin_measures_the_same(sections: Floats, model: Floats) -> None:
 def test_agrees_with_scipy(kernels: Kernels, rows: int, sections: int) -> None:
     """SciPy's Euclidean distance of each channel, summed, over 3 sqrt 2, for none, one and many ellipses."""
     a, model = random_sections(rows, sections), random_sections(1, sections)[0]
-    peer = sum(cdist(a[:, k].astype(float), model[None, k].astype(float))[:, 0] for k in range(3))
-    assert_allclose(kernels.section_distance(a, model), peer / (3 * np.sqrt(2)), rtol=1e-13)
+    baseline = sum(cdist(a[:, k].astype(float), model[None, k].astype(float))[:, 0] for k in range(3))
+    assert_allclose(kernels.section_distance(a, model), baseline / (3 * np.sqrt(2)), rtol=1e-13)
 
 
 def test_same_and_disjoint(kernels: Kernels) -> None:

@@ -58,10 +58,10 @@ def test_agrees_with_opencv_and_scipy(kernels: Kernels, precision: Floats) -> No
     image = np.random.default_rng(0).integers(0, 256, (50, 60, 3), np.uint8)
     ycrcb = cv2.cvtColor(image, cv2.COLOR_BGR2YCrCb).reshape(-1, 3).astype(float)
     normal = multivariate_normal(MEAN, np.linalg.inv(precision))
-    peer = normal.pdf(ycrcb[:, [2, 1]]) / normal.pdf(MEAN)
+    baseline = normal.pdf(ycrcb[:, [2, 1]]) / normal.pdf(MEAN)
     samples = np.ascontiguousarray(image.reshape(-1, 3).T[None])
     ours = kernels.skin_gaussian(samples, MEAN, precision)[0]
-    assert_allclose(ours, peer, rtol=0, atol=tolerance(precision, chroma_error=0.96 * np.sqrt(2)))
+    assert_allclose(ours, baseline, rtol=0, atol=tolerance(precision, chroma_error=0.96 * np.sqrt(2)))
 
 
 def test_exponential(kernels: Kernels) -> None:

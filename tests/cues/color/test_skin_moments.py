@@ -54,11 +54,11 @@ def test_agrees_with_opencv(kernels: Kernels, picture: Image, color: Image) -> N
         assert_array_equal(moments, np.zeros(6))
         return
     binary = (reference.skin_boundary(picture, color) > 25.5).astype(np.uint8)
-    peer = cv2.moments(binary, binaryImage=True)
-    assert moments[0] == peer["m00"]
-    if peer["m00"] > 0:
-        centre = [peer["m10"] / peer["m00"] + 0.5, peer["m01"] / peer["m00"] + 0.5]
-        spread = [peer[name] / peer["m00"] for name in ("mu20", "mu02", "mu11")]
+    baseline = cv2.moments(binary, binaryImage=True)
+    assert moments[0] == baseline["m00"]
+    if baseline["m00"] > 0:
+        centre = [baseline["m10"] / baseline["m00"] + 0.5, baseline["m01"] / baseline["m00"] + 0.5]
+        spread = [baseline[name] / baseline["m00"] for name in ("mu20", "mu02", "mu11")]
         assert_allclose(moments[1:], centre + spread, rtol=1e-12, atol=tolerance(picture))
 
 

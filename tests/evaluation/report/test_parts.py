@@ -18,8 +18,8 @@ from tricue.evaluation.report.plot_styles import line_styles
 from tricue.evaluation.report.plots import Group
 from tricue.evaluation.report.summary import summary_table
 from tricue.evaluation.report.worst_frames import MAX_WORST_FRAMES, worst_frames
-from tricue.evaluation.rows import Judged
-from tricue.evaluation.tracker_spec import Entrant
+from tricue.evaluation.rows import ScoredRun
+from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.track.base.registry import names
 from tricue.track.base.track import Status
 
@@ -34,7 +34,7 @@ def run(overlaps, tracked=None, absent=None):
     flags = np.ones(count, bool) if tracked is None else np.array(tracked, bool)
     statuses = tuple(Status.TRACKED if each else Status.LOST for each in flags)
     overlap, unknown = np.array(overlaps, float), np.full(count, NAN)
-    return Judged(0, box, box, gone, overlap, np.ones(count), statuses, flags, unknown)
+    return ScoredRun(0, box, box, gone, overlap, np.ones(count), statuses, flags, unknown)
 
 
 @given(st.text(), st.text())
@@ -142,7 +142,7 @@ def test_curves_are_those_of_the_summary(evaluation):
 
 def test_line_styles_differ():
     """All trackers and baselines have different colors or dashes; tricue's are solid."""
-    every = [Entrant(name) for name in (*names(), *available())]
+    every = [TrackerSpec(name) for name in (*names(), *available())]
     found = line_styles(every)
     assert len({(style.color, style.dashes) for style in found.values()}) == len(every)
     assert all((found[each.name].dashes == "") == each.ours for each in every)
@@ -177,7 +177,9 @@ def line(tracker, sequences, **values):
 def test_only_trackers_that_ran_on_all_can_be_best():
     """A mean over fewer sequences is noted as such, and not marked, however good it is."""
     lines = [line("a", 3, auc=0.5, failures=2.0), line("b", 3, auc=0.4, failures=1.0), line("c", 1, auc=0.9)]
-    made = summary_table("color", lines, 3, {"a"}, line_styles([Entrant("a"), Entrant("b"), Entrant("c")]))
+    made = summary_table(
+        "color", lines, 3, {"a"}, line_styles([TrackerSpec("a"), TrackerSpec("b"), TrackerSpec("c")])
+    )
     assert re.findall(r"<strong>([^<]*)</strong>", made) == ["0.500", "1.00"]
     assert "c (1 of 3)" in made
     assert made.count('class="badge"') == 1

@@ -16,7 +16,7 @@ from tricue import Box, Frame, Status, Track
 from tricue.evaluation.toolkits.trax_server import (
     NOWHERE,
     Answer,
-    Contestant,
+    ServedTracker,
     Session,
     box_round,
     channels_of,
@@ -318,7 +318,7 @@ def test_answers_are_finite_and_confidences_in_range() -> None:
 
 def test_a_session_survives_a_start_but_no_bad_frame(images: Path) -> None:
     """It proves that only what is wrong with the box is borne; a frame without its channel is an error."""
-    session = Session(Contestant("depth-particle").tracker)
+    session = Session(ServedTracker("depth-particle").tracker)
     with pytest.warns(UserWarning, match="not started"):
         assert session.start(frame_of(images, 1, "depth"), Box(900, 9, 9, 9)).confidence == 0
     with pytest.warns(UserWarning, match="not started"):
@@ -393,13 +393,13 @@ def test_a_calibration_is_that_of_the_camera(images: Path, scene: WalkScene, tmp
     names = ("fx", "fy", "cx", "cy", "width", "height")
     (tmp_path / "c.toml").write_text("".join(f"{name} = {getattr(camera, name)}\n" for name in names))
     for tracker in ("depth-particle", "flow-depth", "fused"):
-        contestant = Contestant(tracker, calibration=tmp_path / "c.toml")
+        served = ServedTracker(tracker, calibration=tmp_path / "c.toml")
         frame = frame_of(images, 1, "color", "depth")
-        made = contestant.tracker(frame)
+        made = served.tracker(frame)
         assert made.intrinsics == camera  # type: ignore[attr-defined]
         half = Frame(np.zeros((60, 80, 3), np.uint8), np.ones((60, 80), np.float32))
         with pytest.raises(ValueError, match="got one for 160x120"):
-            contestant.tracker(half)
+            served.tracker(half)
 
 
 def test_channels_by_default() -> None:

@@ -53,7 +53,7 @@ def _page(evaluation: Evaluation, about: Mapping[str, Any]) -> str:
     groups = [Group.of(evaluation, each, _lines(evaluation)) for each in evaluation.groups]
     ranked = worst_first(evaluation)
     pictured = {each.opened.entry.name for each in ranked[:MAX_PICTURED]}
-    styles = line_styles(evaluation.entrants)
+    styles = line_styles(evaluation.trackers)
     sections = [_group(each, evaluation, ranked, pictured, styles) for each in groups]
     main = tag(
         "main", _header(evaluation, name, groups), sections, troubles(evaluation), setup(evaluation, about)
@@ -96,8 +96,8 @@ def _header(evaluation: Evaluation, name: str, groups: Sequence[Group]) -> Html:
 
 
 def _sentence(evaluation: Evaluation) -> str:
-    ours = [each.name for each in evaluation.entrants if each.ours]
-    baselines = [each.name for each in evaluation.entrants if not each.ours]
+    ours = [each.name for each in evaluation.trackers if each.ours]
+    baselines = [each.name for each in evaluation.trackers if not each.ours]
     frames = {each.row.sequence: each.row.frames for each in evaluation.results}
     seeds = evaluation.options.seeds
     seeded = f"; those that draw random numbers ran with {seeds} seeds" if seeds > 1 else ""

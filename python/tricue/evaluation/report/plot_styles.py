@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from tricue.evaluation.report.markup import Html, tag
-from tricue.evaluation.tracker_spec import Entrant
+from tricue.evaluation.tracker_spec import TrackerSpec
 
 _TRICUE_COLORS = ("#0072B2", "#D55E00", "#009E73", "#C2649A", "#000000")
 _BASELINE_COLORS = ("#5E3C99", "#B07800", "#2F97D4", "#767676")
@@ -24,7 +24,7 @@ class LineStyle(NamedTuple):
     width: float
 
 
-def line_styles(specs: Sequence[Entrant]) -> dict[str, LineStyle]:
+def line_styles(specs: Sequence[TrackerSpec]) -> dict[str, LineStyle]:
     """The style of each tracker, by name; 5 trackers of tricue and 12 baselines get different ones."""
     ours = [each.name for each in specs if each.ours]
     baselines = [each.name for each in specs if not each.ours]

@@ -36,7 +36,7 @@ class Group(NamedTuple):
         """The group of that name; lines: of all groups."""
         mine = [line for line in lines if line["group"] == name]
         results = {line["tracker"]: evaluation.of(name, line["tracker"]) for line in mine}
-        known = {each.name for each in evaluation.entrants if each.ours}
+        known = {each.name for each in evaluation.trackers if each.ours}
         return cls(name, mine, results, [name for name in results if name in known])
 
 

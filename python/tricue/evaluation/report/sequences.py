@@ -43,7 +43,7 @@ def worst_first(evaluation: Evaluation) -> list[RankedSequence]:
     by_sequence: dict[str, dict[str, list[Result]]] = {each.entry.name: {} for each in evaluation.opened}
     for each in evaluation.results:
         by_sequence[each.row.sequence].setdefault(each.row.tracker, []).append(each)
-    ours = {each.name for each in evaluation.entrants if each.ours}
+    ours = {each.name for each in evaluation.trackers if each.ours}
     ranked = [_ranked(each, by_sequence[each.entry.name], ours) for each in evaluation.opened]
     return sorted(ranked, key=lambda each: (each.auc, each.opened.entry.name))
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.evaluation.report.markup import Html, tag
-from tricue.evaluation.rows import Judged
+from tricue.evaluation.rows import ScoredRun
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ ABSENT, UNKNOWN, NOT_TRACKED, TRACKED = "#b9c4d6", "#ffffff", "#3b4a63", "#fffff
 _ROWS, _STATUS_ROWS = 6, 2  # of the picture, which the page stretches
 
 
-def timeline(run: Judged, label: str) -> Html:
+def timeline(run: ScoredRun, label: str) -> Html:
     """The picture of a run; label: its text alternative."""
     columns = np.array_split(np.arange(len(run.overlaps)), min(MAX_COLUMNS, len(run.overlaps)))
     overlap = np.array([_shade(run, frames) for frames in columns], np.uint8)
@@ -33,7 +33,7 @@ def timeline(run: Judged, label: str) -> Html:
     )
 
 
-def _shade(run: Judged, frames: NDArray[np.int64]) -> tuple[int, ...]:
+def _shade(run: ScoredRun, frames: NDArray[np.int64]) -> tuple[int, ...]:
     known = run.overlaps[frames][~np.isnan(run.overlaps[frames])]
     if not known.size:
         return _rgb(ABSENT if run.absent[frames].any() else UNKNOWN)

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.evaluation.rows import Judged
+from tricue.evaluation.rows import ScoredRun
 
 MAX_WORST_FRAMES = 4
 """Of a run, besides the first one."""
@@ -12,7 +12,7 @@ _SPACINGS = 8
 """Two of them are at least the run's length over this apart."""
 
 
-def worst_frames(run: Judged, count: int = MAX_WORST_FRAMES) -> list[int]:
+def worst_frames(run: ScoredRun, count: int = MAX_WORST_FRAMES) -> list[int]:
     """The first frame and at most ``count`` worst ones, ascending, counted from the run's start.
 
     The worst frames have the lowest overlaps, of equal ones the earliest. A frame without the target counts
@@ -30,6 +30,6 @@ def worst_frames(run: Judged, count: int = MAX_WORST_FRAMES) -> list[int]:
     return sorted(chosen)
 
 
-def _ranked_overlaps(run: Judged) -> NDArray[np.float64]:
+def _ranked_overlaps(run: ScoredRun) -> NDArray[np.float64]:
     """(N,) overlaps, 0 in frames without the target that are TRACKED, NaN where unknown."""
     return np.where(run.absent & run.tracked, 0.0, np.where(run.absent, np.nan, run.overlaps))

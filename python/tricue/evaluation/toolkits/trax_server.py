@@ -43,7 +43,7 @@ class Answer(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contestant:
+class ServedTracker:
     """A tracker as it is to be run: its name, parameters by name, and the camera's calibration, if known.
 
     ValueError, TypeError or OSError for parameters that the tracker doesn't take, for one that needs a right
@@ -149,7 +149,7 @@ def _finite(box: Box) -> bool:
     return all(map(math.isfinite, box))
 
 
-def serve(contestant: Contestant) -> None:
+def serve(served: ServedTracker) -> None:
     """Answer a client on standard input and output until it quits.
 
     An error is told to the client as the reason to quit, and raised; it names the files of the frame.
@@ -159,11 +159,11 @@ def serve(contestant: Contestant) -> None:
         import trax
     except ImportError:
         raise ImportError(EXTRA) from None
-    channels = list(contestant.channels)
+    channels = list(served.channels)
     server = trax.Server(
-        ["rectangle"], ["path"], channels, f"tricue {contestant.name}", metadata={"vot": "python"}
+        ["rectangle"], ["path"], channels, f"tricue {served.name}", metadata={"vot": "python"}
     )
-    session = Session(contestant.tracker)
+    session = Session(served.tracker)
     # Standard output is the protocol's alone.
     with contextlib.redirect_stdout(sys.stderr):
         try:

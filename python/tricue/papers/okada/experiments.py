@@ -14,7 +14,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
-from tricue.evaluation.one_pass import Contender, run
+from tricue.evaluation.one_pass import AnyTracker, run
 from tricue.papers.curves import Floats
 from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.okada import curves, figures
@@ -29,7 +29,7 @@ FIGURE_SEED = 0
 class SnapshotRecorder:
     """A tracker whose target pixels and blocks are kept of the frames with these numbers."""
 
-    def __init__(self, tracker: Contender, frames: tuple[int, ...]) -> None:
+    def __init__(self, tracker: AnyTracker, frames: tuple[int, ...]) -> None:
         self._tracker, self._frames = tracker, frames
         self.snapshots: dict[int, Snapshot] = {}
 
@@ -68,7 +68,7 @@ def measure(case: Case, make: Maker, scene: WalkScene) -> WalkCurve:
     )
 
 
-def _restarted_overlaps(make: Callable[[], Contender], scene: WalkScene) -> Floats:
+def _restarted_overlaps(make: Callable[[], AnyTracker], scene: WalkScene) -> Floats:
     """(M,) overlaps of a tracker that starts after the overtaking, so that the pass is measured by itself."""
     overlaps = np.full(len(scene.frames), np.nan)
     start = curves.restart_frame(scene.events, scene.visible)
