@@ -12,6 +12,7 @@ import pytest
 from tricue import Box, Frame, Status, Track
 from tricue.camera.box import BoxLike, as_box
 from tricue.camera.frame import FrameLike, as_frame
+from tricue.errors import BoxNeededError
 from tricue.kernels import Kernels, load
 from tricue.track.base import registry
 from tricue.track.base.params import Params, parameter
@@ -68,7 +69,7 @@ class Drift:
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         if box is None:
-            raise ValueError("box: expected the target's box, got None")
+            raise BoxNeededError("box: expected the target's box, got None")
         self.box = as_box(box)
         return self._track(frame)
 

@@ -121,7 +121,7 @@ BAD = [
         "tricue reproduce: experiment: expected one of .*sabeti-fig1.*, got 'sabeti-fig9'",
     ),
     (["reproduce", "sabeti-fig1", "--seeds", "0"], "tricue reproduce: seeds, jobs: expected 1 or more"),
-    (["demo", "magic"], "tricue demo: argument tracker: invalid choice: 'magic'"),
+    (["demo", "magic"], "tricue demo: argument tracker: expected one of .*, got 'magic'"),
     (["fly"], "tricue: argument COMMAND: invalid choice: 'fly'"),
     ([], "tricue: the following arguments are required: COMMAND"),
 ]

@@ -276,7 +276,7 @@ def test_real_depth_from_the_command_line(
         (("--box", "10,20,10,30"), "fused"),
     ],
 )
-def test_the_usual_tracker_can_start(
+def test_the_default_tracker_can_start(
     recording: Path,
     nearest_tracker: str,
     monkeypatch: pytest.MonkeyPatch,

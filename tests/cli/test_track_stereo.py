@@ -11,6 +11,7 @@ from tricue.camera.box import BoxLike, as_box
 from tricue.cli import main
 from tricue.track.base import registry
 from tricue.track.base.params import Params
+from tricue.track.base.traits import Channels, Traits
 
 BOX = ["--box", "10,10,20,20"]
 
@@ -19,6 +20,7 @@ class Pair:
     """A tracker that takes a pair and stays where it is; at the depth of its mean difference of levels."""
 
     Params = Params
+    traits = Traits(channels=(Channels.of("color", "right"),), camera=frozenset({"rig"}))
 
     def __init__(self, rig: StereoRig | None = None, seed: int = 0, kernels: str = "native") -> None:
         self.params, self.rig = Params(), rig

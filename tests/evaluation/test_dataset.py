@@ -130,7 +130,7 @@ def test_trackers_are_shown_what_they_can_use(tmp_path):
 def test_depth_of_another_camera_is_not_taken_for_the_colors(tmp_path):
     """Where the true boxes are in the color image and the depth isn't registered, only color is used."""
     opened = Entry("walk", write_rgbd(tmp_path / "walk", cameras=TWO)).open()
-    assert TrackerSpec("depth-particle").refuses(opened) == "no depth"
+    assert TrackerSpec("depth-particle").refuses(opened) == "depth not registered to color"
     for name in ("flow-depth", "fused"):
         assert TrackerSpec(name).view(opened)(next(iter(opened.source))).channels == ("color",)
 

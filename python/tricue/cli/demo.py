@@ -8,16 +8,14 @@ from pathlib import Path
 from tricue.cli.arguments import add_common, tracker_name
 from tricue.track.base.registry import traits
 
-DEMOS = {
-    "fused": "tricue.cli.demos.fused",
-    "flow-depth": "tricue.cli.demos.flow_depth",
-}
-"""Demos made for one tracker; any other has that of the channels that it needs."""
-BY_CHANNELS = {
-    frozenset({"color"}): "tricue.cli.demos.color",
-    frozenset({"depth"}): "tricue.cli.demos.depth",
-    frozenset({"color", "right"}): "tricue.cli.demos.stereo",
-}
+DEMOS = (
+    (lambda traits: "mask" in traits.shows, "flow_depth"),
+    (lambda traits: traits.best(("color", "right")) and traits.best(("depth",)), "fused"),
+    (lambda traits: traits.best(("depth",)), "depth"),
+    (lambda traits: traits.best(("color",)), "color"),
+    (lambda traits: traits.best(("color", "right")), "stereo"),
+)
+"""Which trackers a demo of tricue.cli.demos suits; the first that does is taken."""
 EXAMPLES = """\
 examples:
   tricue demo
@@ -41,12 +39,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the demo of the chosen tracker; the exit code."""
-    sets = traits(options.tracker).channels
-    module = DEMOS.get(options.tracker) or next(
-        (BY_CHANNELS[each.names] for each in sets if each.names in BY_CHANNELS), None
-    )
-    if module is None:
-        raise ValueError(f"tracker: there is no scene for one that needs {traits(options.tracker).needs}")
-    code: int = importlib.import_module(module).run(options)
+    """Run the demo that suits the chosen tracker; the exit code."""
+    its = traits(options.tracker)
+    name = next((name for suits, name in DEMOS if suits(its)), None)
+    if name is None:
+        raise ValueError(f"tracker: there is no scene for one that needs {its.needs}")
+    code: int = importlib.import_module(f"tricue.cli.demos.{name}").run(options)
     return code

@@ -9,19 +9,25 @@ from tricue.camera.frame import Frame
 from tricue.cli.steps import Start
 from tricue.data.open_source import Source
 from tricue.errors import BoxError, MissingChannelError, NoDepthInBoxError, UnregisteredDepthError
+from tricue.track.base.registry import names, traits
 from tricue.track.base.track import Tracker
 
-USUAL, IN_DEPTH = "fused", "depth-particle"  # trackers where none is chosen
+DEFAULT = "fused"  # where no tracker is chosen
 BOX, FACE = "give --box x,y,width,height", "--detect face"
 
 
-def usual_tracker(options: Namespace, source: Source) -> str:
+def default_tracker(options: Namespace, source: Source) -> str:
     """The tracker where none is chosen: the one of all channels, but where nothing tells on what to start and
     depth is there, the one that finds people in it.
     """
     told = options.box is not None or options.detect == "face"
     told = told or (options.detect is None and source.first_box is not None)
-    return IN_DEPTH if "depth" in source.channels and not told else USUAL
+    return in_depth() if "depth" in source.channels and not told else DEFAULT
+
+
+def in_depth() -> str:
+    """The tracker that finds people in depth by itself."""
+    return next(name for name in names() if traits(name).detects == "person")
 
 
 def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:
@@ -49,7 +55,7 @@ def advice(error: ValueError, source: Source, tracker: Tracker) -> str:
         return {
             "depth": "; ".join(("", "give its depth images with --depth FOLDER", *source.notes)),
             "right": "; give the right camera's images with --right PLACE",
-            "color": f"; --tracker {IN_DEPTH} tracks in depth",
+            "color": f"; --tracker {in_depth()} tracks in depth",
         }[error.channel]
     return ""
 

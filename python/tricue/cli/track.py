@@ -18,7 +18,7 @@ from tricue.cli.arguments import add_common, angles, box, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
-from tricue.cli.starts import BOX, IN_DEPTH, USUAL, advice, choose_start, usual_tracker
+from tricue.cli.starts import BOX, DEFAULT, advice, choose_start, default_tracker, in_depth
 from tricue.cli.steps import Clock, Start, steps, stoppable
 from tricue.data.open_source import Source, open_source
 from tricue.track.base.registry import names
@@ -52,8 +52,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--tracker",
         type=tracker_name,
         metavar="NAME",
-        help=f"{', '.join(names())} or module:Class; default {USUAL}, {IN_DEPTH} where there is depth and "
-        "nothing tells where to start",
+        help=f"{', '.join(names())} or module:Class; default {DEFAULT}, or {in_depth()} where there is "
+        "depth and nothing tells where to start",
     )
     start = command.add_mutually_exclusive_group()
     start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
@@ -170,7 +170,7 @@ def _prepare(options: argparse.Namespace) -> tuple[Run, list[str]]:
         fps=options.fps,
         right=options.right,
     )
-    options.tracker = options.tracker or usual_tracker(options, source)
+    options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None
     for place in (Path(options.input), right, options.calibration, options.params):
         _spare_the_input(place, (options.output, options.csv, options.json, options.plot))

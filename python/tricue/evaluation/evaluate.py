@@ -26,9 +26,11 @@ RUNS = "runs"  # the folder of finished runs in an evaluation's
 
 @dataclass(frozen=True)
 class Options:
-    """What is run. trackers: names of ours and of the baselines, None for all. settings: parameters that
-    aren't the defaults, by our trackers' names. seeds: runs of those that draw random numbers. restarts: whether
-    each is also run with restarts. reading: how the data set's files are read.
+    """What is run.
+
+    trackers: names of ours and of the baselines, None for all. settings: parameters that aren't the defaults,
+    by our trackers' names. seeds: runs of those that draw random numbers. restarts: whether each is also run
+    with restarts. reading: how the data set's files are read.
     """
 
     trackers: tuple[str, ...] | None = None

@@ -95,7 +95,9 @@ class TrackerSpec:
         absent = missing - frozenset(opened.channels)
         if "right" in absent:
             return "no stereo pair"
-        return f"no {', '.join(sorted(absent))}" if absent else "boxes of the depth image"
+        if absent:
+            return f"no {', '.join(sorted(absent))}"
+        return "boxes of the depth image" if "color" in missing else "depth not registered to color"
 
     def make(self, opened: Offer, seed: int) -> "SafeTracker":
         """The tracker for a sequence, with its cameras."""
