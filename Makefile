@@ -38,6 +38,7 @@ format: $(VENV)/dev
 
 stubs: $(VENV)/dev
 	$(BIN)/python tools/stubs.py
+	$(BIN)/python tools/tracker_table.py
 
 # The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
 # Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.

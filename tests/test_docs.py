@@ -5,6 +5,8 @@ import importlib
 import importlib.util
 import re
 import shlex
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -232,3 +234,10 @@ def test_every_command_is_described() -> None:
     """docs/command-line.md has a section for each command."""
     text = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     assert not [name for name in program.COMMANDS if f"## tricue {name}" not in text]
+
+
+def test_the_tables_of_trackers_are_their_traits() -> None:
+    """What README.md and docs/trackers.md say of the trackers is what the trackers say themselves."""
+    command = [sys.executable, ROOT / "tools" / "tracker_table.py", "--check"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -81,8 +81,8 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         channels=(Channels.of("color"),),
         random=True,
         shows=frozenset({"particles"}),
-        follows="colors by their ranks, through changes of brightness",
-        source="Sabeti et al. 2008",
+        follows="colors by their ranks, through changes of light",
+        source="Sabeti, Parvizi, Wu 2008",
     )
 
     def __init__(

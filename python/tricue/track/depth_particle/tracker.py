@@ -64,8 +64,8 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         detects="person",
         random=True,
         shows=frozenset({"particles", "objects"}),
-        follows="a segmented person, in metres",
-        source="Sabeti et al. 2008",
+        follows="a person, whom it finds by itself, in meters",
+        source="Sabeti, Parvizi, Wu 2008",
     )
 
     def __init__(

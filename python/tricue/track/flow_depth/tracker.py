@@ -62,7 +62,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FollowState]):
         camera=frozenset({"rig", "intrinsics"}),
         shows=frozenset({"mask", "blocks"}),
         follows="what moves and is as far away as the target; its pixels",
-        source="Okada et al. 1996",
+        source="Okada, Shirai, Miura 1996",
     )
 
     def __init__(

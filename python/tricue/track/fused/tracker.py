@@ -59,8 +59,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         ),
         camera=frozenset({"rig", "intrinsics"}),
         guesses=True,
-        follows="any target, by all cues that its frames have; in metres where depth is measured",
-        source="ours, of published parts",
+        follows="any target in a box, by every cue that the frames have",
+        source="ours, of [published parts](docs/fused.md#sources)",
     )
 
     def __init__(

@@ -52,7 +52,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         camera=frozenset({"rig"}),
         detects="face",
         disparity_range=("near", "far"),
-        follows="a head's colors at one disparity, in metres",
+        follows="a head, whose face it finds by itself, in meters",
         source="Moreno et al. 2002",
     )
 
