@@ -11,7 +11,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import baselines, metrics
-from tricue.scenes.stress_scene import Scene, everything
+from tricue.scenes.stress.scene import Scene, everything
 from tricue.track.base.track import Status
 
 SEES = ("color", "color and depth", "pair")

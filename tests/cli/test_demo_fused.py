@@ -6,10 +6,10 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Box, Frame, Status, Track
+from tricue.cli import main
 from tricue.cli.demos import fused
 from tricue.cli.outputs import Step
-from tricue.cli import main
-from tricue.scenes.stress_scene import everything
+from tricue.scenes.stress.scene import everything
 
 pytest.importorskip("matplotlib", reason="the plot needs matplotlib: pip install tricue[demo]")
 

@@ -22,7 +22,7 @@ from tricue.scenes import (
     photographs,
     walker,
 )
-from tricue.scenes.paste import ellipse_mask, expose, paste
+from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.track.depth_objects.objects import SLICES, Objects
 
 pytest.register_assert_rewrite("bad_input_cases")  # its asserts tell as much as a test's

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 
 from tricue.evaluation import baselines
 from tricue.evaluation.tracker_spec import Entrant
-from tricue.scenes.stress_scene import KINDS
+from tricue.scenes.stress.scene import KINDS
 from tricue.track.base.registry import tracker_class
 
 from benchmarks.quality.fused import robust, scene_runs, scenes

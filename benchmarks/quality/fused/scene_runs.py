@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.one_pass import Run
-from tricue.scenes.stress_scene import Scene, everything
+from tricue.scenes.stress.scene import Scene, everything
 from tricue.track.base.track import Status
 
 from benchmarks.quality.fused.status_metrics import GOOD, Array, Flags, Said

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
-from tricue.scenes.stress_scene import CHANNELS, KINDS
+from tricue.scenes.stress.scene import CHANNELS, KINDS
 
 from benchmarks.quality.fused.options import Cell, markdown, mean, parser, performed, seeds, write_csv
 from benchmarks.quality.fused.scene_runs import Followed, Task, perform

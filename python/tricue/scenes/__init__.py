@@ -6,12 +6,12 @@ people before a depth camera, and those in stereo, of a head or of walkers befor
 NumPy and OpenCV.
 """
 
-from tricue.scenes.clutter import face_over_clutter
-from tricue.scenes.heads import KINDS, head
-from tricue.scenes.light import light_change
-from tricue.scenes.overtakings import OVERTAKINGS, overtaking
-from tricue.scenes.people import crossing, walker
-from tricue.scenes.photographs import BACKGROUNDS
+from tricue.scenes.faces.clutter import face_over_clutter
+from tricue.scenes.faces.light_change import light_change
+from tricue.scenes.heads.head import KINDS, head
+from tricue.scenes.overtakings.overtaking import OVERTAKINGS, overtaking
+from tricue.scenes.people.walkers import crossing, walker
+from tricue.scenes.rendering.photographs import BACKGROUNDS
 from tricue.scenes.scene import Bystander, DepthScene, Events, Scene, StereoScene, WalkScene
 
 __all__ = [

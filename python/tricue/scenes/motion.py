@@ -2,9 +2,8 @@
 """Paths along which a target moves, and steps by which its brightness changes."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from tricue.scenes.arrays import Array
 
 
 def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
@@ -45,3 +44,10 @@ def steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Arr
         gains[start:] = low + (share % 1.0) * (high - low)
         start += int(rng.integers(10, 21))
     return gains
+
+
+def sway(time: Array, shortest: float, longest: float, rng: np.random.Generator) -> Array:
+    """A smooth curve (M,) within [-1, 1] with periods in this range, seconds."""
+    periods, phases = rng.uniform(shortest, longest, 2), rng.uniform(0, 2 * np.pi, 2)
+    waves: Array = np.sin(2 * np.pi * time[:, None] / periods + phases) @ [0.65, 0.35]
+    return waves

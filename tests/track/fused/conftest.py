@@ -21,7 +21,7 @@ ALONE = ("leaving", "lookalike")  # kinds that are drawn without a right image, 
 def drawn() -> Callable[..., object]:
     """A scene by its kind, seed and channels; "stereo" knows the rig, and all have the same truth."""
     pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
-    from tricue.scenes.stress_scene import everything
+    from tricue.scenes.stress.scene import everything
 
     draw = cache(lambda kind, seed, channels: everything(kind, seed, channels=channels))
 

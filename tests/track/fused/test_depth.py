@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, FusedTracker, Intrinsics, Status, Track
-from tricue.scenes.stress_scene import Scene
+from tricue.scenes.stress.scene import Scene
 
 CHANNELS = ("rgbd", "pair", "depth")
 SLOW = {"rgbd": 0.02, "pair": 0.04, "depth": 0.02}  # of the distance, bound of the median error

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Intrinsics, Status, StereoHeadTracker, StereoRig, Track
-from tricue.scenes import StereoScene, photographs
+from tricue.scenes import StereoScene
+from tricue.scenes.rendering import photographs
 from tricue.track.stereo_head import tracker as stereo_head
 
 Floats = NDArray[np.float64]

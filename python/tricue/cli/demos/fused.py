@@ -14,7 +14,7 @@ from tricue.cli.demos.metric import Floats, Result, follow_all
 from tricue.cli.outputs import Step
 from tricue.cli.steps import steps
 from tricue.draw.overlays import Image, OverlayWriter, depth_overlay, overlay
-from tricue.scenes.stress_scene import Scene, everything
+from tricue.scenes.stress.scene import Scene, everything
 from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 

@@ -14,7 +14,7 @@ from tricue.draw.overlays import OverlayWriter
 from tricue.evaluation import metrics
 from tricue.papers.depth_curves import HALF, HIDDEN
 from tricue.scenes import DepthScene, StereoScene, WalkScene
-from tricue.scenes.stress_scene import Scene
+from tricue.scenes.stress.scene import Scene
 from tricue.track.base.track import Status, Track
 
 Floats = NDArray[np.float64]

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""A face over clutter: the test bench of figure 1 of Sabeti, Parvizi and Wu (2008), section V."""
+
+import numpy as np
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.scenes import motion
+from tricue.scenes.rendering import photographs
+from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
+from tricue.scenes.scene import Scene
+
+HEIGHT, WIDTH = 240, 320
+FACE_HEIGHT, FACE_WIDTH = 63, 50
+
+
+def face_over_clutter(
+    seed: int = 0,
+    frames: int = 90,
+    background: str = "coffee",
+    *,
+    max_speed: float = 16.0,
+    brightness: tuple[float, float] = (0.45, 1.3),
+    noise: float = 2.0,
+) -> Scene:
+    """A face of 50x63 pixels runs over clutter, 320x240, and its brightness changes several times.
+
+    The seed decides the window of the background (one of BACKGROUNDS), the path, the moments and sizes of the
+    brightness steps, and the noise (standard deviation in levels of 255). ``max_speed`` is in pixels a frame;
+    the face's levels are multiplied by a gain within ``brightness``, 1 at first.
+    """
+    if not 0 <= brightness[0] < brightness[1] < np.inf:
+        raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")
+    rng = np.random.default_rng(seed)
+    clutter = photographs.background(background, HEIGHT, WIDTH, rng).astype(np.float32)
+    portrait = photographs.crop(photographs.photograph("astronaut"), photographs.FACE)
+    face = photographs.resize(portrait, FACE_HEIGHT, FACE_WIDTH).astype(np.float32)
+    opacity = ellipse_mask(FACE_HEIGHT, FACE_WIDTH, edge=2.0)
+    room = np.array([WIDTH - FACE_WIDTH, HEIGHT - FACE_HEIGHT]) / 2
+    corners = room + motion.wander(frames, (room[0], room[1]), max_speed, rng)
+    gains = motion.steps(frames, *brightness, rng)
+    images = (paste(clutter, face * gain, opacity, x, y) for gain, (x, y) in zip(gains, corners, strict=True))
+    return Scene(
+        name=f"face over {background}, seed {seed}",
+        frames=tuple(Frame(color=expose(image, noise, rng)) for image in images),
+        boxes=tuple(Box(x, y, FACE_WIDTH, FACE_HEIGHT) for x, y in corners.tolist()),
+        changes=tuple((np.flatnonzero(np.diff(gains)) + 1).tolist()),
+    )

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""An abrupt change of light, as on the driver's face in figure 2 of Sabeti, Parvizi and Wu (2008)."""
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.scenes import motion
+from tricue.scenes.arrays import Picture
+from tricue.scenes.rendering import photographs
+from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
+from tricue.scenes.scene import Scene
+
+ZOOM = 0.625  # of the picture's upper 512x384 to 320x240
+REACH = (40.0, 10.0)  # pixels that the head moves to each side, up and down
+
+
+class Light(NamedTuple):
+    """A mapping of each channel's levels in [0, 1], ``gain * level ** gamma``: increasing, so order stays."""
+
+    gain: NDArray[np.float32]
+    gamma: NDArray[np.float32]
+
+    def __call__(self, picture: Picture) -> Picture:
+        return np.asarray(255 * self.gain * (picture / 255) ** self.gamma, dtype=np.float32)
+
+
+def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noise: float = 2.0) -> Scene:
+    """A head moves before a static cabin, 320x240, and twice the light on all of it changes at once.
+
+    Each channel has its own curve in each light, so that the colors shift. The seed decides the path
+    (``max_speed`` in pixels a frame), the curves, and the noise (standard deviation in levels of 255); the
+    light changes after a third and two thirds of the sequence. The target is the face, about 61x77 pixels.
+    """
+    rng = np.random.default_rng(seed)
+    cabin, head, corner, face = _cabin_and_head()
+    opacity = ellipse_mask(head.shape[0], head.shape[1], edge=6.0)
+    offsets = motion.wander(frames, REACH, max_speed, rng)
+    changes = frames // 3, 2 * frames // 3
+    lights = [_daylight(), _warm(rng), _cold(rng)]
+    images = (
+        lights[np.searchsorted(changes, index, side="right")](paste(cabin, head, opacity, *(corner + offset)))
+        for index, offset in enumerate(offsets)
+    )
+    return Scene(
+        name=f"light change, seed {seed}",
+        frames=tuple(Frame(color=expose(image, noise, rng)) for image in images),
+        boxes=tuple(face._replace(x=face.x + x, y=face.y + y) for x, y in offsets.tolist()),
+        changes=changes,
+    )
+
+
+def _cabin_and_head() -> tuple[Picture, Picture, NDArray[np.float64], Box]:
+    """The cabin with the head painted over, the head cut out, its top-left corner, and the face's box."""
+    picture = photographs.photograph("astronaut")
+    cabin = photographs.resize(picture[:384], 240, 320)
+    head, face = (np.array(box) * ZOOM for box in (photographs.HEAD, photographs.FACE))
+    cutout = photographs.resize(photographs.crop(picture, photographs.HEAD), round(head[3]), round(head[2]))
+    hole = np.zeros(cabin.shape[:2], dtype=np.uint8)
+    x, y, width, height = head.astype(int)
+    hole[y : y + height, x : x + width] = 1
+    empty = cv2.inpaint(cabin, hole, 3, cv2.INPAINT_TELEA)
+    return empty.astype(np.float32), cutout.astype(np.float32), head[:2], Box(*face.tolist())
+
+
+def _daylight() -> Light:
+    return Light(np.ones(3, dtype=np.float32), np.ones(3, dtype=np.float32))
+
+
+def _warm(rng: np.random.Generator) -> Light:
+    """Direct low sun: red rises most, blue falls."""
+    return _varied([0.75, 1.05, 1.2], [1.3, 0.9, 0.6], rng)
+
+
+def _cold(rng: np.random.Generator) -> Light:
+    """Shadow: everything darker, red most."""
+    return _varied([0.75, 0.6, 0.45], [0.9, 1.1, 1.4], rng)
+
+
+def _varied(gain: list[float], gamma: list[float], rng: np.random.Generator) -> Light:
+    factors = rng.uniform(0.9, 1.1, (2, 3))
+    return Light(np.float32(gain * factors[0]), np.float32(gamma * factors[1]))

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: MIT
+"""How a head moves before a stereo pair, how the light changes meanwhile, and how a hand hides it."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.scenes import motion
+from tricue.scenes.arrays import Array
+from tricue.scenes.motion import sway
+
+RATE = 30.0  # frames a second
+SPEEDS = 0.7, 1.4  # metres a second of a walk's straight stretches
+STRIDE = 0.7  # metres a step
+RAMP, DARKEST = 100, 0.5  # frames that the ramp takes, and the light after it
+SLIDE = 6  # frames that a hand takes to come, and to leave
+AWAY = 0.6  # metres along the forearm from where it comes; outside the image
+
+
+class Range(NamedTuple):
+    """Where the head's centre may be: depths, and the image's half angles of view as slopes."""
+
+    near: float  # metres
+    far: float
+    side: float  # tangents
+    up: float
+    baseline: float  # metres; the right camera has to see the head too
+
+
+class Moves(NamedTuple):
+    """Per frame, M of them. Angles in radians; at 0 the face looks along -z, at the cameras."""
+
+    center: Array  # (M, 3) of the head, metres, left camera's frame
+    yaw: Array  # (M,)
+    pitch: Array
+    roll: Array
+    body: Array  # the body's yaw
+    gait: Array  # phase of the stride
+    swing: Array  # of the legs
+
+
+class Hand(NamedTuple):
+    """A hand before the head, per frame."""
+
+    share: float  # its depth as a share of the head's
+    away: Array  # (M,) how far it still is from the line of sight to the head, metres along the forearm
+    tilt: float  # of the forearm from the vertical
+
+
+def walk(frames: int, room: Range, turning: bool, rng: np.random.Generator) -> Moves:
+    """A smooth walk in x, y and z at one of SPEEDS; the head looks about, or turns round wholly."""
+    time = np.arange(frames) / RATE
+    center = _path(time, room, rng)
+    turn = _turns(time, rng) if turning else np.zeros(frames)
+    yaw, pitch, roll = (
+        np.radians(largest) * sway(time, 1.5, 4.0, rng) for largest in (12 if turning else 28, 9, 7)
+    )
+    step = np.hypot(*np.diff(center[:, [0, 2]], axis=0, prepend=center[:1, [0, 2]]).T)
+    swing = 0.35 * np.clip(step * RATE / 1.2, 0, 1)
+    return Moves(center, yaw + turn, pitch, roll, 0.4 * yaw + turn, np.pi * np.cumsum(step) / STRIDE, swing)
+
+
+def smooth_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
+    """A gain (M,) that swings smoothly between 1 - reach and 1 + reach, both reached in a second or three."""
+    curve = sway(np.arange(frames) / RATE, 1.5, 4.0, rng)
+    low, high = float(curve.min()), float(curve.max())
+    share = (curve - low) / (high - low) if high > low else np.full(frames, 0.5)
+    return 1 + reach * (2 * share - 1)
+
+
+def jumping_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
+    """A gain (M,) that changes at once every 10 to 20 frames, within 1 - reach and 1 + reach; 1 at first."""
+    return motion.steps(frames, 1 - reach, 1 + reach, rng) if reach else np.ones(frames)
+
+
+def ramp_light(frames: int) -> Array:
+    """A gain (M,) that falls evenly from 1 to 0.5 within the first 100 frames."""
+    share: Array = np.minimum(np.arange(frames) / (RAMP - 1), 1)
+    return 1 + share * (DARKEST - 1)
+
+
+def tint(frames: int, rng: np.random.Generator) -> Array:
+    """The light's color (M, 3): factors within some percent of 1 that drift slowly."""
+    time = np.arange(frames) / RATE
+    return np.exp(0.04 * np.stack([sway(time, 3.0, 8.0, rng) for _ in range(3)], axis=1))
+
+
+def cover(frames: int, rng: np.random.Generator) -> Hand:
+    """A hand that comes about the middle, covers the head for 10 to 16 frames, and leaves."""
+    held = int(rng.integers(10, 17))
+    start = max(round(frames * rng.uniform(0.32, 0.45)), 1)
+    early, late = start - np.arange(frames), np.arange(frames) - (start + held - 1)
+    share = np.clip(np.maximum(early, late) / SLIDE, 0, 1)
+    return Hand(rng.uniform(0.38, 0.44), AWAY * _ease(share), np.radians(rng.uniform(-35, 35)))
+
+
+def _path(time: Array, room: Range, rng: np.random.Generator) -> Array:
+    """The centre (M, 3): sums of sines in depth and to the sides, at a walker's pace."""
+    nearest = room.near + 0.35 * (room.far - room.near) * rng.random() ** 2
+    farthest = room.far - 0.4 * (room.far - nearest) * rng.random() ** 2
+    phases, turns = rng.uniform(0, 2 * np.pi, 4), rng.uniform(0.8, 2.0, 2) * [1.0, 2.0]
+
+    def curve(angle: Array) -> Array:
+        depth = 0.8 * np.sin(angle + phases[0]) + 0.2 * np.sin(2 * angle + phases[1])
+        z = nearest + (farthest - nearest) * (1 + depth) / 2
+        reach = np.maximum(room.side * z - 0.15 - room.baseline / 2, 0)
+        aside = 0.7 * np.sin(turns[0] * angle + phases[2]) + 0.3 * np.sin(turns[1] * angle + phases[3])
+        return np.stack([room.baseline / 2 + aside * reach, z], axis=1)
+
+    x, z = curve(_pace(curve, time, rng.uniform(*SPEEDS))).T
+    highest = np.minimum(room.up * z - 0.17, 0.22).clip(0)
+    y = highest * (0.35 * rng.uniform(-1, 1) + 0.65 * sway(time, 1.2, 4.0, rng))
+    return np.stack([x, y, z], axis=1)
+
+
+def _pace(curve: Callable[[Array], Array], time: Array, speed: float) -> Array:
+    """The angles (M,) at which a walker is on a curve: at a speed in m/s on long stretches, slower in turns.
+
+    A step is at most speed / RATE metres long.
+    """
+    dense = np.linspace(0, 2 * np.pi, 2001)
+    walked, step = [0.0], dense[1]
+    angles = [0.0]
+    while walked[-1] < time[-1]:
+        metres = np.hypot(*np.diff(curve(angles[-1] + dense), axis=0).T) / step  # a radian
+        seconds = np.hypot(metres, 0.35 * metres.max()) * step / speed
+        walked += (walked[-1] + np.cumsum(seconds)).tolist()
+        angles += (angles[-1] + dense[1:]).tolist()
+    return np.interp(time, walked, angles)
+
+
+def _turns(time: Array, rng: np.random.Generator) -> Array:
+    """Yaw of who turns the back, stays so for a moment, and comes round or back again; over and over."""
+    moments, angles, sense = [0.0], [0.0], rng.choice([-1, 1])
+    while moments[-1] <= time[-1]:
+        pause, away, back, home = rng.uniform([0.3, 0.7, 0.3, 0.7], [0.6, 1.1, 0.7, 1.1]).tolist()
+        full = angles[-1] + sense * 2 * np.pi if rng.random() < 0.5 else angles[-1]
+        moments += (moments[-1] + np.cumsum([pause, away, back, home])).tolist()
+        angles += [angles[-1], angles[-1] + sense * np.pi, angles[-1] + sense * np.pi, full]
+    index = np.searchsorted(moments, time, side="right") - 1
+    start, stop = np.array(moments)[index], np.array(moments)[index + 1]
+    share = _ease((time - start) / (stop - start))
+    knots = np.array(angles)
+    return np.asarray(knots[index] + share * (knots[index + 1] - knots[index]))
+
+
+def _ease(share: Array) -> Array:
+    """From 0 to 1, starting and ending at rest."""
+    return share**2 * (3 - 2 * share)

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""The truth about each pixel of a scene with walkers: who is there, how far, and where it was before."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Generic, NamedTuple, TypeVar, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.scenes.arrays import Array, Mask
+from tricue.scenes.overtakings.hall import Hall
+from tricue.scenes.overtakings.pan import Pan
+from tricue.scenes.people.pedestrian import Pedestrian
+from tricue.scenes.rendering import zbuffer
+from tricue.scenes.rendering.depth_view import View
+from tricue.scenes.rendering.ellipsoids import Balls, Ellipsoids
+from tricue.scenes.rendering.stereo_camera import Eye
+from tricue.scenes.scene import Bystander
+
+T = TypeVar("T")
+
+
+class Lazy(Sequence[T], Generic[T]):
+    """A sequence whose items are made when they are asked for, and not kept."""
+
+    def __init__(self, count: int, make: Callable[[int], T]) -> None:
+        self._count, self._make = count, make
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, index: int) -> T: ...
+    @overload
+    def __getitem__(self, index: slice) -> "Lazy[T]": ...
+    def __getitem__(self, index: int | slice) -> "T | Lazy[T]":
+        chosen = range(self._count)[index]
+        if isinstance(chosen, range):
+            return Lazy(len(chosen), lambda i: self._make(chosen[i]))
+        return self._make(chosen)
+
+    def __iter__(self) -> Iterator[T]:
+        return map(self._make, range(self._count))
+
+
+class Sight(NamedTuple):
+    """The people in one frame, as the left camera sees them."""
+
+    target: Bystander
+    others: tuple[Bystander, Bystander]
+    mask: Mask  # (H, W), the target's visible pixels
+    visible_box: Box | None  # round the mask
+    visible: float  # share of the target's pixels that are in the mask
+
+
+class Truth(NamedTuple):
+    """The geometry of all frames; the first pedestrian is the target."""
+
+    pan: Pan
+    hall: Hall
+    people: list[Pedestrian]
+
+    def sight(self, index: int) -> Sight:
+        """Where the people are in a frame, and what is seen of the target."""
+        bodies = [self._parts(index, person).ellipsoids for person in self.people]
+        windows = [self._view.cast(body) for body in bodies]
+        target, overtaker, standing = (
+            Bystander(self._view.box(body), self._view.points(window).mean(axis=0))
+            for body, window in zip(bodies, windows, strict=True)
+        )
+        nearest = np.full(self._shape, np.inf)
+        for window in windows:
+            zbuffer.lay(window, nearest)
+        mask, visible = zbuffer.seen(windows[0], nearest)
+        return Sight(target, (overtaker, standing), mask, zbuffer.box_round(mask), visible)
+
+    def depth(self, index: int) -> Array:
+        """What is at each pixel's centre, (H, W) metres along z."""
+        return self._seen(index)[0]
+
+    def disparity(self, index: int) -> NDArray[np.float32]:
+        """(H, W) pixels, of the left image."""
+        rig = self.pan.rig
+        return (rig.intrinsics.fx * rig.baseline / self.depth(index)).astype(np.float32)
+
+    def flow(self, index: int) -> NDArray[np.float32]:
+        """(H, W, 2) pixels along x and y by which what is at each pixel has moved since the frame before."""
+        if index == 0:
+            return np.full((*self._shape, 2), np.nan, np.float32)
+        depth, owner = self._seen(index)
+        now, before = self.pan.to_camera(index), self.pan.to_camera(index - 1)
+        moves = [np.column_stack([before @ now.T, np.zeros(3)])]
+        for person in self.people:
+            was, is_ = self._parts(index - 1, person), self._parts(index, person)
+            turn = was.roots @ np.linalg.inv(is_.roots)
+            offset = was.centers[:, :, None] - turn @ is_.centers[:, :, None]
+            moves += list(np.concatenate([turn, offset], axis=2))
+        v, u = np.indices(self._shape)
+        points = self.pan.rig.intrinsics.back_project(u, v, depth)
+        move = np.stack(moves)[owner]
+        earlier = (move[..., :3] @ points[..., None])[..., 0] + move[..., 3]
+        return (np.stack([u, v], axis=-1) - self.pan.rig.intrinsics.project(earlier)).astype(np.float32)
+
+    def _seen(self, index: int) -> tuple[Array, NDArray[np.intp]]:
+        """Depth (H, W), and whose part is there: 0 for the hall, then all people's parts in order."""
+        eye = Eye(self.pan.rig.intrinsics, 0.0, 1)
+        depth = self.hall.draw(eye, self.pan.to_camera(index)).depth.astype(np.float64)
+        owner = np.zeros(self._shape, np.intp)
+        number = 0
+        for person in self.people:
+            for part in zip(*self._parts(index, person).ellipsoids, strict=True):
+                number += 1
+                window = self._view.cast(Ellipsoids(*(array[None] for array in part)))
+                place, nearer = zbuffer.lay(window, depth)
+                owner[place][nearer] = number
+        return depth, owner
+
+    def _parts(self, index: int, person: Pedestrian) -> Balls:
+        return person.parts[index].moved(self.pan.to_camera(index), np.zeros(3))
+
+    @property
+    def _view(self) -> View:
+        return View(self.pan.rig.intrinsics, self.pan.height, 0.0)
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return self.pan.rig.intrinsics.height, self.pan.rig.intrinsics.width

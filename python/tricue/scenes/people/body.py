@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: MIT
+"""A body made of ellipsoids: a few numbers bend its joints, and its outline and its depth stay exact.
+
+Body frame: x to the person's right, y down, z where the person faces, metres; the origin lies on the floor.
+Lengths are the shares of the height of Drillis and Contini (1966), as in figure 4.1 of Winter,
+"Biomechanics and Motor Control of Human Movement"; thicknesses are our own estimates.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.scenes.arrays import Array
+from tricue.scenes.rendering.ellipsoids import Balls, Ellipsoids
+
+# Shares of the height: joints above the floor and beside the middle, then lengths between joints.
+ANKLE, HIP, SHOULDER = 0.039, 0.530, 0.818
+HIP_SIDE, SHOULDER_SIDE = 0.050, 0.112
+THIGH, SHANK, UPPER_ARM, FOREARM, HAND = 0.245, 0.246, 0.186, 0.146, 0.108
+# Trunk and head upright, in shares of the height: height of the centre, semi-axes along x, y, z.
+TRUNK = {
+    "pelvis": (0.545, 0.094, 0.080, 0.066),
+    "waist": (0.630, 0.082, 0.090, 0.058),
+    "chest": (0.730, 0.098, 0.105, 0.068),
+    "shoulders": (0.795, 0.122, 0.036, 0.045),
+    "neck": (0.855, 0.034, 0.050, 0.034),
+    "head": (0.932, 0.045, 0.068, 0.056),
+}
+SLIM = ("neck", "head")  # they don't grow with the build
+
+
+class Person(NamedTuple):
+    """What doesn't change in a person."""
+
+    height: float  # metres
+    build: float  # breadth and thickness, 1 for the average
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, shortest: float = 1.55) -> "Person":
+        """A random adult, 1.55 (or ``shortest``) to 1.95 m tall."""
+        return cls(rng.uniform(shortest, 1.95), rng.uniform(0.9, 1.15))
+
+
+class Pose(NamedTuple):
+    """How the joints are bent; the default stands at ease."""
+
+    gait: float = 0.0  # phase of the stride, radians; 2 pi is two steps
+    swing: float = 0.0  # how far the legs swing to each side, radians
+    crouch: float = 0.0  # 0 upright, 1 squatting
+    arms: float = 0.0  # 0 hanging, 1 raised over the head
+
+
+def body(person: Person, pose: Pose) -> Ellipsoids:
+    """The ellipsoids of a person in a pose, in the body frame; its lowest point touches the floor, y = 0."""
+    return balls(person, pose).ellipsoids
+
+
+def balls(person: Person, pose: Pose) -> Balls:
+    """The same with the place of each point in its ellipsoid; a limb's -y is towards the trunk."""
+    lean = 0.6 * pose.crouch + 0.06 * min(pose.swing, 1.0)
+    parts = [*_trunk(person.build, lean)]
+    for side in (-1.0, 1.0):
+        parts += [*_leg(side, person.build, pose), *_arm(side, person.build, lean, pose)]
+    centers, roots = (np.stack(arrays) * person.height for arrays in zip(*parts, strict=True))
+    centers[:, 1] -= (centers[:, 1] + np.linalg.norm(roots[:, 1], axis=1)).max()
+    return Balls(centers, roots)
+
+
+def stand(person: Person, pose: Pose, x: float, z: float, yaw: float, floor: float) -> Ellipsoids:
+    """A person's body on the floor of a level frame (x right, y down, z forward), at (x, floor, z).
+
+    yaw: where the person faces, radians: 0 along z, pi / 2 along x.
+    """
+    return body(person, pose).moved(about_y(yaw), np.array([x, floor, z]))
+
+
+def about_y(yaw: float) -> Array:
+    """The rotation that turns z towards x, radians."""
+    return np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
+
+
+_Part = tuple[Array, Array]  # a centre (3,) and a root (3, 3), in shares of the height
+
+
+def _trunk(build: float, lean: float) -> list[_Part]:
+    """Pelvis to head, bent forward by ``lean`` at the hip; the head bends back, so that it looks ahead."""
+    parts = []
+    for name, (up, *axes) in TRUNK.items():
+        wide = 1.0 if name in SLIM else build
+        tilt = _tilt(lean if name not in SLIM else 0.3 * lean)
+        parts.append((_on_trunk(0.0, up, lean), tilt * [axes[0] * wide, axes[1], axes[2] * wide]))
+    return parts
+
+
+def _leg(side: float, build: float, pose: Pose) -> list[_Part]:
+    """Thigh, shank and foot of the left (-1) or right (1) leg."""
+    phase = pose.gait + (math.pi if side < 0 else 0.0)
+    # The knee bends most while the leg swings forward under the hip.
+    knee = pose.swing * (0.15 + 1.6 * max(0.0, math.cos(phase)) ** 2) + 2.2 * pose.crouch
+    forward = pose.swing * math.sin(phase) + 1.45 * pose.crouch
+    hip = np.array([side * HIP_SIDE, -HIP, 0.0])
+    joint = hip + THIGH * _direction(0.0, forward)
+    ankle = joint + SHANK * _direction(0.0, forward - knee)
+    # The sole turns with the shank, but only half as far.
+    sole = _tilt(0.5 * (knee - forward)) if not pose.crouch else np.eye(3)
+    foot = ankle + sole @ np.array([0.0, ANKLE - 0.022, 0.044])
+    return [
+        _limb(hip, joint, 0.050 * build, 0.10),
+        _limb(joint, ankle, 0.033 * build, 0.10),
+        (foot, sole * [0.028, 0.022, 0.076]),
+    ]
+
+
+def _arm(side: float, build: float, lean: float, pose: Pose) -> list[_Part]:
+    """Upper arm, forearm and hand; they swing against the legs."""
+    swing = -0.8 * pose.swing * math.sin(pose.gait + (math.pi if side < 0 else 0.0)) + 0.8 * pose.crouch
+    out = 0.13 + 2.5 * pose.arms
+    shoulder = _on_trunk(side * SHOULDER_SIDE * build, SHOULDER - 0.015, lean)
+    elbow = shoulder + UPPER_ARM * _direction(side * out, swing)
+    along = _direction(side * (out - 0.08 + 0.3 * pose.arms), swing + 0.25 + 0.5 * pose.crouch)
+    wrist = elbow + FOREARM * along
+    return [
+        _limb(shoulder, elbow, 0.029 * build, 0.12),
+        _limb(elbow, wrist, 0.023 * build, 0.12),
+        _limb(wrist, wrist + 0.8 * HAND * along, 0.020, 0.10),
+    ]
+
+
+def _on_trunk(x: float, up: float, lean: float) -> Array:
+    """A point of the upright trunk, ``up`` above the floor, after the trunk has bent at the hip."""
+    bent: Array = np.array([x, -HIP, 0.0]) + _tilt(lean) @ np.array([0.0, HIP - up, 0.0])
+    return bent
+
+
+def _tilt(angle: float) -> Array:
+    """The rotation about x that bends what stands upright forward."""
+    return np.array(
+        [[1, 0, 0], [0, math.cos(angle), math.sin(angle)], [0, -math.sin(angle), math.cos(angle)]]
+    )
+
+
+def _direction(out: float, forward: float) -> Array:
+    """Straight down, turned sideways by ``out`` (right is positive) and then ``forward``, radians."""
+    return np.array([math.sin(out), math.cos(out) * math.cos(forward), math.cos(out) * math.sin(forward)])
+
+
+def _limb(start: Array, end: Array, radius: float, over: float) -> _Part:
+    """A long ellipsoid between two joints that reaches past each by the share ``over`` of its length."""
+    length = float(np.linalg.norm(end - start))
+    axis = (end - start) / length
+    return (start + end) / 2, _along(axis) * [radius, length * (0.5 + over), radius]
+
+
+def _along(axis: Array) -> Array:
+    """The least rotation that takes y to a unit vector, which isn't -y (Rodrigues' formula)."""
+    x, y, z = axis.tolist()
+    cross = np.array([[0, x, 0], [-x, 0, -z], [0, z, 0]])  # of y and the axis
+    return np.asarray(np.eye(3) + cross + cross @ cross / (1 + y))

@@ -1,0 +1,227 @@
+# SPDX-License-Identifier: MIT
+"""People before a depth camera: the scenes of figures 5 to 7 of Sabeti, Parvizi and Wu (2008), section V."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.camera.numbers import finite, positive_whole
+from tricue.scenes.arrays import Array
+from tricue.scenes.people import walks
+from tricue.scenes.people.body import Person, Pose, stand
+from tricue.scenes.people.walks import Floor
+from tricue.scenes.rendering import zbuffer
+from tricue.scenes.rendering.depth_room import Room
+from tricue.scenes.rendering.depth_sensor import CAMERAS, DepthCamera
+from tricue.scenes.rendering.depth_view import View, Window
+from tricue.scenes.rendering.ellipsoids import Ellipsoids
+from tricue.scenes.scene import Bystander, DepthScene
+
+NEAREST = {"tof": 2.4, "rgbd": 2.0}  # metres at which a body still fits into the image
+FARTHEST = 6.2  # metres; wholly within the range of both cameras
+CHANGING = 1.2  # metres a second at which a hidden target changes its depth
+LARGEST_CHANGE = 1.3  # metres
+HIDDEN = 0.6  # share of a sweep that the target is hidden at most
+TO_HIDE = 0.4  # seconds until the target is covered, and until it comes free again
+
+
+def walker(
+    seed: int = 0, frames: int = 90, camera: str = "tof", *, missing: float = 0.03, noise: float = 1.0
+) -> DepthScene:
+    """One person walks a loop through a room, nearer and away again, and crouches, raises the arms and turns.
+
+    camera: "tof", 176x144 pixels at 15 frames/s, or "rgbd", 640x480 at 30 frames/s; see CAMERAS.
+    missing: share of the pixels within range that come without a depth, 0 to 1.
+    noise: multiplies the sensor's noise; at 0 the time-of-flight depths are exact, the RGB-D ones quantised.
+
+    The seed decides the person, the path, the gestures, the room, its clutter, the camera's height and pitch,
+    and the noise. Nothing hides the person, who is in the range and mostly in the image in all frames.
+    """
+    _check(frames, camera, missing, noise)
+    rng = np.random.default_rng(seed)
+    stage = _stage(camera, rng)
+    person, rate = Person.draw(rng), stage.sensor.rate
+    gestures = walks.gestures(frames, rate, rng)
+    path = walks.loop(stage.floor, gestures.crouch, rate, rng)
+    poses = walks.poses(person, path, rate, gestures)
+    actor = _Actor(person, path, walks.headings(path, rate) + gestures.turn, poses)
+    return _film(f"walker, {camera}, seed {seed}", stage, [actor], _Flaws(missing, noise), rng)
+
+
+def crossing(
+    seed: int = 0,
+    frames: int = 90,
+    camera: str = "tof",
+    *,
+    depth_change: float = 0.0,
+    missing: float = 0.03,
+    noise: float = 1.0,
+) -> DepthScene:
+    """Somebody nearer crosses in front of the target, hides it for some frames half way, and walks on.
+
+    The target comes ``depth_change`` metres farther (at most 1.3 either way; below 0 nearer) while it is
+    hidden, which then lasts longer. In half of the seeds a third person passes behind. They turn round and
+    cross again every six seconds; about two seconds (30 frames "tof", 60 "rgbd") are the least to see all of
+    it. The other arguments are those of :func:`walker`.
+    """
+    _check(frames, camera, missing, noise)
+    rng = np.random.default_rng(seed)
+    stage = _stage(camera, rng)
+    rate = stage.sensor.rate
+    time = walks.sweeps(frames, rate)
+    _check_depth_change(depth_change, float(np.ptp(time)))
+    target = Person.draw(rng)
+    # Whoever is no shorter and nearer hides the head too: the camera is below it.
+    people = [target, Person.draw(rng, shortest=target.height)]
+    paths = [*_crossing_paths(stage, time, depth_change, rng)]
+    if rng.random() < 0.5:
+        people.append(Person.draw(rng))
+        paths.append(_path_behind(stage, time, paths[0], rng))
+    # Who stops in front turns to the camera, broad enough to hide somebody who turns, too.
+    looks = [None, np.abs(time) < _hiding(depth_change, time) / 2, None]
+    actors = [
+        _Actor(person, path, walks.headings(path, rate, look), walks.poses(person, path, rate))
+        for person, path, look in zip(people, paths, looks, strict=False)
+    ]
+    return _film(f"crossing, {camera}, seed {seed}", stage, actors, _Flaws(missing, noise), rng)
+
+
+class _Stage(NamedTuple):
+    """The camera in its place, the bare room and where in it people walk."""
+
+    sensor: DepthCamera
+    view: View
+    room: Room
+    floor: Floor
+
+
+class _Actor(NamedTuple):
+    """A person's way through the scene."""
+
+    person: Person
+    path: Array  # (M, 2) x and z, metres, level frame
+    facing: Array  # (M,) radians
+    poses: list[Pose]
+
+    def body(self, index: int, view: View) -> Ellipsoids:
+        """In the camera frame."""
+        x, z = self.path[index].tolist()
+        level = stand(self.person, self.poses[index], x, z, float(self.facing[index]), view.height)
+        return level.moved(view.rotation, np.zeros(3))
+
+
+class _Flaws(NamedTuple):
+    missing: float
+    noise: float
+
+
+class _Sight(NamedTuple):
+    """One person in one frame, as if alone."""
+
+    box: Box
+    position: Array
+    window: Window
+
+
+def _stage(camera: str, rng: np.random.Generator) -> _Stage:
+    """A room and a camera that sees a whole body at NEAREST, looking down on it a little."""
+    sensor, near = CAMERAS[camera], NEAREST[camera]
+    height, wall, side = rng.uniform([1.0, 6.8, 3.1], [1.6, 10.0, 4.2]).tolist()
+    # The middle of the angles to the floor and to a head at 1.75 m.
+    pitch = (math.atan2(height, near) + math.atan2(height - 1.75, near)) / 2 + math.radians(
+        rng.uniform(-1, 1)
+    )
+    slope = sensor.intrinsics.width / 2 / sensor.intrinsics.fx
+    floor = Floor(near, min(FARTHEST, wall - 1.0), slope, side + walks.BODY - walks.ARMS)
+    return _Stage(sensor, View(sensor.intrinsics, height, pitch), Room(wall, side, 2.6), floor)
+
+
+def _crossing_paths(
+    stage: _Stage, time: Array, depth_change: float, rng: np.random.Generator
+) -> tuple[Array, Array]:
+    """The paths (M, 2) of the target and of who crosses its line of sight at time 0, the other way."""
+    near, half = stage.floor.near, float(time.max())
+    changing = abs(depth_change) / CHANGING
+    sense = rng.choice([-1, 1])
+    start = near + rng.uniform(1.4 + max(-depth_change, 0), 2.7 - max(depth_change, 0))
+    share = np.clip(time / changing + 0.5, 0, 1) if changing else np.zeros(len(time))
+    z = start + depth_change * share + rng.uniform(-0.15, 0.15) * time
+    aside, speed = rng.uniform([-0.15, 0.3], [0.15, 0.6])
+    room_to_side = float(stage.floor.reach(z).min()) - abs(aside)
+    x = aside + sense * min(speed, room_to_side / max(half, 1.0)) * time
+    slowed = walks.linger(time, _hiding(depth_change, time), 0.1)
+    crossing_z = near + rng.uniform(0.0, 0.4)
+    nearer = crossing_z + rng.choice([-1, 1]) * rng.uniform(0.2, 0.3) * slowed
+    angular = (
+        rng.uniform(0.7, 1.1) / crossing_z
+    )  # of who crosses, relative to the line of sight to the target
+    return np.stack([x, z], axis=1), np.stack([nearer * (x / z - sense * angular * slowed), nearer], axis=1)
+
+
+def _hiding(depth_change: float, time: Array) -> float:
+    """For how many seconds somebody stays in front of the target."""
+    return min(abs(depth_change) / CHANGING + TO_HIDE, HIDDEN * float(np.ptp(time)))
+
+
+def _path_behind(stage: _Stage, time: Array, target: Array, rng: np.random.Generator) -> Array:
+    """A path (M, 2) from side to side behind the target's."""
+    beside = stage.room.side - walks.BODY
+    x = rng.uniform(-0.5, 0.5)
+    speed = min(rng.uniform(0.5, 0.9), (beside - abs(x)) / max(float(time.max()), 1.0))
+    deepest = min(float(target[:, 1].max()) + rng.uniform(0.6, 1.2), stage.room.wall - walks.BODY)
+    return np.stack([x + rng.choice([-1, 1]) * speed * time, np.full(len(time), deepest)], axis=1)
+
+
+def _film(
+    name: str, stage: _Stage, actors: list[_Actor], flaws: _Flaws, rng: np.random.Generator
+) -> DepthScene:
+    """Render, measure and note the truth; the first actor is the target."""
+    view, room = stage.view, stage.room
+    ways = np.concatenate([actor.path for actor in actors])
+    room = room._replace(furniture=walks.clutter(8, room.wall, room.side, ways, rng))
+    background = view.background(room)
+    frames, sights, seen = [], [], []
+    for index in range(len(actors[0].path)):
+        sights.append([_sight(view, actor.body(index, view)) for actor in actors])
+        depth = background.copy()
+        for sight in sights[-1]:
+            zbuffer.lay(sight.window, depth)
+        mask, share = zbuffer.seen(sights[-1][0].window, depth)
+        seen.append((zbuffer.box_round(mask), share))
+        measured = stage.sensor.measure(depth, rng, missing=flaws.missing, noise=flaws.noise)
+        frames.append(Frame(depth=measured, timestamp=index / stage.sensor.rate))
+    return DepthScene(
+        name=name,
+        frames=tuple(frames),
+        boxes=tuple(target.box for target, *_ in sights),
+        visible_boxes=tuple(box for box, _ in seen),
+        positions=np.stack([target.position for target, *_ in sights]),
+        visible=np.array([share for _, share in seen]),
+        intrinsics=view.intrinsics,
+        others=tuple(tuple(Bystander(other.box, other.position) for other in rest) for _, *rest in sights),
+    )
+
+
+def _sight(view: View, bodies: Ellipsoids) -> _Sight:
+    window = view.cast(bodies)
+    return _Sight(view.box(bodies), view.points(window).mean(axis=0), window)
+
+
+def _check(frames: int, camera: str, missing: float, noise: float) -> None:
+    positive_whole(frames, "frames", "a count")
+    if camera not in CAMERAS:
+        raise ValueError(f"camera: expected one of {', '.join(CAMERAS)}, got {camera!r}")
+    if not 0 <= finite(missing, "missing", "a share of the pixels") <= 1:
+        raise ValueError(f"missing: expected a share of the pixels from 0 to 1, got {missing!r}")
+    if finite(noise, "noise", "a factor") < 0:
+        raise ValueError(f"noise: expected a factor of 0 or more, got {noise!r}")
+
+
+def _check_depth_change(metres: float, span: float) -> None:
+    """ValueError where the target can't walk that far while it is hidden, in a scene of ``span`` seconds."""
+    most = min(LARGEST_CHANGE, max(HIDDEN * span - TO_HIDE, 0.0) * CHANGING)
+    if abs(finite(metres, "depth_change", "metres")) > most:
+        raise ValueError(f"depth_change: expected at most {most:.2f} m in {span:.1f} s, got {metres!r}")

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""How people walk: metric paths over a floor at a walker's pace, where they face, and what they do meanwhile.
+
+Level frame seen from above: x right, z away from the camera, metres; the camera stands at the origin.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.scenes.arrays import Array
+from tricue.scenes.people.body import Person, Pose
+from tricue.scenes.rendering.depth_room import Furniture
+
+SLOWEST, FASTEST = 0.3, 1.5  # metres a second
+TURN = 5.0  # radians a second, the fastest that a walker turns
+BODY = 0.5  # metres, what a walker needs to each side
+ARMS = 1.1  # metres, with the arms spread
+SWEEP = 6.0  # seconds after which those who cross turn round
+
+
+class Floor(NamedTuple):
+    """Where one can walk and is seen: ``near`` to ``far`` metres away, within the angle of view."""
+
+    near: float
+    far: float
+    slope: float  # tangent of half the horizontal angle of view
+    side: float  # metres to each side at most
+
+    def reach(self, z: Array) -> Array:
+        """How far to each side of the middle a walker at z is still seen, and is clear of the walls."""
+        return np.minimum(self.slope * z, self.side) - BODY
+
+
+class Gestures(NamedTuple):
+    """What a walker does beside walking, per frame (M,)."""
+
+    crouch: Array  # 0 to 1
+    arms: Array  # 0 to 1
+    turn: Array  # radians about the body's axis beside the path's
+
+
+def gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestures:
+    """Crouching, raising the arms and turning on the spot, each abrupt and about a second long, by turns."""
+    time = np.arange(frames) / rate
+    crouch, arms, turn = np.zeros((3, frames))
+    kinds = rng.permutation(3)
+    start = rng.uniform(0.3, 0.7)
+    for count in range(math.ceil(frames / rate)):  # each takes a second or more
+        length, rise = rng.uniform(0.8, 1.2), rng.uniform(0.2, 0.35)
+        ramp = np.clip(np.minimum(time - start, start + length - time) / rise, 0, 1)
+        if kinds[count % 3] == 0:
+            crouch += ramp * rng.uniform(0.6, 1.0)
+        elif kinds[count % 3] == 1:
+            arms += ramp
+        else:
+            turn += rng.choice([-1, 1]) * 2 * math.pi * _smooth((time - start) / 1.3)
+        start += 1.3 + rng.uniform(0.0, 0.8)
+    return Gestures(crouch, arms, turn)
+
+
+def loop(floor: Floor, crouch: Array, rate: float, rng: np.random.Generator) -> Array:
+    """A closed curve at an uneven pace: (M, 2) places, so sized that it is walked about once.
+
+    Who crouches (0 to 1, per frame) walks slower; every step is between SLOWEST and FASTEST.
+    """
+    frames = len(crouch)
+    waves = 1 + 0.25 * np.sin(2 * np.pi * (np.arange(frames) / rate / 2.3 + rng.random()))
+    pace = np.clip(rng.uniform(0.8, 1.1) * waves * (1 - 0.7 * crouch), SLOWEST, FASTEST)
+    walked = np.concatenate([[0.0], np.cumsum(pace[1:] / rate)])
+    angle = np.linspace(0, 2 * np.pi, 1441)
+    shape = _loop_shape(angle, rng)
+    middle = rng.uniform(-1, 1, 2)
+    whole = _on_floor(floor, shape, middle, 1.0)
+    size = float(np.clip(walked[-1] / _lengths(whole)[-1], 0.25, 1.0))
+    curve = _on_floor(floor, shape, middle, size)
+    along = _lengths(curve)
+    phase = (walked + rng.random() * along[-1]) % along[-1]
+    return np.stack([np.interp(phase, along, curve[:, axis]) for axis in (0, 1)], axis=1)
+
+
+def _loop_shape(angle: Array, rng: np.random.Generator) -> Array:
+    """Once round in [-1, 1] x [-1, 1], from side to side and from near to far."""
+    offset, sense = rng.uniform(0, 2 * np.pi), rng.choice([-1, 1])
+    return np.stack([np.sin(sense * angle), np.cos(angle + 0.3 * np.sin(angle + offset))], axis=1)
+
+
+def _on_floor(floor: Floor, shape: Array, middle: Array, size: float) -> Array:
+    """The shape at a ``size`` of the floor's, round a middle that is freer the smaller the shape is."""
+    x, z = (size * shape + (1 - size) * middle).T
+    z = (floor.near + floor.far) / 2 + (floor.far - floor.near) / 2 * z
+    return np.stack([x * floor.reach(z), z], axis=1)
+
+
+def _lengths(curve: Array) -> Array:
+    """The way along a curve (n, 2) to each of its points, metres."""
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
+
+
+def sweeps(frames: int, rate: float) -> Array:
+    """The time (M,) of those who go to and fro: -SWEEP / 2 to SWEEP / 2 seconds and back; 0 half way.
+
+    Fewer frames than a sweep takes are centred, so that half of them are before 0.
+    """
+    half = min(SWEEP, (frames - 1) / rate) / 2
+    time = np.arange(frames) / rate
+    if half == 0:
+        return time
+    there_and_back = time % (4 * half)
+    return np.minimum(there_and_back, 4 * half - there_and_back) - half
+
+
+def linger(time: Array, seconds: float, rest: float) -> Array:
+    """Time that passes at the rate ``rest`` for some seconds round 0, for one who stops; at 1 elsewhere."""
+    return time - (1 - rest) * np.clip(time, -seconds / 2, seconds / 2)
+
+
+def headings(path: Array, rate: float, looks: NDArray[np.bool_] | None = None) -> Array:
+    """Where one who walks a path (M, 2) faces, (M,) radians from z towards x, turning at most TURN.
+
+    looks: (M,) the frames in which the walker turns to the camera instead.
+    """
+    if len(path) < 2:
+        return np.zeros(len(path))
+    steps = np.diff(path, axis=0, append=2 * path[-1:] - path[-2:-1])
+    ahead, back = np.arctan2(*steps.T), np.arctan2(*-path.T)
+    wanted = ahead if looks is None else np.where(looks, back, ahead)
+    faced = [float(wanted[0])]
+    for angle in wanted[1:].tolist():
+        short = math.remainder(angle - faced[-1], 2 * math.pi)
+        faced.append(faced[-1] + float(np.clip(short, -TURN / rate, TURN / rate)))
+    return np.array(faced)
+
+
+def poses(person: Person, path: Array, rate: float, gestures: Gestures | None = None) -> list[Pose]:
+    """The pose on each place of a path: the legs swing as far as the pace asks, two steps in 0.8 heights."""
+    steps = np.hypot(*np.diff(path, axis=0, prepend=path[:1]).T)
+    if len(steps) > 1:
+        steps[0] = steps[1]
+    gait = np.cumsum(steps) / (0.8 * person.height) * 2 * np.pi
+    swing = np.minimum(0.4 * steps * rate, 0.5)
+    crouch, arms = (gestures.crouch, gestures.arms) if gestures else np.zeros((2, len(path)))
+    rows = np.stack([gait, swing * (1 - 0.8 * crouch), crouch, arms], axis=1)
+    return [Pose(*row) for row in rows.tolist()]
+
+
+def clutter(
+    count: int, wall: float, side: float, paths: Array, rng: np.random.Generator
+) -> tuple[Furniture, ...]:
+    """Up to ``count`` boxes that stand neither on the paths (n, 2) nor between them and the camera."""
+    pieces = []
+    for _ in range(count):
+        width, depth, height = rng.uniform([0.4, 0.3, 0.4], [1.4, 0.7, 1.9]).tolist()
+        x, z = rng.uniform([-side, 2.0], [side, wall]).tolist()
+        if _way_off_sight((x, z), paths) > ARMS + math.hypot(width, depth) / 2:
+            pieces.append(Furniture(x, z, width, depth, height, rng.uniform(0, math.pi)))
+    return tuple(pieces)
+
+
+def _way_off_sight(place: tuple[float, float], paths: Array) -> float:
+    """The distance of a place from the nearest line between the camera and a point of the paths, metres."""
+    share = np.clip((paths @ place) / (paths**2).sum(axis=1), 0, 1)
+    return float(np.hypot(*(share[:, None] * paths - place).T).min())
+
+
+def _smooth(share: Array) -> Array:
+    """0 below 0, 1 above 1, and a smooth rise between."""
+    share = np.clip(share, 0, 1)
+    return share * share * (3 - 2 * share)

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: MIT
+"""A stereo pair: textured ellipsoids and rectangles seen from two places, and a sensor's errors on both.
+
+Both images are cast from the same geometry with several rays a pixel, averaged, so that edges and textures
+are at their exact place between the pixels. Frame: the left camera's, x right, y down, z forward, metres.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.scenes.arrays import Array, Picture
+from tricue.scenes.rendering.paste import expose
+from tricue.scenes.rendering.textures import look_up
+
+BLUR = 0.5  # pixels, the deviation of the lens's and the sensor's blur beside that of averaging
+NEAREST = 0.05  # metres
+
+
+class Board(NamedTuple):
+    """A rectangle: its sides, at right angles, run ``along`` and ``down`` from ``corner``; all (3,)."""
+
+    corner: Array
+    along: Array
+    down: Array
+    texture: Sequence[Picture]  # a pyramid, columns along
+
+
+class Solid(NamedTuple):
+    """A textured ellipsoid, as those p for which |unit (p - center)| <= 1."""
+
+    center: Array  # (3,)
+    unit: Array  # (3, 3): to the unit sphere, whose -y is the texture's top row and z its middle column
+    texture: Sequence[Picture]  # a pyramid, columns are longitude, rows latitude
+
+
+class Lamp(NamedTuple):
+    """Light from one direction and from everywhere; what faces the lamp is as bright as its texture."""
+
+    direction: Array  # (3,) unit vector towards the lamp
+    ambient: float  # share of the light from everywhere, 0 to 1
+
+
+class Canvas(NamedTuple):
+    """Color (h, w, 3) and depth (h, w) of each ray."""
+
+    color: Picture
+    depth: Picture
+
+    def copy(self) -> "Canvas":
+        return Canvas(self.color.copy(), self.depth.copy())
+
+    def lay(
+        self, color: Picture, depth: Picture, seen: NDArray[np.bool_], place: tuple[slice, slice]
+    ) -> None:
+        """Write both where ``seen`` says so; cv2 does it many times faster than NumPy."""
+        mask = seen.view(np.uint8)
+        cv2.copyTo(color, mask, self.color[place])
+        cv2.copyTo(depth, mask, self.depth[place])
+
+
+class Part(NamedTuple):
+    """Where a solid was drawn on a canvas, and its depths there, infinite where rays miss it."""
+
+    place: tuple[slice, slice]
+    depth: Picture
+
+
+class Eye(NamedTuple):
+    """One camera of the pair, ``rays`` by ``rays`` rays a pixel; it stands at (offset, 0, 0)."""
+
+    intrinsics: Intrinsics  # of the grid of rays
+    offset: float  # metres
+    rays: int
+
+    @classmethod
+    def pair(cls, rig: StereoRig, rays: int) -> tuple["Eye", "Eye"]:
+        """The left and the right camera."""
+        camera = rig.intrinsics
+        # The centre of the first pixel is at 0 in either grid; OpenCV's coordinates put its corner at -0.5.
+        cx, cy = ((value + 0.5) * rays - 0.5 for value in (camera.cx, camera.cy))
+        grid = Intrinsics(
+            camera.fx * rays, camera.fy * rays, cx, cy, camera.width * rays, camera.height * rays
+        )
+        return cls(grid, 0.0, rays), cls(grid, rig.baseline, rays)
+
+    def draw_board(self, canvas: Canvas, board: Board) -> None:
+        """Lay a rectangle into the canvas where it is nearer."""
+        camera = self.intrinsics
+        place = self._place(board)
+        if any(part.start == part.stop for part in place):
+            return
+        x, y = self._rays(*place)
+        normal = np.cross(board.along, board.down)
+        from_eye = board.corner - [self.offset, 0, 0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            z = np.float32(normal @ from_eye) / (normal[0] * x + normal[1] * y + normal[2]).astype(np.float32)
+            u, v = (
+                (z * (side[0] * x + side[1] * y + side[2]) - side @ from_eye) / (side @ side)
+                for side in (board.along, board.down)
+            )
+        seen = (z > NEAREST) & (z < canvas.depth[place]) & (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5)
+        if not seen.any():
+            return
+        # A tilted board's texture is as coarse as its median ray needs; the finest detail beyond may alias.
+        texels = board.texture[0].shape[1] / float(np.linalg.norm(board.along)) / camera.fx
+        away = float(np.median(z[seen])) if len(board.texture) > 1 else 1.0
+        u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
+        color = look_up(board.texture, u, v, texels * away)
+        canvas.lay(color, z, seen, place)
+
+    def draw_solids(self, canvas: Canvas, solids: Sequence[Solid], lamp: Lamp) -> list[Part | None]:
+        """Lay ellipsoids into the canvas where they are nearer; None for those that aren't in the image."""
+        places = self._places(solids) if solids else []
+        return [
+            None if place is None else self._draw_solid(canvas, solid, place, lamp)
+            for solid, place in zip(solids, places, strict=True)
+        ]
+
+    def _draw_solid(self, canvas: Canvas, solid: Solid, place: tuple[slice, slice], lamp: Lamp) -> Part:
+        x, y = self._rays(*place)
+        # A ray's point z d on the unit sphere is q = z (unit d) - unit c; |q| = 1 gives its depth z.
+        to_center = solid.unit @ (solid.center - [self.offset, 0, 0])
+        rays = [np.float32(row[0]) * x + (np.float32(row[1]) * y + np.float32(row[2])) for row in solid.unit]
+        depth = _first_hit(rays, to_center)
+        hit = np.isfinite(depth)
+        safe = np.where(hit, depth, 0)
+        q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
+        color = self._texture(solid, q) * _shade(q, solid.unit, lamp)[..., None]
+        seen = hit & (depth < canvas.depth[place])
+        canvas.lay(color, depth, seen, place)
+        return Part(place, depth)
+
+    def develop(self, canvas: Canvas) -> Picture:
+        """The image of the rays: their mean in each pixel, slightly blurred."""
+        size = self.intrinsics.width // self.rays, self.intrinsics.height // self.rays
+        image = cv2.resize(canvas.color, size, interpolation=cv2.INTER_AREA)
+        return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR, borderType=cv2.BORDER_REPLICATE))
+
+    def _texture(self, solid: Solid, q: Sequence[Picture]) -> Picture:
+        longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.clip(q[1], -1, 1))
+        u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
+        girth = 2 * math.pi / float(np.linalg.norm(solid.unit[0]))  # metres round the equator, about
+        texels = solid.texture[0].shape[1] / girth * float(solid.center[2]) / self.intrinsics.fx
+        return look_up(solid.texture, u, v + np.float32(0.5), texels)
+
+    def _place(self, board: Board) -> tuple[slice, slice]:
+        """The grid's rows and columns that a rectangle may cover, maybe none."""
+        camera = self.intrinsics
+        sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([board.along, board.down])
+        corners = board.corner - [self.offset, 0, 0] + sides
+        size = np.array([camera.width, camera.height])
+        # Beside one of the pyramid's four planes: f x + c z = u z, with the image's first or last u.
+        x, z = (
+            corners[:, :2] * [camera.fx, camera.fy] + corners[:, 2:] * [camera.cx, camera.cy],
+            corners[:, 2:],
+        )
+        if (x < 0).all(axis=0).any() or (x > (size - 1) * z).all(axis=0).any():
+            return slice(0, 0), slice(0, 0)
+        if z.min() <= NEAREST:
+            return slice(0, camera.height), slice(0, camera.width)
+        left, top = np.ceil((x / z).min(axis=0)).clip(0, size).astype(int).tolist()
+        right, bottom = (np.floor((x / z).max(axis=0)) + 1).clip(0, size).astype(int).tolist()
+        return slice(top, bottom), slice(left, right)
+
+    def _places(self, solids: Sequence[Solid]) -> list[tuple[slice, slice] | None]:
+        """The grid's rows and columns that each ellipsoid may cover; None for none, or beside the camera.
+
+        The outline is that of :meth:`tricue.scenes.rendering.depth_camera.View.outline`.
+        """
+        centers = np.stack([solid.center for solid in solids]) - [self.offset, 0, 0]
+        units = np.stack([solid.unit for solid in solids])
+        dual = np.linalg.inv(units.transpose(0, 2, 1) @ units) - centers[:, :, None] * centers[:, None, :]
+        ahead = (dual[:, 2, 2] < 0) & (centers[:, 2] > NEAREST)
+        scale = np.where(ahead, dual[:, 2, 2], -1)[:, None]
+        middle = dual[:, :2, 2] / scale
+        half = np.sqrt(np.maximum(middle**2 - dual[:, [0, 1], [0, 1]] / scale, 0))
+        camera = self.intrinsics
+        focal, principal = np.array([camera.fx, camera.fy]), np.array([camera.cx, camera.cy])
+        size = np.array([camera.width, camera.height])
+        first = np.ceil((middle - half) * focal + principal).clip(0, size).astype(int)
+        stop = (np.floor((middle + half) * focal + principal) + 1).clip(0, size).astype(int)
+        seen = ahead & np.all(first < stop, axis=1)
+        return [
+            (slice(top, bottom), slice(left, right)) if inside else None
+            for (left, top), (right, bottom), inside in zip(
+                first.tolist(), stop.tolist(), seen.tolist(), strict=True
+            )
+        ]
+
+    def _rays(self, rows: slice, columns: slice) -> tuple[Picture, Picture]:
+        """x (1, w) and y (h, 1) of the rays (x, y, 1)."""
+        camera = self.intrinsics
+        x = (np.arange(columns.start, columns.stop) - camera.cx) / camera.fx
+        y = (np.arange(rows.start, rows.stop) - camera.cy) / camera.fy
+        return x[None, :].astype(np.float32), y[:, None].astype(np.float32)
+
+
+def _first_hit(rays: Sequence[Picture], to_center: Array) -> Picture:
+    """The smaller root z of a z^2 - 2 b z + k = 0, a = |r|^2, b = r . c, k = |c|^2 - 1, on the unit sphere.
+
+    The discriminant b^2 - a k = a - |r x c|^2 is free of the cancellation that single precision can't bear.
+    """
+    (r0, r1, r2), (c0, c1, c2) = rays, (np.float32(value) for value in to_center)
+    a = r0 * r0 + r1 * r1 + r2 * r2
+    across = (r1 * c2 - r2 * c1) ** 2 + (r2 * c0 - r0 * c2) ** 2 + (r0 * c1 - r1 * c0) ** 2
+    under = a - across
+    depth = np.float32(to_center @ to_center - 1) / (
+        r0 * c0 + r1 * c1 + r2 * c2 + np.sqrt(np.maximum(under, 0))
+    )
+    depth[under < 0] = np.inf
+    return np.asarray(depth, np.float32)
+
+
+def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
+    """The light on each point: the normal is along unit^T q."""
+    gram, toward = unit @ unit.T, unit @ lamp.direction
+    along = sum(q[i] * np.float32(toward[i]) for i in range(3))
+    square = sum(q[i] * q[j] * np.float32(gram[i, j]) for i in range(3) for j in range(3) if gram[i, j])
+    lambert = np.maximum(along / np.sqrt(np.maximum(square, 1e-9)), 0)
+    return np.asarray(lamp.ambient + (1 - lamp.ambient) * lambert, np.float32)
+
+
+def photograph(
+    image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator
+) -> NDArray[np.uint8]:
+    """The 8-bit image of a picture (H, W, 3) in a light of ``gain`` (3,), with noise, saturated."""
+    return expose(np.asarray(image * gain, np.float32), noise, rng)

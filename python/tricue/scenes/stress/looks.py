@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: MIT
+"""What the things in a scene with everything look like: the target, its look-alikes, what hides it, the room.
+
+Targets and walls are cut from different photographs of scikit-image; what hides, and the furniture, have the
+textures of :mod:`tricue.scenes.textures`.
+"""
+
+from functools import cache
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.rig import Intrinsics
+from tricue.scenes.arrays import Array
+from tricue.scenes.rendering import photographs, textures
+from tricue.scenes.stress.cards import Canvas, Card, Eye, Pose, facing, rectangle, rounded
+
+Image = NDArray[np.uint8]
+
+PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
+WALLS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")
+TEXTURE = 144  # texels of a target's longer side
+BLOCKS = 4  # along each side, into which a target is cut for the look-alike of its colors
+FLOOR = 1.6  # metres below the camera, so that things that float in the picture are above it
+HALL = 4.7, 6.0  # metres to the wall behind
+TRIES = 24
+LEAST_CONTRAST, LEAST_DETAIL, LEAST_DISTANCE = 28.0, 7.0, 0.6
+
+
+class Cast(NamedTuple):
+    """Everybody; the cards' sizes are those of the target, in metres, but of what hides it, 1 by 1."""
+
+    target: Card
+    same_colors: Card  # with another structure
+    same_structure: Card  # in other colors
+    curtain: Card
+    source: str  # the photograph that the target is cut from
+
+
+class Room(NamedTuple):
+    """A wall, a floor, and furniture before the wall; in the frame of the camera when it looks straight."""
+
+    things: tuple[tuple[Card, Pose], ...]
+
+    def draw(self, eye: Eye, canvas: Canvas, rotation: Array) -> None:
+        """Draw it all, after a rotation (3, 3) of the room about the left camera."""
+        for card, pose in self.things:
+            eye.draw(canvas, card, pose.turned(rotation))
+
+
+def cast(side: float, wall: str, rng: np.random.Generator) -> Cast:
+    """A target of about ``side`` metres along both sides, cut from a photograph other than the wall's."""
+    aspect = float(np.exp(rng.uniform(np.log(0.6), np.log(1.6))))
+    size = side * aspect**0.5, side / aspect**0.5
+    picture, source = _window(aspect, wall, rng)
+    outline = [rectangle(), rounded(2.0), rounded(4.0)][rng.integers(3)]
+    cloth = textures.surface(textures.STRIPES, (128, 96), textures.any_color(rng), rng)
+    return Cast(
+        Card.cut(picture, outline, size),
+        Card.cut(_shuffled(picture, rng), outline, size),
+        Card.cut(_recolored(picture, rng), outline, size),
+        Card.cut(cloth, rounded(6.0), (1.0, 1.0)),
+        source,
+    )
+
+
+def furnish(camera: Intrinsics, wall: str, rng: np.random.Generator) -> Room:
+    """A room with a photograph for a wall and three to five boards before it, far things first."""
+    far = rng.uniform(*HALL)
+    boards = [_board(far, rng) for _ in range(int(rng.integers(3, 6)))]
+    boards.sort(key=lambda board: -float(board[1].center[2]))
+    return Room((_wall(camera, wall, far, rng), _floor(far, rng), *boards))
+
+
+def other(names: tuple[str, ...], taken: tuple[str, ...], rng: np.random.Generator) -> str:
+    """One of the names but those that are taken."""
+    left = [name for name in names if name not in taken]
+    return left[rng.integers(len(left))]
+
+
+def _window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, str]:
+    """A random part of a photograph and its name: the first of several that has contrast, detail, and other
+    colors than the wall; else the last one.
+    """
+    load = cache(photographs.photograph)
+    behind = _histogram(load(wall))
+    for _ in range(TRIES):
+        name = other(PHOTOGRAPHS, (wall,), rng)
+        picture = load(name)
+        width, height = np.array([aspect**0.5, aspect**-0.5]) * rng.uniform(90, 170)
+        top, left = (rng.random(2) * (np.array(picture.shape[:2]) - [height, width])).astype(int)
+        part = picture[top : top + int(height), left : left + int(width)]
+        part = np.asarray(cv2.resize(part, _texels(aspect), interpolation=cv2.INTER_CUBIC), np.uint8)
+        if _is_distinct(part, behind):
+            break
+    return part, name
+
+
+def _texels(aspect: float) -> tuple[int, int]:
+    """Columns and rows, whole blocks of them."""
+    shares = min(aspect, 1.0), min(1 / aspect, 1.0)
+    columns, rows = (BLOCKS * round(TEXTURE * share / BLOCKS) for share in shares)
+    return columns, rows
+
+
+def _is_distinct(part: Image, behind: NDArray[np.float32]) -> bool:
+    grey = cv2.cvtColor(part, cv2.COLOR_BGR2GRAY).astype(np.float32)
+    detail = np.abs(np.diff(grey, axis=0)).mean() + np.abs(np.diff(grey, axis=1)).mean()
+    distance = cv2.compareHist(_histogram(part), behind, cv2.HISTCMP_BHATTACHARYYA)
+    return bool(grey.std() > LEAST_CONTRAST and detail > LEAST_DETAIL and distance > LEAST_DISTANCE)
+
+
+def _histogram(picture: Image) -> NDArray[np.float32]:
+    counts = cv2.calcHist([picture], [0, 1, 2], None, [8] * 3, [0, 256] * 3)
+    return np.asarray(counts / counts.sum(), np.float32)
+
+
+def _shuffled(picture: Image, rng: np.random.Generator) -> Image:
+    """The same pixels in another place: blocks in another order, each upside down."""
+    rows, columns = (side // BLOCKS for side in picture.shape[:2])
+    blocks = picture.reshape(BLOCKS, rows, BLOCKS, columns, 3).swapaxes(1, 2)
+    order = np.roll(rng.permutation(BLOCKS**2), 1)
+    mixed = blocks.reshape(-1, rows, columns, 3)[order, ::-1, ::-1]
+    return np.asarray(mixed.reshape(BLOCKS, BLOCKS, rows, columns, 3).swapaxes(1, 2).reshape(picture.shape))
+
+
+def _recolored(picture: Image, rng: np.random.Generator) -> Image:
+    """The same lightness, the opposite hues, and a tint, for what is grey has no opposite."""
+    lab = cv2.cvtColor((picture / np.float32(255)).astype(np.float32), cv2.COLOR_BGR2LAB)
+    angle = rng.uniform(0, 2 * np.pi)
+    lab[..., 1:] = -lab[..., 1:] + np.array([45 * np.cos(angle), 45 * np.sin(angle)], np.float32)
+    colors = cv2.cvtColor(lab, cv2.COLOR_LAB2BGR)
+    return np.asarray(np.clip(np.rint(255 * colors), 0, 255), np.uint8)
+
+
+def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
+    """A photograph a bit wider than the view, continued by its mirror images for a camera that turns."""
+    picture = photographs.photograph(name)
+    if rng.random() < 0.5:
+        picture = picture[:, ::-1]
+    rows, columns = picture.shape[:2]
+    beside, over = columns * 3 // 4, rows * 3 // 4
+    tiled: Image = np.asarray(
+        cv2.copyMakeBorder(picture, over, over, beside, beside, cv2.BORDER_REFLECT), np.uint8
+    )
+    scale = far * max(camera.width / camera.fx / columns, camera.height / camera.fy / rows)
+    scale *= rng.uniform(1.0, 1.2)  # metres a texel
+    size = tiled.shape[1] * scale, tiled.shape[0] * scale
+    return Card.cut(tiled, rectangle(), size), facing(np.array([0.0, 0, far]), 0.0, 0.0)
+
+
+def _floor(far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
+    """Boards or a carpet from a metre before the camera to the wall."""
+    kind = [textures.WOOD, textures.PLAIN][rng.integers(2)]
+    picture = textures.surface(kind, (256, 512), textures.any_color(rng) * 0.5 + 60, rng)
+    pose = Pose(np.array([0, FLOOR, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
+    return Card.cut(picture, rectangle(), (16.0, far - 1)), pose
+
+
+def _board(far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
+    """A cupboard's front, a poster's or the like, standing on the floor."""
+    kind = [textures.WOOD, textures.THINGS, textures.BLOTCHES, textures.STRIPES][rng.integers(4)]
+    picture = textures.surface(kind, (160, 128), textures.any_color(rng), rng)
+    width, height = rng.uniform([0.4, 0.6], [1.0, 1.9])
+    z = rng.uniform(4.0, far - 0.2)
+    center = np.array([rng.uniform(-0.85, 0.85) * z, FLOOR - height / 2, z])
+    return Card.cut(picture, rectangle(), (width, height)), facing(center, 0.0, rng.uniform(-0.03, 0.03))
