@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from tricue.camera.calibration_files import read_rig
+from tricue.camera.read_calibration import read_rig
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.data import kitti

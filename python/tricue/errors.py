@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Errors as users read them."""
+"""Error messages as users read them."""
 
 
 def one_line(error: BaseException) -> str:
-    """What an error says, in one line."""
+    """The message of an error, in one line."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}" if error.filename else error.strerror
     return " ".join(str(error).split()) or type(error).__name__

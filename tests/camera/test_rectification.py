@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import StereoRig
-from tricue.camera.rectification import RawPair, Rectification
+from tricue.camera.rectification import Rectification, StereoCalibration
 
 SIZE = (640, 480)
-RAW = RawPair(
+RAW = StereoCalibration(
     (
         np.array([[520.0, 0, 330], [0, 522, 235], [0, 0, 1]]),
         np.array([[512.0, 0, 312], [0, 513, 246], [0, 0, 1]]),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Intrinsics
-from tricue.camera.calibration_files import read_intrinsics
+from tricue.camera.read_calibration import read_intrinsics
 from tricue.data.open_source import Source, open_source
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tricue.camera.calibration import kitti_offset
+from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.data import kitti
 from tricue.data.layouts import targets
 from tricue.data.open_source import Source, open_source
@@ -154,7 +154,9 @@ def test_real_positions_project_into_their_boxes(data: Path) -> None:
         )
         assert whole.sum() > 10
         assert (off[whole] < 0.1).all()
-        np.testing.assert_allclose(kitti_offset(source.calibration), [0.0598, -0.0004, 0.0027], atol=1e-4)
+        np.testing.assert_allclose(
+            read_kitti_offset(source.calibration), [0.0598, -0.0004, 0.0027], atol=1e-4
+        )
 
 
 def otb(folder: Path, numbers: range, boxes: int) -> Path:

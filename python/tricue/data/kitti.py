@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.calibration import kitti_offset
+from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream
 from tricue.data.truth import Truth, truth_of
@@ -136,7 +136,7 @@ def channels(sequence: Sequence, target: str | None = None) -> tuple[dict[str, S
         return {name: Images(found) for name, found in paths.items()}, None
     label = next(label for label in read_labels(sequence.labels) if label.name == target)
     frames = range(int(label.frames[0]), int(label.frames[-1]) + 1)
-    offset = np.zeros(3) if sequence.calibration is None else kitti_offset(sequence.calibration)
+    offset = np.zeros(3) if sequence.calibration is None else read_kitti_offset(sequence.calibration)
     cut: dict[str, Stream] = {name: Images(_numbered(found, frames)) for name, found in paths.items()}
     return cut, label.truth(offset)
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.calibration_files import read_intrinsics, read_rig
+from tricue.camera.read_calibration import read_intrinsics, read_rig
 from tricue.camera.rig import Intrinsics
 from tricue.data.depth_images import DepthReader
 from tricue.data.open_source import Source

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera import toml
-from tricue.camera.calibration_files import read_intrinsics, read_rig
 from tricue.camera.numbers import positive
+from tricue.camera.read_calibration import read_intrinsics, read_rig
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.datasets import find_sequences
 from tricue.data.layouts import targets

@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 import cv2
 
 from tricue.camera.box import Box
-from tricue.camera.calibration_files import read_intrinsics
 from tricue.camera.frame import Frame
+from tricue.camera.read_calibration import read_intrinsics
 from tricue.data.depth_images import MILLIMETRES, DepthReader
 from tricue.data.streams import Read, read_color
 from tricue.track.base.registry import create, tracker_class

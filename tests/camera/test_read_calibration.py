@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Intrinsics
-from tricue.camera.calibration_files import read_intrinsics, read_registration
+from tricue.camera.read_calibration import read_intrinsics, read_registration
 
 SIZE = (640, 480)
 CAMERA = Intrinsics(500.0, 510.0, 320.0, 240.0, *SIZE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The intrinsics or the rig in a calibration file of any known format, for images of a certain size."""
+"""Reads a calibration file of any known format, and checks it against the size of the images it is for."""
 
 import re
 from collections.abc import Callable
@@ -7,20 +7,20 @@ from functools import partial
 from pathlib import Path
 
 from tricue.camera import toml
-from tricue.camera.calibration import princeton_intrinsics
+from tricue.camera.calibration_formats import read_princeton_camera
 from tricue.camera.registration import Registration
-from tricue.camera.rig import Intrinsics, Size, StereoRig
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.types import Size
 
-Reader = Callable[..., Intrinsics]
 TOML, PRINCETON, OPENCV, KITTI = "toml", "princeton", "opencv", "kitti"
 
 
 def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
-    """The intrinsics of a file by OpenCV (YAML, XML, JSON), by KITTI (.txt), in TOML, or in Princeton's .mat.
+    """The intrinsics in a file by OpenCV (YAML, XML, JSON), by KITTI (.txt), in TOML, or in Princeton's .mat.
 
-    size: width and height of the images, pixels. channel: the table of a TOML file with several, "depth" or
-    "color". ValueError or OSError names the file: also where it says that it is for images of another size,
-    for then every position would be wrong.
+    size: width and height of the images, pixels. channel: "depth" or "color", which table to take of a TOML
+    file with several. ValueError or OSError names the file, also where it holds another image size: then
+    every position would be wrong.
     """
     read = _reader(path, channel)
     found = read(size=size)  # many files don't hold the size
@@ -37,10 +37,11 @@ def read_intrinsics(path: Path, size: Size, channel: str) -> Intrinsics:
 
 
 def read_registration(path: Path, depth: Size, color: Size) -> Registration | None:
-    """What brings depth into the color image, by a TOML file with the tables of two cameras, ``depth`` and
-    ``color``; None of any other file, and of two cameras that are the same: then it is there already.
+    """What brings depth images into the color camera's pixels, from a TOML file with both cameras.
 
-    depth, color: width and height of the images, pixels. ValueError as :func:`read_intrinsics`.
+    The file has the tables ``depth`` and ``color``. None for any other file, and where both cameras are the
+    same, for then the images are registered already. depth, color: width and height of the images, pixels.
+    ValueError as :func:`read_intrinsics`.
     """
     if _format(path) != TOML or not all(_table(path, name) for name in ("depth", "color")):
         return None
@@ -49,18 +50,18 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
 
 
 def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
-    """The rectified rig of a file by OpenCV (YAML, XML, JSON) with P1 and P2, by KITTI (.txt), or in TOML.
+    """The rectified rig in a file by OpenCV (YAML, XML, JSON) with P1 and P2, by KITTI (.txt), or in TOML.
 
     size: width and height of the images, pixels. unit: metres per unit of the board of OpenCV's calibration,
-    1 without it; ValueError with the other formats, which are in metres. ValueError or OSError names the
-    file, as :func:`read_intrinsics` does.
+    1 by default. ValueError or OSError names the file, as :func:`read_intrinsics` does; ValueError also for a
+    unit with the other formats, which are in metres.
     """
     kind = _format(path)
     if unit is not None and kind != OPENCV:
         raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in metres")
     if kind == PRINCETON:
         raise ValueError(f"{path}: expected the calibration of a stereo pair, got one camera's")
-    read_intrinsics(path, size, "color")  # whether it is for images of this size
+    read_intrinsics(path, size, "color")  # refuses a calibration for images of another size
     if kind == OPENCV:
         return StereoRig.from_opencv(path, unit=1.0 if unit is None else unit, size=size)
     if kind == KITTI:
@@ -68,12 +69,16 @@ def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
     return StereoRig.from_toml(path, table=_table(path, "color"), size=size)
 
 
-def _reader(path: Path, channel: str) -> Reader:
+def _reader(path: Path, channel: str) -> Callable[..., Intrinsics]:
     kind = _format(path)
     if kind == TOML:
         return partial(Intrinsics.from_toml, path, table=_table(path, channel))
-    read = {PRINCETON: princeton_intrinsics, OPENCV: Intrinsics.from_opencv, KITTI: Intrinsics.from_kitti}
-    return partial(read[kind], path)
+    readers = {PRINCETON: _read_princeton, OPENCV: Intrinsics.from_opencv, KITTI: Intrinsics.from_kitti}
+    return partial(readers[kind], path)
+
+
+def _read_princeton(path: Path, *, size: Size | None = None) -> Intrinsics:
+    return Intrinsics(*read_princeton_camera(path, size=size))
 
 
 def _format(path: Path) -> str:
@@ -93,5 +98,5 @@ def _format(path: Path) -> str:
 
 
 def _table(path: Path, channel: str) -> str | None:
-    """The channel's table where there is one; else the reader takes the only one."""
+    """The TOML table named like the channel; None where there is none, so that the only table is taken."""
     return channel if isinstance(toml.read(path).get(channel), dict) else None
