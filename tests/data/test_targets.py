@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.data import kitti
-from tricue.data.layouts import targets
+from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
 
 CALIBRATION = "P2: 700 0 600 76 0 700 170 -136 0 0 1 0.01\nP3: 700 0 600 -333 0 700 170 2 0 0 1 0.01\n"
@@ -51,7 +51,7 @@ def test_a_labelled_target(tmp_path: Path) -> None:
     a frame of it without label is unknown.
     """
     root = tracking(tmp_path, LABELS + label(2, -1, "DontCare"))
-    assert targets(root) == targets(root / "image_02" / "0005") == ("Car 7", "Car 9")
+    assert list_targets(root) == list_targets(root / "image_02" / "0005") == ("Car 7", "Car 9")
     source = open_source(root, target="Car 7")
     assert (source.format, source.length, list(source.channels)) == ("KITTI tracking", 4, ["color", "right"])
     assert levels(source) == [1, 2, 3, 4]
@@ -90,7 +90,7 @@ def test_labels_are_by_the_files_numbers(tmp_path: Path) -> None:
 def test_bad_labels_are_named(tmp_path: Path, lines: str, message: str) -> None:
     """It proves that what can't be meant is an error with the file's name and the line's number."""
     root = tracking(tmp_path, lines)
-    for call in (targets, lambda folder: open_source(folder, target="Car 1")):
+    for call in (list_targets, lambda folder: open_source(folder, target="Car 1")):
         with pytest.raises(ValueError, match=rf"label_02/0005\.txt, {message}"):
             call(root)
 
@@ -105,7 +105,7 @@ def test_unknown_targets_are_refused(tmp_path: Path) -> None:
     alone = images(tmp_path / "alone", range(2))
     with pytest.raises(ValueError, match="alone: expected target to be none, for it has one target, got '1'"):
         open_source(alone, target="1")
-    assert targets(alone) == ()
+    assert list_targets(alone) == ()
 
 
 WORDS = st.sampled_from(["0", "1", "7", "-1", "Car", "Van", "DontCare", "nan", "1e300", "x", "9" * 30])
@@ -127,7 +127,7 @@ def test_any_labels(tmp_path_factory: pytest.TempPathFactory, text: str) -> None
     else:
         for each in labels:
             assert (np.diff(each.frames) > 0).all()
-            assert len(each.frames) == len(each.boxes) == len(each.nearest) == len(each.positions)
+            assert len(each.frames) == len(each.boxes) == len(each.front_depths) == len(each.positions)
 
 
 def test_real_positions_project_into_their_boxes(data: Path) -> None:
@@ -135,7 +135,7 @@ def test_real_positions_project_into_their_boxes(data: Path) -> None:
     image's side doesn't cut the box off.
     """
     place = data / "stereo" / "kitti-tracking"
-    assert targets(place) == ("Car 0", "Car 1", "Car 2", "Car 31")
+    assert list_targets(place) == ("Car 0", "Car 1", "Car 2", "Car 31")
     for name, length in {"Car 0": 14, "Car 31": 16}.items():
         source = open_source(place, target=name)
         assert source.length == length
@@ -195,7 +195,7 @@ def test_otb_folders_of_two_targets(tmp_path: Path) -> None:
     images(tmp_path / "img", range(1, 3))
     for number in (1, 2):
         (tmp_path / f"groundtruth_rect.{number}.txt").write_text(f"{number},2,3,4\n")
-    assert targets(tmp_path) == ("1", "2")
+    assert list_targets(tmp_path) == ("1", "2")
     for target, x in ((None, 0), ("1", 0), ("2", 1)):
         source = open_source(tmp_path, target=target)
         assert source.truth is not None

@@ -19,9 +19,9 @@ from tricue.scenes import (
     face_over_clutter,
     head,
     overtaking,
-    photographs,
     walker,
 )
+from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.track.depth_objects.objects import SLICES, Objects
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.data.box_table import TABLE
+from tricue.data.box_table import BOX_TABLE
 from tricue.scenes.stress.moves import RATE
 from tricue.scenes.stress.scene import Scene
 
@@ -37,7 +37,7 @@ def write_sequence(scene: Scene, folder: str | Path) -> None:
     for number, frame in enumerate(scene.frames, 1):
         for channel in channels:
             _write(folder / folders[channel] / f"{number:08d}.png", getattr(frame, channel))
-    (folder / TABLE).write_text(_table(scene, clipped=not pair))
+    (folder / BOX_TABLE).write_text(_table(scene, clipped=not pair))
     if scene.rig is not None:
         _write_rig(folder / CALIBRATION, scene.rig)
     else:
