@@ -8,14 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Status, Track
-from tricue.draw.overlays import (
-    STATUS_COLORS,
-    OverlayWriter,
-    depth_overlay,
-    depth_picture,
-    depth_range,
-    overlay,
-)
+from tricue.draw.canvas import STATUS_COLORS
+from tricue.draw.depth_pictures import depth_picture, depth_range
+from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.video import OverlayWriter
 
 BLACK = np.zeros((480, 640, 3), np.uint8)
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.figures import COLORS, draw_box
-from tricue.draw.overlays import depth_picture
 from tricue.papers.depth_curves import HALF, DepthCurve
 from tricue.scenes import DepthScene
 

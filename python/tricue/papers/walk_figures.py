@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tricue.draw.figures import COLORS
-from tricue.draw.flow_depth import block_picture
+from tricue.draw.masks import block_picture
 from tricue.papers.depth_figures import shade_hidden
 from tricue.papers.walk_curves import APART, HELD, SOON, Shot, WalkCurve
 from tricue.scenes import WalkScene

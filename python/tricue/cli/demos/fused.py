@@ -13,7 +13,9 @@ from tricue.camera.frame import Frame
 from tricue.cli.demos.metric import Floats, Result, follow_all
 from tricue.cli.outputs import Step
 from tricue.cli.steps import steps
-from tricue.draw.overlays import Image, OverlayWriter, depth_overlay, overlay
+from tricue.draw.canvas import Image
+from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.video import OverlayWriter
 from tricue.scenes.stress.scene import Scene, everything
 from tricue.track.base.registry import create
 from tricue.track.base.track import Status

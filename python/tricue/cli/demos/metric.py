@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tricue.cli.progress import Progress
 from tricue.cli.steps import Clock
-from tricue.draw.overlays import OverlayWriter
+from tricue.draw.video import OverlayWriter
 from tricue.evaluation import metrics
 from tricue.papers.depth_curves import HALF, HIDDEN
 from tricue.scenes import DepthScene, StereoScene, WalkScene

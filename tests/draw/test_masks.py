@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Status, Track
-from tricue.draw.flow_depth import block_picture, flow_depth_overlay
+from tricue.draw.masks import block_picture, flow_depth_overlay
 from tricue.draw.overlays import overlay
 
 BOX = Box(200, 200, 60, 80)

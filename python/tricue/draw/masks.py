@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of the flow and depth tracker: the target's pixels tinted, its blocks, the window round them."""
+"""Masks and blocks of the flow and depth tracker: the target's pixels are tinted, its blocks outlined."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
-from tricue.draw.overlays import STATUS_COLORS, Color, Image, overlay
+from tricue.draw.canvas import BLACK, STATUS_COLORS, WHITE, Color, Image, to_bgr, to_pixels
+from tricue.draw.overlays import overlay
 from tricue.track.base.track import Status, Track
 
 Blocks = tuple[tuple[Box, ...], tuple[Box, ...]]
+"""The blocks of the target, and the occluded ones."""
 
-TINT = 0.45  # of a target pixel's color
-LARGER = 4  # times, of the pictures of figure 8
-_BLACK, _WHITE = (0, 0, 0), (255, 255, 255)
-_WINDOW, _HIDDEN = (255, 200, 80), STATUS_COLORS[Status.OCCLUDED]
-_FAR = 30000  # pixels: what OpenCV's integers can hold
+TINT_WEIGHT = 0.45  # of the status color in a tinted pixel
+BLOCK_PICTURE_SCALE = 4
+_WINDOW_COLOR, _OCCLUDED_COLOR = (255, 200, 80), STATUS_COLORS[Status.OCCLUDED]
 
 
 def flow_depth_overlay(
@@ -30,11 +30,11 @@ def flow_depth_overlay(
     truth: Box | None = None,
     note: str = "",
 ) -> Image:
-    """The image (BGR or grey) with the track in it, see :func:`tricue.draw.overlay`; the target's pixels are
-    tinted in the color of its status.
+    """:func:`tricue.draw.overlay` with the target's pixels tinted in the color of its status.
 
-    mask: (H, W) above 0 at the target's pixels. blocks: those of the target, thin, and the occluded ones,
-    crossed; round them all is the window of section 4.5, blue. ValueError for a mask of another size.
+    image: BGR (H, W, 3) or gray (H, W). mask: (H, W), above 0 at the target's pixels. blocks: those of the
+    target are drawn thin, the occluded ones crossed; their window (section 4.5 of Okada, Shirai and Miura,
+    1996) is blue. truth: the true box. note: text below the status. ValueError for a mask of another size.
     """
     if mask.shape != image.shape[:2]:
         raise ValueError(f"mask: expected the image's shape {image.shape[:2]}, got {mask.shape}")
@@ -43,8 +43,8 @@ def flow_depth_overlay(
     scale = canvas.shape[0] // image.shape[0]
     targets, occluded = blocks
     _draw_blocks(canvas, targets, scale, color, crossed=False)
-    _draw_blocks(canvas, occluded, scale, _HIDDEN, crossed=True)
-    _draw_window(canvas, (*targets, *occluded), scale, _WINDOW, 1)
+    _draw_blocks(canvas, occluded, scale, _OCCLUDED_COLOR, crossed=True)
+    _draw_window(canvas, (*targets, *occluded), scale, _WINDOW_COLOR, 1)
     return canvas
 
 
@@ -54,34 +54,35 @@ def block_picture(
     targets: Sequence[Box] = (),
     occluded: Sequence[Box] = (),
 ) -> Image:
-    """A frame as in the paper's figure 8, enlarged: target pixels white, target and occluded blocks black,
-    here the occluded ones crossed, the window white.
+    """A frame as in figure 8 of Okada, Shirai and Miura (1996), enlarged.
+
+    The target's pixels are white, its blocks and the occluded ones black (the latter crossed), and their
+    window is white. image: BGR (H, W, 3) or gray (H, W). mask: (H, W), above 0 at the target's pixels.
     """
-    canvas = _bgr(image).copy()
+    canvas = to_bgr(image).copy()
     if mask is not None:
-        canvas[mask > 0] = _WHITE
-    canvas = np.asarray(cv2.resize(canvas, None, fx=LARGER, fy=LARGER, interpolation=cv2.INTER_NEAREST))
+        canvas[mask > 0] = WHITE
+    canvas = np.asarray(
+        cv2.resize(
+            canvas, None, fx=BLOCK_PICTURE_SCALE, fy=BLOCK_PICTURE_SCALE, interpolation=cv2.INTER_NEAREST
+        )
+    )
     canvas = canvas.astype(np.uint8, copy=False)
-    _draw_blocks(canvas, targets, LARGER, _BLACK, crossed=False)
-    _draw_blocks(canvas, occluded, LARGER, _BLACK, crossed=True)
-    _draw_window(canvas, (*targets, *occluded), LARGER, _WHITE, 3)
+    _draw_blocks(canvas, targets, BLOCK_PICTURE_SCALE, BLACK, crossed=False)
+    _draw_blocks(canvas, occluded, BLOCK_PICTURE_SCALE, BLACK, crossed=True)
+    _draw_window(canvas, (*targets, *occluded), BLOCK_PICTURE_SCALE, WHITE, 3)
     return canvas
 
 
-def _bgr(image: NDArray[Any]) -> Image:
-    color = cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) if image.ndim == 2 else image
-    return np.asarray(color, np.uint8)
-
-
 def _tinted(image: NDArray[Any], mask: NDArray[np.uint8], color: Color) -> Image:
-    canvas = _bgr(image).copy()
-    mine = mask > 0
-    canvas[mine] = ((1 - TINT) * canvas[mine] + TINT * np.array(color)).astype(np.uint8)
+    canvas = to_bgr(image).copy()
+    target = mask > 0
+    canvas[target] = ((1 - TINT_WEIGHT) * canvas[target] + TINT_WEIGHT * np.array(color)).astype(np.uint8)
     return np.asarray(canvas, np.uint8)
 
 
 def _corners(box: Box, scale: int) -> tuple[tuple[int, int], tuple[int, int]]:
-    left, top, right, bottom = (int(n) for n in np.clip(np.rint(np.array(box.xyxy) * scale), -_FAR, _FAR))
+    left, top, right, bottom = to_pixels(box.xyxy, scale)
     return (left, top), (right - 1, bottom - 1)
 
 
