@@ -34,7 +34,7 @@ def real(data: Path) -> list[Pair]:
 @pytest.fixture(scope="module")
 def made() -> list[Pair]:
     """The first frames of twelve scenes 160x120 and two 640x480."""
-    kinds = [*enumerate(2 * scenes.KINDS)]
+    kinds = [*enumerate(2 * scenes.HEAD_KINDS)]
     found = [scenes.head(seed, 1, kind=kind).frames[0] for seed, kind in kinds]
     found += [scenes.head(seed, 1, "640x480").frames[0] for seed in range(2)]
     return [

@@ -8,7 +8,7 @@ from tricue import Status, Track
 from tricue.papers import reproduce, stereo_experiments
 from tricue.papers.experiment import Case
 from tricue.papers.stereo_experiments import Trial
-from tricue.scenes import KINDS
+from tricue.scenes import HEAD_KINDS
 from tricue.track.stereo_head.params import StereoHeadParams
 
 EXPERIMENT = stereo_experiments.EXPERIMENTS["moreno-fig3"]
@@ -84,7 +84,7 @@ def test_variants_differ_from_the_default_as_they_say():
 def test_scenes_are_all_kinds_and_the_disturbed_and_the_large_one():
     """Every kind of head scene is run; the large pictures from a few seeds only."""
     keywords = [make.keywords for make in EXPERIMENT.scenes.values()]
-    assert {each["kind"] for each in keywords} == set(KINDS)
+    assert {each["kind"] for each in keywords} == set(HEAD_KINDS)
     assert [each["noise"] for each in keywords].count(0.3) == 1
     assert [each["camera"] for each in keywords].count("640x480") == 1
     assert set(EXPERIMENT.at_most) < set(EXPERIMENT.scenes)

@@ -6,7 +6,7 @@ import pytest
 from tricue import Box, Status, Track
 from tricue.papers import walk_curves, walk_experiments, walk_figures
 from tricue.papers.experiment import Case
-from tricue.scenes import OVERTAKINGS, Events, overtaking
+from tricue.scenes import OVERTAKING_KINDS, Events, overtaking
 
 EXPERIMENT = walk_experiments.EXPERIMENTS["okada-fig8"]
 CASE = Case("m", "s", 0)
@@ -77,7 +77,7 @@ def test_cues_are_both_and_each_alone():
     cues = [make.keywords.get("cues") for make in EXPERIMENT.models.values()]
     assert cues == [None, ("flow",), ("disparity",)]
     scenes = [(make.keywords["kind"], make.keywords["depth"]) for make in EXPERIMENT.scenes.values()]
-    assert sorted(scenes) == [(kind, depth) for kind in OVERTAKINGS for depth in (False, True)]
+    assert sorted(scenes) == [(kind, depth) for kind in OVERTAKING_KINDS for depth in (False, True)]
 
 
 def test_moments_are_in_the_scene(scene):

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 
 from tricue.evaluation import baselines
 from tricue.evaluation.tracker_spec import Entrant
-from tricue.scenes.stress.scene import KINDS
+from tricue.scenes.stress.scene import STRESS_KINDS
 from tricue.track.base.registry import tracker_class
 
 from benchmarks.quality.fused import robust, scene_runs, scenes
@@ -74,7 +74,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
     made = argparse.ArgumentParser(prog="python -m benchmarks.quality.fused.ablation", description=__doc__)
     robust.add_dataset(made)
-    made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(SCENES), help="of scenes")
+    made.add_argument("--kinds", nargs="+", choices=STRESS_KINDS, default=list(SCENES), help="of scenes")
     made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="default 0:3")
     add_common(made)
     options = made.parse_args(arguments)

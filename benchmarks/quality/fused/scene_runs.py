@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.one_pass import Run
-from tricue.scenes.stress.scene import Scene, everything
+from tricue.scenes.stress.scene import StressScene, stress_scene
 from tricue.track.base.track import Status
 
 from benchmarks.quality.fused.status_metrics import GOOD, Array, Flags, Said
@@ -66,7 +66,7 @@ def perform(task: Task) -> list[Followed]:
     able = [each for each in task.participants if not each.refuses(offer)]
     if not able:
         return []
-    scene = everything(task.kind, task.seed, channels=task.channels)
+    scene = stress_scene(task.kind, task.seed, channels=task.channels)
     return [follow(each, scene, task.channels) for each in able]
 
 
@@ -75,7 +75,7 @@ def channels_of(name: str) -> tuple[str, ...]:
     return {"rgbd": ("color", "depth"), "stereo": ("color", "right")}.get(name, (name,))
 
 
-def follow(participant: Participant, scene: Scene, channels: str) -> Followed:
+def follow(participant: Participant, scene: StressScene, channels: str) -> Followed:
     """One tracker from the first true box on."""
     names = channels_of(channels)
     depth = scene.intrinsics if "depth" in names else None
@@ -98,7 +98,7 @@ def follow(participant: Participant, scene: Scene, channels: str) -> Followed:
     )
 
 
-def found_again(run: Run, scene: Scene) -> float:
+def found_again(run: Run, scene: StressScene) -> float:
     """Share of the events "leaving" and "hidden" after which the overlap is above 0.5 in one of the first
     AGAIN frames in which the target is wholly visible again; NaN without such an event.
     """
@@ -111,7 +111,7 @@ def found_again(run: Run, scene: Scene) -> float:
     return float(np.mean(known)) if known else float("nan")
 
 
-def _back(scene: Scene, event: str) -> int | None:
+def _back(scene: StressScene, event: str) -> int | None:
     """The first frame after an event's last one without the target in which it is whole; None without."""
     span = scene.spans.get(event, range(0))
     gone = [index for index in span if scene.visible[index] <= 0]
@@ -121,7 +121,7 @@ def _back(scene: Scene, event: str) -> int | None:
     return None if not whole.size else gone[-1] + 1 + int(whole[0])
 
 
-def faithful(run: Run, scene: Scene) -> float:
+def faithful(run: Run, scene: StressScene) -> float:
     """1 where it was never TRACKED on a look-alike for more than PATIENCE frames in a row, else 0; NaN
     without look-alikes.
     """
@@ -142,7 +142,7 @@ def longest(flags: NDArray[np.bool_]) -> int:
     return most
 
 
-def told(run: Run, scene: Scene) -> float:
+def told(run: Run, scene: StressScene) -> float:
     """1 where LOST was said in one of the first PROMPT frames of the event "blank" without the target, else
     0; NaN without the event.
     """

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
-from tricue.scenes.stress.scene import CHANNELS, KINDS
+from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS
 
 from benchmarks.quality.fused.options import Cell, markdown, mean, parser, performed, seeds, write_csv
 from benchmarks.quality.fused.scene_runs import Followed, Task, perform
@@ -71,7 +71,9 @@ def overall(runs: Sequence[Followed]) -> list[float]:
 def rows(results: Iterable[Followed]) -> list[list[Cell]]:
     """Channels, kind, tracker, and NUMBERS."""
     groups = grouped(results)
-    order = sorted(groups, key=lambda key: (CHANNELS.index(key[0]), [*KINDS, ALL].index(key[1])))
+    order = sorted(
+        groups, key=lambda key: (STRESS_CHANNELS.index(key[0]), [*STRESS_KINDS, ALL].index(key[1]))
+    )
     return [[*key, *(overall if key[1] == ALL else numbers_of)(groups[key])] for key in order]
 
 
@@ -87,8 +89,8 @@ def tables(results: Sequence[Followed]) -> str:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; the exit code."""
     made = parser("scenes", __doc__, TRACKERS)
-    made.add_argument("--channels", nargs="+", choices=CHANNELS, default=list(CHANNELS))
-    made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
+    made.add_argument("--channels", nargs="+", choices=STRESS_CHANNELS, default=list(STRESS_CHANNELS))
+    made.add_argument("--kinds", nargs="+", choices=STRESS_KINDS, default=list(STRESS_KINDS))
     made.add_argument("--seeds", type=seeds, default=seeds("0:20"), metavar="A:B", help="default 0:20")
     options = made.parse_args(arguments)
     try:

@@ -8,16 +8,16 @@ NumPy and OpenCV.
 
 from tricue.scenes.faces.clutter import face_over_clutter
 from tricue.scenes.faces.light_change import light_change
-from tricue.scenes.heads.head import KINDS, head
-from tricue.scenes.overtakings.overtaking import OVERTAKINGS, overtaking
+from tricue.scenes.heads.head import HEAD_KINDS, head
+from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
 from tricue.scenes.people.walkers import crossing, walker
 from tricue.scenes.rendering.photographs import BACKGROUNDS
 from tricue.scenes.scene import Bystander, DepthScene, Events, Scene, StereoScene, WalkScene
 
 __all__ = [
     "BACKGROUNDS",
-    "KINDS",
-    "OVERTAKINGS",
+    "HEAD_KINDS",
+    "OVERTAKING_KINDS",
     "Bystander",
     "DepthScene",
     "Events",

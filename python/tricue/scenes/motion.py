@@ -6,7 +6,7 @@ import numpy as np
 from tricue.scenes.arrays import Array
 
 
-def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
+def sample_path(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
     """A smooth nonlinear motion: (frames, 2) offsets in pixels within ±reach, no step over ``max_speed``.
 
     Sums of two sines on each axis, their phases random and the pace uneven: fast on long stretches, slow in
@@ -34,7 +34,7 @@ def _sines(angle: Array, phases: Array, size: Array) -> Array:
     return curve
 
 
-def steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Array:
+def sample_gain_steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Array:
     """A gain per frame: 1 at first, every 10 to 20 frames changed by a quarter of [low, high] or more."""
     gains = np.ones(frames)
     start = int(rng.integers(10, 21))
@@ -46,7 +46,7 @@ def steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Arr
     return gains
 
 
-def sway(time: Array, shortest: float, longest: float, rng: np.random.Generator) -> Array:
+def sample_sway(time: Array, shortest: float, longest: float, rng: np.random.Generator) -> Array:
     """A smooth curve (M,) within [-1, 1] with periods in this range, seconds."""
     periods, phases = rng.uniform(shortest, longest, 2), rng.uniform(0, 2 * np.pi, 2)
     waves: Array = np.sin(2 * np.pi * time[:, None] / periods + phases) @ [0.65, 0.35]

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
-WAVES = 60
-SHAPE = (120, 160)
+WAVE_COUNT = 60
+WAVES_SHAPE = (120, 160)
 
 
 def moving_waves(
@@ -17,7 +17,7 @@ def moving_waves(
     shift: float,
     rng: np.random.Generator,
     noise: float,
-    shape: tuple[int, int] = SHAPE,
+    shape: tuple[int, int] = WAVES_SHAPE,
 ) -> tuple[Image, Image, Floats]:
     """Previous and current frame (H, W), and the true flow (H, W, 2), pixels, of the previous one's pixels.
 
@@ -32,8 +32,11 @@ def moving_waves(
     away = shift * np.exp(2j * np.pi * rng.random())
     flow = position * turn + away - position
 
-    length = 4 * 10 ** rng.random(WAVES)
-    wave, phase = 2 * np.pi / length * np.exp(2j * np.pi * rng.random(WAVES)), 2 * np.pi * rng.random(WAVES)
+    length = 4 * 10 ** rng.random(WAVE_COUNT)
+    wave, phase = (
+        2 * np.pi / length * np.exp(2j * np.pi * rng.random(WAVE_COUNT)),
+        2 * np.pi * rng.random(WAVE_COUNT),
+    )
     weight = length**0.5 / np.sqrt(length.sum() / 2)
 
     def render(at: NDArray[np.complex128]) -> Image:

@@ -15,7 +15,7 @@ SEEDS = range(2)
 @pytest.fixture(scope="module")
 def all_kinds():
     """100 frames of every kind, 160x120, of 2 seeds each."""
-    return {kind: [scenes.head(seed, kind=kind) for seed in SEEDS] for kind in scenes.KINDS}
+    return {kind: [scenes.head(seed, kind=kind) for seed in SEEDS] for kind in scenes.HEAD_KINDS}
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +32,7 @@ def ellipse(scene, index, share=1.0):
     return ((columns - x) / half[0]) ** 2 + ((rows - y) / half[1]) ** 2 < 1
 
 
-@pytest.mark.parametrize("kind", scenes.KINDS)
+@pytest.mark.parametrize("kind", scenes.HEAD_KINDS)
 def test_seed_decides_everything(kind):
     """One seed gives one scene bit for bit; another seed gives another path and other pixels."""
     first, again, other = (scenes.head(seed, 5, kind=kind) for seed in (3, 3, 4))
@@ -193,10 +193,10 @@ def test_a_hand_hides_the_head_and_leaves(all_kinds):
         hidden = np.flatnonzero(scene.visible == 0)
         assert 10 <= len(hidden) <= 20
         assert np.ptp(hidden) == len(hidden) - 1
-        assert (scene.visible[: hidden[0] - head_moves.SLIDE] == 1).all()
-        assert (scene.visible[hidden[-1] + 1 + head_moves.SLIDE :] == 1).all()
-        assert hidden[0] - head_moves.SLIDE >= 25
-        assert 100 - hidden[-1] - head_moves.SLIDE >= 30
+        assert (scene.visible[: hidden[0] - head_moves.HAND_SLIDE_FRAMES] == 1).all()
+        assert (scene.visible[hidden[-1] + 1 + head_moves.HAND_SLIDE_FRAMES :] == 1).all()
+        assert hidden[0] - head_moves.HAND_SLIDE_FRAMES >= 25
+        assert 100 - hidden[-1] - head_moves.HAND_SLIDE_FRAMES >= 30
 
 
 def test_nothing_else_hides_the_head(all_kinds):
@@ -235,7 +235,7 @@ def test_noise_does_not_change_the_truth():
         assert far == pytest.approx([2.0, 4.0], rel=0.05)
 
 
-@pytest.mark.parametrize("kind", scenes.KINDS)
+@pytest.mark.parametrize("kind", scenes.HEAD_KINDS)
 @pytest.mark.parametrize("frames", [1, 2])
 def test_short_scenes_are_scenes(kind, frames):
     """A scene of one or two frames has as many truths, all of them finite."""
@@ -277,7 +277,7 @@ def test_walks_keep_their_distance_from_the_cameras():
     for seed in range(50):
         rng = np.random.default_rng(seed)
         room = heads._range(heads._rig("160x120", rng), "normal")
-        moves = head_moves.walk(300, room, turning=False, rng=rng)
+        moves = head_moves.sample_walk(300, room, turning=False, rng=rng)
         x, y, z = moves.center.T
         assert room.near <= z.min()
         assert z.max() <= room.far

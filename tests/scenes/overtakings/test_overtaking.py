@@ -9,15 +9,15 @@ from tricue import scenes
 from tricue.scenes.overtakings import overtaking as overtakings
 from tricue.scenes.overtakings import plan as overtaking_moves
 from tricue.scenes.overtakings.hall import Hall
-from tricue.scenes.overtakings.truth import Truth
+from tricue.scenes.overtakings.truth import WalkGeometry
 
-WIDTH, HEIGHT = 160, 120
+REFERENCE_WIDTH, HEIGHT = 160, 120
 
 
 @pytest.fixture(scope="module")
 def clean():
     """30 frames without noise, of either kind: the target alone, and half hidden in the end."""
-    return [scenes.overtaking(3, 30, kind=kind, noise=0) for kind in scenes.OVERTAKINGS]
+    return [scenes.overtaking(3, 30, kind=kind, noise=0) for kind in scenes.OVERTAKING_KINDS]
 
 
 @pytest.fixture(scope="module")
@@ -29,10 +29,10 @@ def stories():
 def story(kind, seed):
     """What happens in a scene, without its pictures."""
     rng = np.random.default_rng(seed)
-    plan = overtaking_moves.PLAIN if kind == "plain" else overtaking_moves.varied(rng)
-    people, ways = overtakings._people(plan, "160x120", 100, rng)
-    truth = Truth(ways.pan, Hall([]), people)
-    return plan, ways, [truth.sight(index) for index in range(100)]
+    plan = overtaking_moves.PLAIN_PLAN if kind == "plain" else overtaking_moves.sample_plan(rng)
+    people, paths = overtakings._people(plan, "160x120", 100, rng)
+    truth = WalkGeometry(paths.pan, Hall([]), people)
+    return plan, paths, [truth.sight(index) for index in range(100)]
 
 
 def warp(image, x, y):
@@ -62,7 +62,7 @@ def residual(warped, image, region):
 
 
 @pytest.mark.parametrize("depth", [False, True])
-@pytest.mark.parametrize("kind", scenes.OVERTAKINGS)
+@pytest.mark.parametrize("kind", scenes.OVERTAKING_KINDS)
 def test_seed_decides_everything(kind, depth):
     """One seed gives one scene bit for bit, the start of a longer one; another one has other pixels."""
     first, again, other = (
@@ -101,7 +101,7 @@ def test_scene_is_whole(camera, shape):
 
 def test_both_cameras_see_one_world():
     """At 640x480 boxes, flow and disparity are those of 160x120, four times as long."""
-    small, large = (scenes.overtaking(2, 2, camera, kind="varied") for camera in overtakings.CAMERAS)
+    small, large = (scenes.overtaking(2, 2, camera, kind="varied") for camera in overtakings.RAYS_PER_PIXEL)
     assert np.array(large.boxes) == pytest.approx(4 * np.array(small.boxes))
     np.testing.assert_allclose(large.positions, small.positions, atol=0.01)
     for name in ("disparity", "flow"):
@@ -113,7 +113,7 @@ def test_both_cameras_see_one_world():
         assert near.mean() > 0.8
 
 
-@pytest.mark.parametrize("kind", scenes.OVERTAKINGS)
+@pytest.mark.parametrize("kind", scenes.OVERTAKING_KINDS)
 def test_flow_takes_the_frame_before_to_this_one(kind):
     """Warped by the true flow the last frame is this one, to 0.05 px on target and hall, and not without.
 
@@ -162,7 +162,7 @@ def test_disparities_are_those_of_the_story():
         assert np.median(disparity[scene.masks[0]]) == pytest.approx(target, abs=0.15)
         hall = np.ones_like(scene.masks[0])
         for box in (scene.boxes[0], *(other.box for other in scene.others[0])):
-            left, top, right, bottom = (int(side) for side in box.clip(WIDTH, HEIGHT).xyxy)
+            left, top, right, bottom = (int(side) for side in box.clip(REFERENCE_WIDTH, HEIGHT).xyxy)
             hall[top : bottom + 1, left : right + 1] = False
         hall[80:] = False  # the floor comes nearer
         assert disparity.min() > 1.0
@@ -191,10 +191,10 @@ def test_masks_agree_with_boxes_and_visible_shares(clean):
 def test_flow_agrees_with_the_positions(clean):
     """Along x the median flow on the target is the motion of its projected position, but for its limbs."""
     for scene in clean:
-        moved = np.diff(scene.rig.intrinsics.project(scene.positions), axis=0)
+        transformed = np.diff(scene.rig.intrinsics.project(scene.positions), axis=0)
         for index in range(1, 8):
             flow = np.median(scene.flow[index][scene.masks[index]], axis=0)
-            assert flow[0] == pytest.approx(moved[index - 1, 0], abs=0.5)
+            assert flow[0] == pytest.approx(transformed[index - 1, 0], abs=0.5)
 
 
 def test_the_first_frame_shows_the_target_whole(stories):
@@ -202,7 +202,7 @@ def test_the_first_frame_shows_the_target_whole(stories):
     for _, _, sights in stories:
         assert sights[0].visible == 1
         box = sights[0].target.box
-        assert box.clip(WIDTH, HEIGHT) == box
+        assert box.clip(REFERENCE_WIDTH, HEIGHT) == box
         assert 60 < box.height < 80
 
 
@@ -210,7 +210,7 @@ def test_the_target_is_overtaken(stories):
     """Hiding begins in time, 5 frames or more have less than 1 % of the target, then it comes back, whole."""
     for plan, _, sights in stories:
         visible = np.array([sight.visible for sight in sights])
-        events = overtakings._events(visible, round(plan.passed))
+        events = overtakings._events(visible, round(plan.passing_frame))
         assert 8 < events.hiding < events.hidden < events.back < 56
         assert events.hidden < 32
         assert (visible < 0.01).sum() >= 5
@@ -222,35 +222,35 @@ def test_the_target_is_overtaken(stories):
 
 def test_who_overtakes_is_nearer_and_a_little_faster(stories):
     """In the picture both go the plan's way, who overtakes a pixel a frame faster; he was behind at first."""
-    for plan, ways, sights in stories:
+    for plan, paths, sights in stories:
         columns = np.array([[sight.target.box.center[0], sight.others[0].box.center[0]] for sight in sights])
-        target, overtaker = (plan.sense * np.diff(columns[::20].T) / 20).mean(axis=1)
+        target, overtaker = (plan.direction * np.diff(columns[::20].T) / 20).mean(axis=1)
         assert 0.4 < target < 1.3
         assert 0.8 < overtaker - target < 1.1
-        gap = plan.sense * (columns[:, 1] - columns[:, 0])
+        gap = plan.direction * (columns[:, 1] - columns[:, 0])
         assert gap[0] < -20
         assert gap[-1] > 40
         assert (sights[0].others[0].position[2] < 0.65 * sights[0].target.position[2]).all()
-        speed = np.hypot(*np.diff(ways.target, axis=0).T) * overtaking_moves.RATE
+        speed = np.hypot(*np.diff(paths.target, axis=0).T) * overtaking_moves.OVERTAKING_FRAME_RATE
         assert speed.min() > 0.3
         assert speed.max() < 1.1
 
 
 def test_the_target_passes_who_stands_at_its_depth(stories):
     """At the pass both are on one line of sight, their surfaces 0.4 pixels of disparity apart or less."""
-    for plan, ways, sights in stories:
-        index = round(plan.passed)
+    for plan, paths, sights in stories:
+        index = round(plan.passing_frame)
         assert 65 < index <= 78
         target, standing = sights[index].target, sights[index].others[1]
-        camera = ways.pan.rig.intrinsics
+        camera = paths.pan.rig.intrinsics
         columns = [camera.project(who.position)[0] for who in (target, standing)]
         assert columns[0] == pytest.approx(columns[1], abs=3)
         depths = np.array([target.position[2], standing.position[2]])
-        near, far = camera.fx * ways.pan.rig.baseline / depths
+        near, far = camera.fx * paths.pan.rig.baseline / depths
         assert abs(near - far) < 0.4
-        assert np.sign(far - near) == -np.sign(plan.apart)
+        assert np.sign(far - near) == -np.sign(plan.standing_depth_offset)
         behind = min(sight.visible for sight in sights[index - 2 : index + 3])
-        assert behind > 0.9 if plan.apart > 0 else 0.05 < behind < 0.6
+        assert behind > 0.9 if plan.standing_depth_offset > 0 else 0.05 < behind < 0.6
 
 
 def test_who_stands_moves_with_the_hall(stories):
@@ -258,15 +258,15 @@ def test_who_stands_moves_with_the_hall(stories):
     for plan, _, sights in stories:
         columns = np.array([sight.others[1].box.center[0] for sight in sights])
         middle = np.abs(columns[:-1] - 80) < 30
-        moved = -plan.sense * np.diff(columns)[middle]
-        assert moved.mean() == pytest.approx(plan.pan, rel=0.05, abs=0.01)
+        transformed = -plan.direction * np.diff(columns)[middle]
+        assert transformed.mean() == pytest.approx(plan.pan, rel=0.05, abs=0.01)
 
 
 def test_varied_scenes_vary(stories):
     """Among 16 varied seeds both directions and both sides of who stands occur; pans differ."""
     plans = [plan for plan, *_ in stories[3:]]
-    assert {plan.sense for plan in plans} == {-1, 1}
-    assert {np.sign(plan.apart) for plan in plans} == {-1, 1}
+    assert {plan.direction for plan in plans} == {-1, 1}
+    assert {np.sign(plan.standing_depth_offset) for plan in plans} == {-1, 1}
     pans = [plan.pan for plan in plans]
     assert min(pans) < 0.2
     assert max(pans) > 0.7
@@ -310,8 +310,10 @@ def test_no_ray_passes_between_the_halls_boards():
     """Over the whole pan of the longest scenes there is a wall, floor or thing on each pixel's ray."""
     for seed in range(4):
         rng = np.random.default_rng(seed)
-        truth, _ = overtakings._world(overtaking_moves.varied(rng), "160x120", overtakings.LONGEST, rng)
-        for index in (0, 50, 100, overtakings.LONGEST - 1):
+        truth, _ = overtakings._world(
+            overtaking_moves.sample_plan(rng), "160x120", overtakings.MAX_OVERTAKING_FRAMES, rng
+        )
+        for index in (0, 50, 100, overtakings.MAX_OVERTAKING_FRAMES - 1):
             assert truth.disparity(index).min() > 0.5
         assert np.isfinite(truth.flow(index)).all()
 

@@ -4,10 +4,10 @@ import pytest
 from tricue import Intrinsics, StereoRig
 from tricue.scenes.overtakings.hall import Hall
 from tricue.scenes.overtakings.pan import Pan
-from tricue.scenes.overtakings.truth import Lazy, Truth
+from tricue.scenes.overtakings.truth import LazySequence, WalkGeometry
 from tricue.scenes.people.pedestrian import Pedestrian
-from tricue.scenes.rendering.ellipsoids import Balls
-from tricue.scenes.rendering.stereo_camera import Board
+from tricue.scenes.rendering.ellipsoids import OrientedEllipsoids
+from tricue.scenes.rendering.stereo_camera import TexturedRectangle
 
 RIG = StereoRig(Intrinsics.from_fov(160, 120, 40), 0.12)
 
@@ -16,7 +16,7 @@ def ball(*centers, radius=0.2, turns=None):
     """One ball that is at a centre in each frame, turned so."""
     turns = [np.eye(3)] * len(centers) if turns is None else turns
     parts = [
-        Balls(np.array([center], float), radius * np.array([turn]))
+        OrientedEllipsoids(np.array([center], float), radius * np.array([turn]))
         for center, turn in zip(centers, turns, strict=True)
     ]
     return Pedestrian(parts, [])
@@ -26,7 +26,9 @@ def truth(*people, angles=(0.0, 0.0), wall=6.0):
     """Balls before a wall, and a pan."""
     texture = [np.full((8, 8, 3), 100, np.float32)]
     sides = np.array([-9.0, -9.0, wall]), np.array([18.0, 0, 0]), np.array([0, 18.0, 0])
-    return Truth(Pan(RIG, 1.0, np.array(angles)), Hall([Board(*sides, texture)]), list(people))
+    return WalkGeometry(
+        Pan(RIG, 1.0, np.array(angles)), Hall([TexturedRectangle(*sides, texture)]), list(people)
+    )
 
 
 FAR = ball((0, 0, 5.9), (0, 0, 5.9), radius=0.01)
@@ -35,7 +37,7 @@ FAR = ball((0, 0, 5.9), (0, 0, 5.9), radius=0.01)
 def test_lazy_items_are_made_when_asked_for():
     """Items, from both ends and in slices, are those that the function makes, and only the ones asked for."""
     made = []
-    items = Lazy(5, lambda index: made.append(index) or 10 * index)
+    items = LazySequence(5, lambda index: made.append(index) or 10 * index)
     assert (len(items), items[1], items[-1]) == (5, 10, 40)
     assert list(items[1:4]) == [10, 20, 30]
     assert items[3:0:-2][1] == 10

@@ -10,7 +10,7 @@ from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 def walker(coat=False):
     """Somebody 1.8 m tall who walks a metre a second along x."""
     path = np.stack([np.arange(30) / 15, np.full(30, 4.0)], axis=1)
-    outfit = Outfit.draw(0.2, coat, np.random.default_rng(0))
+    outfit = Outfit.sample(0.2, coat, np.random.default_rng(0))
     return Pedestrian.walk(Person(1.8, 1.0), outfit, path, 1.1, 15.0)
 
 
@@ -34,13 +34,13 @@ def test_a_coat_hides_the_thighs():
     np.testing.assert_array_equal(dressed.parts[3].centers[:-extra], bare.parts[3].centers)
     lowest = (dressed.parts[0].centers[:, 1] + np.linalg.norm(dressed.parts[0].roots[:, 1], axis=1))[-1]
     assert 0.25 < 1.1 - lowest < 0.45
-    assert len(dressed.maps) == len(dressed.parts[0].centers)
+    assert len(dressed.part_textures) == len(dressed.parts[0].centers)
 
 
 def test_textures_keep_their_level():
     """Seen from farther away each texture is a coarser one, and always of a single level."""
     person = walker()
-    near, far = (person.seen_at(depth, 300.0).maps for depth in (1.0, 8.0))
+    near, far = (person.seen_at(depth, 300.0).part_textures for depth in (1.0, 8.0))
     assert {len(map_) for map_ in near + far} == {1}
     assert all(few[0].size < many[0].size for few, many in zip(far, near, strict=True))
 
@@ -50,7 +50,9 @@ def test_a_point_of_the_cloth_stays_on_its_limb():
     parts = walker().parts
     q = np.array([0.6, -0.64, 0.48])
     for limb in (6, 7, 9, 10):
-        ends = [np.linalg.norm(balls.roots[limb] @ (q - [0, 1, 0])) for balls in parts]
+        ends = [
+            np.linalg.norm(build_oriented_body.roots[limb] @ (q - [0, 1, 0])) for build_oriented_body in parts
+        ]
         assert np.ptp(ends) < 1e-9
 
 

@@ -177,8 +177,8 @@ def test_depth_changes_while_hidden(camera, change):
         z = scene.positions[:, 2]
         assert z[-1] - z[0] == pytest.approx(change, abs=0.4)  # 0.15 m/s beside it, and the body's turn
         hidden = np.flatnonzero(scene.visible < 0.3)
-        moved = (z[hidden[-1]] - z[hidden[0]]) / change
-        assert moved > 0.6
+        transformed = (z[hidden[-1]] - z[hidden[0]]) / change
+        assert transformed > 0.6
         assert scene.visible[hidden[-1] :].max() > 0.8
 
 
@@ -258,4 +258,4 @@ def test_people_need_no_scikit_image():
 
 def test_farthest_walk_is_within_both_ranges():
     """The walkers' floor ends within the range of each camera."""
-    assert all(camera.far > people.FARTHEST for camera in people.CAMERAS.values())
+    assert all(camera.far > people.MAX_WALKER_DISTANCE for camera in people.DEPTH_SENSORS.values())

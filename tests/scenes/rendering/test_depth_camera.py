@@ -4,14 +4,20 @@ import math
 import numpy as np
 import pytest
 from tricue import Intrinsics
-from tricue.scenes.people.body import Person, Pose, stand
+from tricue.scenes.people.body import BodyPose, Person, place_body
 from tricue.scenes.rendering.depth_room import Furniture, Room
-from tricue.scenes.rendering.depth_sensor import CAMERAS, FLYING, depth_edges, drop, mix
-from tricue.scenes.rendering.depth_view import View
+from tricue.scenes.rendering.depth_sensor import (
+    DEPTH_SENSORS,
+    FLYING_PIXEL_SHARE,
+    add_flying_pixels,
+    drop_pixels,
+    find_depth_edges,
+)
+from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 
-TOF, RGBD = CAMERAS["tof"], CAMERAS["rgbd"]
-LEVEL = {name: View(camera.intrinsics, 1.2, 0.0) for name, camera in CAMERAS.items()}
+TOF, RGBD = DEPTH_SENSORS["tof"], DEPTH_SENSORS["rgbd"]
+LEVEL = {name: MountedCamera(camera.intrinsics, 1.2, 0.0) for name, camera in DEPTH_SENSORS.items()}
 
 
 def sphere(center, radius):
@@ -33,7 +39,7 @@ def step(near=2.0, far=4.0):
 
 def person(height, z, camera, yaw=math.pi):
     """Somebody at ease on the floor before the level camera, in the camera frame."""
-    return stand(Person(height, 1.0), Pose(), 0.0, z, yaw, LEVEL[camera].height)
+    return place_body(Person(height, 1.0), BodyPose(), 0.0, z, yaw, LEVEL[camera].height)
 
 
 def test_cameras_are_the_ones_of_the_papers():
@@ -43,8 +49,8 @@ def test_cameras_are_the_ones_of_the_papers():
     assert (RGBD.intrinsics.fx, RGBD.intrinsics.fy) == (525, 525)
     assert (RGBD.intrinsics.width, RGBD.intrinsics.height) == (640, 480)
     assert (RGBD.near, RGBD.far, RGBD.rate) == (0.5, 8.0, 30)
-    assert TOF.deviation(np.array([2.0, 6.0])) == pytest.approx([0.01, 0.03])
-    assert RGBD.deviation(np.array([1.0, 5.0])) == pytest.approx([0.0014, 0.036], rel=0.03)
+    assert TOF.noise_deviation(np.array([2.0, 6.0])) == pytest.approx([0.01, 0.03])
+    assert RGBD.noise_deviation(np.array([1.0, 5.0])) == pytest.approx([0.0014, 0.036], rel=0.03)
 
 
 def test_every_pixel_of_a_sphere_lies_on_the_sphere():
@@ -62,9 +68,9 @@ def test_box_is_the_outline_of_the_z_buffer(camera):
     """The box from the outlines' conics is less than a pixel larger than that of the pixels hit."""
     view = LEVEL[camera]
     bodies = person(1.75, 3.2, camera, yaw=0.7)
-    window = view.cast(bodies)
+    window = view.render(bodies)
     rows, columns = np.nonzero(np.isfinite(window.depth))
-    left, top, right, bottom = view.box(bodies).xyxy
+    left, top, right, bottom = view.bounding_box(bodies).xyxy
     # A pixel's centre lies half a pixel inside it.
     assert 0 <= columns.min() + window.left + 0.5 - left < 1
     assert 0 <= right - (columns.max() + window.left + 0.5) < 1
@@ -84,24 +90,24 @@ def test_person_is_as_far_as_the_nearest_surface():
     """Of somebody with the axis at 3 m the trunk's depth is 3 m minus its half depth within centimetres."""
     view = LEVEL["rgbd"]
     bodies = person(1.8, 3.0, "rgbd")
-    window = view.cast(bodies)
+    window = view.render(bodies)
     half = 0.068 * 1.8  # of the chest, the deepest part of the trunk
     camera = view.intrinsics
     row = round(camera.fy * (1.2 - 0.73 * 1.8) / 3.0 + camera.cy) - window.top
     column = round(camera.cx) - window.left
     assert window.depth[row, column] == pytest.approx(3.0 - half, abs=0.02)
-    assert 2.75 < view.points(window)[:, 2].mean() < 3.0
+    assert 2.75 < view.surface_points(window)[:, 2].mean() < 3.0
 
 
 def test_body_may_reach_over_the_edge():
     """A window over the edge keeps the whole body; its part inside lies where the same pixels are."""
     view = LEVEL["tof"]
-    window = view.cast(sphere([-1.2, 0.0, 3.0], 0.4))
+    window = view.render(sphere([-1.2, 0.0, 3.0], 0.4))
     assert window.left < 0
     place, part = window.inside(176, 144)
     assert (place[1].start, part.shape[1]) == (0, window.depth.shape[1] + window.left)
     np.testing.assert_array_equal(part, window.depth[:, -window.left :])
-    outside = view.cast(sphere([-9.0, 0.0, 3.0], 0.4)).inside(176, 144)
+    outside = view.render(sphere([-9.0, 0.0, 3.0], 0.4)).inside(176, 144)
     assert outside[1].size == 0
 
 
@@ -114,8 +120,8 @@ def test_ellipsoids_behind_the_camera_are_refused():
 
 def test_room_is_made_of_planes():
     """Back-projected and levelled, every pixel of an empty room lies on the floor, a wall or the ceiling."""
-    view = View(TOF.intrinsics, 1.3, math.radians(9))
-    depth = view.background(Room(7.0, 2.5, 2.6))
+    view = MountedCamera(TOF.intrinsics, 1.3, math.radians(9))
+    depth = view.render_room(Room(7.0, 2.5, 2.6))
     rows, columns = np.indices(depth.shape)
     x, y, z = np.moveaxis(TOF.intrinsics.back_project(columns, rows, depth) @ view.rotation, -1, 0)
     on = [np.abs(y - 1.3), np.abs(y - (1.3 - 2.6)), np.abs(z - 7.0), np.abs(np.abs(x) - 2.5)]
@@ -129,13 +135,13 @@ def test_furniture_stands_on_the_floor_where_it_was_put():
     """The front of a box of 1 x 0.5 x 0.8 m at 4 m has its depth and size; turned, its side is nearer."""
     view = LEVEL["rgbd"]
     piece = Furniture(0.3, 4.0, 1.0, 0.5, 0.8, 0.0)
-    empty, full = (view.background(Room(7.0, 3.0, 2.6, pieces)) for pieces in ((), (piece,)))
+    empty, full = (view.render_room(Room(7.0, 3.0, 2.6, pieces)) for pieces in ((), (piece,)))
     front = np.abs(full - 3.75) < 1e-9
     rows, columns = np.nonzero(front & (full < empty))
     assert np.ptp(rows) + 1 == pytest.approx(525 * 0.8 / 3.75, abs=2)
     assert np.ptp(columns) + 1 == pytest.approx(525 * 1.0 / 3.75, abs=2)
     assert columns.mean() == pytest.approx(319.5 + 525 * 0.3 / 3.75, abs=1)
-    turned = view.background(Room(7.0, 3.0, 2.6, (piece._replace(yaw=math.pi / 2),)))
+    turned = view.render_room(Room(7.0, 3.0, 2.6, (piece._replace(yaw=math.pi / 2),)))
     assert np.abs(turned - 3.5).min() < 1e-9  # its long side now points to the camera
 
 
@@ -149,7 +155,7 @@ def test_noise_has_the_deviation_of_its_formula(camera, z, noise):
     """
     measured = camera.measure(wall(z, camera), np.random.default_rng(0), missing=0, noise=noise)
     quantum = camera.step * z**2 / math.sqrt(12)
-    expected = math.hypot(noise * (camera.still + camera.growth * z**2), quantum)
+    expected = math.hypot(noise * (camera.base_noise + camera.noise_growth * z**2), quantum)
     assert measured.std() == pytest.approx(expected, rel=0.05)
     assert measured.mean() == pytest.approx(z, abs=0.02 * expected + 0.5 * camera.step * z**2)
 
@@ -189,8 +195,8 @@ def test_missing_share_is_the_one_asked_for(camera, share):
 def test_missing_pixels_come_in_patches_and_at_edges():
     """A missing pixel's neighbour is missing far oftener than others, and edges lose more than surfaces."""
     depth = step()
-    edges = depth_edges(depth)
-    drop(depth, edges, 0.1, 1.0, np.random.default_rng(0))
+    edges = find_depth_edges(depth)
+    drop_pixels(depth, edges, 0.1, 1.0, np.random.default_rng(0))
     gone = np.isnan(depth)
     assert gone[:, 1:][gone[:, :-1]].mean() > 4 * 0.1
     assert gone[edges].mean() > 3 * gone[~edges].mean()
@@ -198,21 +204,21 @@ def test_missing_pixels_come_in_patches_and_at_edges():
 
 def test_edges_are_jumps_not_slopes():
     """A jump is an edge one pixel to each side; the floor, however far, is none."""
-    edges = depth_edges(step())
+    edges = find_depth_edges(step())
     assert np.flatnonzero(edges.any(axis=0)).tolist() == [87, 88]
     assert edges[:, 87:89].all()
     floor = LEVEL["tof"].background(Room(9.0, 20.0, 20.0))
-    assert not depth_edges(floor)[floor < 7.5].any()
+    assert not find_depth_edges(floor)[floor < 7.5].any()
 
 
 def test_flying_pixels_lie_between_both_surfaces():
     """At an edge the share of pixels asked for gets depths strictly between; elsewhere nothing changes."""
     depth = step(2.0, 4.0)
-    edges = depth_edges(depth)
-    mixed = mix(depth, edges, FLYING, np.random.default_rng(0))
+    edges = find_depth_edges(depth)
+    mixed = add_flying_pixels(depth, edges, FLYING_PIXEL_SHARE, np.random.default_rng(0))
     np.testing.assert_array_equal(mixed[~edges], depth[~edges])
     flying = mixed[mixed != depth]
-    assert len(flying) == pytest.approx(FLYING * edges.sum(), rel=0.15)
+    assert len(flying) == pytest.approx(FLYING_PIXEL_SHARE * edges.sum(), rel=0.15)
     assert np.all((flying > 2.0) & (flying < 4.0))
     assert flying.std() > 0.4
 

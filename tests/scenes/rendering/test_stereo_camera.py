@@ -3,9 +3,16 @@ import numpy as np
 import pytest
 from tricue import Intrinsics, StereoRig
 from tricue.scenes.rendering import textures
-from tricue.scenes.rendering.depth_view import View
+from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
-from tricue.scenes.rendering.stereo_camera import Board, Canvas, Eye, Lamp, Solid, photograph
+from tricue.scenes.rendering.stereo_camera import (
+    Lamp,
+    RayCamera,
+    RayImage,
+    TexturedEllipsoid,
+    TexturedRectangle,
+    expose_lit,
+)
 
 RIG = StereoRig(Intrinsics.from_fov(160, 120, 55), 0.11)
 LAMP = Lamp(np.array([0.0, 0.0, -1.0]), 0.5)
@@ -14,21 +21,21 @@ LAMP = Lamp(np.array([0.0, 0.0, -1.0]), 0.5)
 def canvas_of(eye):
     """Grey nothing, infinitely far."""
     shape = eye.intrinsics.height, eye.intrinsics.width
-    return Canvas(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
+    return RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
 
 
 def paper(size, seed=0):
     """A rough texture (a pyramid) for a board ``size`` metres wide and high, fine enough for the images."""
     texels = round(size * 250)
-    return textures.pyramid(
-        textures.surface("blotches", (texels, texels), np.full(3, 128.0), np.random.default_rng(seed))
+    return textures.build_pyramid(
+        textures.make_surface("blotches", (texels, texels), np.full(3, 128.0), np.random.default_rng(seed))
     )
 
 
-def solid(center=(0.1, -0.05, 1.5), half=(0.08, 0.11, 0.1), texture=None):
+def ellipsoid(center=(0.1, -0.05, 1.5), half=(0.08, 0.11, 0.1), texture=None):
     """An upright ellipsoid of one grey, or with a texture."""
     texture = [np.full((8, 16, 3), 200, np.float32)] if texture is None else texture
-    return Solid(np.array(center), np.diag(1 / np.array(half)), texture)
+    return TexturedEllipsoid(np.array(center), np.diag(1 / np.array(half)), texture)
 
 
 def sub_pixel_shift(left, right, rough, rows, columns):
@@ -41,8 +48,8 @@ def sub_pixel_shift(left, right, rough, rows, columns):
     shifts = rough + np.arange(-1, 1.001, 0.05)
     errors = []
     for shift in shifts:
-        moved = np.fft.irfft(spectrum * np.exp(-1j * wave * shift), n=right.shape[1], axis=1)
-        errors.append(np.mean((moved[part] - left[part]) ** 2))
+        transformed = np.fft.irfft(spectrum * np.exp(-1j * wave * shift), n=right.shape[1], axis=1)
+        errors.append(np.mean((transformed[part] - left[part]) ** 2))
     best = int(np.argmin(errors))
     below, least, above = errors[best - 1 : best + 2]
     return shifts[best] + 0.05 * (below - above) / (below - 2 * least + above) / 2
@@ -52,12 +59,14 @@ def sub_pixel_shift(left, right, rough, rows, columns):
 @pytest.mark.parametrize("z", [0.83, 1.37, 2.9])
 def test_a_boards_disparity_is_exact(rays, z):
     """A board parallel to the images is shifted by f b / z between them, to 0.01 px."""
-    board = Board(np.array([-2.0, -2, z]), np.array([4.0, 0, 0]), np.array([0, 4.0, 0]), paper(4.0))
+    rectangle = TexturedRectangle(
+        np.array([-2.0, -2, z]), np.array([4.0, 0, 0]), np.array([0, 4.0, 0]), paper(4.0)
+    )
     left, right = (
-        eye.develop(canvas)
-        for eye in Eye.pair(RIG, rays)
+        eye.average_rays(canvas)
+        for eye in RayCamera.pair(RIG, rays)
         for canvas in [canvas_of(eye)]
-        if eye.draw_board(canvas, board) is None
+        if eye.draw_rectangle(canvas, rectangle) is None
     )
     disparity = RIG.intrinsics.fx * RIG.baseline / z
     assert sub_pixel_shift(left, right, disparity, (10, 110), (40, 140)) == pytest.approx(disparity, abs=0.01)
@@ -65,10 +74,12 @@ def test_a_boards_disparity_is_exact(rays, z):
 
 def test_a_slanted_boards_depth_is_its_planes():
     """The depths of a board that is turned about the vertical fulfil its plane's equation on every ray."""
-    eye, _ = Eye.pair(RIG, 2)
+    eye, _ = RayCamera.pair(RIG, 2)
     canvas = canvas_of(eye)
     along = np.array([6.0, 0, 1.5])
-    eye.draw_board(canvas, Board(np.array([-3.0, -3, 2.0]), along, np.array([0, 6.0, 0]), paper(6.0)))
+    eye.draw_rectangle(
+        canvas, TexturedRectangle(np.array([-3.0, -3, 2.0]), along, np.array([0, 6.0, 0]), paper(6.0))
+    )
     v, u = np.indices(canvas.depth.shape)
     x, _, z = np.moveaxis(eye.intrinsics.back_project(u, v, canvas.depth), -1, 0)
     np.testing.assert_allclose(z, 2.0 + (x + 3) / 6 * 1.5, rtol=1e-5)
@@ -86,10 +97,10 @@ def test_a_slanted_boards_depth_is_its_planes():
 )
 def test_a_board_is_seen_on_just_those_rays_that_meet_it(corner, along):
     """In single rays of double precision a board is hit where the canvas has its depth, but for its edge."""
-    eye, _ = Eye.pair(RIG, 1)
+    eye, _ = RayCamera.pair(RIG, 1)
     corner, along, down = (np.array(side, float) for side in (corner, along, (0, 0.5, 0)))
     canvas = canvas_of(eye)
-    eye.draw_board(canvas, Board(corner, along, down, paper(1.0)))
+    eye.draw_rectangle(canvas, TexturedRectangle(corner, along, down, paper(1.0)))
     v, u = np.indices(canvas.depth.shape)
     rays = eye.intrinsics.back_project(u, v, 1.0)
     a, b, depth = np.moveaxis(
@@ -105,13 +116,15 @@ def test_a_board_is_seen_on_just_those_rays_that_meet_it(corner, along):
 def test_solids_agree_with_the_depth_cameras_rays():
     """A rotated ellipsoid's depths are those that the depth camera's renderer, in double precision, gives."""
     turn = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
-    body = Solid(np.array([0.2, -0.1, 1.7]), turn / np.array([[0.08], [0.11], [0.2]]), solid().texture)
-    for eye in Eye.pair(RIG, 3):
+    body = TexturedEllipsoid(
+        np.array([0.2, -0.1, 1.7]), turn / np.array([[0.08], [0.11], [0.2]]), ellipsoid().texture
+    )
+    for eye in RayCamera.pair(RIG, 3):
         canvas = canvas_of(eye)
-        (part,) = eye.draw_solids(canvas, [body], LAMP)
+        (part,) = eye.draw_ellipsoids(canvas, [body], LAMP)
         center = body.center - [eye.offset, 0, 0]
         shape = np.linalg.inv(body.unit.T @ body.unit)
-        window = View(eye.intrinsics, 0, 0).cast(Ellipsoids(center[None], shape[None]))
+        window = MountedCamera(eye.intrinsics, 0, 0).cast(Ellipsoids(center[None], shape[None]))
         place, expected = window.inside(eye.intrinsics.width, eye.intrinsics.height)
         assert part.place == place
         both = np.isfinite(expected) & np.isfinite(part.depth)
@@ -122,13 +135,15 @@ def test_solids_agree_with_the_depth_cameras_rays():
 
 def test_the_nearer_surface_is_seen_whatever_the_order():
     """Two crossing things give the same picture in either order of drawing."""
-    eye, _ = Eye.pair(RIG, 1)
-    board = Board(np.array([-1.0, -1, 1.5]), np.array([2.0, 0, 0]), np.array([0, 2.0, 0]), paper(2.0))
+    eye, _ = RayCamera.pair(RIG, 1)
+    rectangle = TexturedRectangle(
+        np.array([-1.0, -1, 1.5]), np.array([2.0, 0, 0]), np.array([0, 2.0, 0]), paper(2.0)
+    )
     first, second = canvas_of(eye), canvas_of(eye)
-    eye.draw_board(first, board)
-    eye.draw_solids(first, [solid()], LAMP)
-    eye.draw_solids(second, [solid()], LAMP)
-    eye.draw_board(second, board)
+    eye.draw_rectangle(first, rectangle)
+    eye.draw_ellipsoids(first, [ellipsoid()], LAMP)
+    eye.draw_ellipsoids(second, [ellipsoid()], LAMP)
+    eye.draw_rectangle(second, rectangle)
     np.testing.assert_array_equal(first.color, second.color)
     np.testing.assert_array_equal(first.depth, second.depth)
 
@@ -137,13 +152,13 @@ def test_edges_are_where_the_outline_is():
     """A grey ellipsoid's pixels sum up to its outline's area in both images, to half a percent."""
     flat = Lamp(np.array([0.0, 0, -1]), 1.0)
     for offset in (0.0, 0.0013, 0.0029):
-        for eye in Eye.pair(RIG, 3):
+        for eye in RayCamera.pair(RIG, 3):
             canvas = canvas_of(eye)
-            eye.draw_solids(canvas, [solid(center=(0.1 + offset, 0, 1.5))], flat)
-            area = float((eye.develop(canvas)[..., 0] - 90).sum() / (200 - 90))
-            body = solid(center=(0.1 + offset - eye.offset, 0, 1.5))
+            eye.draw_ellipsoids(canvas, [ellipsoid(center=(0.1 + offset, 0, 1.5))], flat)
+            area = float((eye.average_rays(canvas)[..., 0] - 90).sum() / (200 - 90))
+            body = ellipsoid(center=(0.1 + offset - eye.offset, 0, 1.5))
             shape = np.linalg.inv(body.unit.T @ body.unit)
-            left, top, right, bottom = View(RIG.intrinsics, 0, 0).outline(
+            left, top, right, bottom = MountedCamera(RIG.intrinsics, 0, 0).ellipsoid_boxes(
                 Ellipsoids(body.center[None], shape[None])
             )[0]
             # The outline's axes are nearly upright: the middle is at the image's height.
@@ -152,10 +167,10 @@ def test_edges_are_where_the_outline_is():
 
 def test_light_falls_from_the_lamp():
     """A grey ball is brightest towards the lamp, and as dark as the ambient light on the other side."""
-    eye, _ = Eye.pair(RIG, 1)
+    eye, _ = RayCamera.pair(RIG, 1)
     canvas = canvas_of(eye)
     lamp = Lamp(np.array([1.0, 0, -1]) / np.sqrt(2), 0.4)
-    (part,) = eye.draw_solids(canvas, [solid(center=(0, 0, 1.0), half=(0.2, 0.2, 0.2))], lamp)
+    (part,) = eye.draw_ellipsoids(canvas, [ellipsoid(center=(0, 0, 1.0), half=(0.2, 0.2, 0.2))], lamp)
     values = np.where(np.isfinite(part.depth), canvas.color[part.place][..., 0], np.nan)
     assert np.nanmax(values) == pytest.approx(200, rel=0.01)
     assert np.nanmin(values) == pytest.approx(0.4 * 200, rel=0.01)
@@ -166,9 +181,9 @@ def test_light_falls_from_the_lamp():
 @pytest.mark.parametrize("center", [(0, 0, -1.0), (0, 0, 0.05), (9.0, 0, 1.5), (0, -9.0, 1.5)])
 def test_what_is_not_in_the_image_is_not_drawn(center):
     """Ellipsoids behind, round and beside the camera leave the canvas as it was."""
-    eye, _ = Eye.pair(RIG, 1)
+    eye, _ = RayCamera.pair(RIG, 1)
     canvas = canvas_of(eye)
-    assert eye.draw_solids(canvas, [solid(center=center)], LAMP) == [None]
+    assert eye.draw_ellipsoids(canvas, [ellipsoid(center=center)], LAMP) == [None]
     assert np.isinf(canvas.depth).all()
 
 
@@ -176,5 +191,5 @@ def test_noise_is_independent_in_both_images():
     """Two photographs of one picture differ by white noise of the deviation times the root of 2."""
     rng = np.random.default_rng(0)
     picture = np.full((120, 160, 3), 100, np.float32)
-    first, second = (photograph(picture, np.ones(3), 2.0, rng).astype(float) for _ in range(2))
+    first, second = (expose_lit(picture, np.ones(3), 2.0, rng).astype(float) for _ in range(2))
     assert np.std(first - second) == pytest.approx(2 * np.sqrt(2 + 2 / 12 / 4), rel=0.02)

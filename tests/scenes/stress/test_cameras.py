@@ -5,7 +5,7 @@ import pytest
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
-from tricue.scenes.stress.scene import everything
+from tricue.scenes.stress.scene import stress_scene
 
 
 def whole(made):
@@ -18,7 +18,7 @@ def test_depth_at_the_targets_middle_is_its_distance(kind):
     """The mean of the depths about the target's middle is its Z: within half of the sensor's deviation, for
     81 pixels average it, and a millimetre, for the middle is rounded to a pixel of a tilted card.
     """
-    made = everything(kind, 1, channels="rgbd")
+    made = stress_scene(kind, 1, channels="rgbd")
     for index in whole(made):
         u, v = made.intrinsics.project(made.positions[index]).round().astype(int)
         z = made.positions[index, 2]
@@ -29,7 +29,7 @@ def test_depth_at_the_targets_middle_is_its_distance(kind):
 
 def test_depth_is_whole_millimetres_of_a_sensor_with_gaps():
     """Depths are multiples of a millimetre; some 3 % are missing; none is beyond the wall."""
-    made = everything("plain", 2, channels="depth")
+    made = stress_scene("plain", 2, channels="depth")
     depth = np.stack([frame.depth for frame in made.frames[::10]])
     known = np.isfinite(depth)
     assert 0.95 < known.mean() < 0.99
@@ -42,7 +42,7 @@ def test_depth_is_whole_millimetres_of_a_sensor_with_gaps():
 @pytest.mark.parametrize(("kind", "seed"), [("plain", 0), ("scale", 1), ("camera", 2)])
 def test_disparity_is_focal_length_times_baseline_over_distance(kind, seed):
     """A patch of the target's middle in the left image is found in the right one at f b / Z, subpixel."""
-    made = everything(kind, seed, channels="stereo", noise=0)
+    made = stress_scene(kind, seed, channels="stereo", noise=0)
     rig = made.rig
     for index in whole(made):
         u, v = made.intrinsics.project(made.positions[index]).round().astype(int)
@@ -58,7 +58,7 @@ def test_disparity_is_focal_length_times_baseline_over_distance(kind, seed):
 def test_depth_and_disparity_of_the_wall_agree(seed):
     """Where nothing but the wall is, f b / disparity is what the depth camera measures."""
     stereo, depth = (
-        everything("plain", seed, channels=channels, noise=0) for channels in ("stereo", "depth")
+        stress_scene("plain", seed, channels=channels, noise=0) for channels in ("stereo", "depth")
     )
     (u, v), half = (80, 40), 20
     around = np.s_[v - half : v + half + 1, u - half - 15 : u + half + 1]

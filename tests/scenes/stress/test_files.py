@@ -6,13 +6,13 @@ pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tri
 
 from tricue.evaluation.dataset import find_entries
 from tricue.scenes.stress.files import write_sequence
-from tricue.scenes.stress.scene import everything
+from tricue.scenes.stress.scene import stress_scene
 
 
 @pytest.mark.parametrize("channels", ["color", "rgbd", "stereo", "depth"])
 def test_what_is_written_is_read_back(tmp_path, channels):
     """A data set of one scene has its frames bit for bit, its truth, who is absent, and its camera."""
-    made = everything("leaving", 2, (160, 120), channels)
+    made = stress_scene("leaving", 2, (160, 120), channels)
     write_sequence(made, tmp_path / "scene")
     (entry,) = find_entries(tmp_path)
     opened, count = entry.open(), len(made.frames)
@@ -46,7 +46,7 @@ def clipped(box):
 
 def test_a_hidden_target_is_absent_but_has_a_position(tmp_path):
     """While it is hidden the table's box is empty, and the position is told."""
-    made = everything("hidden", 1, (160, 120))
+    made = stress_scene("hidden", 1, (160, 120))
     write_sequence(made, tmp_path / "scene")
     opened = find_entries(tmp_path)[0].open()
     count = len(made.frames)
@@ -57,7 +57,7 @@ def test_a_hidden_target_is_absent_but_has_a_position(tmp_path):
 
 def test_a_full_folder_is_refused(tmp_path):
     """Nothing is written among other files."""
-    made = everything("plain", 0, (80, 80))
+    made = stress_scene("plain", 0, (80, 80))
     write_sequence(made, tmp_path)
     with pytest.raises(FileExistsError, match="expected a new or an empty folder"):
         write_sequence(made, tmp_path)

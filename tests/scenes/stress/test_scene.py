@@ -9,8 +9,8 @@ import pytest
 
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
-from tricue.scenes.stress.scene import KINDS, everything
-from tricue.scenes.stress.stage import Stage
+from tricue.scenes.stress.scene import STRESS_KINDS, stress_scene
+from tricue.scenes.stress.stage import StressStage
 
 SIZE = np.array([320, 240])
 
@@ -18,12 +18,12 @@ SIZE = np.array([320, 240])
 @lru_cache(maxsize=4)
 def scene(kind, seed=0, channels="color", noise=0.0):
     """A scene, without noise in its color images."""
-    return everything(kind, seed, channels=channels, noise=noise)
+    return stress_scene(kind, seed, channels=channels, noise=noise)
 
 
 def moves(kind, seed):
     """What happens in a scene, without its pictures."""
-    return Stage.build(kind, seed, (320, 240)).moves
+    return StressStage.build(kind, seed, (320, 240)).moves
 
 
 def sizes(made):
@@ -42,10 +42,10 @@ def runs(true):
     return (edges[1::2] - edges[::2]).tolist()
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", STRESS_KINDS)
 def test_seed_decides_everything(kind):
     """One seed gives one scene bit for bit, another seed another one; the target begins whole and alone."""
-    first, again, other = (everything(kind, seed, (96, 80)) for seed in (3, 3, 4))
+    first, again, other = (stress_scene(kind, seed, (96, 80)) for seed in (3, 3, 4))
     assert np.array_equal(first.boxes, again.boxes, equal_nan=True)
     assert all(np.array_equal(a.color, b.color) for a, b in zip(first.frames, again.frames, strict=True))
     assert not np.array_equal(first.boxes, other.boxes, equal_nan=True)
@@ -97,7 +97,7 @@ def test_positions_project_onto_the_boxes(kind):
 @pytest.mark.parametrize("seed", range(3))
 def test_leaving_lasts_30_frames(seed):
     """The target is out of the picture for 30 frames on end and comes back half a picture's height away."""
-    made = everything("leaving", seed)
+    made = stress_scene("leaving", seed)
     gone = np.isnan(made.boxes).any(axis=1)
     assert runs(gone) == [30]
     assert np.array_equal(gone, made.visible == 0)
@@ -113,7 +113,7 @@ def test_leaving_lasts_30_frames(seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_hiding_lasts_20_frames_behind_something_nearer(seed):
     """For 20 frames on end nothing of the target is seen, where the depth is less than the target's."""
-    made = everything("hidden", seed, channels="rgbd")
+    made = stress_scene("hidden", seed, channels="rgbd")
     hidden = made.visible == 0
     assert runs(hidden) == [20]
     assert not np.isnan(made.boxes).any()
@@ -130,7 +130,7 @@ def test_hiding_lasts_20_frames_behind_something_nearer(seed):
 @pytest.mark.parametrize("seed", range(3))
 def test_lookalikes_cross_and_stay_nearby(seed):
     """Both come across the target and are mostly within three of its widths, one nearer, one farther."""
-    made = everything("lookalike", seed)
+    made = stress_scene("lookalike", seed)
     inside = slice(made.spans["lookalike"].start + 25, made.spans["lookalike"].stop - 20)
     width = made.boxes[:, 2].mean()
     ratios = []
@@ -163,7 +163,7 @@ def test_lookalikes_share_colors_or_structure():
 def cards(seed):
     """The pictures of the target and its look-alikes, (h, w, 3) in [0, 255]."""
     made = moves("lookalike", seed)
-    return [way.card.levels[0] for way in (made.target, *made.lookalikes)]
+    return [path.card.levels[0] for path in (made.target, *made.lookalikes)]
 
 
 def likeness(first, second):
@@ -185,7 +185,7 @@ def correlation(first, second):
 
 def test_light_changes_the_target_by_the_told_factor():
     """Each channel of the target's pixels is the plain scene's times the gain; gains span 0.4 to 1.3."""
-    made, plain = (everything(kind, 5, noise=0) for kind in ("light", "plain"))
+    made, plain = (stress_scene(kind, 5, noise=0) for kind in ("light", "plain"))
     assert np.array_equal(made.boxes, plain.boxes)
     for index in range(0, 120, 9):
         mask = made.masks[index]
@@ -204,7 +204,7 @@ def test_light_changes_the_target_by_the_told_factor():
 @pytest.mark.parametrize("seed", range(3))
 def test_size_changes_by_four(seed):
     """Between the ends and the middle of the scene the distance changes 1:4, and the size with it."""
-    made = everything("scale", seed)
+    made = stress_scene("scale", seed)
     distance, size = made.positions[:, 2], sizes(made)
     for index in (0, 240):
         ratio = distance[index] / distance[120]
@@ -242,15 +242,15 @@ def near(mask):
 @pytest.mark.parametrize("seed", range(4))
 def test_blank_is_black_and_another_scene(seed):
     """Eight frames without light or depth, 24 with another picture beside them, then the old one again."""
-    made = everything("blank", seed, channels="rgbd", noise=0)
+    made = stress_scene("blank", seed, channels="rgbd", noise=0)
     black = np.array([frame.color.max() == 0 for frame in made.frames])
     assert runs(black) == [8]
     assert all(np.isnan(made.frames[index].depth).all() for index in np.flatnonzero(black))
-    elsewhere = np.isnan(made.boxes).any(axis=1)
-    assert runs(elsewhere) == [24]
-    assert runs(black | elsewhere) == [32]
-    assert np.array_equal(made.visible == 0, black | elsewhere)
-    inside = int(np.flatnonzero(elsewhere)[0])
+    in_other_room = np.isnan(made.boxes).any(axis=1)
+    assert runs(in_other_room) == [24]
+    assert runs(black | in_other_room) == [32]
+    assert np.array_equal(made.visible == 0, black | in_other_room)
+    inside = int(np.flatnonzero(in_other_room)[0])
     first, other, last = (made.frames[index].color.astype(float) for index in (0, inside, -1))
     assert np.corrcoef(first.ravel(), other.ravel())[0, 1] < 0.6
     assert np.corrcoef(first.ravel(), last.ravel())[0, 1] > 0.8
@@ -259,7 +259,8 @@ def test_blank_is_black_and_another_scene(seed):
 def test_the_other_scene_comes_before_or_after_the_black():
     """Both orders are met, so that each break can be measured by itself."""
     orders = {
-        int(np.argmax(m.black)) < int(np.argmax(m.elsewhere)) for m in (moves("blank", s) for s in range(8))
+        int(np.argmax(m.black)) < int(np.argmax(m.in_other_room))
+        for m in (moves("blank", s) for s in range(8))
     }
     assert orders == {True, False}
 
@@ -269,9 +270,9 @@ def test_fast_and_plain_keep_their_speed():
     steps = {"fast": [], "plain": []}
     for kind, longest in steps.items():
         for seed in range(8):
-            way = moves(kind, seed).target
-            width = way.card.size[0] * moves(kind, seed).camera.fx / way.depth
-            longest.append((np.hypot(*np.diff(way.pixels, axis=0).T) / width[1:]).max())
+            path = moves(kind, seed).target
+            width = path.card.size[0] * moves(kind, seed).camera.fx / path.depth
+            longest.append((np.hypot(*np.diff(path.pixels, axis=0).T) / width[1:]).max())
     assert max(steps["plain"]) < 0.1
     assert 0.4 < max(steps["fast"]) < 0.6
 
@@ -280,10 +281,10 @@ def test_everything_happens_in_any_order():
     """Of "all" each seed has every event within 300 frames, one after the other, and orders differ."""
     orders = set()
     for seed in range(4):
-        made = everything("all", seed, (80, 80))
+        made = stress_scene("all", seed, (80, 80))
         spans = sorted(made.spans.items(), key=lambda item: item[1].start)
         assert len(made.frames) == 300
-        assert {name for name, _ in spans} == set(KINDS) - {"plain", "fast", "scale", "all"}
+        assert {name for name, _ in spans} == set(STRESS_KINDS) - {"plain", "fast", "scale", "all"}
         assert all(a[1].stop <= b[1].start for a, b in pairwise(spans))
         orders.add(tuple(name for name, _ in spans))
         assert np.nanmax(made.positions[:, 2]) / np.nanmin(made.positions[:, 2]) > 3.5
@@ -294,7 +295,7 @@ def test_everything_happens_in_any_order():
 def test_channels_share_color_and_truth():
     """Whatever is asked for, the color images and the truth of a seed are the same."""
     color, rgbd, stereo, depth = (
-        everything("hidden", 4, (160, 120), c) for c in ("color", "rgbd", "stereo", "depth")
+        stress_scene("hidden", 4, (160, 120), c) for c in ("color", "rgbd", "stereo", "depth")
     )
     for made, channels in ((rgbd, ("color", "depth")), (stereo, ("color", "right")), (depth, ("depth",))):
         assert {frame.channels for frame in made.frames} == {channels}
@@ -309,7 +310,7 @@ def test_channels_share_color_and_truth():
 
 def test_a_shutter_blurs_what_moves_and_nothing_else():
     """With an open shutter the target's edges are softer, the static room stays, and the truth too."""
-    sharp, blurred = (everything("fast", 1, noise=0, shutter=shutter) for shutter in (0.0, 1.0))
+    sharp, blurred = (stress_scene("fast", 1, noise=0, shutter=shutter) for shutter in (0.0, 1.0))
     assert np.array_equal(sharp.boxes, blurred.boxes)
     index = int(np.argmax(np.hypot(*np.diff(middles(sharp.boxes), axis=0).T)))
     away = cv2.dilate(sharp.masks[index].astype(np.uint8), np.ones((61, 61))) == 0
@@ -335,11 +336,11 @@ def test_a_shutter_blurs_what_moves_and_nothing_else():
 def test_bad_arguments_are_named(arguments, words):
     """Arguments that no scene can be made of are refused by name."""
     with pytest.raises(ValueError, match=words):
-        everything(**arguments)
+        stress_scene(**arguments)
 
 
 def test_missing_scikit_image_names_the_extra(monkeypatch):
     """Without scikit-image the error says how to install it."""
     monkeypatch.setitem(sys.modules, "skimage", None)
     with pytest.raises(ImportError, match=r"pip install tricue\[demo\]"):
-        everything("plain")
+        stress_scene("plain")

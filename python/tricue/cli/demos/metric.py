@@ -14,11 +14,11 @@ from tricue.draw.video import OverlayWriter
 from tricue.evaluation import metrics
 from tricue.papers.depth_curves import HALF, HIDDEN
 from tricue.scenes import DepthScene, StereoScene, WalkScene
-from tricue.scenes.stress.scene import Scene
+from tricue.scenes.stress.scene import StressScene
 from tricue.track.base.track import Status, Track
 
 Floats = NDArray[np.float64]
-S = TypeVar("S", DepthScene, StereoScene, WalkScene, Scene)
+S = TypeVar("S", DepthScene, StereoScene, WalkScene, StressScene)
 
 
 @dataclass(frozen=True)

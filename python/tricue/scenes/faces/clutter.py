@@ -10,7 +10,7 @@ from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
 
-HEIGHT, WIDTH = 240, 320
+CLUTTER_HEIGHT, CLUTTER_WIDTH = 240, 320
 FACE_HEIGHT, FACE_WIDTH = 63, 50
 
 
@@ -32,13 +32,13 @@ def face_over_clutter(
     if not 0 <= brightness[0] < brightness[1] < np.inf:
         raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")
     rng = np.random.default_rng(seed)
-    clutter = photographs.background(background, HEIGHT, WIDTH, rng).astype(np.float32)
-    portrait = photographs.crop(photographs.photograph("astronaut"), photographs.FACE)
+    clutter = photographs.crop_background(background, CLUTTER_HEIGHT, CLUTTER_WIDTH, rng).astype(np.float32)
+    portrait = photographs.crop(photographs.load_photograph("astronaut"), photographs.ASTRONAUT_FACE)
     face = photographs.resize(portrait, FACE_HEIGHT, FACE_WIDTH).astype(np.float32)
     opacity = ellipse_mask(FACE_HEIGHT, FACE_WIDTH, edge=2.0)
-    room = np.array([WIDTH - FACE_WIDTH, HEIGHT - FACE_HEIGHT]) / 2
-    corners = room + motion.wander(frames, (room[0], room[1]), max_speed, rng)
-    gains = motion.steps(frames, *brightness, rng)
+    room = np.array([CLUTTER_WIDTH - FACE_WIDTH, CLUTTER_HEIGHT - FACE_HEIGHT]) / 2
+    corners = room + motion.sample_path(frames, (room[0], room[1]), max_speed, rng)
+    gains = motion.sample_gain_steps(frames, *brightness, rng)
     images = (paste(clutter, face * gain, opacity, x, y) for gain, (x, y) in zip(gains, corners, strict=True))
     return Scene(
         name=f"face over {background}, seed {seed}",

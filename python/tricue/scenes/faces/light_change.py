@@ -15,11 +15,11 @@ from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
 
-ZOOM = 0.625  # of the picture's upper 512x384 to 320x240
-REACH = (40.0, 10.0)  # pixels that the head moves to each side, up and down
+PHOTOGRAPH_SCALE = 0.625  # of the picture's upper 512x384 to 320x240
+MAX_HEAD_OFFSET = (40.0, 10.0)  # pixels that the head moves to each side, up and down
 
 
-class Light(NamedTuple):
+class ToneCurve(NamedTuple):
     """A mapping of each channel's levels in [0, 1], ``gain * level ** gamma``: increasing, so order stays."""
 
     gain: NDArray[np.float32]
@@ -39,7 +39,7 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
     rng = np.random.default_rng(seed)
     cabin, head, corner, face = _cabin_and_head()
     opacity = ellipse_mask(head.shape[0], head.shape[1], edge=6.0)
-    offsets = motion.wander(frames, REACH, max_speed, rng)
+    offsets = motion.sample_path(frames, MAX_HEAD_OFFSET, max_speed, rng)
     changes = frames // 3, 2 * frames // 3
     lights = [_daylight(), _warm(rng), _cold(rng)]
     images = (
@@ -56,10 +56,14 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
 
 def _cabin_and_head() -> tuple[Picture, Picture, NDArray[np.float64], Box]:
     """The cabin with the head painted over, the head cut out, its top-left corner, and the face's box."""
-    picture = photographs.photograph("astronaut")
+    picture = photographs.load_photograph("astronaut")
     cabin = photographs.resize(picture[:384], 240, 320)
-    head, face = (np.array(box) * ZOOM for box in (photographs.HEAD, photographs.FACE))
-    cutout = photographs.resize(photographs.crop(picture, photographs.HEAD), round(head[3]), round(head[2]))
+    head, face = (
+        np.array(box) * PHOTOGRAPH_SCALE for box in (photographs.ASTRONAUT_HEAD, photographs.ASTRONAUT_FACE)
+    )
+    cutout = photographs.resize(
+        photographs.crop(picture, photographs.ASTRONAUT_HEAD), round(head[3]), round(head[2])
+    )
     hole = np.zeros(cabin.shape[:2], dtype=np.uint8)
     x, y, width, height = head.astype(int)
     hole[y : y + height, x : x + width] = 1
@@ -67,20 +71,20 @@ def _cabin_and_head() -> tuple[Picture, Picture, NDArray[np.float64], Box]:
     return empty.astype(np.float32), cutout.astype(np.float32), head[:2], Box(*face.tolist())
 
 
-def _daylight() -> Light:
-    return Light(np.ones(3, dtype=np.float32), np.ones(3, dtype=np.float32))
+def _daylight() -> ToneCurve:
+    return ToneCurve(np.ones(3, dtype=np.float32), np.ones(3, dtype=np.float32))
 
 
-def _warm(rng: np.random.Generator) -> Light:
+def _warm(rng: np.random.Generator) -> ToneCurve:
     """Direct low sun: red rises most, blue falls."""
     return _varied([0.75, 1.05, 1.2], [1.3, 0.9, 0.6], rng)
 
 
-def _cold(rng: np.random.Generator) -> Light:
+def _cold(rng: np.random.Generator) -> ToneCurve:
     """Shadow: everything darker, red most."""
     return _varied([0.75, 0.6, 0.45], [0.9, 1.1, 1.4], rng)
 
 
-def _varied(gain: list[float], gamma: list[float], rng: np.random.Generator) -> Light:
+def _varied(gain: list[float], gamma: list[float], rng: np.random.Generator) -> ToneCurve:
     factors = rng.uniform(0.9, 1.1, (2, 3))
-    return Light(np.float32(gain * factors[0]), np.float32(gamma * factors[1]))
+    return ToneCurve(np.float32(gain * factors[0]), np.float32(gamma * factors[1]))

@@ -11,18 +11,25 @@ from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.arrays import Array
 from tricue.scenes.heads import moves as head_moves
-from tricue.scenes.heads import room as rooms
-from tricue.scenes.heads.actor import Actor, Moment
-from tricue.scenes.heads.moves import Range
-from tricue.scenes.rendering.depth_view import View
+from tricue.scenes.heads.actor import Actor, PosedActor
+from tricue.scenes.heads.moves import HeadRange
+from tricue.scenes.heads.room import StereoRoom, furnish_room, render_room
+from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
-from tricue.scenes.rendering.stereo_camera import Canvas, Eye, Lamp, Part, Solid, photograph
+from tricue.scenes.rendering.stereo_camera import (
+    DrawnEllipsoid,
+    Lamp,
+    RayCamera,
+    RayImage,
+    TexturedEllipsoid,
+    expose_lit,
+)
 from tricue.scenes.scene import StereoScene
 
-KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
-CAMERAS = {"160x120": 3, "640x480": 2}  # rays a pixel along each axis
-NEAREST, FARTHEST = 0.9, 4.05  # metres, of the head's centre
-REACH = 1.0, 2.1  # the same where somebody's hand has to be nearer
+HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
+RAYS_PER_PIXEL = {"160x120": 3, "640x480": 2}  # rays a pixel along each axis
+MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # metres, of the head's centre
+HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same where somebody's hand has to be nearer
 
 
 def head(
@@ -54,35 +61,35 @@ def head(
     _check(frames, camera, kind, light, noise)
     rng = np.random.default_rng(seed)
     rig = _rig(camera, rng)
-    moves = head_moves.walk(frames, _range(rig, kind), kind == "turning", rng)
+    moves = head_moves.sample_walk(frames, _range(rig, kind), kind == "turning", rng)
     gain = _light(kind, frames, light, rng)
-    person = Actor.draw(moves, head_moves.cover(frames, rng) if kind == "hidden" else None, rng)
+    person = Actor.sample(moves, head_moves.sample_hand(frames, rng) if kind == "hidden" else None, rng)
     skin = person.looks.skin if kind == "distractor" else None
-    room = rooms.furnish(rig, moves.center, person.floor, skin, rng)
-    stage = _Stage.build(Eye.pair(rig, CAMERAS[camera]), room, rng)
-    colors = gain[:, None] * head_moves.tint(frames, rng)
-    shots = [stage.shoot(person, index, color, noise, rng) for index, color in enumerate(colors)]
+    room = furnish_room(rig, moves.center, person.floor, skin, rng)
+    stage = _StereoStage.build(RayCamera.pair(rig, RAYS_PER_PIXEL[camera]), room, rng)
+    colors = gain[:, None] * head_moves.sample_tint(frames, rng)
+    truths = [stage.shoot(person, index, color, noise, rng) for index, color in enumerate(colors)]
     return StereoScene(
         name=f"head, {kind}, {camera}, seed {seed}",
-        frames=tuple(shot.frame for shot in shots),
-        boxes=tuple(shot.box for shot in shots),
-        positions=np.stack([shot.position for shot in shots]),
-        visible=np.array([shot.visible for shot in shots]),
-        facing=np.array([shot.facing for shot in shots]),
+        frames=tuple(truth.frame for truth in truths),
+        boxes=tuple(truth.box for truth in truths),
+        positions=np.stack([truth.position for truth in truths]),
+        visible=np.array([truth.visible for truth in truths]),
+        facing=np.array([truth.facing for truth in truths]),
         light=gain,
         changes=tuple((np.flatnonzero(np.diff(gain)) + 1).tolist()) if kind == "jump" else (),
         rig=rig,
     )
 
 
-class _Sight(NamedTuple):
+class _VisibleHead(NamedTuple):
     """The head as one camera sees it."""
 
-    part: Part
+    part: DrawnEllipsoid
     visible: float  # share of its pixels, beside those that the neck takes, that no hand hides
 
 
-class _Shot(NamedTuple):
+class _FrameTruth(NamedTuple):
     """One frame and its truth."""
 
     frame: Frame
@@ -92,54 +99,62 @@ class _Shot(NamedTuple):
     facing: float
 
 
-class _Stage(NamedTuple):
+class _StereoStage(NamedTuple):
     """The pair before an empty room."""
 
-    eyes: tuple[Eye, Eye]
-    empty: tuple[Canvas, Canvas]
+    eyes: tuple[RayCamera, RayCamera]
+    empty: tuple[RayImage, RayImage]
     lamp: Lamp
     unequal: float  # the right camera's gain over the left one's
 
     @classmethod
-    def build(cls, eyes: tuple[Eye, Eye], room: rooms.Room, rng: np.random.Generator) -> "_Stage":
+    def build(
+        cls, eyes: tuple[RayCamera, RayCamera], room: StereoRoom, rng: np.random.Generator
+    ) -> "_StereoStage":
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.4, -0.5])
         lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.45, 0.65))
-        empty = tuple(rooms.draw(eye, room, lamp) for eye in eyes)
+        empty = tuple(render_room(eye, room, lamp) for eye in eyes)
         return cls(eyes, (empty[0], empty[1]), lamp, rng.uniform(0.95, 1.05))
 
-    def shoot(self, actor: Actor, index: int, color: Array, noise: float, rng: np.random.Generator) -> _Shot:
-        pose = actor.moment(index)
+    def shoot(
+        self, actor: Actor, index: int, color: Array, noise: float, rng: np.random.Generator
+    ) -> _FrameTruth:
+        pose = actor.pose_at(index)
         (left, sight), (right, _) = (
             self._draw(pose, eye, empty) for eye, empty in zip(self.eyes, self.empty, strict=True)
         )
         images = [
-            photograph(eye.develop(canvas), color * camera, noise, rng)
+            expose_lit(eye.average_rays(canvas), color * camera, noise, rng)
             for eye, canvas, camera in zip(self.eyes, (left, right), (1.0, self.unequal), strict=True)
         ]
-        frame = Frame(images[0], right=images[1], timestamp=index / head_moves.RATE)
-        return _Shot(frame, self._box(pose.head), self._position(sight.part), sight.visible, pose.facing)
+        frame = Frame(images[0], right=images[1], timestamp=index / head_moves.HEAD_FRAME_RATE)
+        return _FrameTruth(
+            frame, self._box(pose.head), self._position(sight.part), sight.visible, pose.facing
+        )
 
-    def _draw(self, pose: Moment, eye: Eye, empty: Canvas) -> tuple[Canvas, _Sight]:
+    def _draw(self, pose: PosedActor, eye: RayCamera, empty: RayImage) -> tuple[RayImage, _VisibleHead]:
         canvas = empty.copy()
-        part, *_ = eye.draw_solids(canvas, [pose.head, *pose.body], self.lamp)
+        part, *_ = eye.draw_ellipsoids(canvas, [pose.head, *pose.body], self.lamp)
         assert part is not None  # the paths keep the head in both images
         own = canvas.depth[part.place] == part.depth
-        eye.draw_solids(canvas, pose.hand, self.lamp)
+        eye.draw_ellipsoids(canvas, pose.hand, self.lamp)
         left = own & (canvas.depth[part.place] == part.depth)
-        return canvas, _Sight(part, float(left.sum() / own.sum()))
+        return canvas, _VisibleHead(part, float(left.sum() / own.sum()))
 
-    def _position(self, part: Part) -> Array:
+    def _position(self, part: DrawnEllipsoid) -> Array:
         """The mean of the surface points that the left camera's rays hit."""
         (rows, columns), depth = part
         v, u = np.nonzero(np.isfinite(depth))
         points = self.eyes[0].intrinsics.back_project(u + columns.start, v + rows.start, depth[v, u])
         return np.asarray(points.mean(axis=0))
 
-    def _box(self, head_: Solid) -> Box:
+    def _box(self, head_: TexturedEllipsoid) -> Box:
         """Round the head's outline in pixels of the left image, from that in the grid of rays."""
         eye = self.eyes[0]
         shape = np.linalg.inv(head_.unit.T @ head_.unit)
-        sides = View(eye.intrinsics, 0.0, 0.0).outline(Ellipsoids(head_.center[None], shape[None]))[0]
+        sides = MountedCamera(eye.intrinsics, 0.0, 0.0).ellipsoid_boxes(
+            Ellipsoids(head_.center[None], shape[None])
+        )[0]
         return Box.from_xyxy(*(sides / eye.rays).tolist())
 
 
@@ -149,22 +164,22 @@ def _rig(camera: str, rng: np.random.Generator) -> StereoRig:
     return StereoRig(Intrinsics.from_fov(width, height, angle), baseline)
 
 
-def _range(rig: StereoRig, kind: str) -> Range:
+def _range(rig: StereoRig, kind: str) -> HeadRange:
     camera = rig.intrinsics
-    near, far = REACH if kind == "hidden" else (NEAREST, FARTHEST)
-    return Range(near, far, camera.width / 2 / camera.fx, camera.height / 2 / camera.fy, rig.baseline)
+    near, far = HIDDEN_HEAD_DISTANCES if kind == "hidden" else (MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE)
+    return HeadRange(near, far, camera.width / 2 / camera.fx, camera.height / 2 / camera.fy, rig.baseline)
 
 
 def _light(kind: str, frames: int, reach: float, rng: np.random.Generator) -> Array:
     if kind == "ramp":
-        return head_moves.ramp_light(frames)
-    change = head_moves.jumping_light if kind == "jump" else head_moves.smooth_light
+        return head_moves.make_ramp_light(frames)
+    change = head_moves.sample_jumping_light if kind == "jump" else head_moves.sample_smooth_light
     return change(frames, reach, rng)
 
 
 def _check(frames: int, camera: str, kind: str, light: float, noise: float) -> None:
     positive_whole(frames, "frames", "a count")
-    for value, name, known in ((camera, "camera", tuple(CAMERAS)), (kind, "kind", KINDS)):
+    for value, name, known in ((camera, "camera", tuple(RAYS_PER_PIXEL)), (kind, "kind", HEAD_KINDS)):
         if value not in known:
             raise ValueError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
     if not 0 <= finite(light, "light", "a share") < 1:

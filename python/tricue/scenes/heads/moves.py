@@ -8,17 +8,17 @@ import numpy as np
 
 from tricue.scenes import motion
 from tricue.scenes.arrays import Array
-from tricue.scenes.motion import sway
+from tricue.scenes.motion import sample_sway
 
-RATE = 30.0  # frames a second
-SPEEDS = 0.7, 1.4  # metres a second of a walk's straight stretches
-STRIDE = 0.7  # metres a step
-RAMP, DARKEST = 100, 0.5  # frames that the ramp takes, and the light after it
-SLIDE = 6  # frames that a hand takes to come, and to leave
-AWAY = 0.6  # metres along the forearm from where it comes; outside the image
+HEAD_FRAME_RATE = 30.0  # frames a second
+WALKING_SPEEDS = 0.7, 1.4  # metres a second of a walk's straight stretches
+STEP_LENGTH = 0.7  # metres a step
+RAMP_FRAMES, RAMP_END_GAIN = 100, 0.5  # frames that the ramp takes, and the light after it
+HAND_SLIDE_FRAMES = 6  # frames that a hand takes to come, and to leave
+HAND_START_DISTANCE = 0.6  # metres along the forearm from where it comes; outside the image
 
 
-class Range(NamedTuple):
+class HeadRange(NamedTuple):
     """Where the head's centre may be: depths, and the image's half angles of view as slopes."""
 
     near: float  # metres
@@ -28,7 +28,7 @@ class Range(NamedTuple):
     baseline: float  # metres; the right camera has to see the head too
 
 
-class Moves(NamedTuple):
+class HeadMotion(NamedTuple):
     """Per frame, M of them. Angles in radians; at 0 the face looks along -z, at the cameras."""
 
     center: Array  # (M, 3) of the head, metres, left camera's frame
@@ -40,7 +40,7 @@ class Moves(NamedTuple):
     swing: Array  # of the legs
 
 
-class Hand(NamedTuple):
+class HandMotion(NamedTuple):
     """A hand before the head, per frame."""
 
     share: float  # its depth as a share of the head's
@@ -48,54 +48,58 @@ class Hand(NamedTuple):
     tilt: float  # of the forearm from the vertical
 
 
-def walk(frames: int, room: Range, turning: bool, rng: np.random.Generator) -> Moves:
+def sample_walk(frames: int, room: HeadRange, turning: bool, rng: np.random.Generator) -> HeadMotion:
     """A smooth walk in x, y and z at one of SPEEDS; the head looks about, or turns round wholly."""
-    time = np.arange(frames) / RATE
+    time = np.arange(frames) / HEAD_FRAME_RATE
     center = _path(time, room, rng)
     turn = _turns(time, rng) if turning else np.zeros(frames)
     yaw, pitch, roll = (
-        np.radians(largest) * sway(time, 1.5, 4.0, rng) for largest in (12 if turning else 28, 9, 7)
+        np.radians(largest) * sample_sway(time, 1.5, 4.0, rng) for largest in (12 if turning else 28, 9, 7)
     )
     step = np.hypot(*np.diff(center[:, [0, 2]], axis=0, prepend=center[:1, [0, 2]]).T)
-    swing = 0.35 * np.clip(step * RATE / 1.2, 0, 1)
-    return Moves(center, yaw + turn, pitch, roll, 0.4 * yaw + turn, np.pi * np.cumsum(step) / STRIDE, swing)
+    swing = 0.35 * np.clip(step * HEAD_FRAME_RATE / 1.2, 0, 1)
+    return HeadMotion(
+        center, yaw + turn, pitch, roll, 0.4 * yaw + turn, np.pi * np.cumsum(step) / STEP_LENGTH, swing
+    )
 
 
-def smooth_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
+def sample_smooth_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
     """A gain (M,) that swings smoothly between 1 - reach and 1 + reach, both reached in a second or three."""
-    curve = sway(np.arange(frames) / RATE, 1.5, 4.0, rng)
+    curve = sample_sway(np.arange(frames) / HEAD_FRAME_RATE, 1.5, 4.0, rng)
     low, high = float(curve.min()), float(curve.max())
     share = (curve - low) / (high - low) if high > low else np.full(frames, 0.5)
     return 1 + reach * (2 * share - 1)
 
 
-def jumping_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
+def sample_jumping_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
     """A gain (M,) that changes at once every 10 to 20 frames, within 1 - reach and 1 + reach; 1 at first."""
-    return motion.steps(frames, 1 - reach, 1 + reach, rng) if reach else np.ones(frames)
+    return motion.sample_gain_steps(frames, 1 - reach, 1 + reach, rng) if reach else np.ones(frames)
 
 
-def ramp_light(frames: int) -> Array:
+def make_ramp_light(frames: int) -> Array:
     """A gain (M,) that falls evenly from 1 to 0.5 within the first 100 frames."""
-    share: Array = np.minimum(np.arange(frames) / (RAMP - 1), 1)
-    return 1 + share * (DARKEST - 1)
+    share: Array = np.minimum(np.arange(frames) / (RAMP_FRAMES - 1), 1)
+    return 1 + share * (RAMP_END_GAIN - 1)
 
 
-def tint(frames: int, rng: np.random.Generator) -> Array:
+def sample_tint(frames: int, rng: np.random.Generator) -> Array:
     """The light's color (M, 3): factors within some percent of 1 that drift slowly."""
-    time = np.arange(frames) / RATE
-    return np.exp(0.04 * np.stack([sway(time, 3.0, 8.0, rng) for _ in range(3)], axis=1))
+    time = np.arange(frames) / HEAD_FRAME_RATE
+    return np.exp(0.04 * np.stack([sample_sway(time, 3.0, 8.0, rng) for _ in range(3)], axis=1))
 
 
-def cover(frames: int, rng: np.random.Generator) -> Hand:
+def sample_hand(frames: int, rng: np.random.Generator) -> HandMotion:
     """A hand that comes about the middle, covers the head for 10 to 16 frames, and leaves."""
     held = int(rng.integers(10, 17))
     start = max(round(frames * rng.uniform(0.32, 0.45)), 1)
     early, late = start - np.arange(frames), np.arange(frames) - (start + held - 1)
-    share = np.clip(np.maximum(early, late) / SLIDE, 0, 1)
-    return Hand(rng.uniform(0.38, 0.44), AWAY * _ease(share), np.radians(rng.uniform(-35, 35)))
+    share = np.clip(np.maximum(early, late) / HAND_SLIDE_FRAMES, 0, 1)
+    return HandMotion(
+        rng.uniform(0.38, 0.44), HAND_START_DISTANCE * _ease(share), np.radians(rng.uniform(-35, 35))
+    )
 
 
-def _path(time: Array, room: Range, rng: np.random.Generator) -> Array:
+def _path(time: Array, room: HeadRange, rng: np.random.Generator) -> Array:
     """The centre (M, 3): sums of sines in depth and to the sides, at a walker's pace."""
     nearest = room.near + 0.35 * (room.far - room.near) * rng.random() ** 2
     farthest = room.far - 0.4 * (room.far - nearest) * rng.random() ** 2
@@ -108,9 +112,9 @@ def _path(time: Array, room: Range, rng: np.random.Generator) -> Array:
         aside = 0.7 * np.sin(turns[0] * angle + phases[2]) + 0.3 * np.sin(turns[1] * angle + phases[3])
         return np.stack([room.baseline / 2 + aside * reach, z], axis=1)
 
-    x, z = curve(_pace(curve, time, rng.uniform(*SPEEDS))).T
+    x, z = curve(_pace(curve, time, rng.uniform(*WALKING_SPEEDS))).T
     highest = np.minimum(room.up * z - 0.17, 0.22).clip(0)
-    y = highest * (0.35 * rng.uniform(-1, 1) + 0.65 * sway(time, 1.2, 4.0, rng))
+    y = highest * (0.35 * rng.uniform(-1, 1) + 0.65 * sample_sway(time, 1.2, 4.0, rng))
     return np.stack([x, y, z], axis=1)
 
 

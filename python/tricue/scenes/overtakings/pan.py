@@ -12,7 +12,7 @@ import numpy as np
 
 from tricue.camera.rig import StereoRig
 from tricue.scenes.arrays import Array
-from tricue.scenes.people.body import about_y
+from tricue.scenes.people.body import rotation_about_y
 
 
 class Pan(NamedTuple):
@@ -24,7 +24,7 @@ class Pan(NamedTuple):
 
     def to_camera(self, index: int) -> Array:
         """The rotation (3, 3) from the level frame to the left camera's."""
-        return about_y(-float(self.angles[index]))
+        return rotation_about_y(-float(self.angles[index]))
 
     def on_floor(self, column: Array, depth: Array) -> Array:
         """The places (M, 2), x and z of the level frame, seen at a column and a depth z in each frame.

@@ -15,71 +15,73 @@ from tricue.scenes.arrays import Array
 from tricue.scenes.overtakings.pan import Pan
 from tricue.scenes.people.body import Person
 
-RATE = 15.0  # frames a second: 100 in the paper's 6.7 s
-STORY = 100  # frames
-WIDTH = 160  # pixels
+OVERTAKING_FRAME_RATE = 15.0  # frames a second: 100 in the paper's 6.7 s
+STORY_FRAMES = 100  # frames
+REFERENCE_WIDTH = 160  # pixels
 
 
-class Plan(NamedTuple):
+class OvertakingPlan(NamedTuple):
     """The numbers that make one scene."""
 
-    sense: int  # -1: from right to left
-    field: float  # the horizontal angle of view, degrees
-    pan: float  # pixels a frame by which the background moves, against the target
-    speed: float  # pixels a frame of the target in the picture
-    tall: float  # the target's height in the picture, pixels
-    disparity: float  # the target's, pixels
-    nearer: float  # the overtaker's disparity over the target's
-    faster: float  # pixels a frame that the overtaker gains on the target
-    met: float  # the frame in which one is behind the other
-    passed: float  # the frame in which the target passes who stands
-    apart: float  # metres that who stands is farther away than the target then; below 0 nearer
-    drift: float  # by which share the target's depth changes over the story
-    taller: float  # the overtaker's height over the target's, metres over metres
-    contrast: tuple[float, float, float]  # of each one's clothes
+    direction: int  # -1: from right to left
+    field_of_view: float  # the horizontal angle of view, degrees
+    pan_speed: float  # pixels a frame by which the background moves, against the target
+    target_speed: float  # pixels a frame of the target in the picture
+    target_height: float  # the target's height in the picture, pixels
+    target_disparity: float  # the target's, pixels
+    disparity_ratio: float  # the overtaker's disparity over the target's
+    speed_gain: float  # pixels a frame that the overtaker gains on the target
+    overtaking_frame: float  # the frame in which one is behind the other
+    passing_frame: float  # the frame in which the target passes who stands
+    standing_depth_offset: (
+        float  # metres that who stands is farther away than the target then; below 0 nearer
+    )
+    depth_drift: float  # by which share the target's depth changes over the story
+    height_ratio: float  # the overtaker's height over the target's, metres over metres
+    clothes_contrast: tuple[float, float, float]  # of each one's clothes
 
 
-PLAIN = Plan(
-    sense=-1,
-    field=32.0,
-    pan=0.6,
-    speed=0.85,
-    tall=74.0,
-    disparity=5.0,
-    nearer=1.75,
-    faster=0.95,
-    met=34.0,
-    passed=74.0,
-    apart=0.32,
-    drift=0.0,
-    taller=1.02,
-    contrast=(0.25, 0.25, 0.25),
+PLAIN_PLAN = OvertakingPlan(
+    direction=-1,
+    field_of_view=32.0,
+    pan_speed=0.6,
+    target_speed=0.85,
+    target_height=74.0,
+    target_disparity=5.0,
+    disparity_ratio=1.75,
+    speed_gain=0.95,
+    overtaking_frame=34.0,
+    passing_frame=74.0,
+    standing_depth_offset=0.32,
+    depth_drift=0.0,
+    height_ratio=1.02,
+    clothes_contrast=(0.25, 0.25, 0.25),
 )
 
 
-def varied(rng: np.random.Generator) -> Plan:
+def sample_plan(rng: np.random.Generator) -> OvertakingPlan:
     """A random plan."""
     pan = rng.uniform(0.0, 0.9)
     low, high, sign = (0.28, 0.34, 1) if rng.random() < 0.5 else (0.36, 0.42, -1)
-    return Plan(
-        sense=int(rng.choice([-1, 1])),
-        field=rng.uniform(31, 35),
-        pan=pan,
-        speed=float(np.clip(rng.uniform(1.35, 1.8) - pan, 0.6, 1.2)),
-        tall=rng.uniform(66, 78),
-        disparity=rng.uniform(4.6, 5.4),
-        nearer=rng.uniform(1.72, 1.85),
-        faster=rng.uniform(0.88, 1.02),
-        met=rng.uniform(33, 36),
-        passed=rng.uniform(72, 76),
-        apart=sign * rng.uniform(low, high),
-        drift=rng.uniform(-0.06, 0.06),
-        taller=rng.uniform(1.0, 1.06),
-        contrast=(rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3)),
+    return OvertakingPlan(
+        direction=int(rng.choice([-1, 1])),
+        field_of_view=rng.uniform(31, 35),
+        pan_speed=pan,
+        target_speed=float(np.clip(rng.uniform(1.35, 1.8) - pan, 0.6, 1.2)),
+        target_height=rng.uniform(66, 78),
+        target_disparity=rng.uniform(4.6, 5.4),
+        disparity_ratio=rng.uniform(1.72, 1.85),
+        speed_gain=rng.uniform(0.88, 1.02),
+        overtaking_frame=rng.uniform(33, 36),
+        passing_frame=rng.uniform(72, 76),
+        standing_depth_offset=sign * rng.uniform(low, high),
+        depth_drift=rng.uniform(-0.06, 0.06),
+        height_ratio=rng.uniform(1.0, 1.06),
+        clothes_contrast=(rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3), rng.uniform(0.12, 0.3)),
     )
 
 
-class Ways(NamedTuple):
+class OvertakingPaths(NamedTuple):
     """Where everybody is, level frame."""
 
     pan: Pan
@@ -89,31 +91,40 @@ class Ways(NamedTuple):
     depths: tuple[float, float, float]  # of the three, metres, in the middle of the story
 
 
-def lay(plan: Plan, person: Person, camera: str, frames: int, rng: np.random.Generator) -> Ways:
+def plan_paths(
+    plan: OvertakingPlan, person: Person, camera: str, frames: int, rng: np.random.Generator
+) -> OvertakingPaths:
     """The ways for ``frames`` frames of a target of this height."""
     width, height = map(int, camera.split("x"))
-    intrinsics = Intrinsics.from_fov(width, height, plan.field)
-    focal = intrinsics.fx * WIDTH / width
-    depth = person.height * focal / plan.tall
+    intrinsics = Intrinsics.from_fov(width, height, plan.field_of_view)
+    focal = intrinsics.fx * REFERENCE_WIDTH / width
+    depth = person.height * focal / plan.target_height
     time: Array = np.arange(frames, dtype=np.float64)
-    angles = plan.sense * plan.pan / focal * (time - STORY / 2)
-    pan = Pan(StereoRig(intrinsics, plan.disparity * depth / focal), rng.uniform(1.0, 1.12), angles)
-    column = plan.sense * plan.speed * (time - STORY / 2) / focal
-    gained = plan.sense * plan.faster * (time - plan.met) / focal
-    depths = depth * (1 + plan.drift * (time / STORY - 0.5))
+    angles = plan.direction * plan.pan_speed / focal * (time - STORY_FRAMES / 2)
+    pan = Pan(StereoRig(intrinsics, plan.target_disparity * depth / focal), rng.uniform(1.0, 1.12), angles)
+    column = plan.direction * plan.target_speed * (time - STORY_FRAMES / 2) / focal
+    gained = plan.direction * plan.speed_gain * (time - plan.overtaking_frame) / focal
+    depths = depth * (1 + plan.depth_drift * (time / STORY_FRAMES - 0.5))
     # At a frame between two: where the target would be, and there somebody stands a bit farther or nearer.
-    there = pan._replace(angles=np.array([plan.sense * plan.pan / focal * (plan.passed - STORY / 2)], float))
-    at = depth * (1 + plan.drift * (plan.passed / STORY - 0.5)) + plan.apart
-    across = np.array([plan.sense * plan.speed * (plan.passed - STORY / 2) / focal])
-    return Ways(
+    there = pan._replace(
+        angles=np.array(
+            [plan.direction * plan.pan_speed / focal * (plan.passing_frame - STORY_FRAMES / 2)], float
+        )
+    )
+    at = (
+        depth * (1 + plan.depth_drift * (plan.passing_frame / STORY_FRAMES - 0.5))
+        + plan.standing_depth_offset
+    )
+    across = np.array([plan.direction * plan.target_speed * (plan.passing_frame - STORY_FRAMES / 2) / focal])
+    return OvertakingPaths(
         pan,
         pan.on_floor(column, depths),
-        pan.on_floor(column + gained, depths / plan.nearer),
+        pan.on_floor(column + gained, depths / plan.disparity_ratio),
         there.on_floor(across, np.array([at]))[0],
-        (depth, depth / plan.nearer, depth + plan.apart),
+        (depth, depth / plan.disparity_ratio, depth + plan.standing_depth_offset),
     )
 
 
-def facing_camera(place: Array) -> float:
+def heading_to_camera(place: Array) -> float:
     """The angle at which somebody at a place (2,) looks at the cameras, radians from z towards x."""
     return math.atan2(-place[0], -place[1])

@@ -13,15 +13,15 @@ from tricue.scenes.overtakings.hall import Hall
 from tricue.scenes.overtakings.pan import Pan
 from tricue.scenes.people.pedestrian import Pedestrian
 from tricue.scenes.rendering import zbuffer
-from tricue.scenes.rendering.depth_view import View
-from tricue.scenes.rendering.ellipsoids import Balls, Ellipsoids
-from tricue.scenes.rendering.stereo_camera import Eye
+from tricue.scenes.rendering.depth_view import MountedCamera
+from tricue.scenes.rendering.ellipsoids import Ellipsoids, OrientedEllipsoids
+from tricue.scenes.rendering.stereo_camera import RayCamera
 from tricue.scenes.scene import Bystander
 
 T = TypeVar("T")
 
 
-class Lazy(Sequence[T], Generic[T]):
+class LazySequence(Sequence[T], Generic[T]):
     """A sequence whose items are made when they are asked for, and not kept."""
 
     def __init__(self, count: int, make: Callable[[int], T]) -> None:
@@ -33,18 +33,18 @@ class Lazy(Sequence[T], Generic[T]):
     @overload
     def __getitem__(self, index: int) -> T: ...
     @overload
-    def __getitem__(self, index: slice) -> "Lazy[T]": ...
-    def __getitem__(self, index: int | slice) -> "T | Lazy[T]":
+    def __getitem__(self, index: slice) -> "LazySequence[T]": ...
+    def __getitem__(self, index: int | slice) -> "T | LazySequence[T]":
         chosen = range(self._count)[index]
         if isinstance(chosen, range):
-            return Lazy(len(chosen), lambda i: self._make(chosen[i]))
+            return LazySequence(len(chosen), lambda i: self._make(chosen[i]))
         return self._make(chosen)
 
     def __iter__(self) -> Iterator[T]:
         return map(self._make, range(self._count))
 
 
-class Sight(NamedTuple):
+class FrameTruth(NamedTuple):
     """The people in one frame, as the left camera sees them."""
 
     target: Bystander
@@ -54,26 +54,26 @@ class Sight(NamedTuple):
     visible: float  # share of the target's pixels that are in the mask
 
 
-class Truth(NamedTuple):
+class WalkGeometry(NamedTuple):
     """The geometry of all frames; the first pedestrian is the target."""
 
     pan: Pan
     hall: Hall
     people: list[Pedestrian]
 
-    def sight(self, index: int) -> Sight:
+    def sight(self, index: int) -> FrameTruth:
         """Where the people are in a frame, and what is seen of the target."""
         bodies = [self._parts(index, person).ellipsoids for person in self.people]
-        windows = [self._view.cast(body) for body in bodies]
+        windows = [self._view.render(body) for body in bodies]
         target, overtaker, standing = (
-            Bystander(self._view.box(body), self._view.points(window).mean(axis=0))
+            Bystander(self._view.bounding_box(body), self._view.surface_points(window).mean(axis=0))
             for body, window in zip(bodies, windows, strict=True)
         )
         nearest = np.full(self._shape, np.inf)
         for window in windows:
-            zbuffer.lay(window, nearest)
-        mask, visible = zbuffer.seen(windows[0], nearest)
-        return Sight(target, (overtaker, standing), mask, zbuffer.box_round(mask), visible)
+            zbuffer.merge_window(window, nearest)
+        mask, visible = zbuffer.find_visible_pixels(windows[0], nearest)
+        return FrameTruth(target, (overtaker, standing), mask, zbuffer.box_of_mask(mask), visible)
 
     def depth(self, index: int) -> Array:
         """What is at each pixel's centre, (H, W) metres along z."""
@@ -104,24 +104,24 @@ class Truth(NamedTuple):
 
     def _seen(self, index: int) -> tuple[Array, NDArray[np.intp]]:
         """Depth (H, W), and whose part is there: 0 for the hall, then all people's parts in order."""
-        eye = Eye(self.pan.rig.intrinsics, 0.0, 1)
+        eye = RayCamera(self.pan.rig.intrinsics, 0.0, 1)
         depth = self.hall.draw(eye, self.pan.to_camera(index)).depth.astype(np.float64)
         owner = np.zeros(self._shape, np.intp)
         number = 0
         for person in self.people:
             for part in zip(*self._parts(index, person).ellipsoids, strict=True):
                 number += 1
-                window = self._view.cast(Ellipsoids(*(array[None] for array in part)))
-                place, nearer = zbuffer.lay(window, depth)
-                owner[place][nearer] = number
+                window = self._view.render(Ellipsoids(*(array[None] for array in part)))
+                place, disparity_ratio = zbuffer.merge_window(window, depth)
+                owner[place][disparity_ratio] = number
         return depth, owner
 
-    def _parts(self, index: int, person: Pedestrian) -> Balls:
-        return person.parts[index].moved(self.pan.to_camera(index), np.zeros(3))
+    def _parts(self, index: int, person: Pedestrian) -> OrientedEllipsoids:
+        return person.parts[index].transformed(self.pan.to_camera(index), np.zeros(3))
 
     @property
-    def _view(self) -> View:
-        return View(self.pan.rig.intrinsics, self.pan.height, 0.0)
+    def _view(self) -> MountedCamera:
+        return MountedCamera(self.pan.rig.intrinsics, self.pan.height, 0.0)
 
     @property
     def _shape(self) -> tuple[int, int]:

@@ -12,14 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 from tricue.scenes.arrays import Array
-from tricue.scenes.rendering.ellipsoids import Balls, Ellipsoids
+from tricue.scenes.rendering.ellipsoids import Ellipsoids, OrientedEllipsoids
 
 # Shares of the height: joints above the floor and beside the middle, then lengths between joints.
 ANKLE, HIP, SHOULDER = 0.039, 0.530, 0.818
 HIP_SIDE, SHOULDER_SIDE = 0.050, 0.112
 THIGH, SHANK, UPPER_ARM, FOREARM, HAND = 0.245, 0.246, 0.186, 0.146, 0.108
 # Trunk and head upright, in shares of the height: height of the centre, semi-axes along x, y, z.
-TRUNK = {
+TRUNK_PARTS = {
     "pelvis": (0.545, 0.094, 0.080, 0.066),
     "waist": (0.630, 0.082, 0.090, 0.058),
     "chest": (0.730, 0.098, 0.105, 0.068),
@@ -27,7 +27,7 @@ TRUNK = {
     "neck": (0.855, 0.034, 0.050, 0.034),
     "head": (0.932, 0.045, 0.068, 0.056),
 }
-SLIM = ("neck", "head")  # they don't grow with the build
+UNSCALED_PARTS = ("neck", "head")  # they don't grow with the build
 
 
 class Person(NamedTuple):
@@ -37,12 +37,12 @@ class Person(NamedTuple):
     build: float  # breadth and thickness, 1 for the average
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, shortest: float = 1.55) -> "Person":
+    def sample(cls, rng: np.random.Generator, shortest: float = 1.55) -> "Person":
         """A random adult, 1.55 (or ``shortest``) to 1.95 m tall."""
         return cls(rng.uniform(shortest, 1.95), rng.uniform(0.9, 1.15))
 
 
-class Pose(NamedTuple):
+class BodyPose(NamedTuple):
     """How the joints are bent; the default stands at ease."""
 
     gait: float = 0.0  # phase of the stride, radians; 2 pi is two steps
@@ -51,12 +51,12 @@ class Pose(NamedTuple):
     arms: float = 0.0  # 0 hanging, 1 raised over the head
 
 
-def body(person: Person, pose: Pose) -> Ellipsoids:
+def build_body(person: Person, pose: BodyPose) -> Ellipsoids:
     """The ellipsoids of a person in a pose, in the body frame; its lowest point touches the floor, y = 0."""
-    return balls(person, pose).ellipsoids
+    return build_oriented_body(person, pose).ellipsoids
 
 
-def balls(person: Person, pose: Pose) -> Balls:
+def build_oriented_body(person: Person, pose: BodyPose) -> OrientedEllipsoids:
     """The same with the place of each point in its ellipsoid; a limb's -y is towards the trunk."""
     lean = 0.6 * pose.crouch + 0.06 * min(pose.swing, 1.0)
     parts = [*_trunk(person.build, lean)]
@@ -64,36 +64,36 @@ def balls(person: Person, pose: Pose) -> Balls:
         parts += [*_leg(side, person.build, pose), *_arm(side, person.build, lean, pose)]
     centers, roots = (np.stack(arrays) * person.height for arrays in zip(*parts, strict=True))
     centers[:, 1] -= (centers[:, 1] + np.linalg.norm(roots[:, 1], axis=1)).max()
-    return Balls(centers, roots)
+    return OrientedEllipsoids(centers, roots)
 
 
-def stand(person: Person, pose: Pose, x: float, z: float, yaw: float, floor: float) -> Ellipsoids:
+def place_body(person: Person, pose: BodyPose, x: float, z: float, yaw: float, floor: float) -> Ellipsoids:
     """A person's body on the floor of a level frame (x right, y down, z forward), at (x, floor, z).
 
     yaw: where the person faces, radians: 0 along z, pi / 2 along x.
     """
-    return body(person, pose).moved(about_y(yaw), np.array([x, floor, z]))
+    return build_body(person, pose).transformed(rotation_about_y(yaw), np.array([x, floor, z]))
 
 
-def about_y(yaw: float) -> Array:
+def rotation_about_y(yaw: float) -> Array:
     """The rotation that turns z towards x, radians."""
     return np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
 
 
-_Part = tuple[Array, Array]  # a centre (3,) and a root (3, 3), in shares of the height
+_Limb = tuple[Array, Array]  # a centre (3,) and a root (3, 3), in shares of the height
 
 
-def _trunk(build: float, lean: float) -> list[_Part]:
+def _trunk(build: float, lean: float) -> list[_Limb]:
     """Pelvis to head, bent forward by ``lean`` at the hip; the head bends back, so that it looks ahead."""
     parts = []
-    for name, (up, *axes) in TRUNK.items():
-        wide = 1.0 if name in SLIM else build
-        tilt = _tilt(lean if name not in SLIM else 0.3 * lean)
+    for name, (up, *axes) in TRUNK_PARTS.items():
+        wide = 1.0 if name in UNSCALED_PARTS else build
+        tilt = _tilt(lean if name not in UNSCALED_PARTS else 0.3 * lean)
         parts.append((_on_trunk(0.0, up, lean), tilt * [axes[0] * wide, axes[1], axes[2] * wide]))
     return parts
 
 
-def _leg(side: float, build: float, pose: Pose) -> list[_Part]:
+def _leg(side: float, build: float, pose: BodyPose) -> list[_Limb]:
     """Thigh, shank and foot of the left (-1) or right (1) leg."""
     phase = pose.gait + (math.pi if side < 0 else 0.0)
     # The knee bends most while the leg swings forward under the hip.
@@ -112,7 +112,7 @@ def _leg(side: float, build: float, pose: Pose) -> list[_Part]:
     ]
 
 
-def _arm(side: float, build: float, lean: float, pose: Pose) -> list[_Part]:
+def _arm(side: float, build: float, lean: float, pose: BodyPose) -> list[_Limb]:
     """Upper arm, forearm and hand; they swing against the legs."""
     swing = -0.8 * pose.swing * math.sin(pose.gait + (math.pi if side < 0 else 0.0)) + 0.8 * pose.crouch
     out = 0.13 + 2.5 * pose.arms
@@ -145,7 +145,7 @@ def _direction(out: float, forward: float) -> Array:
     return np.array([math.sin(out), math.cos(out) * math.cos(forward), math.cos(out) * math.sin(forward)])
 
 
-def _limb(start: Array, end: Array, radius: float, over: float) -> _Part:
+def _limb(start: Array, end: Array, radius: float, over: float) -> _Limb:
     """A long ellipsoid between two joints that reaches past each by the share ``over`` of its length."""
     length = float(np.linalg.norm(end - start))
     axis = (end - start) / length

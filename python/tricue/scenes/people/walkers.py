@@ -11,21 +11,21 @@ from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.scenes.arrays import Array
 from tricue.scenes.people import walks
-from tricue.scenes.people.body import Person, Pose, stand
-from tricue.scenes.people.walks import Floor
+from tricue.scenes.people.body import BodyPose, Person, place_body
+from tricue.scenes.people.walks import WalkableArea
 from tricue.scenes.rendering import zbuffer
 from tricue.scenes.rendering.depth_room import Room
-from tricue.scenes.rendering.depth_sensor import CAMERAS, DepthCamera
-from tricue.scenes.rendering.depth_view import View, Window
+from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
+from tricue.scenes.rendering.depth_view import DepthWindow, MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.scene import Bystander, DepthScene
 
-NEAREST = {"tof": 2.4, "rgbd": 2.0}  # metres at which a body still fits into the image
-FARTHEST = 6.2  # metres; wholly within the range of both cameras
-CHANGING = 1.2  # metres a second at which a hidden target changes its depth
-LARGEST_CHANGE = 1.3  # metres
-HIDDEN = 0.6  # share of a sweep that the target is hidden at most
-TO_HIDE = 0.4  # seconds until the target is covered, and until it comes free again
+MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # metres at which a body still fits into the image
+MAX_WALKER_DISTANCE = 6.2  # metres; wholly within the range of both cameras
+DEPTH_CHANGE_SPEED = 1.2  # metres a second at which a hidden target changes its depth
+MAX_DEPTH_CHANGE = 1.3  # metres
+MAX_HIDDEN_SHARE = 0.6  # share of a sweep that the target is hidden at most
+COVERING_DURATION = 0.4  # seconds until the target is covered, and until it comes free again
 
 
 def walker(
@@ -42,13 +42,13 @@ def walker(
     """
     _check(frames, camera, missing, noise)
     rng = np.random.default_rng(seed)
-    stage = _stage(camera, rng)
-    person, rate = Person.draw(rng), stage.sensor.rate
-    gestures = walks.gestures(frames, rate, rng)
-    path = walks.loop(stage.floor, gestures.crouch, rate, rng)
-    poses = walks.poses(person, path, rate, gestures)
-    actor = _Actor(person, path, walks.headings(path, rate) + gestures.turn, poses)
-    return _film(f"walker, {camera}, seed {seed}", stage, [actor], _Flaws(missing, noise), rng)
+    stage = _sample_stage(camera, rng)
+    person, rate = Person.sample(rng), stage.sensor.rate
+    gestures = walks.sample_gestures(frames, rate, rng)
+    path = walks.sample_loop(stage.floor, gestures.crouch, rate, rng)
+    poses = walks.compute_poses(person, path, rate, gestures)
+    actor = _Actor(person, path, walks.compute_headings(path, rate) + gestures.turn, poses)
+    return _record(f"walker, {camera}, seed {seed}", stage, [actor], _SensorErrors(missing, noise), rng)
 
 
 def crossing(
@@ -69,33 +69,35 @@ def crossing(
     """
     _check(frames, camera, missing, noise)
     rng = np.random.default_rng(seed)
-    stage = _stage(camera, rng)
+    stage = _sample_stage(camera, rng)
     rate = stage.sensor.rate
-    time = walks.sweeps(frames, rate)
+    time = walks.compute_sweep_times(frames, rate)
     _check_depth_change(depth_change, float(np.ptp(time)))
-    target = Person.draw(rng)
+    target = Person.sample(rng)
     # Whoever is no shorter and nearer hides the head too: the camera is below it.
-    people = [target, Person.draw(rng, shortest=target.height)]
+    people = [target, Person.sample(rng, shortest=target.height)]
     paths = [*_crossing_paths(stage, time, depth_change, rng)]
     if rng.random() < 0.5:
-        people.append(Person.draw(rng))
+        people.append(Person.sample(rng))
         paths.append(_path_behind(stage, time, paths[0], rng))
     # Who stops in front turns to the camera, broad enough to hide somebody who turns, too.
-    looks = [None, np.abs(time) < _hiding(depth_change, time) / 2, None]
+    looks = [None, np.abs(time) < _hidden_duration(depth_change, time) / 2, None]
     actors = [
-        _Actor(person, path, walks.headings(path, rate, look), walks.poses(person, path, rate))
+        _Actor(
+            person, path, walks.compute_headings(path, rate, look), walks.compute_poses(person, path, rate)
+        )
         for person, path, look in zip(people, paths, looks, strict=False)
     ]
-    return _film(f"crossing, {camera}, seed {seed}", stage, actors, _Flaws(missing, noise), rng)
+    return _record(f"crossing, {camera}, seed {seed}", stage, actors, _SensorErrors(missing, noise), rng)
 
 
-class _Stage(NamedTuple):
+class _DepthStage(NamedTuple):
     """The camera in its place, the bare room and where in it people walk."""
 
-    sensor: DepthCamera
-    view: View
+    sensor: DepthSensor
+    view: MountedCamera
     room: Room
-    floor: Floor
+    floor: WalkableArea
 
 
 class _Actor(NamedTuple):
@@ -104,47 +106,49 @@ class _Actor(NamedTuple):
     person: Person
     path: Array  # (M, 2) x and z, metres, level frame
     facing: Array  # (M,) radians
-    poses: list[Pose]
+    poses: list[BodyPose]
 
-    def body(self, index: int, view: View) -> Ellipsoids:
+    def body(self, index: int, view: MountedCamera) -> Ellipsoids:
         """In the camera frame."""
         x, z = self.path[index].tolist()
-        level = stand(self.person, self.poses[index], x, z, float(self.facing[index]), view.height)
-        return level.moved(view.rotation, np.zeros(3))
+        level = place_body(self.person, self.poses[index], x, z, float(self.facing[index]), view.height)
+        return level.transformed(view.rotation, np.zeros(3))
 
 
-class _Flaws(NamedTuple):
+class _SensorErrors(NamedTuple):
     missing: float
     noise: float
 
 
-class _Sight(NamedTuple):
+class _PersonTruth(NamedTuple):
     """One person in one frame, as if alone."""
 
     box: Box
     position: Array
-    window: Window
+    window: DepthWindow
 
 
-def _stage(camera: str, rng: np.random.Generator) -> _Stage:
+def _sample_stage(camera: str, rng: np.random.Generator) -> _DepthStage:
     """A room and a camera that sees a whole body at NEAREST, looking down on it a little."""
-    sensor, near = CAMERAS[camera], NEAREST[camera]
+    sensor, near = DEPTH_SENSORS[camera], MIN_WALKER_DISTANCE[camera]
     height, wall, side = rng.uniform([1.0, 6.8, 3.1], [1.6, 10.0, 4.2]).tolist()
     # The middle of the angles to the floor and to a head at 1.75 m.
     pitch = (math.atan2(height, near) + math.atan2(height - 1.75, near)) / 2 + math.radians(
         rng.uniform(-1, 1)
     )
     slope = sensor.intrinsics.width / 2 / sensor.intrinsics.fx
-    floor = Floor(near, min(FARTHEST, wall - 1.0), slope, side + walks.BODY - walks.ARMS)
-    return _Stage(sensor, View(sensor.intrinsics, height, pitch), Room(wall, side, 2.6), floor)
+    floor = WalkableArea(
+        near, min(MAX_WALKER_DISTANCE, wall - 1.0), slope, side + walks.BODY_CLEARANCE - walks.ARM_CLEARANCE
+    )
+    return _DepthStage(sensor, MountedCamera(sensor.intrinsics, height, pitch), Room(wall, side, 2.6), floor)
 
 
 def _crossing_paths(
-    stage: _Stage, time: Array, depth_change: float, rng: np.random.Generator
+    stage: _DepthStage, time: Array, depth_change: float, rng: np.random.Generator
 ) -> tuple[Array, Array]:
     """The paths (M, 2) of the target and of who crosses its line of sight at time 0, the other way."""
     near, half = stage.floor.near, float(time.max())
-    changing = abs(depth_change) / CHANGING
+    changing = abs(depth_change) / DEPTH_CHANGE_SPEED
     sense = rng.choice([-1, 1])
     start = near + rng.uniform(1.4 + max(-depth_change, 0), 2.7 - max(depth_change, 0))
     share = np.clip(time / changing + 0.5, 0, 1) if changing else np.zeros(len(time))
@@ -152,7 +156,7 @@ def _crossing_paths(
     aside, speed = rng.uniform([-0.15, 0.3], [0.15, 0.6])
     room_to_side = float(stage.floor.reach(z).min()) - abs(aside)
     x = aside + sense * min(speed, room_to_side / max(half, 1.0)) * time
-    slowed = walks.linger(time, _hiding(depth_change, time), 0.1)
+    slowed = walks.slow_down_time(time, _hidden_duration(depth_change, time), 0.1)
     crossing_z = near + rng.uniform(0.0, 0.4)
     nearer = crossing_z + rng.choice([-1, 1]) * rng.uniform(0.2, 0.3) * slowed
     angular = (
@@ -161,36 +165,38 @@ def _crossing_paths(
     return np.stack([x, z], axis=1), np.stack([nearer * (x / z - sense * angular * slowed), nearer], axis=1)
 
 
-def _hiding(depth_change: float, time: Array) -> float:
+def _hidden_duration(depth_change: float, time: Array) -> float:
     """For how many seconds somebody stays in front of the target."""
-    return min(abs(depth_change) / CHANGING + TO_HIDE, HIDDEN * float(np.ptp(time)))
+    return min(
+        abs(depth_change) / DEPTH_CHANGE_SPEED + COVERING_DURATION, MAX_HIDDEN_SHARE * float(np.ptp(time))
+    )
 
 
-def _path_behind(stage: _Stage, time: Array, target: Array, rng: np.random.Generator) -> Array:
+def _path_behind(stage: _DepthStage, time: Array, target: Array, rng: np.random.Generator) -> Array:
     """A path (M, 2) from side to side behind the target's."""
-    beside = stage.room.side - walks.BODY
+    beside = stage.room.side - walks.BODY_CLEARANCE
     x = rng.uniform(-0.5, 0.5)
     speed = min(rng.uniform(0.5, 0.9), (beside - abs(x)) / max(float(time.max()), 1.0))
-    deepest = min(float(target[:, 1].max()) + rng.uniform(0.6, 1.2), stage.room.wall - walks.BODY)
+    deepest = min(float(target[:, 1].max()) + rng.uniform(0.6, 1.2), stage.room.wall - walks.BODY_CLEARANCE)
     return np.stack([x + rng.choice([-1, 1]) * speed * time, np.full(len(time), deepest)], axis=1)
 
 
-def _film(
-    name: str, stage: _Stage, actors: list[_Actor], flaws: _Flaws, rng: np.random.Generator
+def _record(
+    name: str, stage: _DepthStage, actors: list[_Actor], flaws: _SensorErrors, rng: np.random.Generator
 ) -> DepthScene:
     """Render, measure and note the truth; the first actor is the target."""
     view, room = stage.view, stage.room
     ways = np.concatenate([actor.path for actor in actors])
-    room = room._replace(furniture=walks.clutter(8, room.wall, room.side, ways, rng))
-    background = view.background(room)
+    room = room._replace(furniture=walks.place_furniture(8, room.wall, room.side, ways, rng))
+    background = view.render_room(room)
     frames, sights, seen = [], [], []
     for index in range(len(actors[0].path)):
-        sights.append([_sight(view, actor.body(index, view)) for actor in actors])
+        sights.append([_render_person(view, actor.body(index, view)) for actor in actors])
         depth = background.copy()
         for sight in sights[-1]:
-            zbuffer.lay(sight.window, depth)
-        mask, share = zbuffer.seen(sights[-1][0].window, depth)
-        seen.append((zbuffer.box_round(mask), share))
+            zbuffer.merge_window(sight.window, depth)
+        mask, share = zbuffer.find_visible_pixels(sights[-1][0].window, depth)
+        seen.append((zbuffer.box_of_mask(mask), share))
         measured = stage.sensor.measure(depth, rng, missing=flaws.missing, noise=flaws.noise)
         frames.append(Frame(depth=measured, timestamp=index / stage.sensor.rate))
     return DepthScene(
@@ -205,15 +211,15 @@ def _film(
     )
 
 
-def _sight(view: View, bodies: Ellipsoids) -> _Sight:
-    window = view.cast(bodies)
-    return _Sight(view.box(bodies), view.points(window).mean(axis=0), window)
+def _render_person(view: MountedCamera, bodies: Ellipsoids) -> _PersonTruth:
+    window = view.render(bodies)
+    return _PersonTruth(view.bounding_box(bodies), view.surface_points(window).mean(axis=0), window)
 
 
 def _check(frames: int, camera: str, missing: float, noise: float) -> None:
     positive_whole(frames, "frames", "a count")
-    if camera not in CAMERAS:
-        raise ValueError(f"camera: expected one of {', '.join(CAMERAS)}, got {camera!r}")
+    if camera not in DEPTH_SENSORS:
+        raise ValueError(f"camera: expected one of {', '.join(DEPTH_SENSORS)}, got {camera!r}")
     if not 0 <= finite(missing, "missing", "a share of the pixels") <= 1:
         raise ValueError(f"missing: expected a share of the pixels from 0 to 1, got {missing!r}")
     if finite(noise, "noise", "a factor") < 0:
@@ -222,6 +228,6 @@ def _check(frames: int, camera: str, missing: float, noise: float) -> None:
 
 def _check_depth_change(metres: float, span: float) -> None:
     """ValueError where the target can't walk that far while it is hidden, in a scene of ``span`` seconds."""
-    most = min(LARGEST_CHANGE, max(HIDDEN * span - TO_HIDE, 0.0) * CHANGING)
+    most = min(MAX_DEPTH_CHANGE, max(MAX_HIDDEN_SHARE * span - COVERING_DURATION, 0.0) * DEPTH_CHANGE_SPEED)
     if abs(finite(metres, "depth_change", "metres")) > most:
         raise ValueError(f"depth_change: expected at most {most:.2f} m in {span:.1f} s, got {metres!r}")

@@ -11,17 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.scenes.arrays import Array
-from tricue.scenes.people.body import Person, Pose
+from tricue.scenes.people.body import BodyPose, Person
 from tricue.scenes.rendering.depth_room import Furniture
 
-SLOWEST, FASTEST = 0.3, 1.5  # metres a second
-TURN = 5.0  # radians a second, the fastest that a walker turns
-BODY = 0.5  # metres, what a walker needs to each side
-ARMS = 1.1  # metres, with the arms spread
-SWEEP = 6.0  # seconds after which those who cross turn round
+MIN_WALKING_SPEED, MAX_WALKING_SPEED = 0.3, 1.5  # metres a second
+MAX_TURN_RATE = 5.0  # radians a second, the fastest that a walker turns
+BODY_CLEARANCE = 0.5  # metres, what a walker needs to each side
+ARM_CLEARANCE = 1.1  # metres, with the arms spread
+SWEEP_DURATION = 6.0  # seconds after which those who cross turn round
 
 
-class Floor(NamedTuple):
+class WalkableArea(NamedTuple):
     """Where one can walk and is seen: ``near`` to ``far`` metres away, within the angle of view."""
 
     near: float
@@ -31,7 +31,7 @@ class Floor(NamedTuple):
 
     def reach(self, z: Array) -> Array:
         """How far to each side of the middle a walker at z is still seen, and is clear of the walls."""
-        return np.minimum(self.slope * z, self.side) - BODY
+        return np.minimum(self.slope * z, self.side) - BODY_CLEARANCE
 
 
 class Gestures(NamedTuple):
@@ -42,7 +42,7 @@ class Gestures(NamedTuple):
     turn: Array  # radians about the body's axis beside the path's
 
 
-def gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestures:
+def sample_gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestures:
     """Crouching, raising the arms and turning on the spot, each abrupt and about a second long, by turns."""
     time = np.arange(frames) / rate
     crouch, arms, turn = np.zeros((3, frames))
@@ -61,14 +61,14 @@ def gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestures:
     return Gestures(crouch, arms, turn)
 
 
-def loop(floor: Floor, crouch: Array, rate: float, rng: np.random.Generator) -> Array:
+def sample_loop(floor: WalkableArea, crouch: Array, rate: float, rng: np.random.Generator) -> Array:
     """A closed curve at an uneven pace: (M, 2) places, so sized that it is walked about once.
 
     Who crouches (0 to 1, per frame) walks slower; every step is between SLOWEST and FASTEST.
     """
     frames = len(crouch)
     waves = 1 + 0.25 * np.sin(2 * np.pi * (np.arange(frames) / rate / 2.3 + rng.random()))
-    pace = np.clip(rng.uniform(0.8, 1.1) * waves * (1 - 0.7 * crouch), SLOWEST, FASTEST)
+    pace = np.clip(rng.uniform(0.8, 1.1) * waves * (1 - 0.7 * crouch), MIN_WALKING_SPEED, MAX_WALKING_SPEED)
     walked = np.concatenate([[0.0], np.cumsum(pace[1:] / rate)])
     angle = np.linspace(0, 2 * np.pi, 1441)
     shape = _loop_shape(angle, rng)
@@ -87,7 +87,7 @@ def _loop_shape(angle: Array, rng: np.random.Generator) -> Array:
     return np.stack([np.sin(sense * angle), np.cos(angle + 0.3 * np.sin(angle + offset))], axis=1)
 
 
-def _on_floor(floor: Floor, shape: Array, middle: Array, size: float) -> Array:
+def _on_floor(floor: WalkableArea, shape: Array, middle: Array, size: float) -> Array:
     """The shape at a ``size`` of the floor's, round a middle that is freer the smaller the shape is."""
     x, z = (size * shape + (1 - size) * middle).T
     z = (floor.near + floor.far) / 2 + (floor.far - floor.near) / 2 * z
@@ -99,12 +99,12 @@ def _lengths(curve: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
 
 
-def sweeps(frames: int, rate: float) -> Array:
+def compute_sweep_times(frames: int, rate: float) -> Array:
     """The time (M,) of those who go to and fro: -SWEEP / 2 to SWEEP / 2 seconds and back; 0 half way.
 
     Fewer frames than a sweep takes are centred, so that half of them are before 0.
     """
-    half = min(SWEEP, (frames - 1) / rate) / 2
+    half = min(SWEEP_DURATION, (frames - 1) / rate) / 2
     time = np.arange(frames) / rate
     if half == 0:
         return time
@@ -112,12 +112,12 @@ def sweeps(frames: int, rate: float) -> Array:
     return np.minimum(there_and_back, 4 * half - there_and_back) - half
 
 
-def linger(time: Array, seconds: float, rest: float) -> Array:
+def slow_down_time(time: Array, seconds: float, rest: float) -> Array:
     """Time that passes at the rate ``rest`` for some seconds round 0, for one who stops; at 1 elsewhere."""
     return time - (1 - rest) * np.clip(time, -seconds / 2, seconds / 2)
 
 
-def headings(path: Array, rate: float, looks: NDArray[np.bool_] | None = None) -> Array:
+def compute_headings(path: Array, rate: float, looks: NDArray[np.bool_] | None = None) -> Array:
     """Where one who walks a path (M, 2) faces, (M,) radians from z towards x, turning at most TURN.
 
     looks: (M,) the frames in which the walker turns to the camera instead.
@@ -130,11 +130,13 @@ def headings(path: Array, rate: float, looks: NDArray[np.bool_] | None = None) -
     faced = [float(wanted[0])]
     for angle in wanted[1:].tolist():
         short = math.remainder(angle - faced[-1], 2 * math.pi)
-        faced.append(faced[-1] + float(np.clip(short, -TURN / rate, TURN / rate)))
+        faced.append(faced[-1] + float(np.clip(short, -MAX_TURN_RATE / rate, MAX_TURN_RATE / rate)))
     return np.array(faced)
 
 
-def poses(person: Person, path: Array, rate: float, gestures: Gestures | None = None) -> list[Pose]:
+def compute_poses(
+    person: Person, path: Array, rate: float, gestures: Gestures | None = None
+) -> list[BodyPose]:
     """The pose on each place of a path: the legs swing as far as the pace asks, two steps in 0.8 heights."""
     steps = np.hypot(*np.diff(path, axis=0, prepend=path[:1]).T)
     if len(steps) > 1:
@@ -143,10 +145,10 @@ def poses(person: Person, path: Array, rate: float, gestures: Gestures | None = 
     swing = np.minimum(0.4 * steps * rate, 0.5)
     crouch, arms = (gestures.crouch, gestures.arms) if gestures else np.zeros((2, len(path)))
     rows = np.stack([gait, swing * (1 - 0.8 * crouch), crouch, arms], axis=1)
-    return [Pose(*row) for row in rows.tolist()]
+    return [BodyPose(*row) for row in rows.tolist()]
 
 
-def clutter(
+def place_furniture(
     count: int, wall: float, side: float, paths: Array, rng: np.random.Generator
 ) -> tuple[Furniture, ...]:
     """Up to ``count`` boxes that stand neither on the paths (n, 2) nor between them and the camera."""
@@ -154,7 +156,7 @@ def clutter(
     for _ in range(count):
         width, depth, height = rng.uniform([0.4, 0.3, 0.4], [1.4, 0.7, 1.9]).tolist()
         x, z = rng.uniform([-side, 2.0], [side, wall]).tolist()
-        if _way_off_sight((x, z), paths) > ARMS + math.hypot(width, depth) / 2:
+        if _way_off_sight((x, z), paths) > ARM_CLEARANCE + math.hypot(width, depth) / 2:
             pieces.append(Furniture(x, z, width, depth, height, rng.uniform(0, math.pi)))
     return tuple(pieces)
 

@@ -17,7 +17,7 @@ from tricue.scenes.rendering.depth_room import Furniture, Room
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 
 
-class Window(NamedTuple):
+class DepthWindow(NamedTuple):
     """The depths (h, w) of the pixels from column ``left`` and row ``top`` on; infinite where nothing is.
 
     It may reach over the image's edge, as a body does.
@@ -40,7 +40,7 @@ class Window(NamedTuple):
         return (slice(top, top + part.shape[0]), slice(left, left + part.shape[1])), part
 
 
-class View(NamedTuple):
+class MountedCamera(NamedTuple):
     """A camera ``height`` metres above the floor, looking down by ``pitch`` radians."""
 
     intrinsics: Intrinsics
@@ -53,7 +53,7 @@ class View(NamedTuple):
         cos, sin = math.cos(self.pitch), math.sin(self.pitch)
         return np.array([[1.0, 0, 0], [0, cos, -sin], [0, sin, cos]])
 
-    def outline(self, bodies: Ellipsoids) -> Array:
+    def ellipsoid_boxes(self, bodies: Ellipsoids) -> Array:
         """The box round each ellipsoid of the camera frame: (n, 4), left, top, right, bottom, pixels.
 
         Exact, without the pixel grid: the outline's dual conic is S - c c^T (Hartley and Zisserman, 2004,
@@ -72,14 +72,14 @@ class View(NamedTuple):
         corners = np.stack([middle - half, middle + half], axis=1) * focal + principal + 0.5
         return corners.reshape(-1, 4)
 
-    def box(self, bodies: Ellipsoids) -> Box:
+    def bounding_box(self, bodies: Ellipsoids) -> Box:
         """The smallest box round all of them, pixels; it may reach over the image's edge."""
-        sides = self.outline(bodies)
+        sides = self.ellipsoid_boxes(bodies)
         return Box.from_xyxy(*sides[:, :2].min(axis=0).tolist(), *sides[:, 2:].max(axis=0).tolist())
 
-    def cast(self, bodies: Ellipsoids) -> Window:
+    def render(self, bodies: Ellipsoids) -> DepthWindow:
         """The z-buffer of ellipsoids of the camera frame, over their box."""
-        sides = self.outline(bodies) - 0.5
+        sides = self.ellipsoid_boxes(bodies) - 0.5
         first, last = np.ceil(sides[:, :2]).astype(int), np.floor(sides[:, 2:]).astype(int) + 1
         left, top = first.min(axis=0).tolist()
         right, bottom = last.max(axis=0).tolist()
@@ -90,9 +90,9 @@ class View(NamedTuple):
             x, y = self._rays(range(start[0], stop[0]), range(start[1], stop[1]))
             part = depth[start[1] - top : stop[1] - top, start[0] - left : stop[0] - left]
             np.minimum(part, _first_hit(center, inverse, x, y), out=part)
-        return Window(left, top, depth)
+        return DepthWindow(left, top, depth)
 
-    def background(self, room: Room) -> Array:
+    def render_room(self, room: Room) -> Array:
         """The z-buffer (H, W) of the room; there is a wall, floor or ceiling on each ray."""
         x, y = self._rays(range(self.intrinsics.width), range(self.intrinsics.height))
         rays = np.stack(np.broadcast_arrays(x[None, :], y[:, None], 1.0), axis=-1) @ self.rotation
@@ -104,7 +104,7 @@ class View(NamedTuple):
             depth = np.minimum(depth, self._furniture(piece, rays))
         return depth
 
-    def points(self, window: Window) -> Array:
+    def surface_points(self, window: DepthWindow) -> Array:
         """The surface points (n, 3) that a z-buffer holds, metres in the camera frame."""
         rows, columns = np.nonzero(np.isfinite(window.depth))
         return self.intrinsics.back_project(

@@ -12,12 +12,12 @@ class Ellipsoids(NamedTuple):
     centers: Array  # (n, 3), metres
     shapes: Array  # (n, 3, 3), square metres
 
-    def moved(self, rotation: Array, offset: Array) -> "Ellipsoids":
+    def transformed(self, rotation: Array, offset: Array) -> "Ellipsoids":
         """Each point p moved to rotation @ p + offset."""
         return Ellipsoids(self.centers @ rotation.T + offset, rotation @ self.shapes @ rotation.T)
 
 
-class Balls(NamedTuple):
+class OrientedEllipsoids(NamedTuple):
     """Unit balls stretched and turned into ellipsoids: q goes to root @ q + center, S = root root^T.
 
     Each q is a point of the body that keeps its place in it, which shapes alone can't say.
@@ -30,6 +30,6 @@ class Balls(NamedTuple):
     def ellipsoids(self) -> Ellipsoids:
         return Ellipsoids(self.centers, self.roots @ self.roots.transpose(0, 2, 1))
 
-    def moved(self, rotation: Array, offset: Array) -> "Balls":
+    def transformed(self, rotation: Array, offset: Array) -> "OrientedEllipsoids":
         """Each point p moved to rotation @ p + offset."""
-        return Balls(self.centers @ rotation.T + offset, rotation @ self.roots)
+        return OrientedEllipsoids(self.centers @ rotation.T + offset, rotation @ self.roots)

@@ -16,11 +16,11 @@ Image = NDArray[np.uint8]
 BACKGROUNDS = ("coffee", "cat", "motorcycle", "retina", "immunohistochemistry")
 
 # Places in the picture "astronaut", 512x512: the face from hair to chin, the head with its hair.
-FACE = Box(176, 60, 98, 123)
-HEAD = Box(152, 12, 152, 176)
+ASTRONAUT_FACE = Box(176, 60, 98, 123)
+ASTRONAUT_HEAD = Box(152, 12, 152, 176)
 
 
-def photograph(name: str) -> Image:
+def load_photograph(name: str) -> Image:
     """One of scikit-image's pictures as BGR."""
     try:
         from skimage import data
@@ -31,11 +31,11 @@ def photograph(name: str) -> Image:
     return np.ascontiguousarray(picture[..., ::-1])
 
 
-def background(name: str, height: int, width: int, rng: np.random.Generator) -> Image:
+def crop_background(name: str, height: int, width: int, rng: np.random.Generator) -> Image:
     """A random window of one of BACKGROUNDS, the largest or down to two thirds of it, as (height, width)."""
     if name not in BACKGROUNDS:
         raise ValueError(f"background: expected one of {', '.join(BACKGROUNDS)}, got {name!r}")
-    picture = photograph(name)
+    picture = load_photograph(name)
     available = np.array(picture.shape[:2])
     window = np.array([height, width]) * (available / [height, width]).min() * rng.uniform(2 / 3, 1)
     top, left = (rng.random(2) * (available - window)).astype(int)

@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.rendering.paste import expose
-from tricue.scenes.rendering.textures import look_up
+from tricue.scenes.rendering.textures import sample_texture
 
-BLUR = 0.5  # pixels, the deviation of the lens's and the sensor's blur beside that of averaging
-NEAREST = 0.05  # metres
+BLUR_DEVIATION = 0.5  # pixels, the deviation of the lens's and the sensor's blur beside that of averaging
+MIN_RAY_DEPTH = 0.05  # metres
 
 
-class Board(NamedTuple):
+class TexturedRectangle(NamedTuple):
     """A rectangle: its sides, at right angles, run ``along`` and ``down`` from ``corner``; all (3,)."""
 
     corner: Array
@@ -31,7 +31,7 @@ class Board(NamedTuple):
     texture: Sequence[Picture]  # a pyramid, columns along
 
 
-class Solid(NamedTuple):
+class TexturedEllipsoid(NamedTuple):
     """A textured ellipsoid, as those p for which |unit (p - center)| <= 1."""
 
     center: Array  # (3,)
@@ -46,16 +46,16 @@ class Lamp(NamedTuple):
     ambient: float  # share of the light from everywhere, 0 to 1
 
 
-class Canvas(NamedTuple):
+class RayImage(NamedTuple):
     """Color (h, w, 3) and depth (h, w) of each ray."""
 
     color: Picture
     depth: Picture
 
-    def copy(self) -> "Canvas":
-        return Canvas(self.color.copy(), self.depth.copy())
+    def copy(self) -> "RayImage":
+        return RayImage(self.color.copy(), self.depth.copy())
 
-    def lay(
+    def write(
         self, color: Picture, depth: Picture, seen: NDArray[np.bool_], place: tuple[slice, slice]
     ) -> None:
         """Write both where ``seen`` says so; cv2 does it many times faster than NumPy."""
@@ -64,14 +64,14 @@ class Canvas(NamedTuple):
         cv2.copyTo(depth, mask, self.depth[place])
 
 
-class Part(NamedTuple):
+class DrawnEllipsoid(NamedTuple):
     """Where a solid was drawn on a canvas, and its depths there, infinite where rays miss it."""
 
     place: tuple[slice, slice]
     depth: Picture
 
 
-class Eye(NamedTuple):
+class RayCamera(NamedTuple):
     """One camera of the pair, ``rays`` by ``rays`` rays a pixel; it stands at (offset, 0, 0)."""
 
     intrinsics: Intrinsics  # of the grid of rays
@@ -79,7 +79,7 @@ class Eye(NamedTuple):
     rays: int
 
     @classmethod
-    def pair(cls, rig: StereoRig, rays: int) -> tuple["Eye", "Eye"]:
+    def pair(cls, rig: StereoRig, rays: int) -> tuple["RayCamera", "RayCamera"]:
         """The left and the right camera."""
         camera = rig.intrinsics
         # The centre of the first pixel is at 0 in either grid; OpenCV's coordinates put its corner at -0.5.
@@ -89,71 +89,84 @@ class Eye(NamedTuple):
         )
         return cls(grid, 0.0, rays), cls(grid, rig.baseline, rays)
 
-    def draw_board(self, canvas: Canvas, board: Board) -> None:
+    def draw_rectangle(self, canvas: RayImage, rectangle: TexturedRectangle) -> None:
         """Lay a rectangle into the canvas where it is nearer."""
         camera = self.intrinsics
-        place = self._place(board)
+        place = self._place(rectangle)
         if any(part.start == part.stop for part in place):
             return
         x, y = self._rays(*place)
-        normal = np.cross(board.along, board.down)
-        from_eye = board.corner - [self.offset, 0, 0]
+        normal = np.cross(rectangle.along, rectangle.down)
+        from_camera = rectangle.corner - [self.offset, 0, 0]
         with np.errstate(divide="ignore", invalid="ignore"):
-            z = np.float32(normal @ from_eye) / (normal[0] * x + normal[1] * y + normal[2]).astype(np.float32)
-            u, v = (
-                (z * (side[0] * x + side[1] * y + side[2]) - side @ from_eye) / (side @ side)
-                for side in (board.along, board.down)
+            z = np.float32(normal @ from_camera) / (normal[0] * x + normal[1] * y + normal[2]).astype(
+                np.float32
             )
-        seen = (z > NEAREST) & (z < canvas.depth[place]) & (np.abs(u - 0.5) <= 0.5) & (np.abs(v - 0.5) <= 0.5)
+            u, v = (
+                (z * (side[0] * x + side[1] * y + side[2]) - side @ from_camera) / (side @ side)
+                for side in (rectangle.along, rectangle.down)
+            )
+        seen = (
+            (z > MIN_RAY_DEPTH)
+            & (z < canvas.depth[place])
+            & (np.abs(u - 0.5) <= 0.5)
+            & (np.abs(v - 0.5) <= 0.5)
+        )
         if not seen.any():
             return
         # A tilted board's texture is as coarse as its median ray needs; the finest detail beyond may alias.
-        texels = board.texture[0].shape[1] / float(np.linalg.norm(board.along)) / camera.fx
-        away = float(np.median(z[seen])) if len(board.texture) > 1 else 1.0
+        texels = rectangle.texture[0].shape[1] / float(np.linalg.norm(rectangle.along)) / camera.fx
+        away = float(np.median(z[seen])) if len(rectangle.texture) > 1 else 1.0
         u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
-        color = look_up(board.texture, u, v, texels * away)
-        canvas.lay(color, z, seen, place)
+        color = sample_texture(rectangle.texture, u, v, texels * away)
+        canvas.write(color, z, seen, place)
 
-    def draw_solids(self, canvas: Canvas, solids: Sequence[Solid], lamp: Lamp) -> list[Part | None]:
+    def draw_ellipsoids(
+        self, canvas: RayImage, ellipsoids: Sequence[TexturedEllipsoid], lamp: Lamp
+    ) -> list[DrawnEllipsoid | None]:
         """Lay ellipsoids into the canvas where they are nearer; None for those that aren't in the image."""
-        places = self._places(solids) if solids else []
+        places = self._places(ellipsoids) if ellipsoids else []
         return [
-            None if place is None else self._draw_solid(canvas, solid, place, lamp)
-            for solid, place in zip(solids, places, strict=True)
+            None if place is None else self._draw_ellipsoid(canvas, ellipsoid, place, lamp)
+            for ellipsoid, place in zip(ellipsoids, places, strict=True)
         ]
 
-    def _draw_solid(self, canvas: Canvas, solid: Solid, place: tuple[slice, slice], lamp: Lamp) -> Part:
+    def _draw_ellipsoid(
+        self, canvas: RayImage, ellipsoid: TexturedEllipsoid, place: tuple[slice, slice], lamp: Lamp
+    ) -> DrawnEllipsoid:
         x, y = self._rays(*place)
         # A ray's point z d on the unit sphere is q = z (unit d) - unit c; |q| = 1 gives its depth z.
-        to_center = solid.unit @ (solid.center - [self.offset, 0, 0])
-        rays = [np.float32(row[0]) * x + (np.float32(row[1]) * y + np.float32(row[2])) for row in solid.unit]
+        to_center = ellipsoid.unit @ (ellipsoid.center - [self.offset, 0, 0])
+        rays = [
+            np.float32(row[0]) * x + (np.float32(row[1]) * y + np.float32(row[2])) for row in ellipsoid.unit
+        ]
         depth = _first_hit(rays, to_center)
         hit = np.isfinite(depth)
         safe = np.where(hit, depth, 0)
         q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
-        color = self._texture(solid, q) * _shade(q, solid.unit, lamp)[..., None]
+        color = self._texture(ellipsoid, q) * _shade(q, ellipsoid.unit, lamp)[..., None]
         seen = hit & (depth < canvas.depth[place])
-        canvas.lay(color, depth, seen, place)
-        return Part(place, depth)
+        canvas.write(color, depth, seen, place)
+        return DrawnEllipsoid(place, depth)
 
-    def develop(self, canvas: Canvas) -> Picture:
+    def average_rays(self, canvas: RayImage) -> Picture:
         """The image of the rays: their mean in each pixel, slightly blurred."""
         size = self.intrinsics.width // self.rays, self.intrinsics.height // self.rays
         image = cv2.resize(canvas.color, size, interpolation=cv2.INTER_AREA)
-        return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR, borderType=cv2.BORDER_REPLICATE))
+        return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR_DEVIATION, borderType=cv2.BORDER_REPLICATE))
 
-    def _texture(self, solid: Solid, q: Sequence[Picture]) -> Picture:
+    def _texture(self, ellipsoid: TexturedEllipsoid, q: Sequence[Picture]) -> Picture:
         longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.clip(q[1], -1, 1))
         u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
-        girth = 2 * math.pi / float(np.linalg.norm(solid.unit[0]))  # metres round the equator, about
-        texels = solid.texture[0].shape[1] / girth * float(solid.center[2]) / self.intrinsics.fx
-        return look_up(solid.texture, u, v + np.float32(0.5), texels)
+        girth = 2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))  # metres round the equator, about
+        texels = ellipsoid.texture[0].shape[1] / girth * float(ellipsoid.center[2]) / self.intrinsics.fx
+        return sample_texture(ellipsoid.texture, u, v + np.float32(0.5), texels)
 
-    def _place(self, board: Board) -> tuple[slice, slice]:
+    def _place(self, rectangle: TexturedRectangle) -> tuple[slice, slice]:
         """The grid's rows and columns that a rectangle may cover, maybe none."""
         camera = self.intrinsics
-        sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([board.along, board.down])
-        corners = board.corner - [self.offset, 0, 0] + sides
+        sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([rectangle.along, rectangle.down])
+        corners = rectangle.corner - [self.offset, 0, 0] + sides
         size = np.array([camera.width, camera.height])
         # Beside one of the pyramid's four planes: f x + c z = u z, with the image's first or last u.
         x, z = (
@@ -162,21 +175,21 @@ class Eye(NamedTuple):
         )
         if (x < 0).all(axis=0).any() or (x > (size - 1) * z).all(axis=0).any():
             return slice(0, 0), slice(0, 0)
-        if z.min() <= NEAREST:
+        if z.min() <= MIN_RAY_DEPTH:
             return slice(0, camera.height), slice(0, camera.width)
         left, top = np.ceil((x / z).min(axis=0)).clip(0, size).astype(int).tolist()
         right, bottom = (np.floor((x / z).max(axis=0)) + 1).clip(0, size).astype(int).tolist()
         return slice(top, bottom), slice(left, right)
 
-    def _places(self, solids: Sequence[Solid]) -> list[tuple[slice, slice] | None]:
+    def _places(self, ellipsoids: Sequence[TexturedEllipsoid]) -> list[tuple[slice, slice] | None]:
         """The grid's rows and columns that each ellipsoid may cover; None for none, or beside the camera.
 
         The outline is that of :meth:`tricue.scenes.rendering.depth_camera.View.outline`.
         """
-        centers = np.stack([solid.center for solid in solids]) - [self.offset, 0, 0]
-        units = np.stack([solid.unit for solid in solids])
+        centers = np.stack([ellipsoid.center for ellipsoid in ellipsoids]) - [self.offset, 0, 0]
+        units = np.stack([ellipsoid.unit for ellipsoid in ellipsoids])
         dual = np.linalg.inv(units.transpose(0, 2, 1) @ units) - centers[:, :, None] * centers[:, None, :]
-        ahead = (dual[:, 2, 2] < 0) & (centers[:, 2] > NEAREST)
+        ahead = (dual[:, 2, 2] < 0) & (centers[:, 2] > MIN_RAY_DEPTH)
         scale = np.where(ahead, dual[:, 2, 2], -1)[:, None]
         middle = dual[:, :2, 2] / scale
         half = np.sqrt(np.maximum(middle**2 - dual[:, [0, 1], [0, 1]] / scale, 0))
@@ -226,7 +239,7 @@ def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
     return np.asarray(lamp.ambient + (1 - lamp.ambient) * lambert, np.float32)
 
 
-def photograph(
+def expose_lit(
     image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator
 ) -> NDArray[np.uint8]:
     """The 8-bit image of a picture (H, W, 3) in a light of ``gain`` (3,), with noise, saturated."""

@@ -16,12 +16,20 @@ from numpy.typing import NDArray
 from tricue.scenes.arrays import Picture
 
 # sRGB of skin from light to dark, and of hair from black to grey; our own picks, given here as BGR.
-SKIN = np.array([[172, 190, 228], [140, 165, 212], [106, 140, 196], [74, 100, 155], [48, 66, 104]], float)
-HAIR = np.array(
+SKIN_TONES = np.array(
+    [[172, 190, 228], [140, 165, 212], [106, 140, 196], [74, 100, 155], [48, 66, 104]], float
+)
+HAIR_TONES = np.array(
     [[22, 22, 26], [36, 48, 66], [44, 66, 100], [92, 140, 180], [40, 74, 140], [140, 142, 148]], float
 )
-HEAD_MAP = (256, 512)  # rows of latitude, columns of longitude
-PLAIN, WOOD, STRIPES, BLOTCHES, THINGS = SURFACES = ("plain", "wood", "stripes", "blotches", "things")
+HEAD_TEXTURE_SHAPE = (256, 512)  # rows of latitude, columns of longitude
+PLAIN_SURFACE, WOOD_SURFACE, STRIPED_SURFACE, BLOTCHED_SURFACE, CLUTTERED_SURFACE = SURFACE_KINDS = (
+    "plain",
+    "wood",
+    "stripes",
+    "blotches",
+    "things",
+)
 
 
 class Looks(NamedTuple):
@@ -34,18 +42,18 @@ class Looks(NamedTuple):
     beard: float  # opacity, 0 to 1
 
     @classmethod
-    def draw(cls, rng: np.random.Generator) -> "Looks":
+    def sample(cls, rng: np.random.Generator) -> "Looks":
         """A random adult's; the hair of who has dark skin is dark."""
-        tone = rng.uniform(0, len(SKIN) - 1)
-        below = min(int(tone), len(SKIN) - 2)
-        skin = SKIN[below] + (tone - below) * (SKIN[below + 1] - SKIN[below])
-        hair = HAIR[rng.integers(2 if tone > 2.5 else len(HAIR))]
+        tone = rng.uniform(0, len(SKIN_TONES) - 1)
+        below = min(int(tone), len(SKIN_TONES) - 2)
+        skin = SKIN_TONES[below] + (tone - below) * (SKIN_TONES[below + 1] - SKIN_TONES[below])
+        hair = HAIR_TONES[rng.integers(2 if tone > 2.5 else len(HAIR_TONES))]
         beard = rng.uniform(0.3, 0.8) if rng.random() < 0.3 else 0.0
         varied = [color * rng.uniform(0.92, 1.08, 3) for color in (skin, hair)]
         return cls(varied[0], varied[1], rng.uniform(-42, -24), rng.uniform(25, 75), beard)
 
 
-def noise(
+def make_noise(
     height: int, width: int, slope: float, rng: np.random.Generator, stretch: tuple[float, float] = (1.0, 1.0)
 ) -> Picture:
     """Noise (height, width) of mean 0 and deviation 1 that continues over its borders.
@@ -61,34 +69,37 @@ def noise(
     return np.asarray(values / values.std(), np.float32)
 
 
-def skin(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
+def make_skin(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
     """Skin: blotches of more and less blood, and pores."""
-    blood, pores = noise(*shape, 1.2, rng), noise(*shape, 0.3, rng)
+    blood, pores = make_noise(*shape, 1.2, rng), make_noise(*shape, 0.3, rng)
     red = np.multiply.outer(blood, np.array([-0.05, -0.05, -0.01], np.float32))
     return np.asarray(color * (1 + red + 0.035 * pores[..., None]), np.float32)
 
 
-def hair(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
+def make_hair(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
     """Hair: strands down the rows, and locks."""
-    strands, locks = noise(*shape, 0.7, rng, stretch=(8.0, 1.0)), noise(*shape, 1.2, rng, stretch=(2.0, 1.0))
+    strands, locks = (
+        make_noise(*shape, 0.7, rng, stretch=(8.0, 1.0)),
+        make_noise(*shape, 1.2, rng, stretch=(2.0, 1.0)),
+    )
     return np.asarray(color * (1 + 0.16 * strands + 0.12 * locks)[..., None], np.float32).clip(6)
 
 
-def head(looks: Looks, rng: np.random.Generator) -> Picture:
+def make_head(looks: Looks, rng: np.random.Generator) -> Picture:
     """A head's map, HEAD_MAP: columns are the longitude from -180 to 180 degrees, the face at 0; rows the
     latitude from -90, the crown, to 90.
     """
-    rows, columns = HEAD_MAP
+    rows, columns = HEAD_TEXTURE_SHAPE
     latitude = np.linspace(-90, 90, 2 * rows + 1, dtype=np.float32)[1::2, None]
     longitude = np.linspace(-180, 180, 2 * columns + 1, dtype=np.float32)[None, 1::2]
-    face = _paint_face(skin(HEAD_MAP, looks.skin, rng), looks, latitude, longitude, rng)
+    face = _paint_face(make_skin(HEAD_TEXTURE_SHAPE, looks.skin, rng), looks, latitude, longitude, rng)
     # The hairline: over the forehead, down before the ears, behind them to the nape.
     turns = np.array([0.0, 38, 58, 74, 88, 100, 118, 180])
     lines = np.array([0, 2, 14, 34, 34, 40, 46, 0]) + looks.fringe
     lines[-3:] = [max(lines[-3], 0.6 * looks.nape), looks.nape, looks.nape]
-    line = np.interp(np.abs(longitude), turns, lines) + 4 * noise(rows, columns, 1.2, rng)
+    line = np.interp(np.abs(longitude), turns, lines) + 4 * make_noise(rows, columns, 1.2, rng)
     covered = np.clip((line - latitude) / 5 + 0.5, 0, 1)[..., None]
-    return np.asarray(face + covered * (hair(HEAD_MAP, looks.hair, rng) - face), np.float32)
+    return np.asarray(face + covered * (make_hair(HEAD_TEXTURE_SHAPE, looks.hair, rng) - face), np.float32)
 
 
 def _paint_face(
@@ -127,42 +138,42 @@ def _blend(picture: Picture, color: NDArray[np.float64], opacity: Picture) -> Pi
     return np.asarray(picture + opacity[..., None] * (color.astype(np.float32) - picture), np.float32)
 
 
-def surface(
+def make_surface(
     kind: str, shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator
 ) -> Picture:
     """One of SURFACES, (height, width, 3), about a color (3,)."""
-    uneven = noise(*shape, 1.0, rng)
-    if kind == WOOD:
-        uneven = 0.4 * uneven + noise(*shape, 1.0, rng, stretch=(1.0, 12.0))
+    uneven = make_noise(*shape, 1.0, rng)
+    if kind == WOOD_SURFACE:
+        uneven = 0.4 * uneven + make_noise(*shape, 1.0, rng, stretch=(1.0, 12.0))
     picture = np.asarray(color * (1 + 0.07 * uneven[..., None]), np.float32)
-    if kind == STRIPES:
+    if kind == STRIPED_SURFACE:
         count = rng.integers(3, 14)
         phase = np.arange(shape[1]) / shape[1] * count % 1 < rng.uniform(0.3, 0.7)
         picture[:, phase] *= np.float32(rng.uniform(0.5, 1.4, 3))
-    elif kind == BLOTCHES:
+    elif kind == BLOTCHED_SURFACE:
         coarse = (max(shape[0] // 4, 4), max(shape[1] // 4, 4))
-        tones = rng.uniform(0.03, 0.15) * np.stack([noise(*coarse, 1.2, rng) for _ in range(3)], axis=-1)
-        tones += np.float32(0.22) * noise(*coarse, 1.2, rng)[..., None]
+        tones = rng.uniform(0.03, 0.15) * np.stack([make_noise(*coarse, 1.2, rng) for _ in range(3)], axis=-1)
+        tones += np.float32(0.22) * make_noise(*coarse, 1.2, rng)[..., None]
         picture *= cv2.resize(np.exp(tones), shape[::-1], interpolation=cv2.INTER_LINEAR)
-    elif kind == THINGS:
-        _fill_with_things(picture, rng)
+    elif kind == CLUTTERED_SURFACE:
+        _add_clutter(picture, rng)
     return picture.clip(4, 250)
 
 
-def _fill_with_things(picture: Picture, rng: np.random.Generator) -> None:
+def _add_clutter(picture: Picture, rng: np.random.Generator) -> None:
     """Books, posters, tiles: upright rectangles of any color with a pattern of their own."""
     height, width = picture.shape[:2]
     for _ in range(int(rng.integers(8, 25))):
         rows, columns = (np.array([height, width]) * rng.uniform(0.06, 0.35, 2)).astype(int) + 1
         top, left = (rng.random(2) * (height - rows, width - columns)).astype(int)
         part = picture[top : top + rows, left : left + columns]
-        part[:] = any_color(rng) * (part / part.mean())
+        part[:] = random_color(rng) * (part / part.mean())
         if rng.random() < 0.5:  # a title or a picture on it
             inner = part[rows // 4 : rows // 2, columns // 5 : 4 * columns // 5]
-            inner[:] = any_color(rng)
+            inner[:] = random_color(rng)
 
 
-def any_color(rng: np.random.Generator) -> NDArray[np.float64]:
+def random_color(rng: np.random.Generator) -> NDArray[np.float64]:
     """A color as things indoors have it: seldom vivid, half of the time of a warm hue, as wood and paper."""
     warm = rng.random() < 0.5
     hue = rng.normal(0.55, 0.25) if warm else rng.uniform(0, 2 * np.pi)  # radians; 0 is red, 1 is yellow
@@ -171,7 +182,7 @@ def any_color(rng: np.random.Generator) -> NDArray[np.float64]:
     return np.asarray(level * (1 + 0.9 * vivid * (wave - 1) / 2))
 
 
-def pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
+def build_pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
     """The texture, and halves of it by averaging, so that a look-up can take one as coarse as the pixels."""
     levels = [texture]
     while min(levels[-1].shape[:2]) >= 2 * smallest:
@@ -181,7 +192,7 @@ def pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
     return levels
 
 
-def at_detail(levels: Sequence[Picture], texels: float) -> list[Picture]:
+def select_level(levels: Sequence[Picture], texels: float) -> list[Picture]:
     """The one level for samples that span so many of the finest level's texels, as a pyramid by itself.
 
     Who looks up in it doesn't change the level while the distance changes, which shows between two frames.
@@ -189,12 +200,12 @@ def at_detail(levels: Sequence[Picture], texels: float) -> list[Picture]:
     return [levels[min(max(round(math.log2(max(texels, 1.0))), 0), len(levels) - 1)]]
 
 
-def look_up(levels: Sequence[Picture], u: Picture, v: Picture, texels: float) -> Picture:
+def sample_texture(levels: Sequence[Picture], u: Picture, v: Picture, texels: float) -> Picture:
     """Colors (h, w, 3) at u, v (h, w) in [0, 1] of the texture's width and height, bilinearly.
 
     texels: how many of the finest level's texels a sample spans. u continues over the border.
     """
-    (level,) = at_detail(levels, texels)
+    (level,) = select_level(levels, texels)
     height, width = level.shape[:2]
     columns, rows = u * np.float32(width) - np.float32(0.5), v * np.float32(height) - np.float32(0.5)
     np.clip(rows, 0, height - 1, out=rows)

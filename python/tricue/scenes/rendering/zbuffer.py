@@ -6,10 +6,10 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box
 from tricue.scenes.arrays import Array, Mask
-from tricue.scenes.rendering.depth_view import Window
+from tricue.scenes.rendering.depth_view import DepthWindow
 
 
-def lay(window: Window, depth: Array) -> tuple[tuple[slice, slice], Mask]:
+def merge_window(window: DepthWindow, depth: Array) -> tuple[tuple[slice, slice], Mask]:
     """Put a window into a z-buffer; returns its place there, and where in it the window is nearest."""
     place, part = window.inside(depth.shape[1], depth.shape[0])
     nearer: Mask = part < depth[place]
@@ -17,7 +17,7 @@ def lay(window: Window, depth: Array) -> tuple[tuple[slice, slice], Mask]:
     return place, nearer
 
 
-def seen(window: Window, depth: Array) -> tuple[Mask, float]:
+def find_visible_pixels(window: DepthWindow, depth: Array) -> tuple[Mask, float]:
     """The pixels (H, W) of a window that win a z-buffer that holds it, and their share of those it has alone.
 
     Pixels beyond the image's edge don't count; the share is 0 where all of them are.
@@ -29,7 +29,7 @@ def seen(window: Window, depth: Array) -> tuple[Mask, float]:
     return wins, float(wins.sum() / max(alone.sum(), 1))
 
 
-def box_round(mask: Mask) -> Box | None:
+def box_of_mask(mask: Mask) -> Box | None:
     """The smallest box round a mask's pixels; None where there is none."""
     rows, columns = np.nonzero(mask)
     if len(rows) == 0:

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask, Picture
-from tricue.scenes.rendering.textures import at_detail, pyramid
+from tricue.scenes.rendering.textures import build_pyramid, select_level
 
-NOBODY = 0  # the number of what has no name in an image of names
-NEAREST = 0.2  # metres
-FINE = 4  # parts of a texel's side in which outlines are filled
+NO_CARD = 0  # the number of what has no name in an image of names
+MIN_CARD_DEPTH = 0.2  # metres
+OUTLINE_SAMPLES = 4  # parts of a texel's side in which outlines are filled
 
 
 class Card(NamedTuple):
@@ -29,59 +29,61 @@ class Card(NamedTuple):
     size: tuple[float, float]  # metres, width and height
 
     @classmethod
-    def cut(cls, picture: NDArray[np.uint8] | Picture, outline: Array, size: tuple[float, float]) -> "Card":
+    def from_outline(
+        cls, picture: NDArray[np.uint8] | Picture, outline: Array, size: tuple[float, float]
+    ) -> "Card":
         """A picture (h, w, 3) cut along an outline."""
         share = _opacity(outline, *picture.shape[:2])[..., None]
-        return cls(pyramid(np.dstack([picture * share, share]).astype(np.float32)), outline, size)
+        return cls(build_pyramid(np.dstack([picture * share, share]).astype(np.float32)), outline, size)
 
 
-class Pose(NamedTuple):
+class CardPose(NamedTuple):
     """Where a card is: its middle (3,), and the unit vectors (3,) along its rows and down its columns."""
 
     center: Array
     along: Array
     down: Array
 
-    def sides(self, card: Card) -> tuple[Array, Array, Array]:
+    def edges(self, card: Card) -> tuple[Array, Array, Array]:
         """Its first corner, and the vectors along its upper and down its left side, metres."""
         along, down = self.along * card.size[0], self.down * card.size[1]
         return self.center - (along + down) / 2, along, down
 
-    def turned(self, rotation: Array) -> "Pose":
+    def rotated(self, rotation: Array) -> "CardPose":
         """The same after a rotation (3, 3) about the origin."""
-        return Pose(rotation @ self.center, rotation @ self.along, rotation @ self.down)
+        return CardPose(rotation @ self.center, rotation @ self.along, rotation @ self.down)
 
     def points(self, card: Card) -> Array:
         """The outline's corners (n, 3), metres."""
-        corner, along, down = self.sides(card)
+        corner, along, down = self.edges(card)
         return np.asarray(corner + card.outline @ np.stack([along, down]))
 
 
-class Canvas(NamedTuple):
+class CardImage(NamedTuple):
     """What is in each pixel: color (H, W, 3), depth z (H, W) in metres, and the name (H, W) of the card."""
 
     color: Picture
     depth: Picture
-    names: NDArray[np.uint8]
+    labels: NDArray[np.uint8]
 
     @classmethod
-    def empty(cls, camera: Intrinsics) -> "Canvas":
+    def empty(cls, camera: Intrinsics) -> "CardImage":
         shape = camera.height, camera.width
         return cls(
             np.zeros((*shape, 3), np.float32), np.full(shape, np.inf, np.float32), np.zeros(shape, np.uint8)
         )
 
-    def copy(self) -> "Canvas":
-        return Canvas(self.color.copy(), self.depth.copy(), self.names.copy())
+    def copy(self) -> "CardImage":
+        return CardImage(self.color.copy(), self.depth.copy(), self.labels.copy())
 
 
-class Eye(NamedTuple):
+class CardCamera(NamedTuple):
     """A camera that stands at (offset, 0, 0)."""
 
     camera: Intrinsics
     offset: float = 0.0
 
-    def draw(self, canvas: Canvas, card: Card, pose: Pose, name: int = NOBODY) -> None:
+    def draw(self, canvas: CardImage, card: Card, pose: CardPose, label: int = NO_CARD) -> None:
         """Lay a card over what is there, so that cards have to come from far to near.
 
         A pixel's depth and name are those of the card that covers half of it or more; its color is mixed.
@@ -93,9 +95,9 @@ class Eye(NamedTuple):
         warped = self._warp(card, pose, columns, rows)
         seen = self._cover(canvas, warped, place)
         np.copyto(canvas.depth[place], self._depth(pose, columns, rows), where=seen)
-        canvas.names[place][seen] = name
+        canvas.labels[place][seen] = label
 
-    def mask(self, card: Card, pose: Pose) -> Mask:
+    def mask(self, card: Card, pose: CardPose) -> Mask:
         """The pixels (H, W) that a card covers where nothing is before it."""
         mask = np.zeros((self.camera.height, self.camera.width), bool)
         place = self._place(pose.points(card))
@@ -103,32 +105,32 @@ class Eye(NamedTuple):
             mask[place] = self._warp(card, pose, place[1], place[0])[..., 3] > 0.5
         return mask
 
-    def outline(self, card: Card, pose: Pose) -> Array:
+    def outline(self, card: Card, pose: CardPose) -> Array:
         """The outline in the image (n, 2); as in a Box (0, 0) is the first pixel's corner, not its centre."""
         return self.camera.project(pose.points(card) - [self.offset, 0, 0]) + 0.5
 
-    def _cover(self, canvas: Canvas, warped: Picture, place: tuple[slice, slice]) -> Mask:
+    def _cover(self, canvas: CardImage, warped: Picture, place: tuple[slice, slice]) -> Mask:
         opacity = warped[..., 3:]
         part = canvas.color[place]
         part *= 1 - opacity
         part += warped[..., :3]
         return np.asarray(opacity[..., 0] > 0.5)
 
-    def _warp(self, card: Card, pose: Pose, columns: slice, rows: slice) -> Picture:
+    def _warp(self, card: Card, pose: CardPose, columns: slice, rows: slice) -> Picture:
         """The card's picture in a part of the image, (h, w, 4)."""
-        distance = max(float(pose.center[2]), NEAREST)
+        distance = max(float(pose.center[2]), MIN_CARD_DEPTH)
         texels = card.levels[0].shape[1] / card.size[0] * distance / self.camera.fx
-        (level,) = at_detail(card.levels, texels)
+        (level,) = select_level(card.levels, texels)
         height, width = level.shape[:2]
         # A texel's centre is at (its number + 1/2) / count of the side.
         to_unit = np.array([[1 / width, 0, 0.5 / width], [0, 1 / height, 0.5 / height], [0, 0, 1]])
-        corner, along, down = pose.sides(card)
+        corner, along, down = pose.edges(card)
         to_ray = np.stack([along, down, corner - [self.offset, 0, 0]], axis=1)
         to_part = np.array([[1, 0, -columns.start], [0, 1, -rows.start], [0, 0, 1]])
         size = columns.stop - columns.start, rows.stop - rows.start
         return np.asarray(cv2.warpPerspective(level, to_part @ self.camera.matrix @ to_ray @ to_unit, size))
 
-    def _depth(self, pose: Pose, columns: slice, rows: slice) -> Picture:
+    def _depth(self, pose: CardPose, columns: slice, rows: slice) -> Picture:
         """The depth (h, w) of the card's plane: n . (z ray) = n . center."""
         normal = np.cross(pose.along, pose.down)
         x = (np.arange(columns.start, columns.stop) - self.camera.cx) / self.camera.fx
@@ -138,7 +140,7 @@ class Eye(NamedTuple):
 
     def _place(self, points: Array) -> tuple[slice, slice] | None:
         """The rows and columns that a card of these corners may cover; None for none."""
-        if points[:, 2].min() < NEAREST:
+        if points[:, 2].min() < MIN_CARD_DEPTH:
             return None
         x, y = self.camera.project(points - [self.offset, 0, 0]).T
         left, right = (int(np.clip(side, 0, self.camera.width)) for side in (x.min() - 1, x.max() + 2))
@@ -146,29 +148,33 @@ class Eye(NamedTuple):
         return None if left >= right or top >= bottom else (slice(top, bottom), slice(left, right))
 
 
-def rectangle() -> Array:
+def rectangle_outline() -> Array:
     """The outline of a whole picture."""
     return np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
 
 
-def rounded(power: float) -> Array:
+def superellipse(power: float) -> Array:
     """A superellipse that fills the picture: 2 is an ellipse, more are rectangles with round corners."""
     angle = np.linspace(0, 2 * np.pi, 64, endpoint=False)
     cos, sin = np.cos(angle), np.sin(angle)
     return 0.5 + 0.5 * np.stack([np.sign(v) * np.abs(v) ** (2 / power) for v in (cos, sin)], axis=1)
 
 
-def facing(center: Array, roll: float, yaw: float) -> Pose:
+def face_camera(center: Array, roll: float, yaw: float) -> CardPose:
     """A card that faces the camera but for a roll in the image and a turn about its upright, radians."""
     cos, sin = np.cos(roll), np.sin(roll)
     turn = np.array([[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]])
-    return Pose(center, turn @ [cos, sin, 0], turn @ [-sin, cos, 0])
+    return CardPose(center, turn @ [cos, sin, 0], turn @ [-sin, cos, 0])
 
 
 def _opacity(outline: Array, height: int, width: int) -> Picture:
     """The share of each texel (height, width) within an outline."""
-    if np.array_equal(outline, rectangle()):
+    if np.array_equal(outline, rectangle_outline()):
         return np.ones((height, width), np.float32)
-    fine = np.zeros((height * FINE, width * FINE), np.float32)
-    cv2.fillPoly(fine, [np.rint(outline * [width * FINE, height * FINE] - 0.5).astype(np.int32)], 1.0)
+    fine = np.zeros((height * OUTLINE_SAMPLES, width * OUTLINE_SAMPLES), np.float32)
+    cv2.fillPoly(
+        fine,
+        [np.rint(outline * [width * OUTLINE_SAMPLES, height * OUTLINE_SAMPLES] - 0.5).astype(np.int32)],
+        1.0,
+    )
     return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), np.float32)

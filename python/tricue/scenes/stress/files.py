@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.box_table import BOX_TABLE
-from tricue.scenes.stress.moves import RATE
-from tricue.scenes.stress.scene import Scene
+from tricue.scenes.stress.events import STRESS_FRAME_RATE
+from tricue.scenes.stress.scene import StressScene
 
-HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
-CALIBRATION, INTRINSICS, SEQUENCE = "calibration.yml", "intrinsics.toml", "sequence"
-LEAST = 1.0  # pixels, width and height of a box that is written
+TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
+RIG_FILE, INTRINSICS_FILE, SEQUENCE_FILE = "calibration.yml", "intrinsics.toml", "sequence"
+MIN_WRITTEN_SIDE = 1.0  # pixels, width and height of a box that is written
 
 
-def write_sequence(scene: Scene, folder: str | Path) -> None:
+def write_sequence(scene: StressScene, folder: str | Path) -> None:
     """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
 
     A pair goes to left/ and right/ with calibration.yml; everything else is a sequence of VOT with color/,
@@ -39,11 +39,13 @@ def write_sequence(scene: Scene, folder: str | Path) -> None:
             _write(folder / folders[channel] / f"{number:08d}.png", getattr(frame, channel))
     (folder / BOX_TABLE).write_text(_table(scene, clipped=not pair))
     if scene.rig is not None:
-        _write_rig(folder / CALIBRATION, scene.rig)
+        _write_rig(folder / RIG_FILE, scene.rig)
     else:
-        (folder / INTRINSICS).write_text(_toml(scene.intrinsics))
+        (folder / INTRINSICS_FILE).write_text(_toml(scene.intrinsics))
         lines = [f"channels.{channel}={channel}/%08d.png" for channel in channels]
-        (folder / SEQUENCE).write_text("\n".join([*lines, f"fps={RATE:g}", f"name={scene.name}"]) + "\n")
+        (folder / SEQUENCE_FILE).write_text(
+            "\n".join([*lines, f"fps={STRESS_FRAME_RATE:g}", f"name={scene.name}"]) + "\n"
+        )
 
 
 def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
@@ -54,14 +56,14 @@ def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
         raise OSError(f"{path}: can't be written")
 
 
-def _table(scene: Scene, clipped: bool) -> str:
+def _table(scene: StressScene, clipped: bool) -> str:
     size = scene.intrinsics.width, scene.intrinsics.height
-    lines = [HEADER]
+    lines = [TABLE_HEADER]
     for index, row in enumerate(scene.boxes):
         box = Box(*row.tolist())
         written = box.clip(*size) if clipped else box
         # A sliver at the edge that no tracker can be asked for has no box either.
-        seen = scene.visible[index] > 0 and min(written.width, written.height) >= LEAST
+        seen = scene.visible[index] > 0 and min(written.width, written.height) >= MIN_WRITTEN_SIDE
         cells = [f"{value:.4f}" for value in written] if seen else [""] * 4
         place = scene.positions[index]
         cells += [""] * 3 if np.isnan(place).any() else [f"{value:.6f}" for value in place]

@@ -5,12 +5,12 @@ import numpy as np
 
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array
-from tricue.scenes.motion import sway
-from tricue.scenes.stress import moves as moves_of
-from tricue.scenes.stress.looks import Cast
-from tricue.scenes.stress.moves import EVENTS, RATE, Moves, Way
+from tricue.scenes.motion import sample_sway
+from tricue.scenes.stress import events
+from tricue.scenes.stress.appearance import StressCards
+from tricue.scenes.stress.events import EVENTS, STRESS_FRAME_RATE, CardPath, StressMotion
 
-FRAMES = {
+FRAME_COUNTS = {
     "plain": 120,
     "fast": 120,
     "light": 120,
@@ -22,35 +22,42 @@ FRAMES = {
     "blank": 110,
     "all": 300,
 }
-LENGTHS = {"camera": 40, "light": 45, "leaving": 70, "lookalike": 65, "hidden": 42, "blank": 32}
+EVENT_LENGTHS = {"camera": 40, "light": 45, "leaving": 70, "lookalike": 65, "hidden": 42, "blank": 32}
 """Frames that an event takes in a scene with all of them; they leave six quiet ones at the begin."""
-QUIET = 12  # frames at the begin of a scene with one event
-SCALE = 120  # frames in which the size changes 1:4
-SPEED, FAST = 0.08, 0.5  # of the target at most, its widths a frame
+QUIET_FRAMES = 12  # frames at the begin of a scene with one event
+SCALE_FRAMES = 120  # frames in which the size changes 1:4
+MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target at most, its widths a frame
 
 
-def lay(kind: str, camera: Intrinsics, cast: Cast, middle: float, rng: np.random.Generator) -> Moves:
+def plan_motion(
+    kind: str, camera: Intrinsics, cards: StressCards, middle: float, rng: np.random.Generator
+) -> StressMotion:
     """All that happens in a scene of a kind. middle: metres, about which the target's distance lies."""
-    frames = FRAMES[kind]
+    frames = FRAME_COUNTS[kind]
     depth = _depth(kind, frames, middle, rng)
-    speed = FAST if kind == "fast" else SPEED
-    ways = [
-        moves_of.wander(camera, card, depth.copy(), speed, rng)
-        for card in (cast.target, cast.same_colors, cast.same_structure, cast.curtain)
+    speed = MAX_FAST_SPEED if kind == "fast" else MAX_SPEED
+    paths = [
+        events.sample_card_path(camera, card, depth.copy(), speed, rng)
+        for card in (
+            cards.target,
+            cards.same_colors,
+            cards.same_structure,
+            cards.occluder,
+        )
     ]
-    moves = Moves(
+    moves = StressMotion(
         camera,
-        ways[0],
-        (ways[1], ways[2]),
-        _hung(ways[3]),
+        paths[0],
+        (paths[1], paths[2]),
+        _hide_occluder(paths[3]),
         angles=np.zeros((frames, 2)),
         light=np.ones((frames, 3)),
         black=np.zeros(frames, bool),
-        elsewhere=np.zeros(frames, bool),
+        in_other_room=np.zeros(frames, bool),
         spans=_spans(kind, frames, rng),
     )
-    for way in moves.lookalikes:
-        way.there[:] = False
+    for path in moves.lookalikes:
+        path.present[:] = False
     for name, event in EVENTS.items():
         if name in moves.spans:
             event(moves, moves.spans[name], rng)
@@ -59,12 +66,12 @@ def lay(kind: str, camera: Intrinsics, cast: Cast, middle: float, rng: np.random
 
 def _spans(kind: str, frames: int, rng: np.random.Generator) -> dict[str, range]:
     if kind in EVENTS:
-        return {kind: range(QUIET, frames)}
-    spans, start = {}, frames - sum(LENGTHS.values())
+        return {kind: range(QUIET_FRAMES, frames)}
+    spans, start = {}, frames - sum(EVENT_LENGTHS.values())
     if kind == "all":
-        for name in rng.permutation(list(LENGTHS)).tolist():
-            spans[name] = range(start, start + LENGTHS[name])
-            start += LENGTHS[name]
+        for name in rng.permutation(list(EVENT_LENGTHS)).tolist():
+            spans[name] = range(start, start + EVENT_LENGTHS[name])
+            start += EVENT_LENGTHS[name]
     return spans
 
 
@@ -73,12 +80,12 @@ def _depth(kind: str, frames: int, middle: float, rng: np.random.Generator) -> A
     time = np.arange(frames)
     if kind in ("scale", "all"):
         phase = np.pi * (rng.integers(2) if kind == "scale" else rng.random() * 2)
-        return middle * 2.0 ** np.cos(np.pi * time / SCALE + phase)
-    return middle * (1 + 0.1 * sway(time / RATE, 2.0, 5.0, rng))
+        return middle * 2.0 ** np.cos(np.pi * time / SCALE_FRAMES + phase)
+    return middle * (1 + 0.1 * sample_sway(time / STRESS_FRAME_RATE, 2.0, 5.0, rng))
 
 
-def _hung(way: Way) -> Way:
+def _hide_occluder(path: CardPath) -> CardPath:
     """What hides the target stands upright, and isn't there yet."""
-    way.roll[:] = way.turn[:] = 0
-    way.there[:] = False
-    return way
+    path.roll[:] = path.turn[:] = 0
+    path.present[:] = False
+    return path

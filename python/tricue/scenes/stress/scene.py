@@ -17,22 +17,22 @@ from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.arrays import Array, Mask, Picture
-from tricue.scenes.rendering.depth_sensor import CAMERAS, DepthCamera
-from tricue.scenes.rendering.stereo_camera import BLUR, photograph
-from tricue.scenes.stress.cards import Canvas, Eye
-from tricue.scenes.stress.moves import RATE
-from tricue.scenes.stress.plan import FRAMES
-from tricue.scenes.stress.stage import Stage
+from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
+from tricue.scenes.rendering.stereo_camera import BLUR_DEVIATION, expose_lit
+from tricue.scenes.stress.cards import CardCamera, CardImage
+from tricue.scenes.stress.events import STRESS_FRAME_RATE
+from tricue.scenes.stress.plan import FRAME_COUNTS
+from tricue.scenes.stress.stage import StressStage
 
-KINDS = tuple(FRAMES)
-CHANNELS = ("color", "rgbd", "stereo", "depth")
-SMALLEST = 80  # pixels along each side of an image
-EXPOSURES = 5  # that make a blurred one
-MILLIMETRES = np.float32(0.001)
+STRESS_KINDS = tuple(FRAME_COUNTS)
+STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
+MIN_IMAGE_SIDE = 80  # pixels along each side of an image
+EXPOSURE_SAMPLES = 5  # that make a blurred one
+METRES_PER_MILLIMETRE = np.float32(0.001)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Scene:
+class StressScene:
     """A target among troubles, made by this package; the same arguments give the same bits.
 
     The truth is that of the geometry in the middle of each exposure, in the color or left camera's image.
@@ -65,7 +65,7 @@ class Scene:
     """The pair, with a right image alone."""
 
 
-def everything(
+def stress_scene(
     kind: str = "all",
     seed: int = 0,
     size: tuple[int, int] = (320, 240),
@@ -73,7 +73,7 @@ def everything(
     *,
     noise: float = 2.0,
     shutter: float = 0.0,
-) -> Scene:
+) -> StressScene:
     """A textured card on a smooth path through a room, 30 frames a second, and what happens to it.
 
     kind: one of KINDS;
@@ -97,19 +97,19 @@ def everything(
     The seed decides the looks, the room, the path and the times. No shadows are cast.
     """
     _check(kind, seed, size, channels, noise, shutter)
-    stage = Stage.build(kind, seed, size)
-    sights = [stage.sight(index) for index in range(len(stage.moves))]
-    film = _Film(channels, noise, shutter, seed)
-    return Scene(
+    stage = StressStage.build(kind, seed, size)
+    truths = [stage.truth_at(index) for index in range(len(stage.moves))]
+    cameras = _StressCameras(channels, noise, shutter, seed)
+    return StressScene(
         name=f"everything, {kind}, {size[0]}x{size[1]}, seed {seed}",
         kind=kind,
         seed=seed,
-        frames=tuple(film.shoot(stage, [sight.canvas for sight in sights])),
-        boxes=np.stack([sight.boxes[0] for sight in sights]),
-        visible=np.array([sight.visible for sight in sights]),
-        positions=np.stack([sight.position for sight in sights]),
-        lookalikes=tuple(np.stack([sight.boxes[which] for sight in sights]) for which in (1, 2)),
-        masks=tuple(sight.mask for sight in sights),
+        frames=tuple(cameras.record(stage, [truth_at.canvas for truth_at in truths])),
+        boxes=np.stack([truth_at.boxes[0] for truth_at in truths]),
+        visible=np.array([truth_at.visible for truth_at in truths]),
+        positions=np.stack([truth_at.position for truth_at in truths]),
+        lookalikes=tuple(np.stack([truth_at.boxes[which] for truth_at in truths]) for which in (1, 2)),
+        masks=tuple(truth_at.mask for truth_at in truths),
         light=stage.moves.light,
         spans=stage.moves.spans,
         intrinsics=stage.moves.camera,
@@ -117,7 +117,7 @@ def everything(
     )
 
 
-class _Film(NamedTuple):
+class _StressCameras(NamedTuple):
     """What the cameras make of a stage. Each has a noise of its own, so that one doesn't change another's."""
 
     channels: str
@@ -125,11 +125,11 @@ class _Film(NamedTuple):
     shutter: float
     seed: int
 
-    def shoot(self, stage: Stage, canvases: Sequence[Canvas]) -> Iterator[Frame]:
+    def record(self, stage: StressStage, canvases: Sequence[CardImage]) -> Iterator[Frame]:
         """The frames, from the left camera's canvases."""
         noises = [np.random.default_rng([self.seed, 2, camera]) for camera in range(3)]
-        sensor = replace(CAMERAS["rgbd"], intrinsics=stage.moves.camera)
-        eyes = Eye(stage.moves.camera), Eye(stage.moves.camera, stage.rig.baseline)
+        sensor = replace(DEPTH_SENSORS["rgbd"], intrinsics=stage.moves.camera)
+        eyes = CardCamera(stage.moves.camera), CardCamera(stage.moves.camera, stage.rig.baseline)
         for index, canvas in enumerate(canvases):
             images: dict[str, NDArray[Any]] = {}
             if self.channels != "depth":
@@ -138,42 +138,52 @@ class _Film(NamedTuple):
                 images["right"] = self._expose(stage, eyes[1], index, noises[1])
             if self.channels in ("rgbd", "depth"):
                 images["depth"] = _measure(sensor, canvas.depth, stage.moves.black[index], noises[2])
-            yield Frame(images.get("color"), images.get("depth"), images.get("right"), timestamp=index / RATE)
+            yield Frame(
+                images.get("color"),
+                images.get("depth"),
+                images.get("right"),
+                timestamp=index / STRESS_FRAME_RATE,
+            )
 
     def _expose(
-        self, stage: Stage, eye: Eye, index: int, rng: np.random.Generator, sharp: Canvas | None = None
+        self,
+        stage: StressStage,
+        eye: CardCamera,
+        index: int,
+        rng: np.random.Generator,
+        sharp: CardImage | None = None,
     ) -> NDArray[np.uint8]:
         """A color image; ``sharp`` is the canvas of the exposure's middle, where there is one."""
         moves = stage.moves
         if moves.black[index]:
             color = np.zeros((eye.camera.height, eye.camera.width, 3), np.float32)
         elif self.shutter > 0:
-            shares = (np.arange(EXPOSURES) + 0.5) / EXPOSURES - 0.5
+            shares = (np.arange(EXPOSURE_SAMPLES) + 0.5) / EXPOSURE_SAMPLES - 0.5
             color = np.mean([stage.draw(eye, index, index + self.shutter * s).color for s in shares], axis=0)
         else:
             color = (sharp or stage.draw(eye, index, index)).color
-        blurred = np.asarray(cv2.GaussianBlur(color, (0, 0), BLUR), np.float32)
-        return photograph(blurred, moves.light[index], self.noise, rng)
+        blurred = np.asarray(cv2.GaussianBlur(color, (0, 0), BLUR_DEVIATION), np.float32)
+        return expose_lit(blurred, moves.light[index], self.noise, rng)
 
 
 def _measure(
-    sensor: DepthCamera, depth: Picture, black: np.bool_, rng: np.random.Generator
+    sensor: DepthSensor, depth: Picture, black: np.bool_, rng: np.random.Generator
 ) -> NDArray[np.float32]:
     """What a depth camera writes: whole millimetres; nothing while its picture is black."""
     if black:
         return np.full(depth.shape, np.nan, np.float32)
     measured = sensor.measure(depth.astype(np.float64), rng)
-    return np.asarray(np.rint(measured * 1000) * MILLIMETRES, np.float32)
+    return np.asarray(np.rint(measured * 1000) * METRES_PER_MILLIMETRE, np.float32)
 
 
 def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: float, shutter: float) -> None:
-    for value, name, known in ((kind, "kind", KINDS), (channels, "channels", CHANNELS)):
+    for value, name, known in ((kind, "kind", STRESS_KINDS), (channels, "channels", STRESS_CHANNELS)):
         if value not in known:
             raise ValueError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
     if not isinstance(seed, (int, np.integer)) or seed < 0:
         raise ValueError(f"seed: expected a whole number from 0, got {seed!r}")
-    if len(size) != 2 or min(positive_whole(side, "size", "pixels") for side in size) < SMALLEST:
-        raise ValueError(f"size: expected width and height of {SMALLEST} pixels or more, got {size!r}")
+    if len(size) != 2 or min(positive_whole(side, "size", "pixels") for side in size) < MIN_IMAGE_SIDE:
+        raise ValueError(f"size: expected width and height of {MIN_IMAGE_SIDE} pixels or more, got {size!r}")
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
     if not 0 <= finite(shutter, "shutter", "a share") <= 1:

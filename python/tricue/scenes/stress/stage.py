@@ -8,96 +8,108 @@ import numpy as np
 
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.arrays import Array, Mask
-from tricue.scenes.stress.cards import Canvas, Eye
-from tricue.scenes.stress.looks import WALLS, Room, cast, furnish, other
-from tricue.scenes.stress.moves import Moves, Way
-from tricue.scenes.stress.plan import lay
+from tricue.scenes.stress.appearance import (
+    WALL_PHOTOGRAPHS,
+    StressRoom,
+    choose_other,
+    furnish_stress_room,
+    make_cards,
+)
+from tricue.scenes.stress.cards import CardCamera, CardImage
+from tricue.scenes.stress.events import CardPath, StressMotion
+from tricue.scenes.stress.plan import plan_motion
 
-FIELD, BASELINE = 60.0, 0.12  # degrees across, metres
-SIDE = 0.24  # of the target, about, at its middle depth, as a share of the image's height
-MIDDLE = 1.8  # metres
-TARGET, LOOKALIKES, CURTAIN = 1, (2, 3), 4  # names on a canvas
+FIELD_OF_VIEW, STRESS_BASELINE = 60.0, 0.12  # degrees across, metres
+TARGET_SIZE = 0.24  # of the target, about, at its middle depth, as a share of the image's height
+MEDIAN_TARGET_DEPTH = 1.8  # metres
+TARGET_LABEL, LOOKALIKE_LABELS, OCCLUDER = 1, (2, 3), 4  # names on a canvas
 
 
-class Sight(NamedTuple):
+class StressTruth(NamedTuple):
     """A frame's truth, and the left camera's canvas."""
 
-    canvas: Canvas
+    canvas: CardImage
     boxes: tuple[Array, Array, Array]  # (4,) of the target and the look-alikes
     visible: float
     position: Array
     mask: Mask
 
 
-class Stage(NamedTuple):
+class StressStage(NamedTuple):
     """All that is to be drawn."""
 
-    moves: Moves
-    rooms: tuple[Room, Room]  # the target's, and another
+    moves: StressMotion
+    rooms: tuple[StressRoom, StressRoom]  # the target's, and another
     rig: StereoRig
-    straight: dict[tuple[float, bool], Canvas]  # the rooms before a camera that looks straight, by its offset
+    straight: dict[
+        tuple[float, bool], CardImage
+    ]  # the rooms before a camera that looks straight, by its offset
 
     @classmethod
-    def build(cls, kind: str, seed: int, size: tuple[int, int]) -> "Stage":
-        camera = Intrinsics.from_fov(*size, FIELD)
+    def build(cls, kind: str, seed: int, size: tuple[int, int]) -> "StressStage":
+        camera = Intrinsics.from_fov(*size, FIELD_OF_VIEW)
         rng = np.random.default_rng([seed, 0])
-        wall = other(WALLS, (), rng)
-        everybody = cast(SIDE * size[1] / camera.fx * MIDDLE, wall, rng)
-        room = furnish(camera, wall, rng)
-        elsewhere = furnish(camera, other(WALLS, (wall, everybody.source), rng), rng)
-        moves = lay(kind, camera, everybody, MIDDLE, np.random.default_rng([seed, 1]))
-        return cls(moves, (room, elsewhere), StereoRig(camera, BASELINE), {})
+        wall = choose_other(WALL_PHOTOGRAPHS, (), rng)
+        cards = make_cards(TARGET_SIZE * size[1] / camera.fx * MEDIAN_TARGET_DEPTH, wall, rng)
+        room = furnish_stress_room(camera, wall, rng)
+        in_other_room = furnish_stress_room(
+            camera, choose_other(WALL_PHOTOGRAPHS, (wall, cards.source), rng), rng
+        )
+        moves = plan_motion(kind, camera, cards, MEDIAN_TARGET_DEPTH, np.random.default_rng([seed, 1]))
+        return cls(moves, (room, in_other_room), StereoRig(camera, STRESS_BASELINE), {})
 
-    def draw(self, eye: Eye, index: int, time: float) -> Canvas:
+    def draw(self, eye: CardCamera, index: int, time: float) -> CardImage:
         """What an eye sees at a time within a frame, in the light of 1."""
         moves = self.moves
-        elsewhere = bool(moves.elsewhere[index])
-        canvas = self._empty(eye, elsewhere, time)
-        if not elsewhere:
-            ways = zip(
-                (TARGET, *LOOKALIKES, CURTAIN), (moves.target, *moves.lookalikes, moves.curtain), strict=True
+        in_other_room = bool(moves.in_other_room[index])
+        canvas = self._empty(eye, in_other_room, time)
+        if not in_other_room:
+            paths = zip(
+                (TARGET_LABEL, *LOOKALIKE_LABELS, OCCLUDER),
+                (moves.target, *moves.lookalikes, moves.occluder),
+                strict=True,
             )
-            there = [(name, way) for name, way in ways if way.there[index]]
-            for name, way in sorted(there, key=lambda named: -named[1].depth[index]):
-                eye.draw(canvas, way.card, way.pose(eye.camera, time), name)
+            there = [(label, path) for label, path in paths if path.present[index]]
+            for label, path in sorted(there, key=lambda named: -named[1].depth[index]):
+                eye.draw(canvas, path.card, path.pose(eye.camera, time), label)
         return canvas
 
-    def _empty(self, eye: Eye, elsewhere: bool, time: float) -> Canvas:
+    def _empty(self, eye: CardCamera, in_other_room: bool, time: float) -> CardImage:
         """A room alone; drawn once where the camera looks straight, as it mostly does."""
-        rotation, key = self.moves.rotation(time), (eye.offset, elsewhere)
+        rotation, key = self.moves.rotation(time), (eye.offset, in_other_room)
         straight = bool((rotation == np.eye(3)).all())
         if straight and key in self.straight:
             return self.straight[key].copy()
-        canvas = Canvas.empty(eye.camera)
-        self.rooms[elsewhere].draw(eye, canvas, rotation)
+        canvas = CardImage.empty(eye.camera)
+        self.rooms[in_other_room].draw(eye, canvas, rotation)
         if straight:
             self.straight[key] = canvas.copy()
         return canvas
 
-    def sight(self, index: int) -> Sight:
+    def truth_at(self, index: int) -> StressTruth:
         """The truth of a frame."""
-        moves, eye = self.moves, Eye(self.moves.camera)
+        moves, eye = self.moves, CardCamera(self.moves.camera)
         canvas = self.draw(eye, index, index)
-        boxes = [self._box(way, index) for way in (moves.target, *moves.lookalikes)]
+        boxes = [self._box(path, index) for path in (moves.target, *moves.lookalikes)]
         unseen = moves.black[index] or np.isnan(boxes[0]).any()
-        mask = (canvas.names == TARGET) & (not unseen)
+        mask = (canvas.labels == TARGET_LABEL) & (not unseen)
         pose = moves.target.pose(eye.camera, index)
         visible = 0.0 if unseen else float(mask.sum()) / self._whole(index)
         position = np.full(3, np.nan) if np.isnan(boxes[0]).any() else pose.center
-        return Sight(canvas, (boxes[0], boxes[1], boxes[2]), visible, position, mask)
+        return StressTruth(canvas, (boxes[0], boxes[1], boxes[2]), visible, position, mask)
 
-    def _box(self, way: Way, index: int) -> Array:
+    def _box(self, path: CardPath, index: int) -> Array:
         """The box of a card in a frame, NaN where it isn't in the picture."""
-        eye = Eye(self.moves.camera)
-        pose = way.pose(eye.camera, index)
-        if not way.there[index] or self.moves.elsewhere[index] or not eye.mask(way.card, pose).any():
+        eye = CardCamera(self.moves.camera)
+        pose = path.pose(eye.camera, index)
+        if not path.present[index] or self.moves.in_other_room[index] or not eye.mask(path.card, pose).any():
             return np.full(4, np.nan)
-        outline = eye.outline(way.card, pose)
+        outline = eye.outline(path.card, pose)
         return np.concatenate([outline.min(axis=0), np.ptp(outline, axis=0)])
 
     def _whole(self, index: int) -> float:
         """How many pixels the target has where nothing hides it, those beyond the image's edge included."""
-        eye, target = Eye(self.moves.camera), self.moves.target
+        eye, target = CardCamera(self.moves.camera), self.moves.target
         pose = target.pose(eye.camera, index)
         count = float(eye.mask(target.card, pose).sum())
         outline = eye.outline(target.card, pose)

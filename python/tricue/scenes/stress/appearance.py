@@ -15,66 +15,74 @@ from numpy.typing import NDArray
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering import photographs, textures
-from tricue.scenes.stress.cards import Canvas, Card, Eye, Pose, facing, rectangle, rounded
+from tricue.scenes.stress.cards import (
+    Card,
+    CardCamera,
+    CardImage,
+    CardPose,
+    face_camera,
+    rectangle_outline,
+    superellipse,
+)
 
 Image = NDArray[np.uint8]
 
-PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
-WALLS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")
-TEXTURE = 144  # texels of a target's longer side
-BLOCKS = 4  # along each side, into which a target is cut for the look-alike of its colors
-FLOOR = 1.6  # metres below the camera, so that things that float in the picture are above it
-HALL = 4.7, 6.0  # metres to the wall behind
-TRIES = 24
-LEAST_CONTRAST, LEAST_DETAIL, LEAST_DISTANCE = 28.0, 7.0, 0.6
+TARGET_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
+WALL_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")
+TARGET_TEXELS = 144  # texels of a target's longer side
+SHUFFLE_BLOCKS = 4  # along each side, into which a target is cut for the look-alike of its colors
+FLOOR_DEPTH_BELOW = 1.6  # metres below the camera, so that things that float in the picture are above it
+WALL_DISTANCES = 4.7, 6.0  # metres to the wall behind
+MAX_WINDOW_TRIES = 24
+MIN_TARGET_CONTRAST, MIN_TARGET_DETAIL, MIN_WALL_DISTANCE = 28.0, 7.0, 0.6
 
 
-class Cast(NamedTuple):
+class StressCards(NamedTuple):
     """Everybody; the cards' sizes are those of the target, in metres, but of what hides it, 1 by 1."""
 
     target: Card
     same_colors: Card  # with another structure
     same_structure: Card  # in other colors
-    curtain: Card
+    occluder: Card
     source: str  # the photograph that the target is cut from
 
 
-class Room(NamedTuple):
+class StressRoom(NamedTuple):
     """A wall, a floor, and furniture before the wall; in the frame of the camera when it looks straight."""
 
-    things: tuple[tuple[Card, Pose], ...]
+    cards: tuple[tuple[Card, CardPose], ...]
 
-    def draw(self, eye: Eye, canvas: Canvas, rotation: Array) -> None:
+    def draw(self, eye: CardCamera, canvas: CardImage, rotation: Array) -> None:
         """Draw it all, after a rotation (3, 3) of the room about the left camera."""
-        for card, pose in self.things:
-            eye.draw(canvas, card, pose.turned(rotation))
+        for card, pose in self.cards:
+            eye.draw(canvas, card, pose.rotated(rotation))
 
 
-def cast(side: float, wall: str, rng: np.random.Generator) -> Cast:
+def make_cards(side: float, wall: str, rng: np.random.Generator) -> StressCards:
     """A target of about ``side`` metres along both sides, cut from a photograph other than the wall's."""
     aspect = float(np.exp(rng.uniform(np.log(0.6), np.log(1.6))))
     size = side * aspect**0.5, side / aspect**0.5
     picture, source = _window(aspect, wall, rng)
-    outline = [rectangle(), rounded(2.0), rounded(4.0)][rng.integers(3)]
-    cloth = textures.surface(textures.STRIPES, (128, 96), textures.any_color(rng), rng)
-    return Cast(
-        Card.cut(picture, outline, size),
-        Card.cut(_shuffled(picture, rng), outline, size),
-        Card.cut(_recolored(picture, rng), outline, size),
-        Card.cut(cloth, rounded(6.0), (1.0, 1.0)),
+    outline = [rectangle_outline(), superellipse(2.0), superellipse(4.0)][rng.integers(3)]
+    cloth = textures.make_surface(textures.STRIPED_SURFACE, (128, 96), textures.random_color(rng), rng)
+    return StressCards(
+        Card.from_outline(picture, outline, size),
+        Card.from_outline(_shuffled(picture, rng), outline, size),
+        Card.from_outline(_recolored(picture, rng), outline, size),
+        Card.from_outline(cloth, superellipse(6.0), (1.0, 1.0)),
         source,
     )
 
 
-def furnish(camera: Intrinsics, wall: str, rng: np.random.Generator) -> Room:
+def furnish_stress_room(camera: Intrinsics, wall: str, rng: np.random.Generator) -> StressRoom:
     """A room with a photograph for a wall and three to five boards before it, far things first."""
-    far = rng.uniform(*HALL)
+    far = rng.uniform(*WALL_DISTANCES)
     boards = [_board(far, rng) for _ in range(int(rng.integers(3, 6)))]
     boards.sort(key=lambda board: -float(board[1].center[2]))
-    return Room((_wall(camera, wall, far, rng), _floor(far, rng), *boards))
+    return StressRoom((_wall(camera, wall, far, rng), _floor(far, rng), *boards))
 
 
-def other(names: tuple[str, ...], taken: tuple[str, ...], rng: np.random.Generator) -> str:
+def choose_other(names: tuple[str, ...], taken: tuple[str, ...], rng: np.random.Generator) -> str:
     """One of the names but those that are taken."""
     left = [name for name in names if name not in taken]
     return left[rng.integers(len(left))]
@@ -84,10 +92,10 @@ def _window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, 
     """A random part of a photograph and its name: the first of several that has contrast, detail, and other
     colors than the wall; else the last one.
     """
-    load = cache(photographs.photograph)
+    load = cache(photographs.load_photograph)
     behind = _histogram(load(wall))
-    for _ in range(TRIES):
-        name = other(PHOTOGRAPHS, (wall,), rng)
+    for _ in range(MAX_WINDOW_TRIES):
+        name = choose_other(TARGET_PHOTOGRAPHS, (wall,), rng)
         picture = load(name)
         width, height = np.array([aspect**0.5, aspect**-0.5]) * rng.uniform(90, 170)
         top, left = (rng.random(2) * (np.array(picture.shape[:2]) - [height, width])).astype(int)
@@ -101,7 +109,7 @@ def _window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, 
 def _texels(aspect: float) -> tuple[int, int]:
     """Columns and rows, whole blocks of them."""
     shares = min(aspect, 1.0), min(1 / aspect, 1.0)
-    columns, rows = (BLOCKS * round(TEXTURE * share / BLOCKS) for share in shares)
+    columns, rows = (SHUFFLE_BLOCKS * round(TARGET_TEXELS * share / SHUFFLE_BLOCKS) for share in shares)
     return columns, rows
 
 
@@ -109,7 +117,9 @@ def _is_distinct(part: Image, behind: NDArray[np.float32]) -> bool:
     grey = cv2.cvtColor(part, cv2.COLOR_BGR2GRAY).astype(np.float32)
     detail = np.abs(np.diff(grey, axis=0)).mean() + np.abs(np.diff(grey, axis=1)).mean()
     distance = cv2.compareHist(_histogram(part), behind, cv2.HISTCMP_BHATTACHARYYA)
-    return bool(grey.std() > LEAST_CONTRAST and detail > LEAST_DETAIL and distance > LEAST_DISTANCE)
+    return bool(
+        grey.std() > MIN_TARGET_CONTRAST and detail > MIN_TARGET_DETAIL and distance > MIN_WALL_DISTANCE
+    )
 
 
 def _histogram(picture: Image) -> NDArray[np.float32]:
@@ -119,11 +129,13 @@ def _histogram(picture: Image) -> NDArray[np.float32]:
 
 def _shuffled(picture: Image, rng: np.random.Generator) -> Image:
     """The same pixels in another place: blocks in another order, each upside down."""
-    rows, columns = (side // BLOCKS for side in picture.shape[:2])
-    blocks = picture.reshape(BLOCKS, rows, BLOCKS, columns, 3).swapaxes(1, 2)
-    order = np.roll(rng.permutation(BLOCKS**2), 1)
+    rows, columns = (side // SHUFFLE_BLOCKS for side in picture.shape[:2])
+    blocks = picture.reshape(SHUFFLE_BLOCKS, rows, SHUFFLE_BLOCKS, columns, 3).swapaxes(1, 2)
+    order = np.roll(rng.permutation(SHUFFLE_BLOCKS**2), 1)
     mixed = blocks.reshape(-1, rows, columns, 3)[order, ::-1, ::-1]
-    return np.asarray(mixed.reshape(BLOCKS, BLOCKS, rows, columns, 3).swapaxes(1, 2).reshape(picture.shape))
+    return np.asarray(
+        mixed.reshape(SHUFFLE_BLOCKS, SHUFFLE_BLOCKS, rows, columns, 3).swapaxes(1, 2).reshape(picture.shape)
+    )
 
 
 def _recolored(picture: Image, rng: np.random.Generator) -> Image:
@@ -135,9 +147,9 @@ def _recolored(picture: Image, rng: np.random.Generator) -> Image:
     return np.asarray(np.clip(np.rint(255 * colors), 0, 255), np.uint8)
 
 
-def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
+def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
     """A photograph a bit wider than the view, continued by its mirror images for a camera that turns."""
-    picture = photographs.photograph(name)
+    picture = photographs.load_photograph(name)
     if rng.random() < 0.5:
         picture = picture[:, ::-1]
     rows, columns = picture.shape[:2]
@@ -148,22 +160,31 @@ def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -
     scale = far * max(camera.width / camera.fx / columns, camera.height / camera.fy / rows)
     scale *= rng.uniform(1.0, 1.2)  # metres a texel
     size = tiled.shape[1] * scale, tiled.shape[0] * scale
-    return Card.cut(tiled, rectangle(), size), facing(np.array([0.0, 0, far]), 0.0, 0.0)
+    return Card.from_outline(tiled, rectangle_outline(), size), face_camera(np.array([0.0, 0, far]), 0.0, 0.0)
 
 
-def _floor(far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
+def _floor(far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
     """Boards or a carpet from a metre before the camera to the wall."""
-    kind = [textures.WOOD, textures.PLAIN][rng.integers(2)]
-    picture = textures.surface(kind, (256, 512), textures.any_color(rng) * 0.5 + 60, rng)
-    pose = Pose(np.array([0, FLOOR, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
-    return Card.cut(picture, rectangle(), (16.0, far - 1)), pose
+    kind = [textures.WOOD_SURFACE, textures.PLAIN_SURFACE][rng.integers(2)]
+    picture = textures.make_surface(kind, (256, 512), textures.random_color(rng) * 0.5 + 60, rng)
+    pose = CardPose(
+        np.array([0, FLOOR_DEPTH_BELOW, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0])
+    )
+    return Card.from_outline(picture, rectangle_outline(), (16.0, far - 1)), pose
 
 
-def _board(far: float, rng: np.random.Generator) -> tuple[Card, Pose]:
+def _board(far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
     """A cupboard's front, a poster's or the like, standing on the floor."""
-    kind = [textures.WOOD, textures.THINGS, textures.BLOTCHES, textures.STRIPES][rng.integers(4)]
-    picture = textures.surface(kind, (160, 128), textures.any_color(rng), rng)
+    kind = [
+        textures.WOOD_SURFACE,
+        textures.CLUTTERED_SURFACE,
+        textures.BLOTCHED_SURFACE,
+        textures.STRIPED_SURFACE,
+    ][rng.integers(4)]
+    picture = textures.make_surface(kind, (160, 128), textures.random_color(rng), rng)
     width, height = rng.uniform([0.4, 0.6], [1.0, 1.9])
     z = rng.uniform(4.0, far - 0.2)
-    center = np.array([rng.uniform(-0.85, 0.85) * z, FLOOR - height / 2, z])
-    return Card.cut(picture, rectangle(), (width, height)), facing(center, 0.0, rng.uniform(-0.03, 0.03))
+    center = np.array([rng.uniform(-0.85, 0.85) * z, FLOOR_DEPTH_BELOW - height / 2, z])
+    return Card.from_outline(picture, rectangle_outline(), (width, height)), face_camera(
+        center, 0.0, rng.uniform(-0.03, 0.03)
+    )

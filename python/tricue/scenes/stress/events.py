@@ -14,20 +14,20 @@ from numpy.typing import NDArray
 from tricue.camera.rig import Intrinsics
 from tricue.scenes import motion
 from tricue.scenes.arrays import Array
-from tricue.scenes.motion import sway
-from tricue.scenes.stress.cards import Card, Eye, Pose, facing
+from tricue.scenes.motion import sample_sway
+from tricue.scenes.stress.cards import Card, CardCamera, CardPose, face_camera
 
-RATE = 30.0  # frames a second
-AWAY, HIDDEN = 30, 20  # frames out of the picture, and behind a nearer thing
-ROLL, TURN = np.radians(10), np.radians(12)
-DARKEST, BRIGHTEST = 0.4, 1.3  # of the light
-BLACK, ELSEWHERE = 8, 24  # frames
-LEAD = 20  # frames from an event's begin until the target may be gone
-NEAREST = 0.55  # metres, what hides the target; the depth camera measures from 0.5 on
+STRESS_FRAME_RATE = 30.0  # frames a second
+AWAY_FRAMES, HIDDEN_FRAMES = 30, 20  # frames out of the picture, and behind a nearer thing
+MAX_ROLL, MAX_YAW = np.radians(10), np.radians(12)
+MIN_GAIN, MAX_GAIN = 0.4, 1.3  # of the light
+BLACK_FRAMES, OTHER_ROOM_FRAMES = 8, 24  # frames
+EVENT_LEAD_FRAMES = 20  # frames from an event's begin until the target may be gone
+MIN_CARD_DEPTH = 0.55  # metres, what hides the target; the depth camera measures from 0.5 on
 
 
 @dataclass
-class Way:
+class CardPath:
     """Somebody's places, per frame of N. Only events change it, before anything is drawn."""
 
     card: Card
@@ -35,35 +35,37 @@ class Way:
     depth: Array  # (N,) metres
     roll: Array  # (N,) radians
     turn: Array  # (N,) radians about the upright
-    there: NDArray[np.bool_]  # (N,) whether it is in this world at all
+    present: NDArray[np.bool_]  # (N,) whether it is in this world at all
 
-    def pose(self, camera: Intrinsics, time: float) -> Pose:
+    def pose(self, camera: Intrinsics, time: float) -> CardPose:
         """Where it is at a frame, or between two."""
         u, v, z, roll, turn = (
             float(np.interp(time, np.arange(len(self.depth)), values))
             for values in (*self.pixels.T, self.depth, self.roll, self.turn)
         )
-        return facing(camera.back_project(u, v, z), roll, turn)
+        return face_camera(camera.back_project(u, v, z), roll, turn)
 
     def reach(self, camera: Intrinsics, index: int) -> Array:
         """Half its width and height in the picture, pixels, about (2,)."""
         middle = np.array([0, 0, self.depth[index]])
-        outline = Eye(camera).outline(self.card, facing(middle, self.roll[index], self.turn[index]))
+        outline = CardCamera(camera).outline(
+            self.card, face_camera(middle, self.roll[index], self.turn[index])
+        )
         return np.asarray(np.ptp(outline, axis=0) / 2)
 
 
 @dataclass
-class Moves:
+class StressMotion:
     """All that happens in N frames."""
 
     camera: Intrinsics
-    target: Way
-    lookalikes: tuple[Way, Way]
-    curtain: Way
+    target: CardPath
+    lookalikes: tuple[CardPath, CardPath]
+    occluder: CardPath
     angles: Array  # (N, 2) yaw to the right and pitch down of the camera, radians
     light: Array  # (N, 3) gain of each channel
     black: NDArray[np.bool_]  # (N,) no light at all
-    elsewhere: NDArray[np.bool_]  # (N,) another room
+    in_other_room: NDArray[np.bool_]  # (N,) another room
     spans: dict[str, range] = field(default_factory=dict)  # in which the events happen
 
     def __len__(self) -> int:
@@ -73,55 +75,57 @@ class Moves:
         """The room's (3, 3), from the frame of a camera that looks straight to the camera's."""
         yaw, pitch = (float(np.interp(time, np.arange(len(self)), angle)) for angle in self.angles.T)
         cos, sin = np.cos(yaw), np.sin(yaw)
-        about_y = np.array([[cos, 0, -sin], [0, 1, 0], [sin, 0, cos]])
+        rotation_about_y = np.array([[cos, 0, -sin], [0, 1, 0], [sin, 0, cos]])
         cos, sin = np.cos(pitch), np.sin(pitch)
-        return np.asarray(np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]]) @ about_y)
+        return np.asarray(np.array([[1, 0, 0], [0, cos, -sin], [0, sin, cos]]) @ rotation_about_y)
 
 
-def wander(camera: Intrinsics, card: Card, depth: Array, speed: float, rng: np.random.Generator) -> Way:
+def sample_card_path(
+    camera: Intrinsics, card: Card, depth: Array, speed: float, rng: np.random.Generator
+) -> CardPath:
     """A smooth path within the picture. speed: at most, target's widths a frame."""
-    frames, time = len(depth), np.arange(len(depth)) / RATE
+    frames, time = len(depth), np.arange(len(depth)) / STRESS_FRAME_RATE
     width = card.size[0] * camera.fx / float(np.median(depth))
     largest = float(np.hypot(*card.size) * camera.fx / depth.min() / 2)
     half = np.array([camera.width, camera.height]) / 2
     reach = np.maximum(half - np.minimum(largest + 4, half * 0.8), 0.12 * half)
-    offsets = motion.wander(frames, (reach[0], reach[1]), speed * width, rng)
-    roll, turn = (limit * sway(time, 2.0, 5.0, rng) for limit in (ROLL, TURN))
+    offsets = motion.sample_path(frames, (reach[0], reach[1]), speed * width, rng)
+    roll, turn = (limit * sample_sway(time, 2.0, 5.0, rng) for limit in (MAX_ROLL, MAX_YAW))
     pixels = offsets + [camera.cx, camera.cy]
-    return Way(card, pixels, depth, roll, turn, np.ones(frames, bool))
+    return CardPath(card, pixels, depth, roll, turn, np.ones(frames, bool))
 
 
-def leave(moves: Moves, span: range, rng: np.random.Generator) -> None:
+def leave_image(moves: StressMotion, span: range, rng: np.random.Generator) -> None:
     """Out over one edge for 30 frames, and back over another, or at another place."""
-    way, camera = moves.target, moves.camera
-    width = 2 * way.reach(camera, span.start)[0]
+    path, camera = moves.target, moves.camera
+    width = 2 * path.reach(camera, span.start)[0]
     pace = max(0.2 * width, 0.035 * camera.width)
-    out, last = span.start + LEAD, span.start + LEAD + AWAY - 1
-    gone = way.pixels[span.start]
+    out, last = span.start + EVENT_LEAD_FRAMES, span.start + EVENT_LEAD_FRAMES + AWAY_FRAMES - 1
+    gone = path.pixels[span.start]
     edges = np.array([[-1, 0], [1, 0], [0, -1]])
     leaves, returns = rng.permutation(3)[:2]
     for frame, edge, step in ((out, edges[leaves], -1), (last, edges[returns], 1)):
         _cross_edge(moves, frame, edge, step, pace, rng)
     between = np.arange(out + 1, last)
     corner = np.array([-2.0 * camera.width, gone[1]])
-    way.pixels[between] = corner
+    path.pixels[between] = corner
 
 
 def _cross_edge(
-    moves: Moves, frame: int, edge: Array, step: int, pace: float, rng: np.random.Generator
+    moves: StressMotion, frame: int, edge: Array, step: int, pace: float, rng: np.random.Generator
 ) -> None:
     """Lead the path from the frame ``frame``, the first or last wholly outside, to the path inside.
 
     step: 1 for those after it, -1 for those before. Outside and inside by half a step each.
     """
-    way, camera = moves.target, moves.camera
+    path, camera = moves.target, moves.camera
     axis = int(edge[0] == 0)
     size = np.array([camera.width, camera.height])[axis]
     border = (edge[axis] + 1) / 2 * size - 0.5
-    for count in range(4, LEAD + 1):
+    for count in range(4, EVENT_LEAD_FRAMES + 1):
         inner = frame + count * step
-        start = way.pixels[inner]
-        half = way.reach(camera, frame)[axis]
+        start = path.pixels[inner]
+        half = path.reach(camera, frame)[axis]
         stride = edge[axis] * (border + edge[axis] * half - start[axis]) / (count - 0.5)
         if stride < pace:
             break
@@ -129,56 +133,67 @@ def _cross_edge(
     end = start.copy()
     end[axis] = border + edge[axis] * (half + stride / 2)
     frames = frame + step * np.arange(count + 1)
-    way.pixels[frames] = end + offsets[:, None] * (start - end)
+    path.pixels[frames] = end + offsets[:, None] * (start - end)
 
 
-def hide(moves: Moves, span: range, rng: np.random.Generator) -> None:
+def hide_target(moves: StressMotion, span: range, rng: np.random.Generator) -> None:
     """Something nearer passes, fast at first, then nearly as the target does, and hides it for 20 frames."""
-    way, camera, curtain = moves.target, moves.camera, moves.curtain
-    first = span.start + LEAD
+    path, camera, occluder = moves.target, moves.camera, moves.occluder
+    first = span.start + EVENT_LEAD_FRAMES
     frames = np.arange(len(moves))
-    halves = np.array([way.reach(camera, index) for index in range(first - 1, first + HIDDEN + 1)])
+    halves = np.array([path.reach(camera, index) for index in range(first - 1, first + HIDDEN_FRAMES + 1)])
     half, tall = halves.max(axis=0)
     margin = 0.35 * half + 3
-    depth = max(0.62 * way.depth[first : first + HIDDEN].min(), NEAREST)
-    curtain.depth[:] = depth
+    depth = max(0.62 * path.depth[first : first + HIDDEN_FRAMES].min(), MIN_CARD_DEPTH)
+    occluder.depth[:] = depth
     scale = 2 * depth / camera.fx
     size = (half + margin) * scale * 1.02, (1.6 * tall + margin) * scale
-    curtain.card = curtain.card._replace(size=size)
+    occluder.card = occluder.card._replace(size=size)
     # A third of the target's half looks out beside it in the frames before and after.
     before, behind = (half + margin - 0.7 * halves[index, 0] + 2 for index in (0, -1))
     near, far, pace = 0.6 * margin, 2.5 * camera.width, 0.35 * half
     slow = int(np.ceil(far / pace))
-    knots = [first - 1 - slow, first - 1, first, first + HIDDEN - 1, first + HIDDEN, first + HIDDEN + slow]
+    knots = [
+        first - 1 - slow,
+        first - 1,
+        first,
+        first + HIDDEN_FRAMES - 1,
+        first + HIDDEN_FRAMES,
+        first + HIDDEN_FRAMES + slow,
+    ]
     offset = np.interp(frames, knots, [-far, -before, -near, near, behind, far])
-    curtain.pixels[:] = way.pixels
-    curtain.pixels[:, 0] += (1 if rng.random() < 0.5 else -1) * offset
-    curtain.there[:] = np.abs(offset) < far
+    occluder.pixels[:] = path.pixels
+    occluder.pixels[:, 0] += (1 if rng.random() < 0.5 else -1) * offset
+    occluder.present[:] = np.abs(offset) < far
 
 
-def meet(moves: Moves, span: range, rng: np.random.Generator) -> None:
+def cross_lookalikes(moves: StressMotion, span: range, rng: np.random.Generator) -> None:
     """Two look-alikes come, cross the target's way and stay nearby, one before and one behind it."""
-    way, camera = moves.target, moves.camera
-    width, height = 2 * way.reach(camera, span.start)
+    path, camera = moves.target, moves.camera
+    width, height = 2 * path.reach(camera, span.start)
     frames = np.arange(len(moves))
     nearer = rng.permutation([0.85, 1.2])
     outside = np.interp(frames, [span.start, span.start + 25, span.stop - 20, span.stop], [1, 0, 0, 1])
     for index, lookalike in enumerate(moves.lookalikes):
         side = 1 if index else -1
         angle = 2 * np.pi * (frames - span.start - 25) / rng.uniform(60, 90) + rng.uniform(-0.5, 0.5)
-        across = side * width * (1.35 * np.cos(angle) + 0.2 * sway(frames / RATE, 1.0, 3.0, rng))
-        up = side * height * (0.45 + 0.15 * sway(frames / RATE, 1.0, 3.0, rng))
-        lookalike.pixels[:, 0] = way.pixels[:, 0] + across + side * outside * 1.5 * camera.width
-        lookalike.pixels[:, 1] = way.pixels[:, 1] + up
-        lookalike.depth[:] = way.depth * nearer[index]
-        lookalike.there[:] = (frames >= span.start) & (frames < span.stop)
+        across = (
+            side
+            * width
+            * (1.35 * np.cos(angle) + 0.2 * sample_sway(frames / STRESS_FRAME_RATE, 1.0, 3.0, rng))
+        )
+        up = side * height * (0.45 + 0.15 * sample_sway(frames / STRESS_FRAME_RATE, 1.0, 3.0, rng))
+        lookalike.pixels[:, 0] = path.pixels[:, 0] + across + side * outside * 1.5 * camera.width
+        lookalike.pixels[:, 1] = path.pixels[:, 1] + up
+        lookalike.depth[:] = path.depth * nearer[index]
+        lookalike.present[:] = (frames >= span.start) & (frames < span.stop)
 
 
-def relight(moves: Moves, span: range, rng: np.random.Generator) -> None:
+def change_light(moves: StressMotion, span: range, rng: np.random.Generator) -> None:
     """Brightness between 0.4 and 1.3, in jumps with a drift between them, and a cast of color a jump."""
     count = len(span)
-    level = motion.steps(count, DARKEST / 0.9, BRIGHTEST / 1.1, rng)
-    drift = 1 + 0.1 * sway(np.arange(count) / RATE, 0.7, 2.0, rng)
+    level = motion.sample_gain_steps(count, MIN_GAIN / 0.9, MAX_GAIN / 1.1, rng)
+    drift = 1 + 0.1 * sample_sway(np.arange(count) / STRESS_FRAME_RATE, 0.7, 2.0, rng)
     jumps = np.cumsum(np.diff(level, prepend=level[0]) != 0)
     tints = np.exp(rng.uniform(-0.15, 0.15, (jumps[-1] + 1, 3)))
     tints /= tints.mean(axis=1, keepdims=True)
@@ -186,34 +201,36 @@ def relight(moves: Moves, span: range, rng: np.random.Generator) -> None:
     moves.light[span.start : span.stop] = (level * drift)[:, None] * tints[jumps]
 
 
-def shake(moves: Moves, span: range, rng: np.random.Generator) -> None:
+def shake_camera(moves: StressMotion, span: range, rng: np.random.Generator) -> None:
     """The camera pans to one side and back, and shakes: the room moves as both, the target as the shake."""
     count, camera = len(span), moves.camera
     envelope = np.sin(np.pi * (np.arange(count) + 0.5) / count)
     pan = rng.choice([-1, 1]) * np.radians(rng.uniform(8, 14)) * envelope**2
-    trembles = [sway(np.arange(count) / RATE, 0.2, 0.5, rng) for _ in range(2)]
+    trembles = [sample_sway(np.arange(count) / STRESS_FRAME_RATE, 0.2, 0.5, rng) for _ in range(2)]
     yaw, pitch = (0.015 * np.sqrt(envelope) * tremble for tremble in trembles)  # 4 pixels in 320
     inside = slice(span.start, span.stop)
     moves.angles[inside] += np.stack([pan + yaw, pitch], axis=1)
-    for way in (moves.target, *moves.lookalikes, moves.curtain):
-        way.pixels[inside] -= np.stack([yaw * camera.fx, pitch * camera.fy], axis=1)
+    for path in (moves.target, *moves.lookalikes, moves.occluder):
+        path.pixels[inside] -= np.stack([yaw * camera.fx, pitch * camera.fy], axis=1)
 
 
-def blank(moves: Moves, span: range, rng: np.random.Generator) -> None:
+def blank_frames(moves: StressMotion, span: range, rng: np.random.Generator) -> None:
     """Black frames and then another scene, in which the target isn't, or that first; it comes back after."""
-    start = span.start + int(rng.integers(len(span) - BLACK - ELSEWHERE + 1))
-    first, second = (moves.black, moves.elsewhere) if rng.random() < 0.5 else (moves.elsewhere, moves.black)
-    change = start + (BLACK if first is moves.black else ELSEWHERE)
+    start = span.start + int(rng.integers(len(span) - BLACK_FRAMES - OTHER_ROOM_FRAMES + 1))
+    first, second = (
+        (moves.black, moves.in_other_room) if rng.random() < 0.5 else (moves.in_other_room, moves.black)
+    )
+    change = start + (BLACK_FRAMES if first is moves.black else OTHER_ROOM_FRAMES)
     first[start:change] = True
-    second[change : start + BLACK + ELSEWHERE] = True
+    second[change : start + BLACK_FRAMES + OTHER_ROOM_FRAMES] = True
 
 
-EVENTS: dict[str, Callable[[Moves, range, np.random.Generator], None]] = {
-    "camera": shake,
-    "light": relight,
-    "leaving": leave,
-    "lookalike": meet,
-    "hidden": hide,
-    "blank": blank,
+EVENTS: dict[str, Callable[[StressMotion, range, np.random.Generator], None]] = {
+    "camera": shake_camera,
+    "light": change_light,
+    "leaving": leave_image,
+    "lookalike": cross_lookalikes,
+    "hidden": hide_target,
+    "blank": blank_frames,
 }
 """In the order in which they change the paths; where they happen in time is told apart from it."""
