@@ -19,11 +19,12 @@ def moving_waves(
     noise: float,
     shape: tuple[int, int] = WAVES_SHAPE,
 ) -> tuple[Image, Image, Floats]:
-    """Previous and current frame (H, W), and the true flow (H, W, 2), pixels, of the previous one's pixels.
+    """Previous and current frame (H, W), uint8, and the true flow (H, W, 2), pixels, at the previous one.
 
-    Waves of 4 to 40 px, amplitudes that fall as those of real surfaces, contrast that fades from full to a
-    sixth over the frame; between the frames all turns about the centre, grows, and shifts so many pixels in a
-    random direction. Each frame gets noise of its own, of a deviation in gray levels, and is rounded.
+    The texture has wavelengths of 4 to 40 pixels with the amplitudes of real surfaces. Its contrast varies
+    between one sixth and full over the frame. Between the frames it rotates about the center by ``degrees``,
+    is scaled by ``growth``, and shifts by ``shift`` pixels in a random direction. noise: standard deviation
+    in gray levels, independent in both frames.
     """
     height, width = shape
     y, x = np.mgrid[:height, :width].astype(float)

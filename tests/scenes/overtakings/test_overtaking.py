@@ -30,9 +30,9 @@ def story(kind, seed):
     """What happens in a scene, without its pictures."""
     rng = np.random.default_rng(seed)
     plan = overtaking_moves.PLAIN_PLAN if kind == "plain" else overtaking_moves.sample_plan(rng)
-    people, paths = overtakings._people(plan, "160x120", 100, rng)
+    people, paths = overtakings._sample_people(plan, "160x120", 100, rng)
     truth = WalkGeometry(paths.pan, Hall([]), people)
-    return plan, paths, [truth.sight(index) for index in range(100)]
+    return plan, paths, [truth.truth_at(index) for index in range(100)]
 
 
 def warp(image, x, y):
@@ -191,10 +191,10 @@ def test_masks_agree_with_boxes_and_visible_shares(clean):
 def test_flow_agrees_with_the_positions(clean):
     """Along x the median flow on the target is the motion of its projected position, but for its limbs."""
     for scene in clean:
-        transformed = np.diff(scene.rig.intrinsics.project(scene.positions), axis=0)
+        moved = np.diff(scene.rig.intrinsics.project(scene.positions), axis=0)
         for index in range(1, 8):
             flow = np.median(scene.flow[index][scene.masks[index]], axis=0)
-            assert flow[0] == pytest.approx(transformed[index - 1, 0], abs=0.5)
+            assert flow[0] == pytest.approx(moved[index - 1, 0], abs=0.5)
 
 
 def test_the_first_frame_shows_the_target_whole(stories):
@@ -209,7 +209,7 @@ def test_the_first_frame_shows_the_target_whole(stories):
 def test_the_target_is_overtaken(stories):
     """Hiding begins in time, 5 frames or more have less than 1 % of the target, then it comes back, whole."""
     for plan, _, sights in stories:
-        visible = np.array([sight.visible for sight in sights])
+        visible = np.array([truth.visible for truth in sights])
         events = overtakings._events(visible, round(plan.passing_frame))
         assert 8 < events.hiding < events.hidden < events.back < 56
         assert events.hidden < 32
@@ -223,7 +223,7 @@ def test_the_target_is_overtaken(stories):
 def test_who_overtakes_is_nearer_and_a_little_faster(stories):
     """In the picture both go the plan's way, who overtakes a pixel a frame faster; he was behind at first."""
     for plan, paths, sights in stories:
-        columns = np.array([[sight.target.box.center[0], sight.others[0].box.center[0]] for sight in sights])
+        columns = np.array([[truth.target.box.center[0], truth.others[0].box.center[0]] for truth in sights])
         target, overtaker = (plan.direction * np.diff(columns[::20].T) / 20).mean(axis=1)
         assert 0.4 < target < 1.3
         assert 0.8 < overtaker - target < 1.1
@@ -249,17 +249,17 @@ def test_the_target_passes_who_stands_at_its_depth(stories):
         near, far = camera.fx * paths.pan.rig.baseline / depths
         assert abs(near - far) < 0.4
         assert np.sign(far - near) == -np.sign(plan.standing_depth_offset)
-        behind = min(sight.visible for sight in sights[index - 2 : index + 3])
+        behind = min(truth.visible for truth in sights[index - 2 : index + 3])
         assert behind > 0.9 if plan.standing_depth_offset > 0 else 0.05 < behind < 0.6
 
 
 def test_who_stands_moves_with_the_hall(stories):
     """In the picture who stands moves against the walk, at the speed of the pan."""
     for plan, _, sights in stories:
-        columns = np.array([sight.others[1].box.center[0] for sight in sights])
+        columns = np.array([truth.others[1].box.center[0] for truth in sights])
         middle = np.abs(columns[:-1] - 80) < 30
-        transformed = -plan.direction * np.diff(columns)[middle]
-        assert transformed.mean() == pytest.approx(plan.pan, rel=0.05, abs=0.01)
+        moved = -plan.direction * np.diff(columns)[middle]
+        assert moved.mean() == pytest.approx(plan.pan_speed, rel=0.05, abs=0.01)
 
 
 def test_varied_scenes_vary(stories):
@@ -267,7 +267,7 @@ def test_varied_scenes_vary(stories):
     plans = [plan for plan, *_ in stories[3:]]
     assert {plan.direction for plan in plans} == {-1, 1}
     assert {np.sign(plan.standing_depth_offset) for plan in plans} == {-1, 1}
-    pans = [plan.pan for plan in plans]
+    pans = [plan.pan_speed for plan in plans]
     assert min(pans) < 0.2
     assert max(pans) > 0.7
     assert all(0 <= pan <= 0.9 for pan in pans)
@@ -310,7 +310,7 @@ def test_no_ray_passes_between_the_halls_boards():
     """Over the whole pan of the longest scenes there is a wall, floor or thing on each pixel's ray."""
     for seed in range(4):
         rng = np.random.default_rng(seed)
-        truth, _ = overtakings._world(
+        truth, _ = overtakings._sample_geometry(
             overtaking_moves.sample_plan(rng), "160x120", overtakings.MAX_OVERTAKING_FRAMES, rng
         )
         for index in (0, 50, 100, overtakings.MAX_OVERTAKING_FRAMES - 1):

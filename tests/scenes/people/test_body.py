@@ -101,7 +101,7 @@ def test_a_limbs_poles_are_near_its_joints(person, gait, swing):
 def test_moving_balls_moves_their_ellipsoids():
     """Ellipsoids of moved balls are the moved ellipsoids."""
     person, turn, offset = Person(1.7, 1.0), rotation_about_y(0.7), np.array([0.3, -0.2, 4.0])
-    transformed = build_oriented_body(person, BodyPose(1.0, 0.3)).transformed(turn, offset).ellipsoids
+    moved = build_oriented_body(person, BodyPose(1.0, 0.3)).transformed(turn, offset).ellipsoids
     same = build_body(person, BodyPose(1.0, 0.3)).transformed(turn, offset)
-    np.testing.assert_allclose(transformed.centers, same.centers, atol=1e-12)
-    np.testing.assert_allclose(transformed.shapes, same.shapes, atol=1e-12)
+    np.testing.assert_allclose(moved.centers, same.centers, atol=1e-12)
+    np.testing.assert_allclose(moved.shapes, same.shapes, atol=1e-12)

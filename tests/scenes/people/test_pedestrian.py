@@ -40,7 +40,7 @@ def test_a_coat_hides_the_thighs():
 def test_textures_keep_their_level():
     """Seen from farther away each texture is a coarser one, and always of a single level."""
     person = walker()
-    near, far = (person.seen_at(depth, 300.0).part_textures for depth in (1.0, 8.0))
+    near, far = (person.at_detail(depth, 300.0).part_textures for depth in (1.0, 8.0))
     assert {len(map_) for map_ in near + far} == {1}
     assert all(few[0].size < many[0].size for few, many in zip(far, near, strict=True))
 

@@ -177,8 +177,8 @@ def test_depth_changes_while_hidden(camera, change):
         z = scene.positions[:, 2]
         assert z[-1] - z[0] == pytest.approx(change, abs=0.4)  # 0.15 m/s beside it, and the body's turn
         hidden = np.flatnonzero(scene.visible < 0.3)
-        transformed = (z[hidden[-1]] - z[hidden[0]]) / change
-        assert transformed > 0.6
+        moved = (z[hidden[-1]] - z[hidden[0]]) / change
+        assert moved > 0.6
         assert scene.visible[hidden[-1] :].max() > 0.8
 
 

@@ -56,7 +56,7 @@ def test_cameras_are_the_ones_of_the_papers():
 def test_every_pixel_of_a_sphere_lies_on_the_sphere():
     """Back-projected, the z-buffer's points are a radius from the center, on its near side."""
     center = np.array([0.4, -0.3, 3.0])
-    points = LEVEL["rgbd"].points(LEVEL["rgbd"].cast(sphere(center, 0.25)))
+    points = LEVEL["rgbd"].surface_points(LEVEL["rgbd"].render(sphere(center, 0.25)))
     assert len(points) > 4000
     np.testing.assert_allclose(np.linalg.norm(points - center, axis=1), 0.25, atol=1e-9)
     toward_camera = ((points - center) * points).sum(axis=1)
@@ -82,7 +82,7 @@ def test_box_is_the_outline_of_the_z_buffer(camera):
 @pytest.mark.parametrize("z", [2.5, 4.0, 6.0])
 def test_size_in_pixels_follows_the_pinhole(camera, z):
     """A person of 1.8 m at z is fy 1.8 / z pixels high within 10 %."""
-    box = LEVEL[camera].box(person(1.8, z, camera))
+    box = LEVEL[camera].bounding_box(person(1.8, z, camera))
     assert box.height == pytest.approx(LEVEL[camera].intrinsics.fy * 1.8 / z, rel=0.1)
 
 
@@ -115,7 +115,7 @@ def test_ellipsoids_behind_the_camera_are_refused():
     """An outline needs the whole ellipsoid in front of the camera."""
     for z in (-3.0, 0.1):
         with pytest.raises(ValueError, match="bodies: expected ellipsoids in front of the camera"):
-            LEVEL["tof"].cast(sphere([0.0, 0.0, z], 0.3))
+            LEVEL["tof"].render(sphere([0.0, 0.0, z], 0.3))
 
 
 def test_room_is_made_of_planes():
@@ -154,18 +154,20 @@ def test_noise_has_the_deviation_of_its_formula(camera, z, noise):
     A step's deviation of 1 / sqrt(12) holds where the noise is at least half a step.
     """
     measured = camera.measure(wall(z, camera), np.random.default_rng(0), missing=0, noise=noise)
-    quantum = camera.step * z**2 / math.sqrt(12)
+    quantum = camera.inverse_depth_step * z**2 / math.sqrt(12)
     expected = math.hypot(noise * (camera.base_noise + camera.noise_growth * z**2), quantum)
     assert measured.std() == pytest.approx(expected, rel=0.05)
-    assert measured.mean() == pytest.approx(z, abs=0.02 * expected + 0.5 * camera.step * z**2)
+    assert measured.mean() == pytest.approx(z, abs=0.02 * expected + 0.5 * camera.inverse_depth_step * z**2)
 
 
 def test_rgbd_depths_are_quantised_in_disparity():
     """Inverse depths are multiples of a step, which is 7 cm at 5 m; time-of-flight depths aren't."""
     slope = np.tile(np.linspace(1, 7, 640), (480, 1))
     inverse = 1 / RGBD.measure(slope, np.random.default_rng(0), missing=0).astype(float)
-    np.testing.assert_allclose(inverse / RGBD.step, np.rint(inverse / RGBD.step), atol=1e-3)
-    assert RGBD.step * 25 == pytest.approx(0.07, abs=0.002)
+    np.testing.assert_allclose(
+        inverse / RGBD.inverse_depth_step, np.rint(inverse / RGBD.inverse_depth_step), atol=1e-3
+    )
+    assert RGBD.inverse_depth_step * 25 == pytest.approx(0.07, abs=0.002)
     exact = TOF.measure(wall(3.456), np.random.default_rng(0), missing=0, noise=0)
     np.testing.assert_array_equal(exact, np.float32(3.456))
 
@@ -207,7 +209,7 @@ def test_edges_are_jumps_not_slopes():
     edges = find_depth_edges(step())
     assert np.flatnonzero(edges.any(axis=0)).tolist() == [87, 88]
     assert edges[:, 87:89].all()
-    floor = LEVEL["tof"].background(Room(9.0, 20.0, 20.0))
+    floor = LEVEL["tof"].render_room(Room(9.0, 20.0, 20.0))
     assert not find_depth_edges(floor)[floor < 7.5].any()
 
 

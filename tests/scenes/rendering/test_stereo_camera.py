@@ -48,8 +48,8 @@ def sub_pixel_shift(left, right, rough, rows, columns):
     shifts = rough + np.arange(-1, 1.001, 0.05)
     errors = []
     for shift in shifts:
-        transformed = np.fft.irfft(spectrum * np.exp(-1j * wave * shift), n=right.shape[1], axis=1)
-        errors.append(np.mean((transformed[part] - left[part]) ** 2))
+        moved = np.fft.irfft(spectrum * np.exp(-1j * wave * shift), n=right.shape[1], axis=1)
+        errors.append(np.mean((moved[part] - left[part]) ** 2))
     best = int(np.argmin(errors))
     below, least, above = errors[best - 1 : best + 2]
     return shifts[best] + 0.05 * (below - above) / (below - 2 * least + above) / 2
@@ -124,7 +124,7 @@ def test_solids_agree_with_the_depth_cameras_rays():
         (part,) = eye.draw_ellipsoids(canvas, [body], LAMP)
         center = body.center - [eye.offset, 0, 0]
         shape = np.linalg.inv(body.unit.T @ body.unit)
-        window = MountedCamera(eye.intrinsics, 0, 0).cast(Ellipsoids(center[None], shape[None]))
+        window = MountedCamera(eye.intrinsics, 0, 0).render(Ellipsoids(center[None], shape[None]))
         place, expected = window.inside(eye.intrinsics.width, eye.intrinsics.height)
         assert part.place == place
         both = np.isfinite(expected) & np.isfinite(part.depth)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A face over clutter: the test bench of figure 1 of Sabeti, Parvizi and Wu (2008), section V."""
+"""A face over clutter, as in figure 1 of Sabeti, Parvizi and Wu (2008), section V."""
 
 import numpy as np
 
@@ -23,11 +23,13 @@ def face_over_clutter(
     brightness: tuple[float, float] = (0.45, 1.3),
     noise: float = 2.0,
 ) -> Scene:
-    """A face of 50x63 pixels runs over clutter, 320x240, and its brightness changes several times.
+    """A face of 50x63 pixels moves over clutter, 320x240, and its brightness changes several times.
 
-    The seed decides the window of the background (one of BACKGROUNDS), the path, the moments and sizes of the
-    brightness steps, and the noise (standard deviation in levels of 255). ``max_speed`` is in pixels a frame;
-    the face's levels are multiplied by a gain within ``brightness``, 1 at first.
+    background: one of BACKGROUNDS. max_speed: pixels per frame. brightness: the range of the gain that
+    multiplies the face's levels; it begins with 1. noise: standard deviation in levels of 255.
+
+    The seed decides the window of the background, the path, the times and sizes of the brightness steps, and
+    the noise. ValueError for a background or a range that isn't one.
     """
     if not 0 <= brightness[0] < brightness[1] < np.inf:
         raise ValueError(f"brightness: expected a low and a higher gain, got {brightness}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""An abrupt change of light, as on the driver's face in figure 2 of Sabeti, Parvizi and Wu (2008)."""
+"""Abrupt changes of light, as on the driver's face in figure 2 of Sabeti, Parvizi and Wu (2008)."""
 
 from typing import NamedTuple
 
@@ -15,12 +15,12 @@ from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.scenes.scene import Scene
 
-PHOTOGRAPH_SCALE = 0.625  # of the picture's upper 512x384 to 320x240
-MAX_HEAD_OFFSET = (40.0, 10.0)  # pixels that the head moves to each side, up and down
+PHOTOGRAPH_SCALE = 0.625  # from the photograph's upper 512x384 to 320x240
+MAX_HEAD_OFFSET = (40.0, 10.0)  # pixels from the center, horizontally and vertically
 
 
 class ToneCurve(NamedTuple):
-    """A mapping of each channel's levels in [0, 1], ``gain * level ** gamma``: increasing, so order stays."""
+    """A tone curve per channel, ``gain * level ** gamma`` for levels in [0, 1]; it keeps their order."""
 
     gain: NDArray[np.float32]
     gamma: NDArray[np.float32]
@@ -30,11 +30,11 @@ class ToneCurve(NamedTuple):
 
 
 def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noise: float = 2.0) -> Scene:
-    """A head moves before a static cabin, 320x240, and twice the light on all of it changes at once.
+    """A head moves in front of a static cabin, 320x240; the light on the whole image changes abruptly, twice.
 
-    Each channel has its own curve in each light, so that the colors shift. The seed decides the path
-    (``max_speed`` in pixels a frame), the curves, and the noise (standard deviation in levels of 255); the
-    light changes after a third and two thirds of the sequence. The target is the face, about 61x77 pixels.
+    The light changes after one third and two thirds of the frames. Each channel has its own tone curve in
+    each light, so that colors shift. The target is the face, about 61x77 pixels. max_speed: pixels per
+    frame. noise: standard deviation in levels of 255. The seed decides the path, the curves and the noise.
     """
     rng = np.random.default_rng(seed)
     cabin, head, corner, face = _cabin_and_head()
@@ -55,7 +55,7 @@ def light_change(seed: int = 0, frames: int = 90, *, max_speed: float = 6.0, noi
 
 
 def _cabin_and_head() -> tuple[Picture, Picture, NDArray[np.float64], Box]:
-    """The cabin with the head painted over, the head cut out, its top-left corner, and the face's box."""
+    """The cabin with the head inpainted, the cut-out head, its top-left corner (x, y), and the face's box."""
     picture = photographs.load_photograph("astronaut")
     cabin = photographs.resize(picture[:384], 240, 320)
     head, face = (
@@ -76,12 +76,12 @@ def _daylight() -> ToneCurve:
 
 
 def _warm(rng: np.random.Generator) -> ToneCurve:
-    """Direct low sun: red rises most, blue falls."""
+    """Low sunlight: red rises most, blue falls."""
     return _varied([0.75, 1.05, 1.2], [1.3, 0.9, 0.6], rng)
 
 
 def _cold(rng: np.random.Generator) -> ToneCurve:
-    """Shadow: everything darker, red most."""
+    """Shadow: all channels are darker, red most."""
     return _varied([0.75, 0.6, 0.45], [0.9, 1.1, 1.4], rng)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A head before a stereo pair: as in Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002), section 5."""
+"""A head before a stereo pair, as in Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002), section 5."""
 
 from typing import NamedTuple
 
@@ -17,6 +17,7 @@ from tricue.scenes.heads.room import StereoRoom, furnish_room, render_room
 from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.stereo_camera import (
+    RAYS_PER_PIXEL,
     DrawnEllipsoid,
     Lamp,
     RayCamera,
@@ -27,9 +28,8 @@ from tricue.scenes.rendering.stereo_camera import (
 from tricue.scenes.scene import StereoScene
 
 HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
-RAYS_PER_PIXEL = {"160x120": 3, "640x480": 2}  # rays a pixel along each axis
-MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # metres, of the head's centre
-HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same where somebody's hand has to be nearer
+MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # metres, of the head's center
+HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same in scenes with a hand in front
 
 
 def head(
@@ -41,22 +41,23 @@ def head(
     light: float = 0.3,
     noise: float = 2.0,
 ) -> StereoScene:
-    """Somebody walks about before a stereo pair, 0.8 to 4 m away, in a cluttered room; 30 frames/s.
+    """A person walks before a stereo pair, 0.8 to 4 m away, in a cluttered room; 30 frames per second.
 
-    camera: "160x120" or "640x480" pixels. kind: one of KINDS;
-        "normal": the face stays in sight, the light swings smoothly;
-        "distractor": as that, and the head passes in front of things of its skin's color;
-        "turning": as that, and the person turns round, so that only hair is seen for a while;
-        "jump": the light changes abruptly every 10 to 20 frames, instead of smoothly;
-        "ramp": the light falls evenly from 1 to 0.5 within 100 frames;
-        "hidden": as "normal", and a hand nearer than the head, which is then at 1 to 2.1 m, hides it
+    camera: "160x120" or "640x480" pixels. kind: one of HEAD_KINDS;
+        "normal": the face stays visible, the light varies smoothly;
+        "distractor": as "normal", and the head passes in front of things that have the color of its skin;
+        "turning": as "normal", and the person turns around, so that only hair is visible for a while;
+        "jump": the light changes abruptly every 10 to 20 frames;
+        "ramp": the light falls linearly from 1 to 0.5 within 100 frames;
+        "hidden": as "normal", and a hand in front of the head, which is then at 1 to 2.1 m, hides it
         completely from the left camera for 10 frames or more (in scenes of about 40 frames or longer).
-    light: the share by which the light rises and falls round 1, below 1; not used by "ramp".
+    light: by how much the light's gain differs from 1 at most, 0 to 1; not used by "ramp".
     noise: standard deviation in levels of 255, independent in both images.
 
     The seed decides the person's size, skin, hair and clothes, the path and the gestures, the room and the
     things in it, the rig (angle of view 50 to 60 degrees, baseline 10 to 12 cm), how much brighter one camera
-    is (up to 5 %), and the noise. There is no motion blur and no shadow cast, and the face doesn't change.
+    is (up to 5 %), and the noise. There is no motion blur, no cast shadow, and no change of expression.
+    ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, camera, kind, light, noise)
     rng = np.random.default_rng(seed)
@@ -68,7 +69,7 @@ def head(
     room = furnish_room(rig, moves.center, person.floor, skin, rng)
     stage = _StereoStage.build(RayCamera.pair(rig, RAYS_PER_PIXEL[camera]), room, rng)
     colors = gain[:, None] * head_moves.sample_tint(frames, rng)
-    truths = [stage.shoot(person, index, color, noise, rng) for index, color in enumerate(colors)]
+    truths = [stage.record(person, index, color, noise, rng) for index, color in enumerate(colors)]
     return StereoScene(
         name=f"head, {kind}, {camera}, seed {seed}",
         frames=tuple(truth.frame for truth in truths),
@@ -86,11 +87,11 @@ class _VisibleHead(NamedTuple):
     """The head as one camera sees it."""
 
     part: DrawnEllipsoid
-    visible: float  # share of its pixels, beside those that the neck takes, that no hand hides
+    visible: float  # share of its pixels that no hand hides, of those that the neck doesn't hide
 
 
 class _FrameTruth(NamedTuple):
-    """One frame and its truth."""
+    """A frame and its truth."""
 
     frame: Frame
     box: Box
@@ -100,62 +101,61 @@ class _FrameTruth(NamedTuple):
 
 
 class _StereoStage(NamedTuple):
-    """The pair before an empty room."""
+    """The stereo pair and the room without the person."""
 
-    eyes: tuple[RayCamera, RayCamera]
+    cameras: tuple[RayCamera, RayCamera]
     empty: tuple[RayImage, RayImage]
     lamp: Lamp
-    unequal: float  # the right camera's gain over the left one's
+    right_gain: float  # the right camera's gain divided by the left one's
 
     @classmethod
     def build(
-        cls, eyes: tuple[RayCamera, RayCamera], room: StereoRoom, rng: np.random.Generator
+        cls, cameras: tuple[RayCamera, RayCamera], room: StereoRoom, rng: np.random.Generator
     ) -> "_StereoStage":
         direction = rng.uniform([-0.8, -1.0, -1.0], [0.8, -0.4, -0.5])
         lamp = Lamp(direction / np.linalg.norm(direction), rng.uniform(0.45, 0.65))
-        empty = tuple(render_room(eye, room, lamp) for eye in eyes)
-        return cls(eyes, (empty[0], empty[1]), lamp, rng.uniform(0.95, 1.05))
+        empty = tuple(render_room(camera, room, lamp) for camera in cameras)
+        return cls(cameras, (empty[0], empty[1]), lamp, rng.uniform(0.95, 1.05))
 
-    def shoot(
+    def record(
         self, actor: Actor, index: int, color: Array, noise: float, rng: np.random.Generator
     ) -> _FrameTruth:
+        """The stereo pair of a frame. color: (3,) gain of each channel."""
         pose = actor.pose_at(index)
-        (left, sight), (right, _) = (
-            self._draw(pose, eye, empty) for eye, empty in zip(self.eyes, self.empty, strict=True)
+        (left, seen), (right, _) = (
+            self._draw(pose, camera, empty) for camera, empty in zip(self.cameras, self.empty, strict=True)
         )
         images = [
-            expose_lit(eye.average_rays(canvas), color * camera, noise, rng)
-            for eye, canvas, camera in zip(self.eyes, (left, right), (1.0, self.unequal), strict=True)
+            expose_lit(camera.average_rays(canvas), color * gain, noise, rng)
+            for camera, canvas, gain in zip(self.cameras, (left, right), (1.0, self.right_gain), strict=True)
         ]
         frame = Frame(images[0], right=images[1], timestamp=index / head_moves.HEAD_FRAME_RATE)
-        return _FrameTruth(
-            frame, self._box(pose.head), self._position(sight.part), sight.visible, pose.facing
-        )
+        return _FrameTruth(frame, self._box(pose.head), self._position(seen.part), seen.visible, pose.facing)
 
-    def _draw(self, pose: PosedActor, eye: RayCamera, empty: RayImage) -> tuple[RayImage, _VisibleHead]:
+    def _draw(self, pose: PosedActor, camera: RayCamera, empty: RayImage) -> tuple[RayImage, _VisibleHead]:
         canvas = empty.copy()
-        part, *_ = eye.draw_ellipsoids(canvas, [pose.head, *pose.body], self.lamp)
+        part, *_ = camera.draw_ellipsoids(canvas, [pose.head, *pose.body], self.lamp)
         assert part is not None  # the paths keep the head in both images
         own = canvas.depth[part.place] == part.depth
-        eye.draw_ellipsoids(canvas, pose.hand, self.lamp)
+        camera.draw_ellipsoids(canvas, pose.hand, self.lamp)
         left = own & (canvas.depth[part.place] == part.depth)
         return canvas, _VisibleHead(part, float(left.sum() / own.sum()))
 
     def _position(self, part: DrawnEllipsoid) -> Array:
-        """The mean of the surface points that the left camera's rays hit."""
+        """The mean (3,) of the surface points that the left camera's rays hit, metres."""
         (rows, columns), depth = part
         v, u = np.nonzero(np.isfinite(depth))
-        points = self.eyes[0].intrinsics.back_project(u + columns.start, v + rows.start, depth[v, u])
+        points = self.cameras[0].intrinsics.back_project(u + columns.start, v + rows.start, depth[v, u])
         return np.asarray(points.mean(axis=0))
 
-    def _box(self, head_: TexturedEllipsoid) -> Box:
-        """Round the head's outline in pixels of the left image, from that in the grid of rays."""
-        eye = self.eyes[0]
-        shape = np.linalg.inv(head_.unit.T @ head_.unit)
-        sides = MountedCamera(eye.intrinsics, 0.0, 0.0).ellipsoid_boxes(
-            Ellipsoids(head_.center[None], shape[None])
+    def _box(self, head: TexturedEllipsoid) -> Box:
+        """The box of the head's outline in the left image; the camera's grid has several rays per pixel."""
+        camera = self.cameras[0]
+        shape = np.linalg.inv(head.unit.T @ head.unit)
+        sides = MountedCamera(camera.intrinsics, 0.0, 0.0).ellipsoid_boxes(
+            Ellipsoids(head.center[None], shape[None])
         )[0]
-        return Box.from_xyxy(*(sides / eye.rays).tolist())
+        return Box.from_xyxy(*(sides / camera.rays).tolist())
 
 
 def _rig(camera: str, rng: np.random.Generator) -> StereoRig:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How a head moves before a stereo pair, how the light changes meanwhile, and how a hand hides it."""
+"""Motion of a head before a stereo pair, changes of the light, and a hand that hides the head."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -10,26 +10,26 @@ from tricue.scenes import motion
 from tricue.scenes.arrays import Array
 from tricue.scenes.motion import sample_sway
 
-HEAD_FRAME_RATE = 30.0  # frames a second
-WALKING_SPEEDS = 0.7, 1.4  # metres a second of a walk's straight stretches
-STEP_LENGTH = 0.7  # metres a step
-RAMP_FRAMES, RAMP_END_GAIN = 100, 0.5  # frames that the ramp takes, and the light after it
-HAND_SLIDE_FRAMES = 6  # frames that a hand takes to come, and to leave
-HAND_START_DISTANCE = 0.6  # metres along the forearm from where it comes; outside the image
+HEAD_FRAME_RATE = 30.0  # frames per second
+WALKING_SPEEDS = 0.7, 1.4  # metres per second, on the straight parts of a path
+STEP_LENGTH = 0.7  # metres per step
+RAMP_FRAMES, RAMP_END_GAIN = 100, 0.5  # duration of the ramp, and the gain at its end
+HAND_SLIDE_FRAMES = 6  # that a hand takes to come, and to leave
+HAND_START_DISTANCE = 0.6  # metres along the forearm; there it is outside the image
 
 
 class HeadRange(NamedTuple):
-    """Where the head's centre may be: depths, and the image's half angles of view as slopes."""
+    """Where the head's center may be, so that both cameras see the head."""
 
-    near: float  # metres
+    near: float  # metres of depth
     far: float
-    side: float  # tangents
-    up: float
-    baseline: float  # metres; the right camera has to see the head too
+    side: float  # tangent of half the horizontal angle of view
+    up: float  # the same, vertical
+    baseline: float  # metres
 
 
 class HeadMotion(NamedTuple):
-    """Per frame, M of them. Angles in radians; at 0 the face looks along -z, at the cameras."""
+    """A head's motion over M frames. Angles in radians; at 0 the face looks along -z, at the cameras."""
 
     center: Array  # (M, 3) of the head, metres, left camera's frame
     yaw: Array  # (M,)
@@ -41,15 +41,18 @@ class HeadMotion(NamedTuple):
 
 
 class HandMotion(NamedTuple):
-    """A hand before the head, per frame."""
+    """A hand in front of the head, over M frames."""
 
-    share: float  # its depth as a share of the head's
-    away: Array  # (M,) how far it still is from the line of sight to the head, metres along the forearm
-    tilt: float  # of the forearm from the vertical
+    depth_ratio: float  # its depth as a share of the head's
+    offset: Array  # (M,) from the line of sight to the head, metres along the forearm
+    tilt: float  # of the forearm from the vertical, radians
 
 
 def sample_walk(frames: int, room: HeadRange, turning: bool, rng: np.random.Generator) -> HeadMotion:
-    """A smooth walk in x, y and z at one of SPEEDS; the head looks about, or turns round wholly."""
+    """A smooth random walk at a speed within WALKING_SPEEDS.
+
+    The head looks around; with ``turning`` the person also turns around completely.
+    """
     time = np.arange(frames) / HEAD_FRAME_RATE
     center = _path(time, room, rng)
     turn = _turns(time, rng) if turning else np.zeros(frames)
@@ -63,33 +66,35 @@ def sample_walk(frames: int, room: HeadRange, turning: bool, rng: np.random.Gene
     )
 
 
-def sample_smooth_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
-    """A gain (M,) that swings smoothly between 1 - reach and 1 + reach, both reached in a second or three."""
+def sample_smooth_light(frames: int, amplitude: float, rng: np.random.Generator) -> Array:
+    """A gain (M,) that varies smoothly between 1 - amplitude and 1 + amplitude, reaching both."""
     curve = sample_sway(np.arange(frames) / HEAD_FRAME_RATE, 1.5, 4.0, rng)
     low, high = float(curve.min()), float(curve.max())
     share = (curve - low) / (high - low) if high > low else np.full(frames, 0.5)
-    return 1 + reach * (2 * share - 1)
+    return 1 + amplitude * (2 * share - 1)
 
 
-def sample_jumping_light(frames: int, reach: float, rng: np.random.Generator) -> Array:
-    """A gain (M,) that changes at once every 10 to 20 frames, within 1 - reach and 1 + reach; 1 at first."""
-    return motion.sample_gain_steps(frames, 1 - reach, 1 + reach, rng) if reach else np.ones(frames)
+def sample_jumping_light(frames: int, amplitude: float, rng: np.random.Generator) -> Array:
+    """A gain (M,) within 1 +- amplitude that jumps every 10 to 20 frames; 1 at first."""
+    return (
+        motion.sample_gain_steps(frames, 1 - amplitude, 1 + amplitude, rng) if amplitude else np.ones(frames)
+    )
 
 
 def make_ramp_light(frames: int) -> Array:
-    """A gain (M,) that falls evenly from 1 to 0.5 within the first 100 frames."""
+    """A gain (M,) that falls linearly from 1 to 0.5 within the first 100 frames."""
     share: Array = np.minimum(np.arange(frames) / (RAMP_FRAMES - 1), 1)
     return 1 + share * (RAMP_END_GAIN - 1)
 
 
 def sample_tint(frames: int, rng: np.random.Generator) -> Array:
-    """The light's color (M, 3): factors within some percent of 1 that drift slowly."""
+    """The light's color (M, 3): a factor per channel, within a few percent of 1, that drifts slowly."""
     time = np.arange(frames) / HEAD_FRAME_RATE
     return np.exp(0.04 * np.stack([sample_sway(time, 3.0, 8.0, rng) for _ in range(3)], axis=1))
 
 
 def sample_hand(frames: int, rng: np.random.Generator) -> HandMotion:
-    """A hand that comes about the middle, covers the head for 10 to 16 frames, and leaves."""
+    """A hand that comes about halfway, covers the head for 10 to 16 frames, and leaves."""
     held = int(rng.integers(10, 17))
     start = max(round(frames * rng.uniform(0.32, 0.45)), 1)
     early, late = start - np.arange(frames), np.arange(frames) - (start + held - 1)
@@ -100,7 +105,7 @@ def sample_hand(frames: int, rng: np.random.Generator) -> HandMotion:
 
 
 def _path(time: Array, room: HeadRange, rng: np.random.Generator) -> Array:
-    """The centre (M, 3): sums of sines in depth and to the sides, at a walker's pace."""
+    """The head's center (M, 3), metres: sums of sines in depth and sideways, at walking speed."""
     nearest = room.near + 0.35 * (room.far - room.near) * rng.random() ** 2
     farthest = room.far - 0.4 * (room.far - nearest) * rng.random() ** 2
     phases, turns = rng.uniform(0, 2 * np.pi, 4), rng.uniform(0.8, 2.0, 2) * [1.0, 2.0]
@@ -119,15 +124,15 @@ def _path(time: Array, room: HeadRange, rng: np.random.Generator) -> Array:
 
 
 def _pace(curve: Callable[[Array], Array], time: Array, speed: float) -> Array:
-    """The angles (M,) at which a walker is on a curve: at a speed in m/s on long stretches, slower in turns.
+    """The curve parameters (M,) of a walker: at ``speed`` (m/s) on straight parts, slower in turns.
 
-    A step is at most speed / RATE metres long.
+    Between two frames the walker moves by speed / HEAD_FRAME_RATE metres at most.
     """
     dense = np.linspace(0, 2 * np.pi, 2001)
     walked, step = [0.0], dense[1]
     angles = [0.0]
     while walked[-1] < time[-1]:
-        metres = np.hypot(*np.diff(curve(angles[-1] + dense), axis=0).T) / step  # a radian
+        metres = np.hypot(*np.diff(curve(angles[-1] + dense), axis=0).T) / step  # per radian
         seconds = np.hypot(metres, 0.35 * metres.max()) * step / speed
         walked += (walked[-1] + np.cumsum(seconds)).tolist()
         angles += (angles[-1] + dense[1:]).tolist()
@@ -135,7 +140,7 @@ def _pace(curve: Callable[[Array], Array], time: Array, speed: float) -> Array:
 
 
 def _turns(time: Array, rng: np.random.Generator) -> Array:
-    """Yaw of who turns the back, stays so for a moment, and comes round or back again; over and over."""
+    """The yaw (M,) of a person who repeatedly turns away, pauses, and turns on or back to the cameras."""
     moments, angles, sense = [0.0], [0.0], rng.choice([-1, 1])
     while moments[-1] <= time[-1]:
         pause, away, back, home = rng.uniform([0.3, 0.7, 0.3, 0.7], [0.6, 1.1, 0.7, 1.1]).tolist()
@@ -150,5 +155,5 @@ def _turns(time: Array, rng: np.random.Generator) -> Array:
 
 
 def _ease(share: Array) -> Array:
-    """From 0 to 1, starting and ending at rest."""
+    """Ease in and out: from 0 to 1, with slope 0 at both ends."""
     return share**2 * (3 - 2 * share)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A room behind somebody who walks before a stereo pair: wall, floor, and things at all depths."""
+"""A room behind a person before a stereo pair: wall, floor, and textured things at all depths."""
 
 from typing import NamedTuple
 
@@ -18,13 +18,13 @@ from tricue.scenes.rendering.stereo_camera import (
     TexturedRectangle,
 )
 
-MIN_GAP_BEHIND_HEAD = 0.35  # metres that a thing is behind the head, where it is on the same line of sight
-HEAD_RADIUS = 0.16  # metres, radius of what has to stay free round the head's centre
+MIN_GAP_BEHIND_HEAD = 0.35  # metres, where both are on one line of sight
+HEAD_RADIUS = 0.16  # metres, of the space around the head's center that stays free
 MAX_RECTANGLES, MAX_RECTANGLE_TRIES = 12, 60
 
 
 class StereoRoom(NamedTuple):
-    """All that doesn't move."""
+    """The static things of a scene, in the left camera's frame."""
 
     rectangles: list[TexturedRectangle]
     ellipsoids: list[TexturedEllipsoid]
@@ -33,10 +33,10 @@ class StereoRoom(NamedTuple):
 def furnish_room(
     rig: StereoRig, path: Array, floor: float, skin: NDArray[np.float64] | None, rng: np.random.Generator
 ) -> StereoRoom:
-    """A room for a head that walks along ``path`` (M, 3).
+    """A random room for a head that moves along ``path`` (M, 3), metres, always in front of all things.
 
-    Wherever things stand, the head is before them. skin: a color (3,) that some things have, on the lines of
-    sight to the path; None for none.
+    floor: its height y, metres. skin: a color (3,), BGR, for some things on lines of sight to the path; None
+    for no such things.
     """
     wall = float(path[:, 2].max()) + rng.uniform(1.0, 2.5)
     rectangles = [_wall(wall, rng), _floor(floor, wall, rng)]
@@ -60,18 +60,21 @@ def furnish_room(
     return StereoRoom(rectangles + skin_colored.rectangles, skin_colored.ellipsoids)
 
 
-def render_room(eye: RayCamera, room: StereoRoom, lamp: Lamp) -> RayImage:
-    """The room as a camera's rays see it."""
-    shape = eye.intrinsics.height, eye.intrinsics.width
+def render_room(camera: RayCamera, room: StereoRoom, lamp: Lamp) -> RayImage:
+    """Render the room for a camera."""
+    shape = camera.intrinsics.height, camera.intrinsics.width
     canvas = RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
     for rectangle in room.rectangles:
-        eye.draw_rectangle(canvas, rectangle)
-    eye.draw_ellipsoids(canvas, room.ellipsoids, lamp)
+        camera.draw_rectangle(canvas, rectangle)
+    camera.draw_ellipsoids(canvas, room.ellipsoids, lamp)
     return canvas
 
 
 def is_clear(center: Array, radius: float, path: Array) -> bool:
-    """Whether the head is before a thing, with room to spare, wherever it is on its lines of sight."""
+    """Whether the head stays in front of a thing, with a margin, wherever both share a line of sight.
+
+    center, radius: the thing's, metres. path: (M, 3) of the head.
+    """
     apart = np.hypot(*(path[:, :2] / path[:, 2:] - center[:2] / center[2]).T)
     meets = apart < HEAD_RADIUS / path[:, 2] + radius / center[2] + 0.05  # parallax of the right camera
     return bool(np.all(center[2] - radius > path[meets, 2] + MIN_GAP_BEHIND_HEAD))
@@ -80,7 +83,7 @@ def is_clear(center: Array, radius: float, path: Array) -> bool:
 def _place_skin_colored_things(
     path: Array, wall: float, skin: NDArray[np.float64], rng: np.random.Generator
 ) -> StereoRoom:
-    """Things of the color of skin behind the path: a door or a box, and some of a head's size."""
+    """Skin-colored things behind the path: a large rectangle, and ellipsoids of a head's size."""
     room = StereoRoom([], [])
     for index in range(4):
         on_path = path[rng.integers(len(path))]
@@ -108,7 +111,7 @@ def _place_skin_colored_things(
 
 
 def _wall(depth: float, rng: np.random.Generator) -> TexturedRectangle:
-    """The back wall, which isn't quite parallel to the images."""
+    """The back wall, not quite parallel to the image planes."""
     kind = str(rng.choice([textures.PLAIN_SURFACE, textures.BLOTCHED_SURFACE, textures.WOOD_SURFACE]))
     color = 0.5 * textures.random_color(rng) + rng.uniform(40, 90)
     texture = textures.build_pyramid(textures.make_surface(kind, (512, 1024), color, rng))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A hall behind people who walk past a stereo pair that turns: walls, a floor, and things at all depths."""
+"""A hall behind walkers before a panning stereo pair: walls, a floor, and textured things at all depths."""
 
 import math
 from typing import NamedTuple
@@ -12,45 +12,46 @@ from tricue.scenes.rendering.rectangles import make_rectangle_texture, make_upri
 from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage, TexturedRectangle
 
 HALL_RECTANGLES = 16
-MIN_GAP_BEHIND_WALKERS = 1.4  # metres that things stay behind who walks farthest away
-HALL_HALF_WIDTH = 7.0  # metres to the walls at the sides
-WALL_HEIGHT, MAX_HANGING_HEIGHT = 5.0, 3.2  # metres above the floor: of the walls, and of what hangs on them
-RECTANGLE_OVERLAP = 0.01  # metres that boards reach over each other, so that no ray passes between them
+MIN_GAP_BEHIND_WALKERS = 1.4  # metres behind the farthest path
+HALL_HALF_WIDTH = 7.0  # metres
+WALL_HEIGHT, MAX_HANGING_HEIGHT = 5.0, 3.2  # metres above the floor: of walls, and of things on them
+RECTANGLE_OVERLAP = 0.01  # metres, so that no ray passes between two rectangles
 FLOOR_STRIP_DEPTHS = np.array([3.0, 4.8, 5.8, 7.0, 8.6, 11.0])  # metres, z of the floor's strips
 
 
 class Hall(NamedTuple):
-    """All that doesn't move, in the level frame."""
+    """The static things of a scene, in the level frame (see tricue.scenes.overtakings.pan)."""
 
     rectangles: list[TexturedRectangle]
 
-    def draw(self, eye: RayCamera, to_camera: Array) -> RayImage:
-        """The hall as a camera's rays see it that has turned."""
-        shape = eye.intrinsics.height, eye.intrinsics.width
+    def render(self, camera: RayCamera, to_camera: Array) -> RayImage:
+        """Render the hall for a camera. to_camera: rotation (3, 3) from the level frame to the camera's."""
+        shape = camera.intrinsics.height, camera.intrinsics.width
         canvas = RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
         for corner, along, down, texture in self.rectangles:
-            eye.draw_rectangle(
+            camera.draw_rectangle(
                 canvas, TexturedRectangle(to_camera @ corner, to_camera @ along, to_camera @ down, texture)
             )
         return canvas
 
-    def seen_at(self, focal: float) -> "Hall":
-        """The same with textures as detailed as a camera of this focal length (pixels) sees them."""
+    def at_detail(self, focal: float) -> "Hall":
+        """The hall with the texture levels that fit a camera of this focal length, pixels."""
         return Hall([_in_detail(rectangle, focal) for rectangle in self.rectangles])
 
 
 def furnish_hall(
     floor: float, farthest: float, angles: tuple[float, float], rng: np.random.Generator
 ) -> Hall:
-    """A hall whose floor is at the height y = ``floor``.
+    """A random hall with its floor at y = ``floor``, metres.
 
-    farthest: metres from the cameras up to which people walk; angles: what the cameras see, radians.
+    farthest: the largest distance of a path from the cameras, metres. angles: the leftmost and the rightmost
+    angle that the cameras see, radians.
     """
     wall = farthest + rng.uniform(3.5, 6.0)
     rectangles = [*_walls(wall, floor, rng), *_floor(wall, floor, rng)]
     low, high = (float(np.clip(angle, -1.0, 1.0)) for angle in angles)
     for place in rng.permutation(HALL_RECTANGLES).tolist():
-        # One in each of as many sectors, so that there is something everywhere.
+        # One in each of as many sectors, so that there are things in all directions.
         angle = low + (place + rng.random()) / HALL_RECTANGLES * (high - low)
         deepest = min(wall / math.cos(angle), HALL_HALF_WIDTH / max(abs(math.sin(angle)), 1e-6)) - 0.3
         near = farthest + MIN_GAP_BEHIND_WALKERS
@@ -60,7 +61,7 @@ def furnish_hall(
 
 
 def _walls(depth: float, floor: float, rng: np.random.Generator) -> list[TexturedRectangle]:
-    """Behind and at both sides, higher than the images reach."""
+    """Walls behind and at both sides, higher than the images show."""
     kind = str(rng.choice([textures.PLAIN_SURFACE, textures.BLOTCHED_SURFACE, textures.WOOD_SURFACE]))
     color = 0.5 * textures.random_color(rng) + rng.uniform(50, 100)
     top, high = floor - WALL_HEIGHT, np.array([0, WALL_HEIGHT + RECTANGLE_OVERLAP, 0])
@@ -81,7 +82,7 @@ def _walls(depth: float, floor: float, rng: np.random.Generator) -> list[Texture
 
 
 def _floor(depth: float, floor: float, rng: np.random.Generator) -> list[TexturedRectangle]:
-    """In strips, as no one level of its texture suits what is near and what is far."""
+    """The floor in strips by depth, so that near and far strips have texture levels of their own."""
     kind = str(
         rng.choice(
             [
@@ -108,7 +109,7 @@ def _floor(depth: float, floor: float, rng: np.random.Generator) -> list[Texture
 
 
 def _thing(angle: float, depth: float, floor: float, rng: np.random.Generator) -> TexturedRectangle:
-    """A cupboard on the floor, or something on a wall or a stand; it faces the cameras, more or less."""
+    """A thing on the floor or hanging, that roughly faces the cameras."""
     half = rng.uniform([0.25, 0.3], [0.7, 1.0])
     stands = rng.random() < 0.6
     y = floor - half[1] if stands else floor - rng.uniform(half[1] + 0.2, MAX_HANGING_HEIGHT - half[1])

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A stereo pair that turns about the vertical with constant angular velocity.
+"""A stereo rig that pans about the vertical with constant angular velocity.
 
-Level frame: fixed to the room, the left camera at its origin; x right, y down, z forward, metres. The pair
-turns about the left camera's centre, so that what stands still keeps its disparity but for its angle.
+The level frame is fixed to the room, with the left camera at its origin: x right, y down, z forward, metres.
+The rig rotates about the left camera's center.
 """
 
 import math
@@ -16,26 +16,26 @@ from tricue.scenes.people.body import rotation_about_y
 
 
 class Pan(NamedTuple):
-    """Where the pair looks, frame by frame."""
+    """The rig, and the angle that it looks at in each of M frames."""
 
     rig: StereoRig
     height: float  # of the cameras above the floor, metres
-    angles: Array  # (M,) of where the pair looks, radians from z towards x
+    angles: Array  # (M,) radians from z towards x
 
     def to_camera(self, index: int) -> Array:
-        """The rotation (3, 3) from the level frame to the left camera's."""
+        """The rotation (3, 3) from the level frame to the left camera's frame."""
         return rotation_about_y(-float(self.angles[index]))
 
     def on_floor(self, column: Array, depth: Array) -> Array:
-        """The places (M, 2), x and z of the level frame, seen at a column and a depth z in each frame.
+        """The places (M, 2), x and z in the level frame, at a column and a depth in each frame.
 
-        column: as a share of the focal length right of the principal point, (X / Z in the camera's frame).
+        column: X / Z in the camera's frame. depth: z in the camera's frame, metres.
         """
         sin, cos = np.sin(self.angles), np.cos(self.angles)
         return np.stack([(cos * column + sin) * depth, (cos - sin * column) * depth], axis=1)
 
     @property
     def reach(self) -> tuple[float, float]:
-        """The leftmost and the rightmost angle that the left camera ever sees, radians."""
+        """The leftmost and the rightmost angle that the left camera sees in any frame, radians."""
         half = math.atan(self.rig.intrinsics.width / 2 / self.rig.intrinsics.fx)
         return float(self.angles.min()) - half, float(self.angles.max()) + half

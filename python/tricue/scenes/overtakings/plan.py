@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Who walks where when somebody is overtaken: figure 8 of Okada, Shirai and Miura (1996), section 5.
+"""The paths of an overtaking, as in figure 8 of Okada, Shirai and Miura (1996), section 5.
 
-Ways are drawn as columns and depths in the picture, and laid on the floor. Lengths in the picture are pixels
-of an image 160 pixels wide, whatever the camera, and the story's 100 frames are those of the paper.
+Paths are planned as image columns and depths, and projected to the floor. Lengths in the image are pixels at
+a width of 160, whatever the camera has. The 100 frames of all events are those of the paper.
 """
 
 import math
@@ -15,30 +15,28 @@ from tricue.scenes.arrays import Array
 from tricue.scenes.overtakings.pan import Pan
 from tricue.scenes.people.body import Person
 
-OVERTAKING_FRAME_RATE = 15.0  # frames a second: 100 in the paper's 6.7 s
-STORY_FRAMES = 100  # frames
+OVERTAKING_FRAME_RATE = 15.0  # frames per second; the paper's 100 frames take 6.7 s
+STORY_FRAMES = 100  # in which all events happen
 REFERENCE_WIDTH = 160  # pixels
 
 
 class OvertakingPlan(NamedTuple):
-    """The numbers that make one scene."""
+    """The parameters of one scene."""
 
-    direction: int  # -1: from right to left
-    field_of_view: float  # the horizontal angle of view, degrees
-    pan_speed: float  # pixels a frame by which the background moves, against the target
-    target_speed: float  # pixels a frame of the target in the picture
-    target_height: float  # the target's height in the picture, pixels
-    target_disparity: float  # the target's, pixels
-    disparity_ratio: float  # the overtaker's disparity over the target's
-    speed_gain: float  # pixels a frame that the overtaker gains on the target
-    overtaking_frame: float  # the frame in which one is behind the other
-    passing_frame: float  # the frame in which the target passes who stands
-    standing_depth_offset: (
-        float  # metres that who stands is farther away than the target then; below 0 nearer
-    )
-    depth_drift: float  # by which share the target's depth changes over the story
-    height_ratio: float  # the overtaker's height over the target's, metres over metres
-    clothes_contrast: tuple[float, float, float]  # of each one's clothes
+    direction: int  # of walking: 1 from left to right, -1 from right to left
+    field_of_view: float  # horizontal angle of view, degrees
+    pan_speed: float  # pixels per frame of the background, against the target's direction
+    target_speed: float  # pixels per frame of the target in the image
+    target_height: float  # pixels
+    target_disparity: float  # pixels
+    disparity_ratio: float  # the overtaker's disparity divided by the target's
+    speed_gain: float  # pixels per frame by which the overtaker is faster
+    overtaking_frame: float  # the frame in which the overtaker covers the target
+    passing_frame: float  # the frame in which the target passes the standing person
+    standing_depth_offset: float  # metres from the target to the standing person then; below 0 nearer
+    depth_drift: float  # relative change of the target's depth over all events
+    height_ratio: float  # the overtaker's body height divided by the target's
+    clothes_contrast: tuple[float, float, float]  # of target, overtaker, standing person
 
 
 PLAIN_PLAN = OvertakingPlan(
@@ -82,19 +80,19 @@ def sample_plan(rng: np.random.Generator) -> OvertakingPlan:
 
 
 class OvertakingPaths(NamedTuple):
-    """Where everybody is, level frame."""
+    """Where the three people are, metres in the level frame."""
 
     pan: Pan
-    target: Array  # (M, 2) x and z, metres
+    target: Array  # (M, 2) x and z
     overtaker: Array  # (M, 2)
     standing: Array  # (2,)
-    depths: tuple[float, float, float]  # of the three, metres, in the middle of the story
+    depths: tuple[float, float, float]  # of the three, halfway through the events
 
 
 def plan_paths(
     plan: OvertakingPlan, person: Person, camera: str, frames: int, rng: np.random.Generator
 ) -> OvertakingPaths:
-    """The ways for ``frames`` frames of a target of this height."""
+    """The paths for a plan over ``frames`` frames. person: the target."""
     width, height = map(int, camera.split("x"))
     intrinsics = Intrinsics.from_fov(width, height, plan.field_of_view)
     focal = intrinsics.fx * REFERENCE_WIDTH / width
@@ -105,8 +103,8 @@ def plan_paths(
     column = plan.direction * plan.target_speed * (time - STORY_FRAMES / 2) / focal
     gained = plan.direction * plan.speed_gain * (time - plan.overtaking_frame) / focal
     depths = depth * (1 + plan.depth_drift * (time / STORY_FRAMES - 0.5))
-    # At a frame between two: where the target would be, and there somebody stands a bit farther or nearer.
-    there = pan._replace(
+    # The passing frame may lie between two frames; the person stands where the target is then, but for depth.
+    pan_at_passing = pan._replace(
         angles=np.array(
             [plan.direction * plan.pan_speed / focal * (plan.passing_frame - STORY_FRAMES / 2)], float
         )
@@ -120,11 +118,11 @@ def plan_paths(
         pan,
         pan.on_floor(column, depths),
         pan.on_floor(column + gained, depths / plan.disparity_ratio),
-        there.on_floor(across, np.array([at]))[0],
+        pan_at_passing.on_floor(across, np.array([at]))[0],
         (depth, depth / plan.disparity_ratio, depth + plan.standing_depth_offset),
     )
 
 
 def heading_to_camera(place: Array) -> float:
-    """The angle at which somebody at a place (2,) looks at the cameras, radians from z towards x."""
+    """The heading of a person at a place (2,) who looks at the cameras, radians from z towards x."""
     return math.atan2(-place[0], -place[1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The truth about each pixel of a scene with walkers: who is there, how far, and where it was before."""
+"""The truth at each pixel of a walking scene: visibility, depth, disparity and flow."""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import Generic, NamedTuple, TypeVar, overload
@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 
 class LazySequence(Sequence[T], Generic[T]):
-    """A sequence whose items are made when they are asked for, and not kept."""
+    """A sequence whose items are computed on access, and not kept."""
 
     def __init__(self, count: int, make: Callable[[int], T]) -> None:
         self._count, self._make = count, make
@@ -45,12 +45,12 @@ class LazySequence(Sequence[T], Generic[T]):
 
 
 class FrameTruth(NamedTuple):
-    """The people in one frame, as the left camera sees them."""
+    """The people in one frame, in the left camera's image and frame."""
 
     target: Bystander
     others: tuple[Bystander, Bystander]
     mask: Mask  # (H, W), the target's visible pixels
-    visible_box: Box | None  # round the mask
+    visible_box: Box | None  # of the mask
     visible: float  # share of the target's pixels that are in the mask
 
 
@@ -61,8 +61,8 @@ class WalkGeometry(NamedTuple):
     hall: Hall
     people: list[Pedestrian]
 
-    def sight(self, index: int) -> FrameTruth:
-        """Where the people are in a frame, and what is seen of the target."""
+    def truth_at(self, index: int) -> FrameTruth:
+        """Where the people are in a frame, and which pixels of the target are visible."""
         bodies = [self._parts(index, person).ellipsoids for person in self.people]
         windows = [self._view.render(body) for body in bodies]
         target, overtaker, standing = (
@@ -76,36 +76,36 @@ class WalkGeometry(NamedTuple):
         return FrameTruth(target, (overtaker, standing), mask, zbuffer.box_of_mask(mask), visible)
 
     def depth(self, index: int) -> Array:
-        """What is at each pixel's centre, (H, W) metres along z."""
-        return self._seen(index)[0]
+        """The depth z (H, W) at each pixel's center, metres."""
+        return self._render(index)[0]
 
     def disparity(self, index: int) -> NDArray[np.float32]:
-        """(H, W) pixels, of the left image."""
+        """The disparity (H, W) of the left image, pixels."""
         rig = self.pan.rig
         return (rig.intrinsics.fx * rig.baseline / self.depth(index)).astype(np.float32)
 
     def flow(self, index: int) -> NDArray[np.float32]:
-        """(H, W, 2) pixels along x and y by which what is at each pixel has moved since the frame before."""
+        """The motion (H, W, 2), pixels along x and y, since the last frame of the surface at each pixel."""
         if index == 0:
             return np.full((*self._shape, 2), np.nan, np.float32)
-        depth, owner = self._seen(index)
+        depth, owner = self._render(index)
         now, before = self.pan.to_camera(index), self.pan.to_camera(index - 1)
         moves = [np.column_stack([before @ now.T, np.zeros(3)])]
         for person in self.people:
-            was, is_ = self._parts(index - 1, person), self._parts(index, person)
-            turn = was.roots @ np.linalg.inv(is_.roots)
-            offset = was.centers[:, :, None] - turn @ is_.centers[:, :, None]
-            moves += list(np.concatenate([turn, offset], axis=2))
+            earlier_parts, parts = self._parts(index - 1, person), self._parts(index, person)
+            rotation = earlier_parts.roots @ np.linalg.inv(parts.roots)
+            offset = earlier_parts.centers[:, :, None] - rotation @ parts.centers[:, :, None]
+            moves += list(np.concatenate([rotation, offset], axis=2))
         v, u = np.indices(self._shape)
         points = self.pan.rig.intrinsics.back_project(u, v, depth)
         move = np.stack(moves)[owner]
         earlier = (move[..., :3] @ points[..., None])[..., 0] + move[..., 3]
         return (np.stack([u, v], axis=-1) - self.pan.rig.intrinsics.project(earlier)).astype(np.float32)
 
-    def _seen(self, index: int) -> tuple[Array, NDArray[np.intp]]:
-        """Depth (H, W), and whose part is there: 0 for the hall, then all people's parts in order."""
-        eye = RayCamera(self.pan.rig.intrinsics, 0.0, 1)
-        depth = self.hall.draw(eye, self.pan.to_camera(index)).depth.astype(np.float64)
+    def _render(self, index: int) -> tuple[Array, NDArray[np.intp]]:
+        """The depth (H, W), and the owner of each pixel: 0 is the hall, then all people's parts in order."""
+        camera = RayCamera(self.pan.rig.intrinsics, 0.0, 1)
+        depth = self.hall.render(camera, self.pan.to_camera(index)).depth.astype(np.float64)
         owner = np.zeros(self._shape, np.intp)
         number = 0
         for person in self.people:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""A body made of ellipsoids: a few numbers bend its joints, and its outline and its depth stay exact.
+"""A human body made of ellipsoids, posed by a few joint angles; its outline and depth are exact.
 
-Body frame: x to the person's right, y down, z where the person faces, metres; the origin lies on the floor.
-Lengths are the shares of the height of Drillis and Contini (1966), as in figure 4.1 of Winter,
-"Biomechanics and Motor Control of Human Movement"; thicknesses are our own estimates.
+Body frame: x to the person's right, y down, z forward, metres; the origin is on the floor. Lengths are those
+of Drillis and Contini (1966), as shares of the height, from figure 4.1 of Winter, "Biomechanics and Motor
+Control of Human Movement". Thicknesses are our own estimates.
 """
 
 import math
@@ -14,11 +14,11 @@ import numpy as np
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering.ellipsoids import Ellipsoids, OrientedEllipsoids
 
-# Shares of the height: joints above the floor and beside the middle, then lengths between joints.
+# As shares of the height: joints above the floor and beside the middle, then lengths between joints.
 ANKLE, HIP, SHOULDER = 0.039, 0.530, 0.818
 HIP_SIDE, SHOULDER_SIDE = 0.050, 0.112
 THIGH, SHANK, UPPER_ARM, FOREARM, HAND = 0.245, 0.246, 0.186, 0.146, 0.108
-# Trunk and head upright, in shares of the height: height of the centre, semi-axes along x, y, z.
+# Upright trunk and head, as shares of the height: height of the center, semi-axes along x, y, z.
 TRUNK_PARTS = {
     "pelvis": (0.545, 0.094, 0.080, 0.066),
     "waist": (0.630, 0.082, 0.090, 0.058),
@@ -27,37 +27,37 @@ TRUNK_PARTS = {
     "neck": (0.855, 0.034, 0.050, 0.034),
     "head": (0.932, 0.045, 0.068, 0.056),
 }
-UNSCALED_PARTS = ("neck", "head")  # they don't grow with the build
+UNSCALED_PARTS = ("neck", "head")  # not scaled by the build
 
 
 class Person(NamedTuple):
-    """What doesn't change in a person."""
+    """A person's measures."""
 
     height: float  # metres
-    build: float  # breadth and thickness, 1 for the average
+    build: float  # breadth and thickness, relative to the average
 
     @classmethod
     def sample(cls, rng: np.random.Generator, shortest: float = 1.55) -> "Person":
-        """A random adult, 1.55 (or ``shortest``) to 1.95 m tall."""
+        """A random adult between ``shortest`` and 1.95 m tall."""
         return cls(rng.uniform(shortest, 1.95), rng.uniform(0.9, 1.15))
 
 
 class BodyPose(NamedTuple):
-    """How the joints are bent; the default stands at ease."""
+    """How the joints are bent; by default the person stands."""
 
-    gait: float = 0.0  # phase of the stride, radians; 2 pi is two steps
-    swing: float = 0.0  # how far the legs swing to each side, radians
+    gait: float = 0.0  # phase of the stride, radians; 2 pi are two steps
+    swing: float = 0.0  # amplitude of the legs' swing, radians
     crouch: float = 0.0  # 0 upright, 1 squatting
-    arms: float = 0.0  # 0 hanging, 1 raised over the head
+    arms: float = 0.0  # 0 hanging, 1 raised above the head
 
 
 def build_body(person: Person, pose: BodyPose) -> Ellipsoids:
-    """The ellipsoids of a person in a pose, in the body frame; its lowest point touches the floor, y = 0."""
+    """The ellipsoids of a person in a pose, in the body frame; the lowest point is on the floor, y = 0."""
     return build_oriented_body(person, pose).ellipsoids
 
 
 def build_oriented_body(person: Person, pose: BodyPose) -> OrientedEllipsoids:
-    """The same with the place of each point in its ellipsoid; a limb's -y is towards the trunk."""
+    """As :func:`build_body`, with the orientation of each ellipsoid; a limb's -y points to the trunk."""
     lean = 0.6 * pose.crouch + 0.06 * min(pose.swing, 1.0)
     parts = [*_trunk(person.build, lean)]
     for side in (-1.0, 1.0):
@@ -68,28 +68,28 @@ def build_oriented_body(person: Person, pose: BodyPose) -> OrientedEllipsoids:
 
 
 def place_body(person: Person, pose: BodyPose, x: float, z: float, yaw: float, floor: float) -> Ellipsoids:
-    """A person's body on the floor of a level frame (x right, y down, z forward), at (x, floor, z).
+    """A person's body at (x, floor, z) in a level frame (x right, y down, z forward, metres).
 
-    yaw: where the person faces, radians: 0 along z, pi / 2 along x.
+    yaw: the heading, radians: 0 along z, pi / 2 along x.
     """
     return build_body(person, pose).transformed(rotation_about_y(yaw), np.array([x, floor, z]))
 
 
 def rotation_about_y(yaw: float) -> Array:
-    """The rotation that turns z towards x, radians."""
+    """The rotation (3, 3) by ``yaw`` radians from z towards x."""
     return np.array([[math.cos(yaw), 0, math.sin(yaw)], [0, 1, 0], [-math.sin(yaw), 0, math.cos(yaw)]])
 
 
-_Limb = tuple[Array, Array]  # a centre (3,) and a root (3, 3), in shares of the height
+_Limb = tuple[Array, Array]  # a center (3,) and a root (3, 3), as shares of the height
 
 
 def _trunk(build: float, lean: float) -> list[_Limb]:
-    """Pelvis to head, bent forward by ``lean`` at the hip; the head bends back, so that it looks ahead."""
+    """Pelvis to head, bent forward by ``lean`` at the hip; the head bends back to look ahead."""
     parts = []
     for name, (up, *axes) in TRUNK_PARTS.items():
-        wide = 1.0 if name in UNSCALED_PARTS else build
+        breadth = 1.0 if name in UNSCALED_PARTS else build
         tilt = _tilt(lean if name not in UNSCALED_PARTS else 0.3 * lean)
-        parts.append((_on_trunk(0.0, up, lean), tilt * [axes[0] * wide, axes[1], axes[2] * wide]))
+        parts.append((_on_trunk(0.0, up, lean), tilt * [axes[0] * breadth, axes[1], axes[2] * breadth]))
     return parts
 
 
@@ -113,7 +113,7 @@ def _leg(side: float, build: float, pose: BodyPose) -> list[_Limb]:
 
 
 def _arm(side: float, build: float, lean: float, pose: BodyPose) -> list[_Limb]:
-    """Upper arm, forearm and hand; they swing against the legs."""
+    """Upper arm, forearm and hand; they swing opposite to the legs."""
     swing = -0.8 * pose.swing * math.sin(pose.gait + (math.pi if side < 0 else 0.0)) + 0.8 * pose.crouch
     out = 0.13 + 2.5 * pose.arms
     shoulder = _on_trunk(side * SHOULDER_SIDE * build, SHOULDER - 0.015, lean)
@@ -128,32 +128,32 @@ def _arm(side: float, build: float, lean: float, pose: BodyPose) -> list[_Limb]:
 
 
 def _on_trunk(x: float, up: float, lean: float) -> Array:
-    """A point of the upright trunk, ``up`` above the floor, after the trunk has bent at the hip."""
+    """A point of the trunk at height ``up`` when upright, after the trunk has bent by ``lean`` at the hip."""
     bent: Array = np.array([x, -HIP, 0.0]) + _tilt(lean) @ np.array([0.0, HIP - up, 0.0])
     return bent
 
 
 def _tilt(angle: float) -> Array:
-    """The rotation about x that bends what stands upright forward."""
+    """The rotation (3, 3) about x that bends forward by ``angle`` radians."""
     return np.array(
         [[1, 0, 0], [0, math.cos(angle), math.sin(angle)], [0, -math.sin(angle), math.cos(angle)]]
     )
 
 
 def _direction(out: float, forward: float) -> Array:
-    """Straight down, turned sideways by ``out`` (right is positive) and then ``forward``, radians."""
+    """The unit vector straight down, rotated sideways by ``out`` (right is positive), then ``forward``."""
     return np.array([math.sin(out), math.cos(out) * math.cos(forward), math.cos(out) * math.sin(forward)])
 
 
 def _limb(start: Array, end: Array, radius: float, over: float) -> _Limb:
-    """A long ellipsoid between two joints that reaches past each by the share ``over`` of its length."""
+    """An ellipsoid between two joints that extends beyond each by the share ``over`` of its length."""
     length = float(np.linalg.norm(end - start))
     axis = (end - start) / length
     return (start + end) / 2, _along(axis) * [radius, length * (0.5 + over), radius]
 
 
 def _along(axis: Array) -> Array:
-    """The least rotation that takes y to a unit vector, which isn't -y (Rodrigues' formula)."""
+    """The smallest rotation of y to a unit vector other than -y (Rodrigues' formula)."""
     x, y, z = axis.tolist()
     cross = np.array([[0, x, 0], [-x, 0, -z], [0, z, 0]])  # of y and the axis
     return np.asarray(np.eye(3) + cross + cross @ cross / (1 + y))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""People who walk, dressed: each point of the cloth keeps its place on the limb that it covers."""
+"""Dressed pedestrians; each point of the clothes keeps its place on the limb that it covers."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from tricue.scenes.rendering.stereo_camera import TexturedEllipsoid
 from tricue.scenes.rendering.textures import Looks
 
 TROUSERS_TEXTURE, SHIRT_TEXTURE, SLEEVE_TEXTURE, LEG_TEXTURE, SKIN_TEXTURE, HEAD_TEXTURE = range(6)
-# What tricue.scenes.body's parts wear, in their order, and then a coat's parts.
+# The texture of each part of tricue.scenes.people.body, in its order, and then of a coat's parts.
 PART_TEXTURES = [
     TROUSERS_TEXTURE,
     *[SHIRT_TEXTURE] * 3,
@@ -27,7 +27,7 @@ PART_TEXTURES = [
 TRUNK_TEXTURE_SHAPE, LIMB_TEXTURE_COLUMNS = (
     (192, 256),
     96,
-)  # texels: rows and columns on the trunk, columns on a limb
+)  # texels: rows and columns, and columns of a limb's
 CLOTH_KINDS = (
     textures.PLAIN_SURFACE,
     textures.WOOD_SURFACE,
@@ -39,20 +39,18 @@ COAT_PARTS = (
     (0.53, 0.115, 0.23, 0.115),
     (0.41, 0.12, 0.23, 0.137),
 )  # as in tricue.scenes.people.body.TRUNK
-MIN_LEG_SWING = (
-    0.25  # radians, of the legs to each side at least; who walks slowly takes as long steps, but fewer
-)
+MIN_LEG_SWING = 0.25  # radians; slow walkers make fewer steps, not shorter ones
 
 
 class Outfit(NamedTuple):
-    """How somebody looks: a texture, as a pyramid, for each kind of part."""
+    """A person's looks: a texture pyramid for each kind of body part."""
 
     part_textures: list[list[Picture]]
-    coat: bool  # whether there is a coat down to the knees
+    coat: bool  # whether a coat down to the knees is worn
 
     @classmethod
     def sample(cls, contrast: float, coat: bool, rng: np.random.Generator) -> "Outfit":
-        """Random looks and clothes; contrast: the deviation of the cloths' logarithmic brightness."""
+        """Random looks and clothes. contrast: the deviation of the clothes' logarithmic brightness."""
         looks = Looks.sample(rng)
         shirt, trousers = (rng.uniform(0.35, 1.0) * textures.random_color(rng) + 40 for _ in range(2))
         upper, lower = (str(rng.choice(CLOTH_KINDS)) for _ in range(2))
@@ -66,14 +64,14 @@ class Outfit(NamedTuple):
 
 
 class Pedestrian(NamedTuple):
-    """Somebody on the way through a scene: the parts of the body in each frame."""
+    """A person's body parts in each frame of a scene, in the level frame, and their textures."""
 
-    parts: list[OrientedEllipsoids]  # of each frame, level frame
-    part_textures: list[list[Picture]]  # of each part, one level
+    parts: list[OrientedEllipsoids]  # of each frame
+    part_textures: list[list[Picture]]  # of each part
 
     @classmethod
     def walk(cls, person: Person, outfit: Outfit, path: Array, floor: float, rate: float) -> "Pedestrian":
-        """Along a path (M, 2); the floor is at the height y = ``floor``."""
+        """A person who walks along a path (M, 2), x and z in metres, on the floor y = ``floor``."""
         poses = [
             pose._replace(swing=max(pose.swing, MIN_LEG_SWING))
             for pose in walks.compute_poses(person, path, rate)
@@ -84,7 +82,7 @@ class Pedestrian(NamedTuple):
     def stand(
         cls, person: Person, outfit: Outfit, place: Array, floor: float, facing: float, frames: int
     ) -> "Pedestrian":
-        """At one place (2,), facing an angle (radians from z towards x)."""
+        """A person who stands at a place (2,). facing: heading, radians from z towards x."""
         path = np.tile(place, (frames, 1))
         return cls._dress_path(person, outfit, path, floor, np.full(frames, facing), [BodyPose()] * frames)
 
@@ -106,8 +104,8 @@ class Pedestrian(NamedTuple):
         ]
         return cls(parts, [outfit.part_textures[worn] for worn in PART_TEXTURES[: len(parts[0].centers)]])
 
-    def seen_at(self, depth: float, focal: float) -> "Pedestrian":
-        """The same with textures as detailed as a camera of this focal length (pixels) sees them there."""
+    def at_detail(self, depth: float, focal: float) -> "Pedestrian":
+        """The pedestrian with the texture levels that fit a depth (metres) and a focal length (pixels)."""
         girths = 2 * np.pi * np.linalg.norm(self.parts[0].roots[:, :, [0, 2]], axis=1).max(axis=1)
         part_textures = [
             textures.select_level(texture, texture[0].shape[1] / girth * depth / focal)
@@ -116,21 +114,21 @@ class Pedestrian(NamedTuple):
         return self._replace(part_textures=part_textures)
 
     def ellipsoids(self, index: int, to_camera: Array) -> list[TexturedEllipsoid]:
-        """What to draw in a frame, in the camera's frame."""
+        """The textured ellipsoids of a frame, in the camera's frame."""
         centers, roots = self.parts[index].transformed(to_camera, np.zeros(3))
         units = np.linalg.inv(roots)
         return [TexturedEllipsoid(*part) for part in zip(centers, units, self.part_textures, strict=True)]
 
 
 def make_cloth(kind: str, color: Array, contrast: float, rng: np.random.Generator) -> Picture:
-    """One of CLOTHS for a trunk, (*TRUNK, 3), with folds and wear."""
+    """A cloth (*TRUNK_TEXTURE_SHAPE, 3) with folds. kind: one of CLOTH_KINDS."""
     folds = textures.make_noise(*TRUNK_TEXTURE_SHAPE, 1.0, rng)
     surface = textures.make_surface(kind, TRUNK_TEXTURE_SHAPE, color, rng)
     return np.asarray(surface * np.exp(np.float32(contrast) * folds)[..., None], np.float32).clip(8, 245)
 
 
 def _dress(body: OrientedEllipsoids, person: Person, outfit: Outfit) -> OrientedEllipsoids:
-    """The body, and the coat where one is worn."""
+    """The body, with the coat if one is worn."""
     if not outfit.coat:
         return body
     up, *half = np.array(COAT_PARTS).T * person.height

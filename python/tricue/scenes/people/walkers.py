@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""People before a depth camera: the scenes of figures 5 to 7 of Sabeti, Parvizi and Wu (2008), section V."""
+"""People before a depth camera, as in figures 5 to 7 of Sabeti, Parvizi and Wu (2008), section V."""
 
 import math
 from typing import NamedTuple
@@ -20,25 +20,26 @@ from tricue.scenes.rendering.depth_view import DepthWindow, MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.scene import Bystander, DepthScene
 
-MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # metres at which a body still fits into the image
-MAX_WALKER_DISTANCE = 6.2  # metres; wholly within the range of both cameras
-DEPTH_CHANGE_SPEED = 1.2  # metres a second at which a hidden target changes its depth
+MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # metres; a body fits into the image from there on
+MAX_WALKER_DISTANCE = 6.2  # metres; within the range of both sensors
+DEPTH_CHANGE_SPEED = 1.2  # metres per second of a hidden target
 MAX_DEPTH_CHANGE = 1.3  # metres
-MAX_HIDDEN_SHARE = 0.6  # share of a sweep that the target is hidden at most
-COVERING_DURATION = 0.4  # seconds until the target is covered, and until it comes free again
+MAX_HIDDEN_SHARE = 0.6  # of the duration of a sweep
+COVERING_DURATION = 0.4  # seconds until the target is covered, and uncovered again
 
 
 def walker(
     seed: int = 0, frames: int = 90, camera: str = "tof", *, missing: float = 0.03, noise: float = 1.0
 ) -> DepthScene:
-    """One person walks a loop through a room, nearer and away again, and crouches, raises the arms and turns.
+    """One person walks a loop through a room, and crouches, raises the arms and turns around on the way.
 
-    camera: "tof", 176x144 pixels at 15 frames/s, or "rgbd", 640x480 at 30 frames/s; see CAMERAS.
-    missing: share of the pixels within range that come without a depth, 0 to 1.
-    noise: multiplies the sensor's noise; at 0 the time-of-flight depths are exact, the RGB-D ones quantised.
+    camera: "tof", 176x144 pixels at 15 frames per second, or "rgbd", 640x480 pixels at 30 frames per second.
+    missing: share of the pixels within range that have no depth, 0 to 1.
+    noise: multiplies the sensor's noise; at 0 the time-of-flight depths are exact, the RGB-D ones quantized.
 
-    The seed decides the person, the path, the gestures, the room, its clutter, the camera's height and pitch,
-    and the noise. Nothing hides the person, who is in the range and mostly in the image in all frames.
+    The seed decides the person, the path, the gestures, the room, its furniture, the camera's height and
+    pitch, and the noise. Nothing hides the person, who is always within the sensor's range and mostly in the
+    image. ValueError or TypeError names the argument that is wrong.
     """
     _check(frames, camera, missing, noise)
     rng = np.random.default_rng(seed)
@@ -60,12 +61,12 @@ def crossing(
     missing: float = 0.03,
     noise: float = 1.0,
 ) -> DepthScene:
-    """Somebody nearer crosses in front of the target, hides it for some frames half way, and walks on.
+    """A nearer person crosses in front of the target and hides it for some frames halfway.
 
-    The target comes ``depth_change`` metres farther (at most 1.3 either way; below 0 nearer) while it is
-    hidden, which then lasts longer. In half of the seeds a third person passes behind. They turn round and
-    cross again every six seconds; about two seconds (30 frames "tof", 60 "rgbd") are the least to see all of
-    it. The other arguments are those of :func:`walker`.
+    depth_change: metres, at most 1.3 either way, by which the target moves away (below 0: nearer) while it is
+    hidden, which then takes longer. In half of the seeds a third person passes behind. They turn around and
+    cross again every six seconds; one crossing takes at least about two seconds (30 frames "tof", 60 "rgbd").
+    The other arguments and errors are those of :func:`walker`.
     """
     _check(frames, camera, missing, noise)
     rng = np.random.default_rng(seed)
@@ -74,13 +75,13 @@ def crossing(
     time = walks.compute_sweep_times(frames, rate)
     _check_depth_change(depth_change, float(np.ptp(time)))
     target = Person.sample(rng)
-    # Whoever is no shorter and nearer hides the head too: the camera is below it.
+    # A nearer person who is at least as tall hides the head too, for the camera is below it.
     people = [target, Person.sample(rng, shortest=target.height)]
     paths = [*_crossing_paths(stage, time, depth_change, rng)]
     if rng.random() < 0.5:
         people.append(Person.sample(rng))
         paths.append(_path_behind(stage, time, paths[0], rng))
-    # Who stops in front turns to the camera, broad enough to hide somebody who turns, too.
+    # The person in front turns to the camera, so as to be broad enough to hide the target.
     looks = [None, np.abs(time) < _hidden_duration(depth_change, time) / 2, None]
     actors = [
         _Actor(
@@ -92,7 +93,7 @@ def crossing(
 
 
 class _DepthStage(NamedTuple):
-    """The camera in its place, the bare room and where in it people walk."""
+    """The mounted camera, the room without furniture, and the area in which people walk."""
 
     sensor: DepthSensor
     view: MountedCamera
@@ -101,7 +102,7 @@ class _DepthStage(NamedTuple):
 
 
 class _Actor(NamedTuple):
-    """A person's way through the scene."""
+    """A person's path and poses in a scene."""
 
     person: Person
     path: Array  # (M, 2) x and z, metres, level frame
@@ -109,19 +110,21 @@ class _Actor(NamedTuple):
     poses: list[BodyPose]
 
     def body(self, index: int, view: MountedCamera) -> Ellipsoids:
-        """In the camera frame."""
+        """The person's body in a frame, in the camera frame."""
         x, z = self.path[index].tolist()
         level = place_body(self.person, self.poses[index], x, z, float(self.facing[index]), view.height)
         return level.transformed(view.rotation, np.zeros(3))
 
 
 class _SensorErrors(NamedTuple):
+    """The arguments of :meth:`DepthSensor.measure`."""
+
     missing: float
     noise: float
 
 
 class _PersonTruth(NamedTuple):
-    """One person in one frame, as if alone."""
+    """One person in one frame, rendered alone."""
 
     box: Box
     position: Array
@@ -129,10 +132,10 @@ class _PersonTruth(NamedTuple):
 
 
 def _sample_stage(camera: str, rng: np.random.Generator) -> _DepthStage:
-    """A room and a camera that sees a whole body at NEAREST, looking down on it a little."""
+    """A random room, and a camera that looks down slightly and sees a whole body at the least distance."""
     sensor, near = DEPTH_SENSORS[camera], MIN_WALKER_DISTANCE[camera]
     height, wall, side = rng.uniform([1.0, 6.8, 3.1], [1.6, 10.0, 4.2]).tolist()
-    # The middle of the angles to the floor and to a head at 1.75 m.
+    # The mean of the angles to the floor and to a head at 1.75 m.
     pitch = (math.atan2(height, near) + math.atan2(height - 1.75, near)) / 2 + math.radians(
         rng.uniform(-1, 1)
     )
@@ -146,7 +149,7 @@ def _sample_stage(camera: str, rng: np.random.Generator) -> _DepthStage:
 def _crossing_paths(
     stage: _DepthStage, time: Array, depth_change: float, rng: np.random.Generator
 ) -> tuple[Array, Array]:
-    """The paths (M, 2) of the target and of who crosses its line of sight at time 0, the other way."""
+    """The paths (M, 2) of the target, and of the person who crosses its line of sight at time 0."""
     near, half = stage.floor.near, float(time.max())
     changing = abs(depth_change) / DEPTH_CHANGE_SPEED
     sense = rng.choice([-1, 1])
@@ -159,21 +162,19 @@ def _crossing_paths(
     slowed = walks.slow_down_time(time, _hidden_duration(depth_change, time), 0.1)
     crossing_z = near + rng.uniform(0.0, 0.4)
     nearer = crossing_z + rng.choice([-1, 1]) * rng.uniform(0.2, 0.3) * slowed
-    angular = (
-        rng.uniform(0.7, 1.1) / crossing_z
-    )  # of who crosses, relative to the line of sight to the target
+    angular = rng.uniform(0.7, 1.1) / crossing_z  # speed relative to the line of sight to the target
     return np.stack([x, z], axis=1), np.stack([nearer * (x / z - sense * angular * slowed), nearer], axis=1)
 
 
 def _hidden_duration(depth_change: float, time: Array) -> float:
-    """For how many seconds somebody stays in front of the target."""
+    """Seconds for which the target is hidden."""
     return min(
         abs(depth_change) / DEPTH_CHANGE_SPEED + COVERING_DURATION, MAX_HIDDEN_SHARE * float(np.ptp(time))
     )
 
 
 def _path_behind(stage: _DepthStage, time: Array, target: Array, rng: np.random.Generator) -> Array:
-    """A path (M, 2) from side to side behind the target's."""
+    """A path (M, 2) from side to side, behind the target's."""
     beside = stage.room.side - walks.BODY_CLEARANCE
     x = rng.uniform(-0.5, 0.5)
     speed = min(rng.uniform(0.5, 0.9), (beside - abs(x)) / max(float(time.max()), 1.0))
@@ -184,7 +185,7 @@ def _path_behind(stage: _DepthStage, time: Array, target: Array, rng: np.random.
 def _record(
     name: str, stage: _DepthStage, actors: list[_Actor], flaws: _SensorErrors, rng: np.random.Generator
 ) -> DepthScene:
-    """Render, measure and note the truth; the first actor is the target."""
+    """Render the frames and record the truth; the first actor is the target."""
     view, room = stage.view, stage.room
     ways = np.concatenate([actor.path for actor in actors])
     room = room._replace(furniture=walks.place_furniture(8, room.wall, room.side, ways, rng))
@@ -227,7 +228,7 @@ def _check(frames: int, camera: str, missing: float, noise: float) -> None:
 
 
 def _check_depth_change(metres: float, span: float) -> None:
-    """ValueError where the target can't walk that far while it is hidden, in a scene of ``span`` seconds."""
+    """Raise ValueError where the target can't walk that far while hidden, in a sweep of ``span`` seconds."""
     most = min(MAX_DEPTH_CHANGE, max(MAX_HIDDEN_SHARE * span - COVERING_DURATION, 0.0) * DEPTH_CHANGE_SPEED)
     if abs(finite(metres, "depth_change", "metres")) > most:
         raise ValueError(f"depth_change: expected at most {most:.2f} m in {span:.1f} s, got {metres!r}")

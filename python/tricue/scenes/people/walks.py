@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How people walk: metric paths over a floor at a walker's pace, where they face, and what they do meanwhile.
+"""How people walk: paths over a floor at walking speed, headings, gestures, and poses.
 
-Level frame seen from above: x right, z away from the camera, metres; the camera stands at the origin.
+Level frame, seen from above: x right, z away from the camera, metres; the camera is at the origin.
 """
 
 import math
@@ -14,15 +14,15 @@ from tricue.scenes.arrays import Array
 from tricue.scenes.people.body import BodyPose, Person
 from tricue.scenes.rendering.depth_room import Furniture
 
-MIN_WALKING_SPEED, MAX_WALKING_SPEED = 0.3, 1.5  # metres a second
-MAX_TURN_RATE = 5.0  # radians a second, the fastest that a walker turns
-BODY_CLEARANCE = 0.5  # metres, what a walker needs to each side
-ARM_CLEARANCE = 1.1  # metres, with the arms spread
-SWEEP_DURATION = 6.0  # seconds after which those who cross turn round
+MIN_WALKING_SPEED, MAX_WALKING_SPEED = 0.3, 1.5  # metres per second
+MAX_TURN_RATE = 5.0  # radians per second, of a walker's heading
+BODY_CLEARANCE = 0.5  # metres to each side of a walker
+ARM_CLEARANCE = 1.1  # metres, with spread arms
+SWEEP_DURATION = 6.0  # seconds after which crossing people turn around
 
 
 class WalkableArea(NamedTuple):
-    """Where one can walk and is seen: ``near`` to ``far`` metres away, within the angle of view."""
+    """Where a person can walk and is visible: ``near`` to ``far`` metres away, within the angle of view."""
 
     near: float
     far: float
@@ -30,25 +30,25 @@ class WalkableArea(NamedTuple):
     side: float  # metres to each side at most
 
     def reach(self, z: Array) -> Array:
-        """How far to each side of the middle a walker at z is still seen, and is clear of the walls."""
+        """How far to each side a walker at depth z may go, to be visible and clear of the walls, metres."""
         return np.minimum(self.slope * z, self.side) - BODY_CLEARANCE
 
 
 class Gestures(NamedTuple):
-    """What a walker does beside walking, per frame (M,)."""
+    """What a walker does besides walking, per frame (M,)."""
 
     crouch: Array  # 0 to 1
     arms: Array  # 0 to 1
-    turn: Array  # radians about the body's axis beside the path's
+    turn: Array  # radians added to the path's heading
 
 
 def sample_gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestures:
-    """Crouching, raising the arms and turning on the spot, each abrupt and about a second long, by turns."""
+    """Random gestures, each abrupt and about a second long: crouch, raise the arms, turn on the spot."""
     time = np.arange(frames) / rate
     crouch, arms, turn = np.zeros((3, frames))
     kinds = rng.permutation(3)
     start = rng.uniform(0.3, 0.7)
-    for count in range(math.ceil(frames / rate)):  # each takes a second or more
+    for count in range(math.ceil(frames / rate)):  # each takes at least a second
         length, rise = rng.uniform(0.8, 1.2), rng.uniform(0.2, 0.35)
         ramp = np.clip(np.minimum(time - start, start + length - time) / rise, 0, 1)
         if kinds[count % 3] == 0:
@@ -62,9 +62,10 @@ def sample_gestures(frames: int, rate: float, rng: np.random.Generator) -> Gestu
 
 
 def sample_loop(floor: WalkableArea, crouch: Array, rate: float, rng: np.random.Generator) -> Array:
-    """A closed curve at an uneven pace: (M, 2) places, so sized that it is walked about once.
+    """A random closed path (M, 2), of a size that it is walked about once.
 
-    Who crouches (0 to 1, per frame) walks slower; every step is between SLOWEST and FASTEST.
+    crouch: (M,) 0 to 1; a crouching person walks slower. The speed varies within MIN_WALKING_SPEED and
+    MAX_WALKING_SPEED.
     """
     frames = len(crouch)
     waves = 1 + 0.25 * np.sin(2 * np.pi * (np.arange(frames) / rate / 2.3 + rng.random()))
@@ -82,27 +83,27 @@ def sample_loop(floor: WalkableArea, crouch: Array, rate: float, rng: np.random.
 
 
 def _loop_shape(angle: Array, rng: np.random.Generator) -> Array:
-    """Once round in [-1, 1] x [-1, 1], from side to side and from near to far."""
+    """A closed curve in [-1, 1] x [-1, 1], from side to side and from near to far."""
     offset, sense = rng.uniform(0, 2 * np.pi), rng.choice([-1, 1])
     return np.stack([np.sin(sense * angle), np.cos(angle + 0.3 * np.sin(angle + offset))], axis=1)
 
 
 def _on_floor(floor: WalkableArea, shape: Array, middle: Array, size: float) -> Array:
-    """The shape at a ``size`` of the floor's, round a middle that is freer the smaller the shape is."""
+    """The shape scaled to a share ``size`` of the floor, around a middle within the remaining space."""
     x, z = (size * shape + (1 - size) * middle).T
     z = (floor.near + floor.far) / 2 + (floor.far - floor.near) / 2 * z
     return np.stack([x * floor.reach(z), z], axis=1)
 
 
 def _lengths(curve: Array) -> Array:
-    """The way along a curve (n, 2) to each of its points, metres."""
+    """The arc length of a curve (n, 2) at each of its points, metres."""
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
 
 
 def compute_sweep_times(frames: int, rate: float) -> Array:
-    """The time (M,) of those who go to and fro: -SWEEP / 2 to SWEEP / 2 seconds and back; 0 half way.
+    """The time (M,) within a sweep, from -SWEEP_DURATION / 2 to SWEEP_DURATION / 2 seconds and back.
 
-    Fewer frames than a sweep takes are centred, so that half of them are before 0.
+    It is 0 halfway. With fewer frames than a sweep takes, half of them are before 0.
     """
     half = min(SWEEP_DURATION, (frames - 1) / rate) / 2
     time = np.arange(frames) / rate
@@ -113,14 +114,14 @@ def compute_sweep_times(frames: int, rate: float) -> Array:
 
 
 def slow_down_time(time: Array, seconds: float, rest: float) -> Array:
-    """Time that passes at the rate ``rest`` for some seconds round 0, for one who stops; at 1 elsewhere."""
+    """Time (M,) that passes at the rate ``rest`` during ``seconds`` around 0, and at 1 elsewhere."""
     return time - (1 - rest) * np.clip(time, -seconds / 2, seconds / 2)
 
 
 def compute_headings(path: Array, rate: float, looks: NDArray[np.bool_] | None = None) -> Array:
-    """Where one who walks a path (M, 2) faces, (M,) radians from z towards x, turning at most TURN.
+    """The headings (M,) along a path (M, 2), radians from z towards x, turning at most by MAX_TURN_RATE.
 
-    looks: (M,) the frames in which the walker turns to the camera instead.
+    looks: (M,) whether the walker faces the camera instead.
     """
     if len(path) < 2:
         return np.zeros(len(path))
@@ -137,7 +138,7 @@ def compute_headings(path: Array, rate: float, looks: NDArray[np.bool_] | None =
 def compute_poses(
     person: Person, path: Array, rate: float, gestures: Gestures | None = None
 ) -> list[BodyPose]:
-    """The pose on each place of a path: the legs swing as far as the pace asks, two steps in 0.8 heights."""
+    """The pose at each point of a path; the legs swing by the speed, two steps take 0.8 body heights."""
     steps = np.hypot(*np.diff(path, axis=0, prepend=path[:1]).T)
     if len(steps) > 1:
         steps[0] = steps[1]
@@ -151,23 +152,23 @@ def compute_poses(
 def place_furniture(
     count: int, wall: float, side: float, paths: Array, rng: np.random.Generator
 ) -> tuple[Furniture, ...]:
-    """Up to ``count`` boxes that stand neither on the paths (n, 2) nor between them and the camera."""
+    """Up to ``count`` random boxes, neither on the paths (n, 2) nor between them and the camera."""
     pieces = []
     for _ in range(count):
         width, depth, height = rng.uniform([0.4, 0.3, 0.4], [1.4, 0.7, 1.9]).tolist()
         x, z = rng.uniform([-side, 2.0], [side, wall]).tolist()
-        if _way_off_sight((x, z), paths) > ARM_CLEARANCE + math.hypot(width, depth) / 2:
+        if _distance_to_sight_lines((x, z), paths) > ARM_CLEARANCE + math.hypot(width, depth) / 2:
             pieces.append(Furniture(x, z, width, depth, height, rng.uniform(0, math.pi)))
     return tuple(pieces)
 
 
-def _way_off_sight(place: tuple[float, float], paths: Array) -> float:
-    """The distance of a place from the nearest line between the camera and a point of the paths, metres."""
+def _distance_to_sight_lines(place: tuple[float, float], paths: Array) -> float:
+    """The distance of a place from the nearest line between the camera and a path's point, metres."""
     share = np.clip((paths @ place) / (paths**2).sum(axis=1), 0, 1)
     return float(np.hypot(*(share[:, None] * paths - place).T).min())
 
 
 def _smooth(share: Array) -> Array:
-    """0 below 0, 1 above 1, and a smooth rise between."""
+    """Smoothstep: 0 below 0, 1 above 1, and a smooth rise between."""
     share = np.clip(share, 0, 1)
     return share * share * (3 - 2 * share)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""What scenes are made of: cameras, z-buffers, surfaces, photographs."""
+"""What scenes share: cameras, z-buffers, surfaces, textures, photographs."""

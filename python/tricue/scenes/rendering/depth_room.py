@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class Furniture(NamedTuple):
-    """An upright box on the floor; level frame, metres."""
+    """An upright box on the floor, metres in the level frame; see tricue.scenes.rendering.depth_view."""
 
     x: float
     z: float
@@ -16,9 +16,9 @@ class Furniture(NamedTuple):
 
 
 class Room(NamedTuple):
-    """The walls, level frame, metres; the camera stands at the origin."""
+    """A room around the camera, which stands at the origin; metres in the level frame."""
 
-    wall: float  # depth of the back wall
-    side: float  # distance of the walls to the left and right
-    height: float  # floor to ceiling
+    wall: float  # depth z of the back wall
+    side: float  # distance of the left and the right wall
+    height: float  # from floor to ceiling
     furniture: tuple[Furniture, ...] = ()

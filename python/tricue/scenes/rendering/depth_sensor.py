@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Depth sensors: the errors that a sensor makes on an exact z-buffer."""
+"""Depth sensors: range, noise, quantization, flying and missing pixels, applied to an exact z-buffer."""
 
 import math
 from dataclasses import dataclass
@@ -11,43 +11,41 @@ from numpy.typing import NDArray
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask
 
-MIN_EDGE_STEP = 0.1  # a depth edge: neighbours' depths differ by more than this share of the nearer one
-FLYING_PIXEL_SHARE = (
-    0.5  # share of the pixels along edges (one on each side) in which a time-of-flight camera mixes
-)
+MIN_EDGE_STEP = 0.1  # between the depths of neighbors at a depth edge, as a share of the smaller one
+FLYING_PIXEL_SHARE = 0.5  # of the pixels at edges (one on each side) of a time-of-flight camera
 
 
 @dataclass(frozen=True, slots=True)
 class DepthSensor:
-    """A kind of depth sensor: noise of deviation ``still + growth * z^2`` metres at z metres, and its flaws.
+    """A depth sensor, with white noise of deviation ``base_noise + noise_growth * z^2`` metres at depth z.
 
-    The time-of-flight camera is the SR-3000 of Sabeti, Parvizi and Wu (2008), section V, with about 1 cm of
-    noise at 2 m and 3 cm at 6 m, our estimate. The RGB-D camera has the Kinect's noise and quantisation of
-    Khoshelham and Elberink (2012), Sensors 12, 1437-1454: half a step of disparity, which is 1.4 mm at 1 m,
-    3.6 cm at 5 m. Noise is white: not correlated over pixels or frames.
+    The time-of-flight camera is the SR-3000 of Sabeti, Parvizi and Wu (2008), section V; its noise of about
+    1 cm at 2 m and 3 cm at 6 m is our estimate. The RGB-D camera has the Kinect's noise and quantization by
+    Khoshelham and Elberink (2012), Sensors 12, 1437-1454: half a disparity step, which is 1.4 mm at 1 m and
+    3.6 cm at 5 m.
     """
 
     intrinsics: Intrinsics
-    rate: float  # frames a second
-    near: float  # metres; what is outside the range is missing
+    rate: float  # frames per second
+    near: float  # metres; depths outside of near to far are missing
     far: float
     base_noise: float  # metres
     noise_growth: float  # per metre
-    inverse_depth_step: float  # per metre: 1 / z is a multiple of it; 0 leaves z as it is
-    has_flying_pixels: bool  # whether a pixel on an edge measures something between both surfaces
-    dropout_grain: float  # pixels, the deviation of the Gaussian that shapes the patches of missing pixels
+    inverse_depth_step: float  # per metre: 1 / z is rounded to multiples of it; 0 means no rounding
+    has_flying_pixels: bool  # whether pixels at edges measure a depth between both surfaces
+    dropout_grain: float  # pixels, the sigma of the Gaussian that shapes the patches of missing pixels
 
     def noise_deviation(self, depth: Array) -> Array:
-        """The noise's standard deviation at each depth, metres."""
+        """The standard deviation of the noise at each depth, metres."""
         return self.base_noise + self.noise_growth * depth**2
 
     def measure(
         self, depth: Array, rng: np.random.Generator, *, missing: float = 0.03, noise: float = 1.0
     ) -> NDArray[np.float32]:
-        """What the sensor makes of a z-buffer (H, W): float32 metres, NaN where nothing was measured.
+        """The depth image (H, W) of a z-buffer, float32 metres, NaN where nothing was measured.
 
-        missing: share of the pixels within range that come without a depth, in patches and mostly at edges.
-        noise: multiplies the deviation; up to 1 also the share of mixed pixels, so 0 leaves exact depths.
+        missing: share of the pixels within range that have no depth, in patches and mostly at edges.
+        noise: multiplies the noise, and up to 1 also the share of flying pixels; at 0 depths are exact.
         """
         edges = find_depth_edges(depth)
         measured = (
@@ -65,25 +63,26 @@ class DepthSensor:
 
 
 def find_depth_edges(depth: Array) -> Mask:
-    """The pixels (H, W) whose 3x3 neighbourhood spans a depth edge: one on each side of it."""
+    """The pixels (H, W) at depth edges, one on each side: those whose 3x3 neighborhood spans an edge."""
     near, far = _neighborhood_range(depth)
     return np.asarray(far - near > MIN_EDGE_STEP * near)
 
 
 def add_flying_pixels(depth: Array, edges: Mask, share: float, rng: np.random.Generator) -> Array:
-    """Flying pixels: a random ``share`` of the pixels at edges lies between their fore- and background."""
+    """Give a random ``share`` of the pixels at edges a depth between foreground and background."""
     near, far = _neighborhood_range(depth)
     chosen = edges & (rng.random(depth.shape) < share)
     return np.where(chosen, near + rng.random(depth.shape) * (far - near), depth)
 
 
-def drop_pixels(
-    depth: Array, edges: Mask, share: float, dropout_grain: float, rng: np.random.Generator
-) -> None:
-    """Set exactly a ``share`` of the measured pixels to NaN: patches of blurred noise, edges first."""
-    blurred = cv2.GaussianBlur(rng.standard_normal(depth.shape), (0, 0), dropout_grain)
-    # Blurring white noise leaves a deviation of 1 / (2 sqrt(pi) grain); an edge counts for two of these.
-    field = (blurred + edges / (math.sqrt(math.pi) * dropout_grain)).ravel()
+def drop_pixels(depth: Array, edges: Mask, share: float, grain: float, rng: np.random.Generator) -> None:
+    """Set a ``share`` of the measured pixels to NaN, in place: patches of blurred noise, preferably at edges.
+
+    The number of pixels is exact, share times the number measured. grain: sigma of the blur, pixels.
+    """
+    blurred = cv2.GaussianBlur(rng.standard_normal(depth.shape), (0, 0), grain)
+    # Blurred white noise has a deviation of 1 / (2 sqrt(pi) grain); an edge adds two deviations.
+    field = (blurred + edges / (math.sqrt(math.pi) * grain)).ravel()
     measured = np.flatnonzero(np.isfinite(depth))
     count = round(share * len(measured))
     if count:
@@ -92,7 +91,7 @@ def drop_pixels(
 
 
 def _neighborhood_range(depth: Array) -> tuple[Array, Array]:
-    """The nearest and the farthest depth in the 3x3 pixels round each."""
+    """The smallest and the largest depth in the 3x3 neighborhood of each pixel."""
     square = np.ones((3, 3), np.uint8)
     return np.asarray(cv2.erode(depth, square)), np.asarray(cv2.dilate(depth, square))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Ellipsoids, of which bodies are made."""
+"""Sets of ellipsoids, of which bodies are made."""
 
 from typing import NamedTuple
 
@@ -13,14 +13,14 @@ class Ellipsoids(NamedTuple):
     shapes: Array  # (n, 3, 3), square metres
 
     def transformed(self, rotation: Array, offset: Array) -> "Ellipsoids":
-        """Each point p moved to rotation @ p + offset."""
+        """The ellipsoids after each point p has moved to rotation @ p + offset."""
         return Ellipsoids(self.centers @ rotation.T + offset, rotation @ self.shapes @ rotation.T)
 
 
 class OrientedEllipsoids(NamedTuple):
-    """Unit balls stretched and turned into ellipsoids: q goes to root @ q + center, S = root root^T.
+    """Ellipsoids as images of the unit ball: q goes to root @ q + center, and S = root root^T.
 
-    Each q is a point of the body that keeps its place in it, which shapes alone can't say.
+    A point q of the ball stays the same point of the body while it moves, which shapes alone don't tell.
     """
 
     centers: Array  # (n, 3), metres
@@ -28,8 +28,9 @@ class OrientedEllipsoids(NamedTuple):
 
     @property
     def ellipsoids(self) -> Ellipsoids:
+        """The same ellipsoids by their shapes."""
         return Ellipsoids(self.centers, self.roots @ self.roots.transpose(0, 2, 1))
 
     def transformed(self, rotation: Array, offset: Array) -> "OrientedEllipsoids":
-        """Each point p moved to rotation @ p + offset."""
+        """The ellipsoids after each point p has moved to rotation @ p + offset."""
         return OrientedEllipsoids(self.centers @ rotation.T + offset, rotation @ self.roots)

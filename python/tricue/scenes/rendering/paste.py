@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Putting a cut-out onto a picture at a position between pixels, and what a sensor makes of the result."""
+"""Pastes cut-outs into images at subpixel positions, and turns the result into 8-bit images."""
 
 import cv2
 import numpy as np
@@ -16,7 +16,10 @@ def ellipse_mask(height: int, width: int, edge: float) -> Picture:
 
 
 def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: float) -> Picture:
-    """Lay a cut-out (h, w, 3) on a picture (H, W, 3), over [x, x + w) x [y, y + h), bilinearly."""
+    """Blend a cut-out (h, w, 3) into an image (H, W, 3), over [x, x + w) x [y, y + h), bilinearly.
+
+    opacity: (h, w) of the cut-out, 0 to 1.
+    """
     height, width = picture.shape[:2]
     shift = np.array([[1, 0, x], [0, 1, y]], dtype=np.float64)
     moved = cv2.warpAffine(cutout, shift, (width, height), borderMode=cv2.BORDER_REPLICATE)
@@ -25,7 +28,7 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
 
 
 def expose(picture: Picture, noise: float, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The 8-bit image of a sensor with Gaussian noise (its deviation in levels), saturated at both ends."""
+    """The 8-bit image of a sensor with Gaussian noise, clipped to 0 to 255. noise: deviation in levels."""
     noisy = picture + np.float32(noise) * rng.standard_normal(picture.shape, dtype=np.float32)
     image: NDArray[np.uint8] = np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
     return image

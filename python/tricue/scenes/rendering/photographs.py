@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The photographs that scenes are made of: those inside the scikit-image wheel, so nothing is downloaded."""
+"""Photographs for scenes: those inside the scikit-image wheel, so that nothing is downloaded."""
 
 from collections.abc import Callable
 from typing import Any
@@ -12,16 +12,16 @@ from tricue.camera.box import Box
 
 Image = NDArray[np.uint8]
 
-# Cluttered pictures; the wood, the fur, the retina and the stained tissue have colors near those of skin.
+# Cluttered photographs; wood, fur, retina and stained tissue have colors close to skin.
 BACKGROUNDS = ("coffee", "cat", "motorcycle", "retina", "immunohistochemistry")
 
-# Places in the picture "astronaut", 512x512: the face from hair to chin, the head with its hair.
+# In the photograph "astronaut", 512x512: the face from hairline to chin, and the head with hair.
 ASTRONAUT_FACE = Box(176, 60, 98, 123)
 ASTRONAUT_HEAD = Box(152, 12, 152, 176)
 
 
 def load_photograph(name: str) -> Image:
-    """One of scikit-image's pictures as BGR."""
+    """One of scikit-image's photographs as BGR (H, W, 3); ImportError, which names the extra, without it."""
     try:
         from skimage import data
     except ImportError:
@@ -32,7 +32,10 @@ def load_photograph(name: str) -> Image:
 
 
 def crop_background(name: str, height: int, width: int, rng: np.random.Generator) -> Image:
-    """A random window of one of BACKGROUNDS, the largest or down to two thirds of it, as (height, width)."""
+    """A random window of one of BACKGROUNDS, scaled to (height, width).
+
+    It has between two thirds and all of the largest possible size. ValueError for another name.
+    """
     if name not in BACKGROUNDS:
         raise ValueError(f"background: expected one of {', '.join(BACKGROUNDS)}, got {name!r}")
     picture = load_photograph(name)
@@ -44,11 +47,11 @@ def crop_background(name: str, height: int, width: int, rng: np.random.Generator
 
 
 def crop(picture: Image, box: Box) -> Image:
-    """The part of a picture in a box of whole pixels."""
+    """The part of an image in a box of whole pixels."""
     x, y, width, height = box.as_int()
     return picture[y : y + height, x : x + width]
 
 
 def resize(picture: Image, height: int, width: int) -> Image:
-    """Scale without aliasing."""
+    """Scale an image down without aliasing, to (height, width)."""
     return np.asarray(cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)

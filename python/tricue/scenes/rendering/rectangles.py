@@ -8,13 +8,16 @@ from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.stereo_camera import TexturedRectangle
 
-TEXELS_PER_METRE = 250.0  # texels a metre
+TEXELS_PER_METRE = 250.0  # texels per metre
 
 
 def make_upright_rectangle(
     center: Array, half: Array, yaw: float, texture: list[Picture]
 ) -> TexturedRectangle:
-    """A board round ``center`` (3,), half its width and height (2,), turned about the vertical by ``yaw``."""
+    """A rectangle around ``center`` (3,), rotated about the vertical by ``yaw``.
+
+    half: (2,) half its width and height, metres.
+    """
     along = 2 * half[0] * np.array([np.cos(yaw), 0, np.sin(yaw)])
     down = np.array([0, 2 * half[1], 0])
     return TexturedRectangle(center - (along + down) / 2, along, down, texture)
@@ -23,6 +26,9 @@ def make_upright_rectangle(
 def make_rectangle_texture(
     kind: str, size: Array, color: NDArray[np.float64], rng: np.random.Generator
 ) -> list[Picture]:
-    """One of textures.SURFACES for a board of this width and height (2,), metres, about a color (3,)."""
+    """A texture pyramid for a rectangle of this width and height (2,), metres.
+
+    kind: one of textures.SURFACE_KINDS. color: its mean (3,), BGR.
+    """
     columns, rows = (size * TEXELS_PER_METRE).astype(int).clip(16, 320).tolist()
     return textures.build_pyramid(textures.make_surface(kind, (rows, columns), color, rng))

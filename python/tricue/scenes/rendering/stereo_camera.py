@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""A stereo pair: textured ellipsoids and rectangles seen from two places, and a sensor's errors on both.
+"""Color images of textured ellipsoids and rectangles by ray casting, for one camera or a stereo pair.
 
-Both images are cast from the same geometry with several rays a pixel, averaged, so that edges and textures
-are at their exact place between the pixels. Frame: the left camera's, x right, y down, z forward, metres.
+Several rays per pixel are averaged, so that edges and textures are placed with subpixel accuracy. Frame: the
+left camera's, x right, y down, z forward, metres.
 """
 
 import math
@@ -18,32 +18,33 @@ from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.rendering.paste import expose
 from tricue.scenes.rendering.textures import sample_texture
 
-BLUR_DEVIATION = 0.5  # pixels, the deviation of the lens's and the sensor's blur beside that of averaging
+RAYS_PER_PIXEL = {"160x120": 3, "640x480": 2}  # by image size; along each axis
+BLUR_DEVIATION = 0.5  # pixels, the sigma of the blur of lens and sensor, beside that of averaging
 MIN_RAY_DEPTH = 0.05  # metres
 
 
 class TexturedRectangle(NamedTuple):
-    """A rectangle: its sides, at right angles, run ``along`` and ``down`` from ``corner``; all (3,)."""
+    """A rectangle whose perpendicular sides ``along`` and ``down`` begin at ``corner``; all (3,), metres."""
 
     corner: Array
     along: Array
     down: Array
-    texture: Sequence[Picture]  # a pyramid, columns along
+    texture: Sequence[Picture]  # a pyramid; columns run along
 
 
 class TexturedEllipsoid(NamedTuple):
-    """A textured ellipsoid, as those p for which |unit (p - center)| <= 1."""
+    """A textured ellipsoid: the points p with |unit (p - center)| <= 1."""
 
     center: Array  # (3,)
-    unit: Array  # (3, 3): to the unit sphere, whose -y is the texture's top row and z its middle column
-    texture: Sequence[Picture]  # a pyramid, columns are longitude, rows latitude
+    unit: Array  # (3, 3), to the unit sphere; the texture has -y in its top row, z in its middle column
+    texture: Sequence[Picture]  # a pyramid; columns are longitude, rows latitude
 
 
 class Lamp(NamedTuple):
-    """Light from one direction and from everywhere; what faces the lamp is as bright as its texture."""
+    """Directional and ambient light; a surface that faces the lamp is as bright as its texture."""
 
     direction: Array  # (3,) unit vector towards the lamp
-    ambient: float  # share of the light from everywhere, 0 to 1
+    ambient: float  # share of ambient light, 0 to 1
 
 
 class RayImage(NamedTuple):
@@ -58,21 +59,21 @@ class RayImage(NamedTuple):
     def write(
         self, color: Picture, depth: Picture, seen: NDArray[np.bool_], place: tuple[slice, slice]
     ) -> None:
-        """Write both where ``seen`` says so; cv2 does it many times faster than NumPy."""
-        mask = seen.view(np.uint8)
+        """Write color and depth into a part of the image, where ``seen``."""
+        mask = seen.view(np.uint8)  # cv2 copies many times faster than NumPy
         cv2.copyTo(color, mask, self.color[place])
         cv2.copyTo(depth, mask, self.depth[place])
 
 
 class DrawnEllipsoid(NamedTuple):
-    """Where a solid was drawn on a canvas, and its depths there, infinite where rays miss it."""
+    """The part of the image in which an ellipsoid was drawn, and its depths, infinite where rays miss."""
 
     place: tuple[slice, slice]
     depth: Picture
 
 
 class RayCamera(NamedTuple):
-    """One camera of the pair, ``rays`` by ``rays`` rays a pixel; it stands at (offset, 0, 0)."""
+    """A camera at (offset, 0, 0) that casts ``rays`` by ``rays`` rays per pixel."""
 
     intrinsics: Intrinsics  # of the grid of rays
     offset: float  # metres
@@ -80,9 +81,9 @@ class RayCamera(NamedTuple):
 
     @classmethod
     def pair(cls, rig: StereoRig, rays: int) -> tuple["RayCamera", "RayCamera"]:
-        """The left and the right camera."""
+        """The left and the right camera of a rig."""
         camera = rig.intrinsics
-        # The centre of the first pixel is at 0 in either grid; OpenCV's coordinates put its corner at -0.5.
+        # Pixel centers are at whole numbers in both grids, so the first pixel's corner is at -0.5.
         cx, cy = ((value + 0.5) * rays - 0.5 for value in (camera.cx, camera.cy))
         grid = Intrinsics(
             camera.fx * rays, camera.fy * rays, cx, cy, camera.width * rays, camera.height * rays
@@ -90,7 +91,7 @@ class RayCamera(NamedTuple):
         return cls(grid, 0.0, rays), cls(grid, rig.baseline, rays)
 
     def draw_rectangle(self, canvas: RayImage, rectangle: TexturedRectangle) -> None:
-        """Lay a rectangle into the canvas where it is nearer."""
+        """Draw a rectangle where it is nearer than what is there."""
         camera = self.intrinsics
         place = self._place(rectangle)
         if any(part.start == part.stop for part in place):
@@ -114,7 +115,7 @@ class RayCamera(NamedTuple):
         )
         if not seen.any():
             return
-        # A tilted board's texture is as coarse as its median ray needs; the finest detail beyond may alias.
+        # The texture's level fits the median ray; on a tilted rectangle finer detail may alias.
         texels = rectangle.texture[0].shape[1] / float(np.linalg.norm(rectangle.along)) / camera.fx
         away = float(np.median(z[seen])) if len(rectangle.texture) > 1 else 1.0
         u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
@@ -124,7 +125,7 @@ class RayCamera(NamedTuple):
     def draw_ellipsoids(
         self, canvas: RayImage, ellipsoids: Sequence[TexturedEllipsoid], lamp: Lamp
     ) -> list[DrawnEllipsoid | None]:
-        """Lay ellipsoids into the canvas where they are nearer; None for those that aren't in the image."""
+        """Draw ellipsoids where they are nearer than what is there; None for each outside the image."""
         places = self._places(ellipsoids) if ellipsoids else []
         return [
             None if place is None else self._draw_ellipsoid(canvas, ellipsoid, place, lamp)
@@ -150,7 +151,7 @@ class RayCamera(NamedTuple):
         return DrawnEllipsoid(place, depth)
 
     def average_rays(self, canvas: RayImage) -> Picture:
-        """The image of the rays: their mean in each pixel, slightly blurred."""
+        """The image (H, W, 3) of the rays: their mean in each pixel, slightly blurred."""
         size = self.intrinsics.width // self.rays, self.intrinsics.height // self.rays
         image = cv2.resize(canvas.color, size, interpolation=cv2.INTER_AREA)
         return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR_DEVIATION, borderType=cv2.BORDER_REPLICATE))
@@ -158,17 +159,19 @@ class RayCamera(NamedTuple):
     def _texture(self, ellipsoid: TexturedEllipsoid, q: Sequence[Picture]) -> Picture:
         longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.clip(q[1], -1, 1))
         u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
-        girth = 2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))  # metres round the equator, about
+        girth = (
+            2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))
+        )  # metres around the equator, approximately
         texels = ellipsoid.texture[0].shape[1] / girth * float(ellipsoid.center[2]) / self.intrinsics.fx
         return sample_texture(ellipsoid.texture, u, v + np.float32(0.5), texels)
 
     def _place(self, rectangle: TexturedRectangle) -> tuple[slice, slice]:
-        """The grid's rows and columns that a rectangle may cover, maybe none."""
+        """The rows and columns of rays that may hit a rectangle; empty where none can."""
         camera = self.intrinsics
         sides = np.array([[0, 0], [1, 0], [0, 1], [1, 1]]) @ np.stack([rectangle.along, rectangle.down])
         corners = rectangle.corner - [self.offset, 0, 0] + sides
         size = np.array([camera.width, camera.height])
-        # Beside one of the pyramid's four planes: f x + c z = u z, with the image's first or last u.
+        # Outside of one of the four planes of the view frustum: f x + c z = u z for the first or last u.
         x, z = (
             corners[:, :2] * [camera.fx, camera.fy] + corners[:, 2:] * [camera.cx, camera.cy],
             corners[:, 2:],
@@ -182,9 +185,9 @@ class RayCamera(NamedTuple):
         return slice(top, bottom), slice(left, right)
 
     def _places(self, ellipsoids: Sequence[TexturedEllipsoid]) -> list[tuple[slice, slice] | None]:
-        """The grid's rows and columns that each ellipsoid may cover; None for none, or beside the camera.
+        """The rows and columns of rays that may hit each ellipsoid; None where none can.
 
-        The outline is that of :meth:`tricue.scenes.rendering.depth_camera.View.outline`.
+        The boxes are those of :meth:`tricue.scenes.rendering.depth_view.MountedCamera.ellipsoid_boxes`.
         """
         centers = np.stack([ellipsoid.center for ellipsoid in ellipsoids]) - [self.offset, 0, 0]
         units = np.stack([ellipsoid.unit for ellipsoid in ellipsoids])
@@ -215,23 +218,24 @@ class RayCamera(NamedTuple):
 
 
 def _first_hit(rays: Sequence[Picture], to_center: Array) -> Picture:
-    """The smaller root z of a z^2 - 2 b z + k = 0, a = |r|^2, b = r . c, k = |c|^2 - 1, on the unit sphere.
+    """The depth z at which rays r enter the unit sphere around c; infinite where they miss it.
 
-    The discriminant b^2 - a k = a - |r x c|^2 is free of the cancellation that single precision can't bear.
+    It is the smaller root of a z^2 - 2 b z + k = 0 with a = |r|^2, b = r . c, k = |c|^2 - 1. The discriminant
+    is computed as a - |r x c|^2, for b^2 - a k would cancel in single precision.
     """
     (r0, r1, r2), (c0, c1, c2) = rays, (np.float32(value) for value in to_center)
     a = r0 * r0 + r1 * r1 + r2 * r2
-    across = (r1 * c2 - r2 * c1) ** 2 + (r2 * c0 - r0 * c2) ** 2 + (r0 * c1 - r1 * c0) ** 2
-    under = a - across
+    cross_squared = (r1 * c2 - r2 * c1) ** 2 + (r2 * c0 - r0 * c2) ** 2 + (r0 * c1 - r1 * c0) ** 2
+    discriminant = a - cross_squared
     depth = np.float32(to_center @ to_center - 1) / (
-        r0 * c0 + r1 * c1 + r2 * c2 + np.sqrt(np.maximum(under, 0))
+        r0 * c0 + r1 * c1 + r2 * c2 + np.sqrt(np.maximum(discriminant, 0))
     )
-    depth[under < 0] = np.inf
+    depth[discriminant < 0] = np.inf
     return np.asarray(depth, np.float32)
 
 
 def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
-    """The light on each point: the normal is along unit^T q."""
+    """The brightness of each point by Lambert's law; its normal is along unit^T q."""
     gram, toward = unit @ unit.T, unit @ lamp.direction
     along = sum(q[i] * np.float32(toward[i]) for i in range(3))
     square = sum(q[i] * q[j] * np.float32(gram[i, j]) for i in range(3) for j in range(3) if gram[i, j])
@@ -242,5 +246,5 @@ def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
 def expose_lit(
     image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator
 ) -> NDArray[np.uint8]:
-    """The 8-bit image of a picture (H, W, 3) in a light of ``gain`` (3,), with noise, saturated."""
+    """The 8-bit image of a picture (H, W, 3) under light of a gain (3,) per channel, with noise, clipped."""
     return expose(np.asarray(image * gain, np.float32), noise, rng)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Textures made of random noise: skin, hair, cloth, wood, walls. BGR levels of 255 under light 1, float32.
+"""Random textures: skin, hair, cloth, wood, walls. BGR levels of 255 under light of gain 1, float32.
 
 Noise whose amplitude falls with the frequency has the statistics of real surfaces: its power falls about as
 1 / frequency^2 (Field, 1987, "Relations between the statistics of natural images", J. Opt. Soc. Am. A 4).
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from tricue.scenes.arrays import Picture
 
-# sRGB of skin from light to dark, and of hair from black to grey; our own picks, given here as BGR.
+# sRGB colors as BGR: skin from light to dark, hair from black to gray. Our own choice.
 SKIN_TONES = np.array(
     [[172, 190, 228], [140, 165, 212], [106, 140, 196], [74, 100, 155], [48, 66, 104]], float
 )
@@ -33,17 +33,17 @@ PLAIN_SURFACE, WOOD_SURFACE, STRIPED_SURFACE, BLOTCHED_SURFACE, CLUTTERED_SURFAC
 
 
 class Looks(NamedTuple):
-    """A person's colors, BGR (3,), and how the hair is cut."""
+    """A person's colors, BGR (3,), and haircut."""
 
     skin: NDArray[np.float64]
     hair: NDArray[np.float64]
     fringe: float  # latitude of the hairline on the forehead, degrees, below 0
-    nape: float  # latitude down to which the hair reaches behind, degrees
+    nape: float  # latitude of the hairline at the back, degrees
     beard: float  # opacity, 0 to 1
 
     @classmethod
     def sample(cls, rng: np.random.Generator) -> "Looks":
-        """A random adult's; the hair of who has dark skin is dark."""
+        """The looks of a random adult; dark skin comes with dark hair."""
         tone = rng.uniform(0, len(SKIN_TONES) - 1)
         below = min(int(tone), len(SKIN_TONES) - 2)
         skin = SKIN_TONES[below] + (tone - below) * (SKIN_TONES[below + 1] - SKIN_TONES[below])
@@ -56,9 +56,9 @@ class Looks(NamedTuple):
 def make_noise(
     height: int, width: int, slope: float, rng: np.random.Generator, stretch: tuple[float, float] = (1.0, 1.0)
 ) -> Picture:
-    """Noise (height, width) of mean 0 and deviation 1 that continues over its borders.
+    """Periodic noise (height, width) of mean 0 and deviation 1.
 
-    Its amplitude falls as 1 / frequency^slope; structures are longer along v, u by ``stretch``.
+    Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are longer along v and u.
     """
     v = np.fft.fftfreq(height)[:, None] * stretch[0]
     u = np.fft.rfftfreq(width)[None, :] * stretch[1]
@@ -70,14 +70,14 @@ def make_noise(
 
 
 def make_skin(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
-    """Skin: blotches of more and less blood, and pores."""
+    """Skin (*shape, 3): reddish blotches, and pores."""
     blood, pores = make_noise(*shape, 1.2, rng), make_noise(*shape, 0.3, rng)
     red = np.multiply.outer(blood, np.array([-0.05, -0.05, -0.01], np.float32))
     return np.asarray(color * (1 + red + 0.035 * pores[..., None]), np.float32)
 
 
 def make_hair(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
-    """Hair: strands down the rows, and locks."""
+    """Hair (*shape, 3): strands along the columns, and locks."""
     strands, locks = (
         make_noise(*shape, 0.7, rng, stretch=(8.0, 1.0)),
         make_noise(*shape, 1.2, rng, stretch=(2.0, 1.0)),
@@ -86,14 +86,16 @@ def make_hair(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random
 
 
 def make_head(looks: Looks, rng: np.random.Generator) -> Picture:
-    """A head's map, HEAD_MAP: columns are the longitude from -180 to 180 degrees, the face at 0; rows the
-    latitude from -90, the crown, to 90.
+    """The texture of a head, (*HEAD_TEXTURE_SHAPE, 3).
+
+    Columns are the longitude from -180 to 180 degrees, with the face at 0; rows are the latitude from -90,
+    the crown, to 90.
     """
     rows, columns = HEAD_TEXTURE_SHAPE
     latitude = np.linspace(-90, 90, 2 * rows + 1, dtype=np.float32)[1::2, None]
     longitude = np.linspace(-180, 180, 2 * columns + 1, dtype=np.float32)[None, 1::2]
     face = _paint_face(make_skin(HEAD_TEXTURE_SHAPE, looks.skin, rng), looks, latitude, longitude, rng)
-    # The hairline: over the forehead, down before the ears, behind them to the nape.
+    # The hairline: across the forehead, down in front of the ears, and behind them to the nape.
     turns = np.array([0.0, 38, 58, 74, 88, 100, 118, 180])
     lines = np.array([0, 2, 14, 34, 34, 40, 46, 0]) + looks.fringe
     lines[-3:] = [max(lines[-3], 0.6 * looks.nape), looks.nape, looks.nape]
@@ -105,7 +107,7 @@ def make_head(looks: Looks, rng: np.random.Generator) -> Picture:
 def _paint_face(
     face: Picture, looks: Looks, latitude: Picture, longitude: Picture, rng: np.random.Generator
 ) -> Picture:
-    """Eyes, brows, nose, mouth, cheeks, beard and ears on skin."""
+    """Paint eyes, brows, nose, mouth, cheeks, beard and ears on skin."""
     eyes, wide, brow, mouth = rng.uniform([1, 20, -11, 31], [5, 24, -8, 36]).tolist()
     darker, lips = looks.skin * 0.62, looks.skin * rng.uniform([0.6, 0.55, 0.75], [0.8, 0.75, 0.95])
     jaw = np.clip((latitude - 22) / 8, 0, 1) * np.clip((80 - np.abs(longitude)) / 10, 0, 1)
@@ -129,7 +131,7 @@ def _paint_face(
 
 
 def _spot(u: Picture, v: Picture, center_u: float, center_v: float, half_u: float, half_v: float) -> Picture:
-    """An ellipse with a soft edge: 1 inside, one half on it."""
+    """The opacity of an ellipse with a soft edge: 1 inside, one half on the edge."""
     square = ((u - center_u) / half_u) ** 2 + ((v - center_v) / half_v) ** 2
     return np.asarray(1 / (1 + square * square * square), np.float32)
 
@@ -141,7 +143,7 @@ def _blend(picture: Picture, color: NDArray[np.float64], opacity: Picture) -> Pi
 def make_surface(
     kind: str, shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator
 ) -> Picture:
-    """One of SURFACES, (height, width, 3), about a color (3,)."""
+    """A surface (*shape, 3) of a mean color (3,). kind: one of SURFACE_KINDS."""
     uneven = make_noise(*shape, 1.0, rng)
     if kind == WOOD_SURFACE:
         uneven = 0.4 * uneven + make_noise(*shape, 1.0, rng, stretch=(1.0, 12.0))
@@ -161,20 +163,20 @@ def make_surface(
 
 
 def _add_clutter(picture: Picture, rng: np.random.Generator) -> None:
-    """Books, posters, tiles: upright rectangles of any color with a pattern of their own."""
+    """Add random rectangles, such as books, posters and tiles, in place."""
     height, width = picture.shape[:2]
     for _ in range(int(rng.integers(8, 25))):
         rows, columns = (np.array([height, width]) * rng.uniform(0.06, 0.35, 2)).astype(int) + 1
         top, left = (rng.random(2) * (height - rows, width - columns)).astype(int)
         part = picture[top : top + rows, left : left + columns]
         part[:] = random_color(rng) * (part / part.mean())
-        if rng.random() < 0.5:  # a title or a picture on it
+        if rng.random() < 0.5:  # a title or a picture
             inner = part[rows // 4 : rows // 2, columns // 5 : 4 * columns // 5]
             inner[:] = random_color(rng)
 
 
 def random_color(rng: np.random.Generator) -> NDArray[np.float64]:
-    """A color as things indoors have it: seldom vivid, half of the time of a warm hue, as wood and paper."""
+    """A random BGR color (3,) as of indoor things: seldom vivid, and in half of the cases of a warm hue."""
     warm = rng.random() < 0.5
     hue = rng.normal(0.55, 0.25) if warm else rng.uniform(0, 2 * np.pi)  # radians; 0 is red, 1 is yellow
     vivid, level = rng.beta(1.5, 3.5), 220 * rng.beta(2.0, 2.0) + 20
@@ -183,7 +185,7 @@ def random_color(rng: np.random.Generator) -> NDArray[np.float64]:
 
 
 def build_pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
-    """The texture, and halves of it by averaging, so that a look-up can take one as coarse as the pixels."""
+    """An image pyramid of a texture, whose levels halve in size. smallest: the least side, in texels."""
     levels = [texture]
     while min(levels[-1].shape[:2]) >= 2 * smallest:
         height, width = levels[-1].shape[:2]
@@ -193,17 +195,17 @@ def build_pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
 
 
 def select_level(levels: Sequence[Picture], texels: float) -> list[Picture]:
-    """The one level for samples that span so many of the finest level's texels, as a pyramid by itself.
+    """The one level for samples that span ``texels`` texels of the finest level, as a pyramid of one level.
 
-    Who looks up in it doesn't change the level while the distance changes, which shows between two frames.
+    Sampling from it keeps the level while the distance changes; a change would show between two frames.
     """
     return [levels[min(max(round(math.log2(max(texels, 1.0))), 0), len(levels) - 1)]]
 
 
 def sample_texture(levels: Sequence[Picture], u: Picture, v: Picture, texels: float) -> Picture:
-    """Colors (h, w, 3) at u, v (h, w) in [0, 1] of the texture's width and height, bilinearly.
+    """The colors (h, w, 3) of a texture at u, v (h, w), in [0, 1] of its width and height, bilinearly.
 
-    texels: how many of the finest level's texels a sample spans. u continues over the border.
+    texels: how many texels of the finest level a sample spans. The texture is periodic along u.
     """
     (level,) = select_level(levels, texels)
     height, width = level.shape[:2]

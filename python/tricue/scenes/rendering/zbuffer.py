@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who is seen where: z-buffers (H, W) in metres, put together from the windows of single people."""
+"""Z-buffers (H, W) in metres, merged from the windows of single people, and which pixels are visible."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,10 @@ from tricue.scenes.rendering.depth_view import DepthWindow
 
 
 def merge_window(window: DepthWindow, depth: Array) -> tuple[tuple[slice, slice], Mask]:
-    """Put a window into a z-buffer; returns its place there, and where in it the window is nearest."""
+    """Merge a window into a z-buffer, in place.
+
+    Returns the slices of the window in the z-buffer, and where in them the window is the nearest.
+    """
     place, part = window.inside(depth.shape[1], depth.shape[0])
     nearer: Mask = part < depth[place]
     np.minimum(depth[place], part, out=depth[place])
@@ -18,19 +21,20 @@ def merge_window(window: DepthWindow, depth: Array) -> tuple[tuple[slice, slice]
 
 
 def find_visible_pixels(window: DepthWindow, depth: Array) -> tuple[Mask, float]:
-    """The pixels (H, W) of a window that win a z-buffer that holds it, and their share of those it has alone.
+    """The pixels (H, W) at which a window is the nearest in a z-buffer, and their share of its pixels.
 
-    Pixels beyond the image's edge don't count; the share is 0 where all of them are.
+    depth: the z-buffer that the window was merged into. Only pixels inside the image count; without any the
+    share is 0.
     """
     place, part = window.inside(depth.shape[1], depth.shape[0])
     alone: NDArray[np.bool_] = np.isfinite(part)
-    wins = np.zeros(depth.shape, bool)
-    wins[place] = alone & (part <= depth[place])
-    return wins, float(wins.sum() / max(alone.sum(), 1))
+    visible = np.zeros(depth.shape, bool)
+    visible[place] = alone & (part <= depth[place])
+    return visible, float(visible.sum() / max(alone.sum(), 1))
 
 
 def box_of_mask(mask: Mask) -> Box | None:
-    """The smallest box round a mask's pixels; None where there is none."""
+    """The bounding box of a mask's pixels; None for an empty mask."""
     rows, columns = np.nonzero(mask)
     if len(rows) == 0:
         return None

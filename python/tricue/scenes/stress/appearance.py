@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""What the things in a scene with everything look like: the target, its look-alikes, what hides it, the room.
+"""The appearance of things in a stress scene: the target, its look-alikes, the occluder, the room.
 
-Targets and walls are cut from different photographs of scikit-image; what hides, and the furniture, have the
+Targets and walls are cut from different photographs of scikit-image; the occluder and the furniture have the
 textures of :mod:`tricue.scenes.textures`.
 """
 
@@ -29,53 +29,56 @@ Image = NDArray[np.uint8]
 
 TARGET_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
 WALL_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")
-TARGET_TEXELS = 144  # texels of a target's longer side
-SHUFFLE_BLOCKS = 4  # along each side, into which a target is cut for the look-alike of its colors
-FLOOR_DEPTH_BELOW = 1.6  # metres below the camera, so that things that float in the picture are above it
-WALL_DISTANCES = 4.7, 6.0  # metres to the wall behind
+TARGET_TEXELS = 144  # of a target's longer side
+SHUFFLE_BLOCKS = 4  # along each side, which the look-alike of the target's colors has in another order
+FLOOR_HEIGHT = 1.6  # metres below the camera, so that the target stays above the floor
+WALL_DISTANCES = 4.7, 6.0  # metres to the back wall
 MAX_WINDOW_TRIES = 24
 MIN_TARGET_CONTRAST, MIN_TARGET_DETAIL, MIN_WALL_DISTANCE = 28.0, 7.0, 0.6
 
 
 class StressCards(NamedTuple):
-    """Everybody; the cards' sizes are those of the target, in metres, but of what hides it, 1 by 1."""
+    """The moving cards. All have the target's size in metres, but the occluder, which is 1 by 1."""
 
     target: Card
-    same_colors: Card  # with another structure
-    same_structure: Card  # in other colors
+    same_colors: Card  # the target's colors in another structure
+    same_structure: Card  # the target's structure in other colors
     occluder: Card
-    source: str  # the photograph that the target is cut from
+    photograph: str  # that the target is cut from
 
 
 class StressRoom(NamedTuple):
-    """A wall, a floor, and furniture before the wall; in the frame of the camera when it looks straight."""
+    """Wall, floor and furniture, far cards first, in the frame of a camera that looks straight ahead."""
 
     cards: tuple[tuple[Card, CardPose], ...]
 
-    def draw(self, eye: CardCamera, canvas: CardImage, rotation: Array) -> None:
-        """Draw it all, after a rotation (3, 3) of the room about the left camera."""
+    def draw(self, camera: CardCamera, canvas: CardImage, rotation: Array) -> None:
+        """Draw the room, after its rotation (3, 3) about the left camera."""
         for card, pose in self.cards:
-            eye.draw(canvas, card, pose.rotated(rotation))
+            camera.draw(canvas, card, pose.rotated(rotation))
 
 
 def make_cards(side: float, wall: str, rng: np.random.Generator) -> StressCards:
-    """A target of about ``side`` metres along both sides, cut from a photograph other than the wall's."""
+    """A random target, its look-alikes and the occluder.
+
+    side: of the target, metres, approximately. wall: the wall's photograph; the target is from another one.
+    """
     aspect = float(np.exp(rng.uniform(np.log(0.6), np.log(1.6))))
     size = side * aspect**0.5, side / aspect**0.5
-    picture, source = _window(aspect, wall, rng)
+    picture, source = _sample_window(aspect, wall, rng)
     outline = [rectangle_outline(), superellipse(2.0), superellipse(4.0)][rng.integers(3)]
     cloth = textures.make_surface(textures.STRIPED_SURFACE, (128, 96), textures.random_color(rng), rng)
     return StressCards(
         Card.from_outline(picture, outline, size),
-        Card.from_outline(_shuffled(picture, rng), outline, size),
-        Card.from_outline(_recolored(picture, rng), outline, size),
+        Card.from_outline(_shuffle_blocks(picture, rng), outline, size),
+        Card.from_outline(_recolor(picture, rng), outline, size),
         Card.from_outline(cloth, superellipse(6.0), (1.0, 1.0)),
         source,
     )
 
 
 def furnish_stress_room(camera: Intrinsics, wall: str, rng: np.random.Generator) -> StressRoom:
-    """A room with a photograph for a wall and three to five boards before it, far things first."""
+    """A random room: a wall with a photograph, a floor, and three to five boards in front of the wall."""
     far = rng.uniform(*WALL_DISTANCES)
     boards = [_board(far, rng) for _ in range(int(rng.integers(3, 6)))]
     boards.sort(key=lambda board: -float(board[1].center[2]))
@@ -83,14 +86,15 @@ def furnish_stress_room(camera: Intrinsics, wall: str, rng: np.random.Generator)
 
 
 def choose_other(names: tuple[str, ...], taken: tuple[str, ...], rng: np.random.Generator) -> str:
-    """One of the names but those that are taken."""
+    """A random one of the names that aren't taken."""
     left = [name for name in names if name not in taken]
     return left[rng.integers(len(left))]
 
 
-def _window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, str]:
-    """A random part of a photograph and its name: the first of several that has contrast, detail, and other
-    colors than the wall; else the last one.
+def _sample_window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, str]:
+    """A random part of a photograph, and the photograph's name.
+
+    It is the first of MAX_WINDOW_TRIES with contrast, detail, and other colors than the wall; else the last.
     """
     load = cache(photographs.load_photograph)
     behind = _histogram(load(wall))
@@ -107,18 +111,18 @@ def _window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[Image, 
 
 
 def _texels(aspect: float) -> tuple[int, int]:
-    """Columns and rows, whole blocks of them."""
+    """The target's columns and rows of texels, multiples of SHUFFLE_BLOCKS."""
     shares = min(aspect, 1.0), min(1 / aspect, 1.0)
     columns, rows = (SHUFFLE_BLOCKS * round(TARGET_TEXELS * share / SHUFFLE_BLOCKS) for share in shares)
     return columns, rows
 
 
 def _is_distinct(part: Image, behind: NDArray[np.float32]) -> bool:
-    grey = cv2.cvtColor(part, cv2.COLOR_BGR2GRAY).astype(np.float32)
-    detail = np.abs(np.diff(grey, axis=0)).mean() + np.abs(np.diff(grey, axis=1)).mean()
+    gray = cv2.cvtColor(part, cv2.COLOR_BGR2GRAY).astype(np.float32)
+    detail = np.abs(np.diff(gray, axis=0)).mean() + np.abs(np.diff(gray, axis=1)).mean()
     distance = cv2.compareHist(_histogram(part), behind, cv2.HISTCMP_BHATTACHARYYA)
     return bool(
-        grey.std() > MIN_TARGET_CONTRAST and detail > MIN_TARGET_DETAIL and distance > MIN_WALL_DISTANCE
+        gray.std() > MIN_TARGET_CONTRAST and detail > MIN_TARGET_DETAIL and distance > MIN_WALL_DISTANCE
     )
 
 
@@ -127,8 +131,8 @@ def _histogram(picture: Image) -> NDArray[np.float32]:
     return np.asarray(counts / counts.sum(), np.float32)
 
 
-def _shuffled(picture: Image, rng: np.random.Generator) -> Image:
-    """The same pixels in another place: blocks in another order, each upside down."""
+def _shuffle_blocks(picture: Image, rng: np.random.Generator) -> Image:
+    """The same colors in another structure: blocks in another order, each rotated by 180 degrees."""
     rows, columns = (side // SHUFFLE_BLOCKS for side in picture.shape[:2])
     blocks = picture.reshape(SHUFFLE_BLOCKS, rows, SHUFFLE_BLOCKS, columns, 3).swapaxes(1, 2)
     order = np.roll(rng.permutation(SHUFFLE_BLOCKS**2), 1)
@@ -138,8 +142,8 @@ def _shuffled(picture: Image, rng: np.random.Generator) -> Image:
     )
 
 
-def _recolored(picture: Image, rng: np.random.Generator) -> Image:
-    """The same lightness, the opposite hues, and a tint, for what is grey has no opposite."""
+def _recolor(picture: Image, rng: np.random.Generator) -> Image:
+    """The same lightness with opposite hues, and a tint, since gray has no opposite hue."""
     lab = cv2.cvtColor((picture / np.float32(255)).astype(np.float32), cv2.COLOR_BGR2LAB)
     angle = rng.uniform(0, 2 * np.pi)
     lab[..., 1:] = -lab[..., 1:] + np.array([45 * np.cos(angle), 45 * np.sin(angle)], np.float32)
@@ -148,7 +152,7 @@ def _recolored(picture: Image, rng: np.random.Generator) -> Image:
 
 
 def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
-    """A photograph a bit wider than the view, continued by its mirror images for a camera that turns."""
+    """A photograph slightly wider than the view, extended by its mirror images for a camera that pans."""
     picture = photographs.load_photograph(name)
     if rng.random() < 0.5:
         picture = picture[:, ::-1]
@@ -158,23 +162,21 @@ def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -
         cv2.copyMakeBorder(picture, over, over, beside, beside, cv2.BORDER_REFLECT), np.uint8
     )
     scale = far * max(camera.width / camera.fx / columns, camera.height / camera.fy / rows)
-    scale *= rng.uniform(1.0, 1.2)  # metres a texel
+    scale *= rng.uniform(1.0, 1.2)  # metres per texel
     size = tiled.shape[1] * scale, tiled.shape[0] * scale
     return Card.from_outline(tiled, rectangle_outline(), size), face_camera(np.array([0.0, 0, far]), 0.0, 0.0)
 
 
 def _floor(far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
-    """Boards or a carpet from a metre before the camera to the wall."""
+    """A floor from one metre in front of the camera to the wall."""
     kind = [textures.WOOD_SURFACE, textures.PLAIN_SURFACE][rng.integers(2)]
     picture = textures.make_surface(kind, (256, 512), textures.random_color(rng) * 0.5 + 60, rng)
-    pose = CardPose(
-        np.array([0, FLOOR_DEPTH_BELOW, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0])
-    )
+    pose = CardPose(np.array([0, FLOOR_HEIGHT, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))
     return Card.from_outline(picture, rectangle_outline(), (16.0, far - 1)), pose
 
 
 def _board(far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
-    """A cupboard's front, a poster's or the like, standing on the floor."""
+    """An upright textured board on the floor."""
     kind = [
         textures.WOOD_SURFACE,
         textures.CLUTTERED_SURFACE,
@@ -184,7 +186,7 @@ def _board(far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
     picture = textures.make_surface(kind, (160, 128), textures.random_color(rng), rng)
     width, height = rng.uniform([0.4, 0.6], [1.0, 1.9])
     z = rng.uniform(4.0, far - 0.2)
-    center = np.array([rng.uniform(-0.85, 0.85) * z, FLOOR_DEPTH_BELOW - height / 2, z])
+    center = np.array([rng.uniform(-0.85, 0.85) * z, FLOOR_HEIGHT - height / 2, z])
     return Card.from_outline(picture, rectangle_outline(), (width, height)), face_camera(
         center, 0.0, rng.uniform(-0.03, 0.03)
     )

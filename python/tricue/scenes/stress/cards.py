@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Flat textured cards before a pinhole camera, drawn from far to near by homographies.
 
-One geometry gives color, depth and who is seen where, so that they agree to a fraction of a pixel, and takes
-a millisecond a card. Frame: the camera's, x right, y down, z forward, metres.
+Color, depth and labels come from one geometry, so that they agree to a fraction of a pixel. Camera frame: x
+right, y down, z forward, metres.
 """
 
 from collections.abc import Sequence
@@ -16,51 +16,51 @@ from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.textures import build_pyramid, select_level
 
-NO_CARD = 0  # the number of what has no name in an image of names
-MIN_CARD_DEPTH = 0.2  # metres
-OUTLINE_SAMPLES = 4  # parts of a texel's side in which outlines are filled
+NO_CARD = 0  # the label of pixels without a labeled card
+MIN_CARD_DEPTH = 0.2  # metres; nearer cards aren't drawn
+OUTLINE_SAMPLES = 4  # along each side of a texel, by which outlines are antialiased
 
 
 class Card(NamedTuple):
-    """A flat thing: its picture, what part of it is there, and its size."""
+    """A flat textured thing: its texture, its outline, and its size."""
 
-    levels: Sequence[Picture]  # a pyramid (h, w, 4): BGR times opacity, and opacity in [0, 1]
-    outline: Array  # (n, 2) corners of the part that is there, in [0, 1] of width and height
+    levels: Sequence[Picture]  # a pyramid (h, w, 4): BGR times opacity, and opacity, 0 to 1
+    outline: Array  # (n, 2) corners of the opaque part, in [0, 1] of width and height
     size: tuple[float, float]  # metres, width and height
 
     @classmethod
     def from_outline(
         cls, picture: NDArray[np.uint8] | Picture, outline: Array, size: tuple[float, float]
     ) -> "Card":
-        """A picture (h, w, 3) cut along an outline."""
+        """A card of an image (h, w, 3), cut along an outline."""
         share = _opacity(outline, *picture.shape[:2])[..., None]
         return cls(build_pyramid(np.dstack([picture * share, share]).astype(np.float32)), outline, size)
 
 
 class CardPose(NamedTuple):
-    """Where a card is: its middle (3,), and the unit vectors (3,) along its rows and down its columns."""
+    """The pose of a card: its center (3,), and unit vectors (3,) along its rows and down its columns."""
 
     center: Array
     along: Array
     down: Array
 
     def edges(self, card: Card) -> tuple[Array, Array, Array]:
-        """Its first corner, and the vectors along its upper and down its left side, metres."""
+        """The card's upper left corner, and the vectors (3,) of its upper and its left edge, metres."""
         along, down = self.along * card.size[0], self.down * card.size[1]
         return self.center - (along + down) / 2, along, down
 
     def rotated(self, rotation: Array) -> "CardPose":
-        """The same after a rotation (3, 3) about the origin."""
+        """The pose after a rotation (3, 3) about the origin."""
         return CardPose(rotation @ self.center, rotation @ self.along, rotation @ self.down)
 
     def points(self, card: Card) -> Array:
-        """The outline's corners (n, 3), metres."""
+        """The corners (n, 3) of a card's outline, metres."""
         corner, along, down = self.edges(card)
         return np.asarray(corner + card.outline @ np.stack([along, down]))
 
 
 class CardImage(NamedTuple):
-    """What is in each pixel: color (H, W, 3), depth z (H, W) in metres, and the name (H, W) of the card."""
+    """An image: color (H, W, 3), depth z (H, W) in metres, and the label (H, W) of the card in each pixel."""
 
     color: Picture
     depth: Picture
@@ -78,15 +78,15 @@ class CardImage(NamedTuple):
 
 
 class CardCamera(NamedTuple):
-    """A camera that stands at (offset, 0, 0)."""
+    """A camera at (offset, 0, 0)."""
 
-    camera: Intrinsics
+    intrinsics: Intrinsics
     offset: float = 0.0
 
     def draw(self, canvas: CardImage, card: Card, pose: CardPose, label: int = NO_CARD) -> None:
-        """Lay a card over what is there, so that cards have to come from far to near.
+        """Draw a card over what is there; cards have to be drawn from far to near.
 
-        A pixel's depth and name are those of the card that covers half of it or more; its color is mixed.
+        A pixel gets the depth and the label of the card that covers at least half of it; colors are blended.
         """
         place = self._place(pose.points(card))
         if place is None:
@@ -98,16 +98,16 @@ class CardCamera(NamedTuple):
         canvas.labels[place][seen] = label
 
     def mask(self, card: Card, pose: CardPose) -> Mask:
-        """The pixels (H, W) that a card covers where nothing is before it."""
-        mask = np.zeros((self.camera.height, self.camera.width), bool)
+        """The pixels (H, W) that a card covers when nothing hides it."""
+        mask = np.zeros((self.intrinsics.height, self.intrinsics.width), bool)
         place = self._place(pose.points(card))
         if place is not None:
             mask[place] = self._warp(card, pose, place[1], place[0])[..., 3] > 0.5
         return mask
 
     def outline(self, card: Card, pose: CardPose) -> Array:
-        """The outline in the image (n, 2); as in a Box (0, 0) is the first pixel's corner, not its centre."""
-        return self.camera.project(pose.points(card) - [self.offset, 0, 0]) + 0.5
+        """A card's outline (n, 2) in the image; as in a Box, (0, 0) is the first pixel's corner."""
+        return self.intrinsics.project(pose.points(card) - [self.offset, 0, 0]) + 0.5
 
     def _cover(self, canvas: CardImage, warped: Picture, place: tuple[slice, slice]) -> Mask:
         opacity = warped[..., 3:]
@@ -117,58 +117,60 @@ class CardCamera(NamedTuple):
         return np.asarray(opacity[..., 0] > 0.5)
 
     def _warp(self, card: Card, pose: CardPose, columns: slice, rows: slice) -> Picture:
-        """The card's picture in a part of the image, (h, w, 4)."""
+        """A card's color and opacity (h, w, 4) in a part of the image."""
         distance = max(float(pose.center[2]), MIN_CARD_DEPTH)
-        texels = card.levels[0].shape[1] / card.size[0] * distance / self.camera.fx
+        texels = card.levels[0].shape[1] / card.size[0] * distance / self.intrinsics.fx
         (level,) = select_level(card.levels, texels)
         height, width = level.shape[:2]
-        # A texel's centre is at (its number + 1/2) / count of the side.
+        # Texel i of n has its center at (i + 1/2) / n.
         to_unit = np.array([[1 / width, 0, 0.5 / width], [0, 1 / height, 0.5 / height], [0, 0, 1]])
         corner, along, down = pose.edges(card)
         to_ray = np.stack([along, down, corner - [self.offset, 0, 0]], axis=1)
         to_part = np.array([[1, 0, -columns.start], [0, 1, -rows.start], [0, 0, 1]])
         size = columns.stop - columns.start, rows.stop - rows.start
-        return np.asarray(cv2.warpPerspective(level, to_part @ self.camera.matrix @ to_ray @ to_unit, size))
+        return np.asarray(
+            cv2.warpPerspective(level, to_part @ self.intrinsics.matrix @ to_ray @ to_unit, size)
+        )
 
     def _depth(self, pose: CardPose, columns: slice, rows: slice) -> Picture:
-        """The depth (h, w) of the card's plane: n . (z ray) = n . center."""
+        """The depth (h, w) of a card's plane: n . (z ray) = n . center."""
         normal = np.cross(pose.along, pose.down)
-        x = (np.arange(columns.start, columns.stop) - self.camera.cx) / self.camera.fx
-        y = (np.arange(rows.start, rows.stop) - self.camera.cy) / self.camera.fy
+        x = (np.arange(columns.start, columns.stop) - self.intrinsics.cx) / self.intrinsics.fx
+        y = (np.arange(rows.start, rows.stop) - self.intrinsics.cy) / self.intrinsics.fy
         share = (normal[0] * x + normal[2])[None, :] + (normal[1] * y)[:, None]
         return np.asarray(normal @ (pose.center - [self.offset, 0, 0]) / share, np.float32)
 
     def _place(self, points: Array) -> tuple[slice, slice] | None:
-        """The rows and columns that a card of these corners may cover; None for none."""
+        """The rows and columns that a card with these corners may cover; None without any."""
         if points[:, 2].min() < MIN_CARD_DEPTH:
             return None
-        x, y = self.camera.project(points - [self.offset, 0, 0]).T
-        left, right = (int(np.clip(side, 0, self.camera.width)) for side in (x.min() - 1, x.max() + 2))
-        top, bottom = (int(np.clip(side, 0, self.camera.height)) for side in (y.min() - 1, y.max() + 2))
+        x, y = self.intrinsics.project(points - [self.offset, 0, 0]).T
+        left, right = (int(np.clip(side, 0, self.intrinsics.width)) for side in (x.min() - 1, x.max() + 2))
+        top, bottom = (int(np.clip(side, 0, self.intrinsics.height)) for side in (y.min() - 1, y.max() + 2))
         return None if left >= right or top >= bottom else (slice(top, bottom), slice(left, right))
 
 
 def rectangle_outline() -> Array:
-    """The outline of a whole picture."""
+    """The outline of a whole rectangle."""
     return np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
 
 
 def superellipse(power: float) -> Array:
-    """A superellipse that fills the picture: 2 is an ellipse, more are rectangles with round corners."""
+    """The outline of a superellipse: power 2 is an ellipse, larger ones approach a rectangle."""
     angle = np.linspace(0, 2 * np.pi, 64, endpoint=False)
     cos, sin = np.cos(angle), np.sin(angle)
     return 0.5 + 0.5 * np.stack([np.sign(v) * np.abs(v) ** (2 / power) for v in (cos, sin)], axis=1)
 
 
 def face_camera(center: Array, roll: float, yaw: float) -> CardPose:
-    """A card that faces the camera but for a roll in the image and a turn about its upright, radians."""
+    """The pose of a card that faces the camera, but for a roll in the image and a yaw, radians."""
     cos, sin = np.cos(roll), np.sin(roll)
     turn = np.array([[np.cos(yaw), 0, np.sin(yaw)], [0, 1, 0], [-np.sin(yaw), 0, np.cos(yaw)]])
     return CardPose(center, turn @ [cos, sin, 0], turn @ [-sin, cos, 0])
 
 
 def _opacity(outline: Array, height: int, width: int) -> Picture:
-    """The share of each texel (height, width) within an outline."""
+    """The share (height, width) of each texel that is inside an outline."""
     if np.array_equal(outline, rectangle_outline()):
         return np.ones((height, width), np.float32)
     fine = np.zeros((height * OUTLINE_SAMPLES, width * OUTLINE_SAMPLES), np.float32)

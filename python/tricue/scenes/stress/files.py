@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A scene with everything as a folder of files that ``tricue evaluate`` and ``tricue track`` read."""
+"""Writes a stress scene as a folder that ``tricue evaluate`` and ``tricue track`` read."""
 
 from pathlib import Path
 
@@ -15,16 +15,17 @@ from tricue.scenes.stress.scene import StressScene
 
 TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
 RIG_FILE, INTRINSICS_FILE, SEQUENCE_FILE = "calibration.yml", "intrinsics.toml", "sequence"
-MIN_WRITTEN_SIDE = 1.0  # pixels, width and height of a box that is written
+MIN_WRITTEN_SIDE = 1.0  # pixels; smaller boxes aren't written
 
 
 def write_sequence(scene: StressScene, folder: str | Path) -> None:
     """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
 
-    A pair goes to left/ and right/ with calibration.yml; everything else is a sequence of VOT with color/,
-    depth/ in millimetres, or both, and intrinsics.toml. Truth goes to boxes.csv. Its cells are empty where
-    nothing of the target is seen, which the readers take for "absent"; VOT's boxes end at the image's edge.
-    FileExistsError where the folder has files already. Times are kept by the rate alone, a pair's not at all.
+    A stereo pair goes to left/ and right/ with calibration.yml. Other scenes become a sequence of VOT with
+    color/, depth/ in millimetres, or both, and intrinsics.toml; their boxes are clipped to the image. The
+    truth goes to boxes.csv, with empty cells where nothing of the target is visible, which readers take as
+    absent. Of the times only the frame rate is kept, and of a stereo pair's not even that.
+    FileExistsError where the folder has files already.
     """
     folder = Path(folder)
     if folder.exists() and any(folder.iterdir()):
@@ -49,7 +50,7 @@ def write_sequence(scene: StressScene, folder: str | Path) -> None:
 
 
 def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
-    """Color as it is; depth, metres, in millimetres, 0 where nothing was measured."""
+    """Write color as it is, and depth (float32 metres) as 16-bit millimetres, 0 where unmeasured."""
     if image.dtype == np.float32:
         image = np.rint(np.nan_to_num(image) * 1000).astype(np.uint16)
     if not cv2.imwrite(str(path), image):
@@ -62,7 +63,7 @@ def _table(scene: StressScene, clipped: bool) -> str:
     for index, row in enumerate(scene.boxes):
         box = Box(*row.tolist())
         written = box.clip(*size) if clipped else box
-        # A sliver at the edge that no tracker can be asked for has no box either.
+        # A sliver at the edge, which no tracker could follow, has no box either.
         seen = scene.visible[index] > 0 and min(written.width, written.height) >= MIN_WRITTEN_SIDE
         cells = [f"{value:.4f}" for value in written] if seen else [""] * 4
         place = scene.positions[index]
@@ -77,7 +78,7 @@ def _toml(camera: Intrinsics) -> str:
 
 
 def _write_rig(path: Path, rig: StereoRig) -> None:
-    """As cv2.stereoRectify gives it: P1 = K [I | 0], P2 = K [I | -b e_x]."""
+    """Write P1 = K [I | 0] and P2 = K [I | -b e_x], as cv2.stereoRectify gives them."""
     left = np.hstack([rig.intrinsics.matrix, np.zeros((3, 1))])
     right = left.copy()
     right[0, 3] = -rig.intrinsics.fx * rig.baseline

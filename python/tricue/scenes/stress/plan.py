@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""When what happens in a scene with everything: how long the scenes are, and the order of their events."""
+"""The timeline of a stress scene: its length, and when its events happen."""
 
 import numpy as np
 
@@ -23,16 +23,16 @@ FRAME_COUNTS = {
     "all": 300,
 }
 EVENT_LENGTHS = {"camera": 40, "light": 45, "leaving": 70, "lookalike": 65, "hidden": 42, "blank": 32}
-"""Frames that an event takes in a scene with all of them; they leave six quiet ones at the begin."""
-QUIET_FRAMES = 12  # frames at the begin of a scene with one event
-SCALE_FRAMES = 120  # frames in which the size changes 1:4
-MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target at most, its widths a frame
+"""The frames that each event takes in a scene with all of them; they leave six quiet ones at the start."""
+QUIET_FRAMES = 12  # at the start of a scene with one event
+SCALE_FRAMES = 120  # in which the size changes 1:4
+MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target, in its widths per frame
 
 
 def plan_motion(
     kind: str, camera: Intrinsics, cards: StressCards, middle: float, rng: np.random.Generator
 ) -> StressMotion:
-    """All that happens in a scene of a kind. middle: metres, about which the target's distance lies."""
+    """The motion and the events of a scene. kind: one of FRAME_COUNTS. middle: the mean depth, metres."""
     frames = FRAME_COUNTS[kind]
     depth = _depth(kind, frames, middle, rng)
     speed = MAX_FAST_SPEED if kind == "fast" else MAX_SPEED
@@ -45,7 +45,7 @@ def plan_motion(
             cards.occluder,
         )
     ]
-    moves = StressMotion(
+    motion = StressMotion(
         camera,
         paths[0],
         (paths[1], paths[2]),
@@ -56,12 +56,12 @@ def plan_motion(
         in_other_room=np.zeros(frames, bool),
         spans=_spans(kind, frames, rng),
     )
-    for path in moves.lookalikes:
+    for path in motion.lookalikes:
         path.present[:] = False
     for name, event in EVENTS.items():
-        if name in moves.spans:
-            event(moves, moves.spans[name], rng)
-    return moves
+        if name in motion.spans:
+            event(motion, motion.spans[name], rng)
+    return motion
 
 
 def _spans(kind: str, frames: int, rng: np.random.Generator) -> dict[str, range]:
@@ -76,7 +76,7 @@ def _spans(kind: str, frames: int, rng: np.random.Generator) -> dict[str, range]
 
 
 def _depth(kind: str, frames: int, middle: float, rng: np.random.Generator) -> Array:
-    """The target's distance (N,): 1:4 and back, or a tenth to and fro."""
+    """The target's depth (N,), metres: 1:4 and back, or varying by a tenth."""
     time = np.arange(frames)
     if kind in ("scale", "all"):
         phase = np.pi * (rng.integers(2) if kind == "scale" else rng.random() * 2)
@@ -85,7 +85,7 @@ def _depth(kind: str, frames: int, middle: float, rng: np.random.Generator) -> A
 
 
 def _hide_occluder(path: CardPath) -> CardPath:
-    """What hides the target stands upright, and isn't there yet."""
-    path.roll[:] = path.turn[:] = 0
+    """The occluder's path before its event: upright, and not in the scene."""
+    path.roll[:] = path.yaw[:] = 0
     path.present[:] = False
     return path

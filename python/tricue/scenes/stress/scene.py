@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Scenes in which a target meets one trouble after the other: light, look-alikes, occlusion, leaving, scale.
+"""Stress scenes: a target under changes of light and scale, look-alikes, occlusion, leaving and cuts.
 
-Everything lives at metres before one pinhole camera: color, depth, the right image and the truth are drawn
-from the same cards and agree.
+Color, depth, the right image and the truth are rendered from the same cards, so that they agree.
 """
 
 from collections.abc import Iterator, Sequence
@@ -27,42 +26,42 @@ from tricue.scenes.stress.stage import StressStage
 STRESS_KINDS = tuple(FRAME_COUNTS)
 STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
 MIN_IMAGE_SIDE = 80  # pixels along each side of an image
-EXPOSURE_SAMPLES = 5  # that make a blurred one
+EXPOSURE_SAMPLES = 5  # of which the mean makes a motion-blurred image
 METRES_PER_MILLIMETRE = np.float32(0.001)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StressScene:
-    """A target among troubles, made by this package; the same arguments give the same bits.
+    """A rendered stress scene and its exact truth; the same arguments give the same bits.
 
-    The truth is that of the geometry in the middle of each exposure, in the color or left camera's image.
+    The truth is that of the geometry in the middle of each exposure, in the color (or left) camera's image.
     """
 
     name: str
     kind: str
     seed: int
     frames: tuple[Frame, ...]
-    """N, each with the channels that were asked for and ``timestamp``, seconds from 0. Depth is in whole
+    """N frames with the requested channels and ``timestamp``, seconds from 0. Depth is rounded to
     millimetres, as cameras give it, and NaN in black frames."""
     boxes: Array
-    """(N, 4) x, y, width, height round the whole target whatever hides it, pixels; it may reach over the
-    image's edge. NaN where the target is wholly outside the picture, or in another scene."""
+    """(N, 4) x, y, width, height around the whole target, pixels, hidden parts included; it may reach beyond
+    the image. NaN where the target is wholly outside of the image, and in the other room."""
     visible: Array
-    """(N,) share of the target's pixels that are seen, those beyond the image's edge counted as unseen; 0 too
-    in black frames and in the other scene."""
+    """(N,) share of the target's pixels that are visible; those beyond the image count as hidden. 0 also in
+    black frames and in the other room."""
     positions: Array
-    """(N, 3) metres in the camera's frame, of the target's middle; NaN where the box is."""
+    """(N, 3) the target's center, metres in the camera's frame; NaN where the box is NaN."""
     lookalikes: tuple[Array, ...]
-    """(N, 4) boxes of the one with the target's colors, and of the one with its structure; NaN outside."""
+    """(N, 4) boxes of the two look-alikes: same colors, and same structure; NaN outside of the image."""
     masks: tuple[Mask, ...]
     """(H, W) each: the target's visible pixels."""
     light: Array
-    """(N, 3) gain of each channel, BGR; 1 is the light in which the textures have their levels."""
+    """(N, 3) gain of each channel, BGR; 1 leaves the textures' levels unchanged."""
     spans: dict[str, range]
-    """The frames in which each event happens, what leads to it and from it included."""
+    """The frames of each event, by name, including what leads to it and from it."""
     intrinsics: Intrinsics
     rig: StereoRig | None
-    """The pair, with a right image alone."""
+    """The stereo rig; None in scenes without a right image."""
 
 
 def stress_scene(
@@ -74,51 +73,53 @@ def stress_scene(
     noise: float = 2.0,
     shutter: float = 0.0,
 ) -> StressScene:
-    """A textured card on a smooth path through a room, 30 frames a second, and what happens to it.
+    """A textured card that moves on a smooth path through a room, 30 frames per second, under one difficulty.
 
-    kind: one of KINDS;
-        "plain": nothing else happens;
-        "fast": it moves by up to half of its width a frame;
-        "light": brightness between 0.4 and 1.3 jumps and drifts, and the light's color changes;
+    kind: one of STRESS_KINDS;
+        "plain": no difficulty;
+        "fast": the target moves by up to half of its width per frame;
+        "light": the brightness jumps and drifts between 0.4 and 1.3, and the light's color changes;
         "camera": the camera pans by 8 to 14 degrees and back, and shakes;
-        "scale": it comes or goes so that its size changes 1:4 within 120 frames, and back;
-        "leaving": it is out of the picture for 30 frames and comes back over another edge;
-        "hidden": something nearer hides it wholly for 20 frames;
-        "lookalike": one of its colors with another structure and one of its structure in other colors cross
-            its way and stay nearby;
-        "blank": 8 black frames, then 24 of another scene, or the other way round;
-        "all": all of these but "fast" in 300 frames, in an order drawn from the seed, the size changing
+        "scale": the target's depth changes so that its size changes 1:4 within 120 frames, and back;
+        "leaving": the target is outside of the image for 30 frames and returns over another edge;
+        "hidden": an occluder hides the target completely for 20 frames;
+        "lookalike": a card with the target's colors in another structure, and one with its structure in other
+            colors, cross its path and stay nearby;
+        "blank": 8 black frames, then 24 in another room, or in reverse order;
+        "all": all of these but "fast" in 300 frames, in an order drawn from the seed; the size changes
             smoothly all the time.
-    channels: "color"; "rgbd", color and registered depth; "stereo", a pair; "depth" alone. Of one kind, seed
-        and size all have the same truth, and the same color images.
-    noise: standard deviation in levels of 255, independent in both images. shutter: share of a frame's time
-        in which the picture is exposed; above 0 what moves is blurred.
+    size: width and height, pixels, at least 80.
+    channels: "color"; "rgbd", color and registered depth; "stereo", a stereo pair; or "depth". For one kind,
+        seed and size, all have the same truth and the same color images.
+    noise: standard deviation in levels of 255, independent in both images. shutter: exposure time as a share
+        of a frame's time; above 0 there is motion blur.
 
-    The seed decides the looks, the room, the path and the times. No shadows are cast.
+    The seed decides the appearance, the room, the path and the times. No shadows are cast. ValueError or
+    TypeError names the argument that is wrong.
     """
     _check(kind, seed, size, channels, noise, shutter)
     stage = StressStage.build(kind, seed, size)
-    truths = [stage.truth_at(index) for index in range(len(stage.moves))]
+    truths = [stage.truth_at(index) for index in range(len(stage.motion))]
     cameras = _StressCameras(channels, noise, shutter, seed)
     return StressScene(
         name=f"everything, {kind}, {size[0]}x{size[1]}, seed {seed}",
         kind=kind,
         seed=seed,
-        frames=tuple(cameras.record(stage, [truth_at.canvas for truth_at in truths])),
-        boxes=np.stack([truth_at.boxes[0] for truth_at in truths]),
-        visible=np.array([truth_at.visible for truth_at in truths]),
-        positions=np.stack([truth_at.position for truth_at in truths]),
-        lookalikes=tuple(np.stack([truth_at.boxes[which] for truth_at in truths]) for which in (1, 2)),
-        masks=tuple(truth_at.mask for truth_at in truths),
-        light=stage.moves.light,
-        spans=stage.moves.spans,
-        intrinsics=stage.moves.camera,
+        frames=tuple(cameras.record(stage, [truth.canvas for truth in truths])),
+        boxes=np.stack([truth.boxes[0] for truth in truths]),
+        visible=np.array([truth.visible for truth in truths]),
+        positions=np.stack([truth.position for truth in truths]),
+        lookalikes=tuple(np.stack([truth.boxes[which] for truth in truths]) for which in (1, 2)),
+        masks=tuple(truth.mask for truth in truths),
+        light=stage.motion.light,
+        spans=stage.motion.spans,
+        intrinsics=stage.motion.camera,
         rig=stage.rig if channels == "stereo" else None,
     )
 
 
 class _StressCameras(NamedTuple):
-    """What the cameras make of a stage. Each has a noise of its own, so that one doesn't change another's."""
+    """The cameras of a scene; each has its own noise, so that an image doesn't depend on the channels."""
 
     channels: str
     noise: float
@@ -126,18 +127,18 @@ class _StressCameras(NamedTuple):
     seed: int
 
     def record(self, stage: StressStage, canvases: Sequence[CardImage]) -> Iterator[Frame]:
-        """The frames, from the left camera's canvases."""
+        """The frames. canvases: the left camera's, at each frame's time."""
         noises = [np.random.default_rng([self.seed, 2, camera]) for camera in range(3)]
-        sensor = replace(DEPTH_SENSORS["rgbd"], intrinsics=stage.moves.camera)
-        eyes = CardCamera(stage.moves.camera), CardCamera(stage.moves.camera, stage.rig.baseline)
+        sensor = replace(DEPTH_SENSORS["rgbd"], intrinsics=stage.motion.camera)
+        cameras = CardCamera(stage.motion.camera), CardCamera(stage.motion.camera, stage.rig.baseline)
         for index, canvas in enumerate(canvases):
             images: dict[str, NDArray[Any]] = {}
             if self.channels != "depth":
-                images["color"] = self._expose(stage, eyes[0], index, noises[0], canvas)
+                images["color"] = self._expose(stage, cameras[0], index, noises[0], canvas)
             if self.channels == "stereo":
-                images["right"] = self._expose(stage, eyes[1], index, noises[1])
+                images["right"] = self._expose(stage, cameras[1], index, noises[1])
             if self.channels in ("rgbd", "depth"):
-                images["depth"] = _measure(sensor, canvas.depth, stage.moves.black[index], noises[2])
+                images["depth"] = _measure(sensor, canvas.depth, stage.motion.black[index], noises[2])
             yield Frame(
                 images.get("color"),
                 images.get("depth"),
@@ -148,28 +149,29 @@ class _StressCameras(NamedTuple):
     def _expose(
         self,
         stage: StressStage,
-        eye: CardCamera,
+        camera: CardCamera,
         index: int,
         rng: np.random.Generator,
         sharp: CardImage | None = None,
     ) -> NDArray[np.uint8]:
-        """A color image; ``sharp`` is the canvas of the exposure's middle, where there is one."""
-        moves = stage.moves
-        if moves.black[index]:
-            color = np.zeros((eye.camera.height, eye.camera.width, 3), np.float32)
+        """A color image. sharp: the canvas in the middle of the exposure, if it is there already."""
+        motion = stage.motion
+        if motion.black[index]:
+            color = np.zeros((camera.intrinsics.height, camera.intrinsics.width, 3), np.float32)
         elif self.shutter > 0:
             shares = (np.arange(EXPOSURE_SAMPLES) + 0.5) / EXPOSURE_SAMPLES - 0.5
-            color = np.mean([stage.draw(eye, index, index + self.shutter * s).color for s in shares], axis=0)
+            times = index + self.shutter * shares
+            color = np.mean([stage.draw(camera, index, time).color for time in times], axis=0)
         else:
-            color = (sharp or stage.draw(eye, index, index)).color
+            color = (sharp or stage.draw(camera, index, index)).color
         blurred = np.asarray(cv2.GaussianBlur(color, (0, 0), BLUR_DEVIATION), np.float32)
-        return expose_lit(blurred, moves.light[index], self.noise, rng)
+        return expose_lit(blurred, motion.light[index], self.noise, rng)
 
 
 def _measure(
     sensor: DepthSensor, depth: Picture, black: np.bool_, rng: np.random.Generator
 ) -> NDArray[np.float32]:
-    """What a depth camera writes: whole millimetres; nothing while its picture is black."""
+    """A depth image, rounded to millimetres; NaN in black frames."""
     if black:
         return np.full(depth.shape, np.nan, np.float32)
     measured = sensor.measure(depth.astype(np.float64), rng)
