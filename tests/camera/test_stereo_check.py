@@ -114,11 +114,11 @@ def test_small_offsets_pass(made: list[Pair]) -> None:
     assert MAX_ROW_ERROR == 1.5
 
 
-def test_grey_says_what_color_says(made: list[Pair]) -> None:
-    """It proves that grey images are taken, with the same result as the color ones they were made of."""
+def test_gray_says_what_color_says(made: list[Pair]) -> None:
+    """It proves that gray images are taken, with the same result as the color ones they were made of."""
     left, right = made[0]
-    grey = [np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8) for image in (left, right)]
-    assert check_stereo(grey[0], grey[1]) == check_stereo(left, right)
+    gray = [np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8) for image in (left, right)]
+    assert check_stereo(gray[0], gray[1]) == check_stereo(left, right)
 
 
 def blank() -> list[Pair]:

@@ -384,8 +384,8 @@ def eight_bits(folder: Path) -> Path:
     return folder
 
 
-def grey_bits(folder: Path) -> NDArray[np.uint8]:
-    """An 8-bit grey image."""
+def gray_bits(folder: Path) -> NDArray[np.uint8]:
+    """An 8-bit gray image."""
     image = np.full((30, 40), 90, np.uint8)
     folder.mkdir(parents=True, exist_ok=True)
     cv2.imwrite(str(folder / "1.png"), image)
@@ -468,7 +468,7 @@ def uneven_vot(folder: Path) -> Source:
             "expected depth images where --depth-scale is given, found only color",
         ),
         (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not metres"),
-        (beside(grey_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not metres"),
+        (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not metres"),
         (beside(wide_bits), r"1.png: expected depth, 16 bits of one channel, got uint16 \(30, 40, 3\)"),
         (eight_bits_in_the_middle, "2.png: expected depth, 16 bits of one channel, got uint8"),
         (cut_off, "2.png: expected an image, this file can't be read as one"),

@@ -12,7 +12,7 @@ from tricue.data.open_source import Source, open_source
 from tricue.data.streams import Camera
 
 
-def grey(level: int) -> NDArray[np.uint8]:
+def gray(level: int) -> NDArray[np.uint8]:
     """An image of one level."""
     return np.full((48, 64, 3), level, np.uint8)
 
@@ -21,7 +21,7 @@ def images(folder: Path, names: list[str]) -> Path:
     """A folder whose images are of the levels 10, 20, ... in the order of the names."""
     folder.mkdir(parents=True, exist_ok=True)
     for index, name in enumerate(names, 1):
-        cv2.imwrite(str(folder / name), grey(10 * index))
+        cv2.imwrite(str(folder / name), gray(10 * index))
     return folder
 
 
@@ -29,7 +29,7 @@ def video(path: Path, frames: int = 6, fps: float = 12.0) -> Path:
     """An MJPG video whose frames have the levels 10, 20, ..."""
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), fps, (64, 48))
     for index in range(1, frames + 1):
-        writer.write(grey(10 * index % 256))
+        writer.write(gray(10 * index % 256))
     writer.release()
     return path
 
@@ -189,7 +189,7 @@ class UnpluggedCamera:
 
     def read(self) -> tuple[bool, object]:
         self.left -= 1
-        return (True, grey(10)) if self.left >= 0 else (False, None)
+        return (True, gray(10)) if self.left >= 0 else (False, None)
 
     def release(self) -> None:
         self.left = 0

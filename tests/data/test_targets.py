@@ -46,8 +46,8 @@ def tracking(root: Path, labels: str, numbers: range = range(6), calibration: st
 LABELS = label(4, 7) + label(1, 7) + label(2, 7, left=110) + label(0, 8, "Van") + label(3, 9) + label(5, 9)
 
 
-def test_a_labelled_target(tmp_path: Path) -> None:
-    """It proves that a label's frames, both images of each, its boxes and its cuboid's centres come, and that
+def test_a_labeled_target(tmp_path: Path) -> None:
+    """It proves that a label's frames, both images of each, its boxes and its cuboid's centers come, and that
     a frame of it without label is unknown.
     """
     root = tracking(tmp_path, LABELS + label(2, -1, "DontCare"))
@@ -62,7 +62,7 @@ def test_a_labelled_target(tmp_path: Path) -> None:
     assert not source.absent.any()
     assert source.positions is not None
     assert np.isnan(source.positions[2]).all()
-    # The centre is half the height above the bottom; P2 = K [I | (0.1, -0.197, 0.01)].
+    # The center is half the height above the bottom; P2 = K [I | (0.1, -0.197, 0.01)].
     offset = [(76 - 600 * 0.01) / 700, (-136 - 170 * 0.01) / 700, 0.01]
     np.testing.assert_allclose(source.positions[0], np.add([1, 1.6 - 0.75, 20], offset))
     assert open_source(root).truth is None
@@ -70,11 +70,11 @@ def test_a_labelled_target(tmp_path: Path) -> None:
 
 def test_labels_are_by_the_files_numbers(tmp_path: Path) -> None:
     """It proves that of a cut copy, whose images don't begin at 0, the right ones come, and that one that is
-    labelled but isn't there is named.
+    labeled but isn't there is named.
     """
     root = tracking(tmp_path, label(4, 7) + label(5, 7) + label(5, 8) + label(6, 8), range(3, 6))
     assert levels(open_source(root, target="Car 7")) == [4, 5]
-    with pytest.raises(ValueError, match="0005: expected the image of frame 6, which is labelled"):
+    with pytest.raises(ValueError, match="0005: expected the image of frame 6, which is labeled"):
         open_source(root, target="Car 8")
 
 
@@ -131,7 +131,7 @@ def test_any_labels(tmp_path_factory: pytest.TempPathFactory, text: str) -> None
 
 
 def test_real_positions_project_into_their_boxes(data: Path) -> None:
-    """It proves that the centre of a real target's cuboid is seen in the middle of its box, wherever the
+    """It proves that the center of a real target's cuboid is seen in the middle of its box, wherever the
     image's side doesn't cut the box off.
     """
     place = data / "stereo" / "kitti-tracking"

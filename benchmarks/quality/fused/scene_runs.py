@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on one scene with everything: what they found, and what they did at its events."""
+"""Trackers on one stress scene: what they found, and what they did at its events."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -154,7 +154,7 @@ def _numbered(paths: list[Path], frames: range) -> list[Path]:
     by_number = {int(path.stem): path for path in paths if path.stem.isdecimal()}
     for frame in (frames[0], frames[-1], *frames):
         if frame not in by_number:
-            raise ValueError(f"{paths[0].parent}: expected the image of frame {frame}, which is labelled")
+            raise ValueError(f"{paths[0].parent}: expected the image of frame {frame}, which is labeled")
     return [by_number[frame] for frame in frames]
 
 

@@ -62,7 +62,7 @@ def test_scene_is_whole(camera, shape):
 
 
 def test_head_is_in_range_and_in_both_images(everything):
-    """The head is 0.8 to 4 m away, whole in the left image, and its centre well within the right one."""
+    """The head is 0.8 to 4 m away, whole in the left image, and its center well within the right one."""
     for scene in everything:
         assert scene.positions[:, 2].min() >= 0.8
         assert scene.positions[:, 2].max() <= 4.0
@@ -87,7 +87,7 @@ def test_boxes_have_the_size_of_heads(everything):
 
 
 def test_positions_project_to_the_middles_of_the_boxes(everything):
-    """The true position lies, projected, within a twelfth of the box's width of the box's centre."""
+    """The true position lies, projected, within a twelfth of the box's width of the box's center."""
     for scene in everything:
         for box, position in zip(scene.boxes, scene.positions, strict=True):
             u, v = scene.rig.intrinsics.project(position) + 0.5

@@ -106,7 +106,7 @@ def test_both_cameras_see_one_world():
     np.testing.assert_allclose(large.positions, small.positions, atol=0.01)
     for name in ("disparity", "flow"):
         few, many = (getattr(scene, name)[1] for scene in (small, large))
-        # The corners of the small pixels' centres: the mean of the four large ones that meet there.
+        # The corners of the small pixels' centers: the mean of the four large ones that meet there.
         at = [many[1 + i :: 4, 1 + j :: 4] for i in (0, 1) for j in (0, 1)]
         near = np.ptp(at, axis=0) < 0.2
         np.testing.assert_allclose(np.mean(at, axis=0)[near], 4 * few[near], atol=0.1)

@@ -13,7 +13,7 @@ RIG = StereoRig(Intrinsics.from_fov(160, 120, 40), 0.12)
 
 
 def ball(*centers, radius=0.2, turns=None):
-    """One ball that is at a centre in each frame, turned so."""
+    """One ball that is at a center in each frame, turned so."""
     turns = [np.eye(3)] * len(centers) if turns is None else turns
     parts = [
         OrientedEllipsoids(np.array([center], float), radius * np.array([turn]))
@@ -83,9 +83,9 @@ def test_who_hides_whom_follows_from_the_depths():
     target = ball((0, 0, 4.0))
     for z, share in ((2.0, 0.75), (5.0, 1.0)):
         scene = truth(target, ball((0, 0, z), radius=0.05 * z / 2), ball((3, 0, 5.0)), angles=(0.0,))
-        truth = scene.truth_at(0)
-        assert truth.visible == pytest.approx(share, abs=0.025)  # of some 380 pixels
-        assert truth.mask.sum() == pytest.approx(share * np.pi * (0.05 * RIG.intrinsics.fx) ** 2, rel=0.05)
-        assert [other.position[2] > 4 for other in truth.others] == [z > 4, True]
+        found = scene.truth_at(0)
+        assert found.visible == pytest.approx(share, abs=0.025)  # of some 380 pixels
+        assert found.mask.sum() == pytest.approx(share * np.pi * (0.05 * RIG.intrinsics.fx) ** 2, rel=0.05)
+        assert [other.position[2] > 4 for other in found.others] == [z > 4, True]
     gone = truth(ball((9, 0, 4.0)), target, target, angles=(0.0,)).truth_at(0)
     assert (gone.visible, gone.visible_box, gone.mask.any()) == (0.0, None, False)

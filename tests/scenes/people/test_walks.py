@@ -50,7 +50,7 @@ def test_gestures_take_turns(seed):
 
 
 def test_sweeps_go_to_and_fro():
-    """Time runs from -3 to 3 s and back at its own rate; a shorter scene is centred."""
+    """Time runs from -3 to 3 s and back at its own rate; a shorter scene is centered."""
     time = walks.compute_sweep_times(181, 15)
     assert (time.min(), time.max()) == pytest.approx((-3, 3))
     np.testing.assert_allclose(time[:91], np.linspace(-3, 3, 91), atol=1e-12)

@@ -71,7 +71,7 @@ def test_box_is_the_outline_of_the_z_buffer(camera):
     window = view.render(bodies)
     rows, columns = np.nonzero(np.isfinite(window.depth))
     left, top, right, bottom = view.bounding_box(bodies).xyxy
-    # A pixel's centre lies half a pixel inside it.
+    # A pixel's center lies half a pixel inside it.
     assert 0 <= columns.min() + window.left + 0.5 - left < 1
     assert 0 <= right - (columns.max() + window.left + 0.5) < 1
     assert 0 <= rows.min() + window.top + 0.5 - top < 1.5  # the round top of a head may slip between rows
@@ -149,7 +149,7 @@ def test_furniture_stands_on_the_floor_where_it_was_put():
 @pytest.mark.parametrize("z", [1.0, 3.0, 6.0])
 @pytest.mark.parametrize("noise", [1.0, 2.0])
 def test_noise_has_the_deviation_of_its_formula(camera, z, noise):
-    """On a wall the deviation is that of the formula times ``noise``, with that of the quantisation.
+    """On a wall the deviation is that of the formula times ``noise``, with that of the quantization.
 
     A step's deviation of 1 / sqrt(12) holds where the noise is at least half a step.
     """
@@ -160,7 +160,7 @@ def test_noise_has_the_deviation_of_its_formula(camera, z, noise):
     assert measured.mean() == pytest.approx(z, abs=0.02 * expected + 0.5 * camera.inverse_depth_step * z**2)
 
 
-def test_rgbd_depths_are_quantised_in_disparity():
+def test_rgbd_depths_are_quantized_in_disparity():
     """Inverse depths are multiples of a step, which is 7 cm at 5 m; time-of-flight depths aren't."""
     slope = np.tile(np.linspace(1, 7, 640), (480, 1))
     inverse = 1 / RGBD.measure(slope, np.random.default_rng(0), missing=0).astype(float)
@@ -195,7 +195,7 @@ def test_missing_share_is_the_one_asked_for(camera, share):
 
 
 def test_missing_pixels_come_in_patches_and_at_edges():
-    """A missing pixel's neighbour is missing far oftener than others, and edges lose more than surfaces."""
+    """A missing pixel's neighbor is missing far oftener than others, and edges lose more than surfaces."""
     depth = step()
     edges = find_depth_edges(depth)
     drop_pixels(depth, edges, 0.1, 1.0, np.random.default_rng(0))

@@ -19,7 +19,7 @@ LAMP = Lamp(np.array([0.0, 0.0, -1.0]), 0.5)
 
 
 def canvas_of(eye):
-    """Grey nothing, infinitely far."""
+    """Gray nothing, infinitely far."""
     shape = eye.intrinsics.height, eye.intrinsics.width
     return RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
 
@@ -33,7 +33,7 @@ def paper(size, seed=0):
 
 
 def ellipsoid(center=(0.1, -0.05, 1.5), half=(0.08, 0.11, 0.1), texture=None):
-    """An upright ellipsoid of one grey, or with a texture."""
+    """An upright ellipsoid of one gray, or with a texture."""
     texture = [np.full((8, 16, 3), 200, np.float32)] if texture is None else texture
     return TexturedEllipsoid(np.array(center), np.diag(1 / np.array(half)), texture)
 
@@ -149,7 +149,7 @@ def test_the_nearer_surface_is_seen_whatever_the_order():
 
 
 def test_edges_are_where_the_outline_is():
-    """A grey ellipsoid's pixels sum up to its outline's area in both images, to half a percent."""
+    """A gray ellipsoid's pixels sum up to its outline's area in both images, to half a percent."""
     flat = Lamp(np.array([0.0, 0, -1]), 1.0)
     for offset in (0.0, 0.0013, 0.0029):
         for eye in RayCamera.pair(RIG, 3):
@@ -166,7 +166,7 @@ def test_edges_are_where_the_outline_is():
 
 
 def test_light_falls_from_the_lamp():
-    """A grey ball is brightest towards the lamp, and as dark as the ambient light on the other side."""
+    """A gray ball is brightest towards the lamp, and as dark as the ambient light on the other side."""
     eye, _ = RayCamera.pair(RIG, 1)
     canvas = canvas_of(eye)
     lamp = Lamp(np.array([1.0, 0, -1]) / np.sqrt(2), 0.4)

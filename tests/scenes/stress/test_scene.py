@@ -177,7 +177,7 @@ def likeness(first, second):
 
 
 def correlation(first, second):
-    """Of the grey levels, over what is opaque in both."""
+    """Of the gray levels, over what is opaque in both."""
     both = (first[..., 3] == 1) & (second[..., 3] == 1)
     weights = np.array([0.114, 0.587, 0.299])
     return np.corrcoef(first[both][:, :3] @ weights, second[both][:, :3] @ weights)[0, 1]
@@ -316,8 +316,8 @@ def test_a_shutter_blurs_what_moves_and_nothing_else():
     away = cv2.dilate(sharp.masks[index].astype(np.uint8), np.ones((61, 61))) == 0
     detail = []
     for made in (sharp, blurred):
-        grey = cv2.cvtColor(made.frames[index].color, cv2.COLOR_BGR2GRAY).astype(float)
-        detail.append(np.abs(np.gradient(grey, axis=1))[made.masks[index]].mean())
+        gray = cv2.cvtColor(made.frames[index].color, cv2.COLOR_BGR2GRAY).astype(float)
+        detail.append(np.abs(np.gradient(gray, axis=1))[made.masks[index]].mean())
     assert detail[1] < 0.8 * detail[0]
     assert np.array_equal(sharp.frames[index].color[away], blurred.frames[index].color[away])
 

@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.box_table import BOX_TABLE
+from tricue.data.open_source import CALIBRATION_FILE
+from tricue.data.vot import SEQUENCE_FILE
 from tricue.scenes.stress.events import STRESS_FRAME_RATE
 from tricue.scenes.stress.scene import StressScene
 
 TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
-RIG_FILE, INTRINSICS_FILE, SEQUENCE_FILE = "calibration.yml", "intrinsics.toml", "sequence"
+RIG_FILE = "calibration.yml"
 MIN_WRITTEN_SIDE = 1.0  # pixels; smaller boxes aren't written
 
 
@@ -42,7 +44,7 @@ def write_sequence(scene: StressScene, folder: str | Path) -> None:
     if scene.rig is not None:
         _write_rig(folder / RIG_FILE, scene.rig)
     else:
-        (folder / INTRINSICS_FILE).write_text(_toml(scene.intrinsics))
+        (folder / CALIBRATION_FILE).write_text(_toml(scene.intrinsics))
         lines = [f"channels.{channel}={channel}/%08d.png" for channel in channels]
         (folder / SEQUENCE_FILE).write_text(
             "\n".join([*lines, f"fps={STRESS_FRAME_RATE:g}", f"name={scene.name}"]) + "\n"

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.data.depth_images import METRES_PER_MILLIMETRE
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
 from tricue.scenes.rendering.stereo_camera import BLUR_DEVIATION, expose_lit
@@ -27,7 +28,6 @@ STRESS_KINDS = tuple(FRAME_COUNTS)
 STRESS_CHANNELS = ("color", "rgbd", "stereo", "depth")
 MIN_IMAGE_SIDE = 80  # pixels along each side of an image
 EXPOSURE_SAMPLES = 5  # of which the mean makes a motion-blurred image
-METRES_PER_MILLIMETRE = np.float32(0.001)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,7 +102,7 @@ def stress_scene(
     truths = [stage.truth_at(index) for index in range(len(stage.motion))]
     cameras = _StressCameras(channels, noise, shutter, seed)
     return StressScene(
-        name=f"everything, {kind}, {size[0]}x{size[1]}, seed {seed}",
+        name=f"stress scene, {kind}, {size[0]}x{size[1]}, seed {seed}",
         kind=kind,
         seed=seed,
         frames=tuple(cameras.record(stage, [truth.canvas for truth in truths])),
@@ -175,7 +175,7 @@ def _measure(
     if black:
         return np.full(depth.shape, np.nan, np.float32)
     measured = sensor.measure(depth.astype(np.float64), rng)
-    return np.asarray(np.rint(measured * 1000) * METRES_PER_MILLIMETRE, np.float32)
+    return np.asarray(np.rint(measured * 1000) * np.float32(METRES_PER_MILLIMETRE), np.float32)
 
 
 def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: float, shutter: float) -> None:
