@@ -258,7 +258,9 @@ def test_times_of_their_own_go_before_those_of_other_channels(tmp_path: Path) ->
     color, depth = color_folder(tmp_path / "c", 2), tum(tmp_path / "d", [], [7.0, 7.25])
     source = open_source(color, depth=depth)
     assert ([frame.timestamp for frame in source], source.fps) == ([7.0, 7.25], 4.0)
-    with pytest.raises(ValueError, match=r"^--fps 15: .* but c has its own, 4 frames a second; leave it out"):
+    with pytest.raises(
+        ValueError, match=r"^--fps 15: .* but c has its own, 4 frames per second; leave it out"
+    ):
         open_source(color, depth=depth, fps=15)
     plain = depth_folder(tmp_path / "e", [1000, 2000])
     source = open_source(color, depth=plain, depth_scale=0.001, fps=8)
@@ -282,7 +284,7 @@ def ptb(folder: Path) -> Path:
 @pytest.mark.parametrize("make", [lambda f: tum(f, [1.0], [1.0]), lambda f: tum(f, [], [1.0]), ptb])
 def test_fps_beside_recorded_times_is_refused(tmp_path: Path, make: Callable[[Path], Path]) -> None:
     """It proves that TUM's and Princeton's images keep their own times, also a single one."""
-    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times"):
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images without times"):
         open_source(make(tmp_path), fps=15)
 
 

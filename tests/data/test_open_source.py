@@ -137,23 +137,23 @@ def test_fps_beside_times_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
     folder = images(tmp_path / "vot" / "color", ["1.png"]).parent
     (folder / "sequence").write_text("fps=25\nchannels.color=color/%08d.png\n")
     monkeypatch.setattr(cv2, "VideoCapture", UnpluggedCamera)
-    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times, but camera 3"):
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images without times, but camera 3"):
         open_source("3", fps=15)
     monkeypatch.undo()
     for place, own in ((video(tmp_path / "v.avi", fps=12.5), "v has its own, 12.5"), (folder, "vot .* 25")):
-        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames a second; leave it out$"):
+        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames per second; leave it out$"):
             open_source(place, fps=15)
 
 
 @pytest.mark.parametrize(
     ("fps", "error", "message"),
     [
-        (0, ValueError, "expected frames a second above 0, got 0"),
-        (-5.0, ValueError, "expected frames a second above 0, got -5.0"),
+        (0, ValueError, "expected frames per second above 0, got 0"),
+        (-5.0, ValueError, "expected frames per second above 0, got -5.0"),
         (float("nan"), ValueError, "expected a finite number"),
         (float("inf"), ValueError, "expected a finite number"),
-        (1001, ValueError, "expected at most 1000 frames a second, got 1001"),
-        ("30", TypeError, "expected a number, frames a second, got '30'"),
+        (1001, ValueError, "expected at most 1000 frames per second, got 1001"),
+        ("30", TypeError, "expected a number, frames per second, got '30'"),
     ],
 )
 def test_bad_fps_is_named(tmp_path: Path, fps: Any, error: type[Exception], message: str) -> None:

@@ -188,7 +188,7 @@ class Camera:
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
         raise ValueError(
-            f"camera {self.number}: expected a recording, of which frames {indices[0]}, ... can be"
+            f"camera {self.number}: expected a recording; a live camera can't give frames {indices[0]}, ..."
         )
 
 

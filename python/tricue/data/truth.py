@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
 ABSENT_TAG = "absent.tag"  # VOT's: one line per frame, 1 where the target can't be seen
-MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames a second; a larger number can't be a frame's
+MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
 DEPTHS_FILE = (
     "position_z_mm.txt"  # one line per frame: the target's median depth in millimetres, 0 or NaN if unknown
 )
