@@ -12,8 +12,8 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Frame, Intrinsics
 from tricue.camera.box import Box
-from tricue.cli import main
 from tricue.cli.calibrations import GUESSING
+from tricue.cli import main
 from tricue.track.base.registry import names
 
 FRAMES = 4

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import cv2
 import pytest
-from tricue.cli import main
 from tricue.cli.demos import flow_depth
+from tricue.cli import main
 from tricue.scenes import overtaking
 
 pytest.importorskip("matplotlib", reason="the plot needs matplotlib: pip install tricue[demo]")

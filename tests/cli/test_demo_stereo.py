@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Box, Status, Track
-from tricue.cli import main
 from tricue.cli.demos import stereo
 from tricue.cli.demos.metric import Result
+from tricue.cli import main
 from tricue.scenes import head
 
 pytest.importorskip("matplotlib", reason="the plot needs matplotlib: pip install tricue[demo]")

@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Box
-from tricue.cli import main
 from tricue.cli.outputs import COVARIANCE
+from tricue.cli import main
 from tricue.scenes import StereoScene, head
 
 FRAMES = 12
