@@ -11,7 +11,7 @@ from tricue.scenes.overtakings import plan as overtaking_moves
 from tricue.scenes.overtakings.hall import Hall
 from tricue.scenes.overtakings.truth import WalkGeometry
 
-REFERENCE_WIDTH, HEIGHT = 160, 120
+WIDTH, HEIGHT = 160, 120
 
 
 @pytest.fixture(scope="module")
@@ -162,7 +162,7 @@ def test_disparities_are_those_of_the_story():
         assert np.median(disparity[scene.masks[0]]) == pytest.approx(target, abs=0.15)
         hall = np.ones_like(scene.masks[0])
         for box in (scene.boxes[0], *(other.box for other in scene.others[0])):
-            left, top, right, bottom = (int(side) for side in box.clip(REFERENCE_WIDTH, HEIGHT).xyxy)
+            left, top, right, bottom = (int(side) for side in box.clip(WIDTH, HEIGHT).xyxy)
             hall[top : bottom + 1, left : right + 1] = False
         hall[80:] = False  # the floor comes nearer
         assert disparity.min() > 1.0
@@ -202,7 +202,7 @@ def test_the_first_frame_shows_the_target_whole(stories):
     for _, _, sights in stories:
         assert sights[0].visible == 1
         box = sights[0].target.box
-        assert box.clip(REFERENCE_WIDTH, HEIGHT) == box
+        assert box.clip(WIDTH, HEIGHT) == box
         assert 60 < box.height < 80
 
 

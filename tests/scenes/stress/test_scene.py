@@ -23,7 +23,7 @@ def scene(kind, seed=0, channels="color", noise=0.0):
 
 def moves(kind, seed):
     """What happens in a scene, without its pictures."""
-    return StressStage.build(kind, seed, (320, 240)).moves
+    return StressStage.build(kind, seed, (320, 240)).motion
 
 
 def sizes(made):
