@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 
 from tricue.evaluation import baselines
 from tricue.evaluation.tracker_spec import TrackerSpec
-from tricue.scenes.stress_scene import KINDS
+from tricue.scenes.stress.scene import STRESS_KINDS
 from tricue.track.base.registry import tracker_class
 
 from benchmarks.quality import robustness, stress_scenes
@@ -78,7 +78,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
     made = bare_parser("ablation", __doc__)
     robustness.add_dataset(made)
-    made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(SCENES), help="of scenes")
+    made.add_argument("--kinds", nargs="+", choices=STRESS_KINDS, default=list(SCENES), help="of scenes")
     made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="default 0:3")
     add_output(made)
     options = made.parse_args(arguments)

@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 from tricue.camera.box import Box
-from tricue.camera.calibration_files import read_intrinsics
 from tricue.camera.frame import Frame
+from tricue.camera.read_calibration import read_intrinsics
 from tricue.camera.registration import Extrinsics, color_in_depth
 from tricue.camera.rig import Intrinsics
 from tricue.evaluation import metrics, one_pass

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on rendered stress scenes, tricue.scenes.stress_scene, whose truth is exact.
+"""Trackers on rendered stress scenes, tricue.scenes.stress, whose truth is exact.
 
     python -m benchmarks.quality.stress_scenes --trackers fused CSRT
 
@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
-from tricue.scenes.stress_scene import CHANNELS, KINDS
+from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS
 
 from benchmarks.quality.common.arguments import parser, seeds
 from benchmarks.quality.common.frame_results import GOOD_OVERLAP, FrameResults
@@ -84,7 +84,9 @@ def overall(runs: Sequence[SceneResult]) -> list[float]:
 def rows(results: Iterable[SceneResult]) -> list[list[Cell]]:
     """Channels, kind, tracker, and NUMBERS."""
     groups = grouped(results)
-    order = sorted(groups, key=lambda key: (CHANNELS.index(key[0]), [*KINDS, ALL_KINDS].index(key[1])))
+    order = sorted(
+        groups, key=lambda key: (STRESS_CHANNELS.index(key[0]), [*STRESS_KINDS, ALL_KINDS].index(key[1]))
+    )
     return [[*key, *(overall if key[1] == ALL_KINDS else numbers_of)(groups[key])] for key in order]
 
 
@@ -100,8 +102,8 @@ def tables(results: Sequence[SceneResult]) -> str:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; the exit code."""
     made = parser("stress_scenes", __doc__, TRACKERS)
-    made.add_argument("--channels", nargs="+", choices=CHANNELS, default=list(CHANNELS))
-    made.add_argument("--kinds", nargs="+", choices=KINDS, default=list(KINDS))
+    made.add_argument("--channels", nargs="+", choices=STRESS_CHANNELS, default=list(STRESS_CHANNELS))
+    made.add_argument("--kinds", nargs="+", choices=STRESS_KINDS, default=list(STRESS_KINDS))
     made.add_argument("--seeds", type=seeds, default=seeds("0:20"), metavar="A:B", help="default 0:20")
     options = made.parse_args(arguments)
     try:

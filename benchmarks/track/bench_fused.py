@@ -11,7 +11,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import baselines, metrics
-from tricue.scenes.stress_scene import Scene, everything
+from tricue.scenes.stress.scene import StressScene, stress_scene
 from tricue.track.base.track import Status
 
 SEES = ("color", "color and depth", "pair")
@@ -25,13 +25,13 @@ GROUP = "fused, 320x240, one update"
 
 
 @cache
-def scene(channels: str, seed: int = 0) -> Scene:
+def scene(channels: str, seed: int = 0) -> StressScene:
     """A target that comes or goes, its size changing 1:2 in these frames; made before any clock starts."""
     pytest.importorskip("skimage", reason="needs scikit-image: pip install tricue[demo]")
-    return everything("scale", seed=seed, channels=channels)
+    return stress_scene("scale", seed=seed, channels=channels)
 
 
-def scene_of(name: str) -> Scene:
+def scene_of(name: str) -> StressScene:
     """What a tracker sees; the frames' color is the same in all."""
     return scene(CHANNELS.get(name, "color"))
 

@@ -28,7 +28,7 @@ def test_a_box_is_a_tuple() -> None:
     assert (x, y, width, height) == Box(1, 2, 3, 4) == (1, 2, 3, 4)
 
 
-def test_corners_centre_area_ellipse() -> None:
+def test_corners_center_area_ellipse() -> None:
     """It proves the conversions on numbers worked out by hand."""
     box = Box(10, 20, 6, 8)
     assert box.xyxy == (10, 20, 16, 28)

@@ -14,7 +14,7 @@ from tricue import Frame
 from tricue.camera.frame import as_frame
 
 PICTURE = np.random.default_rng(0).integers(0, 256, (24, 32, 3), np.uint8)
-GREY = np.ascontiguousarray(PICTURE[:, :, 0])
+GRAY = np.ascontiguousarray(PICTURE[:, :, 0])
 METRES = np.full((12, 16), 2.5, np.float32)
 
 
@@ -35,7 +35,7 @@ def test_a_bare_array_is_color() -> None:
 
 
 @pytest.mark.parametrize(
-    "image", [PICTURE, GREY, PICTURE[3:20, 5:21], GREY[3:20, 5:21], PICTURE[:, 4:5], PICTURE[2:3]]
+    "image", [PICTURE, GRAY, PICTURE[3:20, 5:21], GRAY[3:20, 5:21], PICTURE[:, 4:5], PICTURE[2:3]]
 )
 def test_packed_rows_are_not_copied(image: NDArray[np.uint8]) -> None:
     """It proves that whole images and crops of them, padded rows included, are kept without a copy."""
@@ -52,10 +52,10 @@ def test_packed_rows_are_not_copied(image: NDArray[np.uint8]) -> None:
         PICTURE[:, :, ::-1],
         PICTURE[:, ::2],
         np.asfortranarray(PICTURE),
-        GREY[:, ::-1],
-        np.asfortranarray(GREY),
+        GRAY[:, ::-1],
+        np.asfortranarray(GRAY),
         PICTURE[:, :, 0],
-        np.dstack([PICTURE, GREY])[:, :, :3],
+        np.dstack([PICTURE, GRAY])[:, :, :3],
         np.broadcast_to(PICTURE[:1], PICTURE.shape),
         PICTURE[:, ::2][:, :1],
         PICTURE[::-1][:1],
@@ -72,11 +72,11 @@ def test_other_layouts_are_copied(image: NDArray[np.uint8]) -> None:
     assert color.strides[0] >= image[0].size
 
 
-def test_one_channel_is_grey() -> None:
-    """It proves that an image (H, W, 1) is taken as grey (H, W)."""
-    color = Frame(GREY[:, :, None]).color
+def test_one_channel_is_gray() -> None:
+    """It proves that an image (H, W, 1) is taken as gray (H, W)."""
+    color = Frame(GRAY[:, :, None]).color
     assert color is not None
-    assert np.array_equal(color, GREY)
+    assert np.array_equal(color, GRAY)
 
 
 @given(arrays.arrays(np.float64, (5, 7), elements=st.floats(width=32)))
@@ -183,7 +183,7 @@ BAD = [
     ({"color": PICTURE > 3}, TypeError, "color: expected uint8 .*, got bool"),
     ({"color": PICTURE.astype(object)}, TypeError, "color: expected uint8 .*, got object"),
     (
-        {"color": np.dstack([PICTURE, GREY])},
+        {"color": np.dstack([PICTURE, GRAY])},
         ValueError,
         r"color: .*\(24, 32, 4\); .* drops the alpha channel",
     ),
@@ -199,7 +199,7 @@ BAD = [
         r"right: expected the shape of color, \(24, 32, 3\)",
     ),
     (
-        {"color": PICTURE, "right": GREY},
+        {"color": PICTURE, "right": GRAY},
         ValueError,
         r"right: expected the shape of color, .*, got \(24, 32\)",
     ),
@@ -209,8 +209,8 @@ BAD = [
         ValueError,
         "depth: .*uint16 .*pass depth_scale, 0.001 for millimetres",
     ),
-    ({"depth": GREY}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
-    ({"depth": GREY, "depth_scale": 0.01}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
+    ({"depth": GRAY}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
+    ({"depth": GRAY, "depth_scale": 0.01}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
     ({"depth": PICTURE}, ValueError, "depth: expected one value a pixel.*; a colored depth picture"),
     ({"depth": METRES > 1}, TypeError, "depth: expected float32"),
     ({"depth": METRES.astype(np.complex64)}, TypeError, "depth: expected float32"),

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import StereoRig
-from tricue.camera.rectification import RawPair, Rectification
+from tricue.camera.rectification import Rectification, StereoCalibration
 
 SIZE = (640, 480)
-RAW = RawPair(
+RAW = StereoCalibration(
     (
         np.array([[520.0, 0, 330], [0, 522, 235], [0, 0, 1]]),
         np.array([[512.0, 0, 312], [0, 513, 246], [0, 0, 1]]),
@@ -49,7 +49,7 @@ def dots(pixels: NDArray[np.float64]) -> NDArray[np.uint8]:
 
 
 def center_near(image: NDArray[np.uint8], place: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The centre of mass of the dot near (x, y)."""
+    """The center of mass of the dot near (x, y)."""
     x, y = np.rint(place).astype(int)
     part = image[y - 12 : y + 13, x - 12 : x + 13].astype(float)
     v, u = np.indices(part.shape)
@@ -133,13 +133,13 @@ def test_two_files_hold_it_together(tmp_path: Path) -> None:
     assert made.rig.intrinsics.fx != Rectification(RAW, SIZE).rig.intrinsics.fx
 
 
-def test_color_and_grey(tmp_path: Path) -> None:
-    """It proves that both kinds of images keep their kind, and that grey is what color would give."""
+def test_color_and_gray(tmp_path: Path) -> None:
+    """It proves that both kinds of images keep their kind, and that gray is what color would give."""
     made = Rectification.from_opencv(stereo_file(tmp_path / "c.yml"))
-    grey = np.random.default_rng(0).integers(0, 256, (480, 640), dtype=np.uint8)
-    color = np.repeat(grey[..., None], 3, axis=2)
-    (left, right), (left_color, right_color) = made(grey, grey[::-1]), made(color, color[::-1])
-    assert left.shape == right.shape == grey.shape
+    gray = np.random.default_rng(0).integers(0, 256, (480, 640), dtype=np.uint8)
+    color = np.repeat(gray[..., None], 3, axis=2)
+    (left, right), (left_color, right_color) = made(gray, gray[::-1]), made(color, color[::-1])
+    assert left.shape == right.shape == gray.shape
     for one, three in ((left, left_color), (right, right_color)):
         np.testing.assert_array_equal(three, np.repeat(one[..., None], 3, axis=2))
 

@@ -54,7 +54,7 @@ def test_whole_depth_images_back_project() -> None:
 
 
 def test_points_behind_the_camera_have_no_pixel() -> None:
-    """It proves that points behind the camera or in its centre project to NaN instead of a mirrored pixel."""
+    """It proves that points behind the camera or in its center project to NaN instead of a mirrored pixel."""
     assert np.isnan(CAMERA.project([[0.1, 0.1, -1.0], [0.1, 0.1, 0.0]])).all()
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Frame, scenes
-from tricue.camera.stereo_check import FEWEST, MOST_RISE, check_stereo, warn_of_stereo
+from tricue.camera.stereo_check import MAX_ROW_ERROR, MIN_MATCHES, check_stereo, warn_of_stereo
 
 Image = NDArray[np.uint8]
 Pair = tuple[Image, Image]
@@ -34,7 +34,7 @@ def real(data: Path) -> list[Pair]:
 @pytest.fixture(scope="module")
 def made() -> list[Pair]:
     """The first frames of twelve scenes 160x120 and two 640x480."""
-    kinds = [*enumerate(2 * scenes.KINDS)]
+    kinds = [*enumerate(2 * scenes.HEAD_KINDS)]
     found = [scenes.head(seed, 1, kind=kind).frames[0] for seed, kind in kinds]
     found += [scenes.head(seed, 1, "640x480").frames[0] for seed in range(2)]
     return [
@@ -62,9 +62,9 @@ def test_rectified_pairs_pass(pairs: list[Pair]) -> None:
     """It proves that no rectified pair is doubted, with a margin: rows agree to 0.5 px, 2 % lie behind."""
     for left, right in pairs:
         check = check_stereo(left, right)
-        assert check.matches >= FEWEST
-        assert check.rise < 0.5
-        assert check.behind < 0.02
+        assert check.matches >= MIN_MATCHES
+        assert check.row_error < 0.5
+        assert check.negative_share < 0.02
         assert check.problem == ""
 
 
@@ -72,7 +72,7 @@ def test_swapped_pairs_are_noticed(pairs: list[Pair]) -> None:
     """It proves that every pair with its images swapped is called so: 95 % of the matches lie behind."""
     for left, right in pairs:
         check = check_stereo(right, left)
-        assert check.behind > 0.95
+        assert check.negative_share > 0.95
         assert "swapped" in check.problem
 
 
@@ -81,7 +81,7 @@ def test_shifted_pairs_are_noticed(pairs: list[Pair], down: float) -> None:
     """It proves that 3 px between the rows are found in every pair, to half a pixel."""
     for left, right in pairs:
         check = check_stereo(left, warped(right, down=down))
-        assert check.rise == pytest.approx(3, abs=0.5)
+        assert check.row_error == pytest.approx(3, abs=0.5)
         assert "not to be rectified" in check.problem
 
 
@@ -94,14 +94,14 @@ def test_rotated_pairs_are_noticed(pairs: list[Pair], degrees: float) -> None:
     for left, right in pairs:
         check = check_stereo(left, warped(right, degrees=degrees))
         expected = math.sin(math.radians(abs(degrees))) * left.shape[1] / math.sqrt(12)
-        assert check.rise == pytest.approx(expected, rel=0.2)
+        assert check.row_error == pytest.approx(expected, rel=0.2)
         assert "not to be rectified" in check.problem
 
 
 def test_cameras_of_two_focal_lengths_are_noticed(made: list[Pair]) -> None:
     """It proves that a difference in scale shows in the rows, too."""
     for left, right in made[:6]:
-        rise = check_stereo(left, warped(right, zoom=1.08)).rise
+        rise = check_stereo(left, warped(right, zoom=1.08)).row_error
         assert rise == pytest.approx(0.08 * 120 / math.sqrt(12), abs=0.6)
 
 
@@ -109,16 +109,16 @@ def test_small_offsets_pass(made: list[Pair]) -> None:
     """It proves that one pixel, as calibrations leave it, is measured and isn't worth a warning."""
     for left, right in made:
         check = check_stereo(left, warped(right, down=1.0))
-        assert check.rise == pytest.approx(1.0, abs=0.3)
+        assert check.row_error == pytest.approx(1.0, abs=0.3)
         assert check.problem == ""
-    assert MOST_RISE == 1.5
+    assert MAX_ROW_ERROR == 1.5
 
 
-def test_grey_says_what_color_says(made: list[Pair]) -> None:
-    """It proves that grey images are taken, with the same result as the color ones they were made of."""
+def test_gray_says_what_color_says(made: list[Pair]) -> None:
+    """It proves that gray images are taken, with the same result as the color ones they were made of."""
     left, right = made[0]
-    grey = [np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8) for image in (left, right)]
-    assert check_stereo(grey[0], grey[1]) == check_stereo(left, right)
+    gray = [np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8) for image in (left, right)]
+    assert check_stereo(gray[0], gray[1]) == check_stereo(left, right)
 
 
 def blank() -> list[Pair]:
@@ -134,9 +134,9 @@ def blank() -> list[Pair]:
 def test_nothing_is_said_of_nothing(left: Image, right: Image) -> None:
     """It proves that images without matches give no verdict and no error, whatever their size."""
     check = check_stereo(left, right)
-    assert check.matches < FEWEST
-    assert np.isnan(check.rise)
-    assert np.isnan(check.behind)
+    assert check.matches < MIN_MATCHES
+    assert np.isnan(check.row_error)
+    assert np.isnan(check.negative_share)
     assert check.problem == ""
 
 

@@ -9,14 +9,14 @@ from tricue import Box, Frame, Status, Track
 from tricue.cli import main
 from tricue.cli.demos import fused
 from tricue.cli.outputs import Step
-from tricue.scenes.stress_scene import everything
+from tricue.scenes.stress.scene import stress_scene
 
 pytest.importorskip("matplotlib", reason="the plot needs matplotlib: pip install tricue[demo]")
 
 SHORT = {
-    "color": (partial(everything, "hidden", size=(120, 90), channels="rgbd"), ("color",)),
-    "both": (partial(everything, "plain", size=(120, 90), channels="rgbd"), ("color", "depth")),
-    "pair": (partial(everything, "plain", size=(120, 90), channels="stereo"), ("color", "right")),
+    "color": (partial(stress_scene, "hidden", size=(120, 90), channels="rgbd"), ("color",)),
+    "both": (partial(stress_scene, "plain", size=(120, 90), channels="rgbd"), ("color", "depth")),
+    "pair": (partial(stress_scene, "plain", size=(120, 90), channels="stereo"), ("color", "right")),
 }
 
 
@@ -33,7 +33,7 @@ def test_demo_writes_a_table_a_video_and_a_plot(
         assert float(overlap) > 0.5
         assert float(held.removesuffix("%")) > 50
     assert rows["color"][2:4] == ["-", "-"]
-    hidden = everything("hidden", 1, (120, 90))
+    hidden = stress_scene("hidden", 1, (120, 90))
     assert rows["color"][4].endswith(f"/{(hidden.visible < 0.15).sum()}")
     assert cv2.imread(str(tmp_path / "fused.png")) is not None
     capture = cv2.VideoCapture(str(tmp_path / "fused.mp4"))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from tricue.cli import main
 from tricue.data.datasets import find_sequences
-from tricue.data.summary import MOST
+from tricue.data.summary import MAX_SAMPLED_FRAMES
 
 TOML = "[{channel}]\nfx = 50.0\nfy = 60.0\ncx = 31.5\ncy = 23.5\n"
 
@@ -116,7 +116,7 @@ def test_many_depth_images_are_sampled(tmp_path: Path, capsys: pytest.CaptureFix
     """It proves that of a long recording at most a hundred images of depth are looked at, and that it says
     so.
     """
-    folder = depth(tmp_path / "long", MOST + 20)
+    folder = depth(tmp_path / "long", MAX_SAMPLED_FRAMES + 20)
     line = lines(capsys, folder, "--depth-scale", 0.001)[4]
     assert line.endswith("25.0 % invalid pixels; of 100 frames, evenly spaced")
 

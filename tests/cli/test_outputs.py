@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Status, Track
 from tricue.cli.outputs import COLUMNS, CsvOutput, JsonOutput, Step, VideoOutput
-from tricue.draw.overlays import STATUS_COLORS
+from tricue.draw.canvas import STATUS_COLORS
 
 IMAGE = np.zeros((8, 8, 3), np.uint8)
 FLAT = Step(0, Frame(IMAGE), Track(Box(1, 2, 3, 4), 0.5, Status.LOST), 0.1)

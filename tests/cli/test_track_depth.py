@@ -198,7 +198,7 @@ BAD = [
     (["{depth}", *MM, "--fov", "190"], "--fov: horizontal_deg: expected"),
     (["{depth}", *MM, "--fov", "60,45,30"], "argument --fov: expected one angle or two, .* got '60,45,30'"),
     (["{depth}", *MM, *FOV, "--calibration", "{toml}"], "argument --calibration: not allowed with"),
-    (["{depth}", *MM, "--fps", "0"], "--fps: expected frames a second above 0, got 0.0"),
+    (["{depth}", *MM, "--fps", "0"], "--fps: expected frames per second above 0, got 0.0"),
     (["{depth}", *MM, "--fps", "fast"], "argument --fps: invalid float value: 'fast'"),
     (["{depth}", "--depth-scale", "mm"], "argument --depth-scale: invalid float value: 'mm'"),
     (["{depth}", "--depth-scale", "-1"], "depth_scale: expected metres per unit above 0, got -1.0"),

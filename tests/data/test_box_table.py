@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from tricue import Box, Status, Track
 from tricue.camera.frame import Frame
 from tricue.cli.outputs import CsvOutput, Step
-from tricue.data.box_table import TABLE, find_table, read_table, video_table
+from tricue.data.box_table import BOX_TABLE, find_box_table, find_video_box_table, read_box_table
 from tricue.data.truth import Truth
 
 
 def read(folder: Path, text: str) -> Truth:
     """The truth in a table of this text."""
-    (folder / TABLE).write_text(text)
-    return read_table(folder / TABLE)
+    (folder / BOX_TABLE).write_text(text)
+    return read_box_table(folder / BOX_TABLE)
 
 
 @pytest.mark.parametrize(
@@ -59,11 +59,11 @@ def test_what_track_writes(tmp_path: Path) -> None:
     """It proves that a table of tricue track is read back, with its positions where the tracker has them."""
     frame = Frame(np.zeros((4, 4, 3), np.uint8), timestamp=0.5)
     for position in (None, np.array([0.25, -0.5, 3.0])):
-        with CsvOutput(tmp_path / TABLE) as output:
+        with CsvOutput(tmp_path / BOX_TABLE) as output:
             for number in (2, 3):
                 track = Track(Box(1.5, 2, 3, 4), 0.5, Status.TRACKED, position)
                 output.write(Step(number, frame, track, 0.01))
-        truth = read_table(tmp_path / TABLE)
+        truth = read_box_table(tmp_path / BOX_TABLE)
         assert truth.boxes[2:].tolist() == [[1.5, 2, 3, 4]] * 2
         assert np.isnan(truth.boxes[:2]).all()
         assert not truth.absent.any()
@@ -136,10 +136,10 @@ LINES = st.lists(st.lists(WORDS, max_size=7).map(",".join), max_size=5).map("\n"
 @given(text=LINES | st.text(max_size=80))
 def test_any_text(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     """It proves that any text is a truth of rows that fit each other, or a ValueError with file and line."""
-    path = tmp_path_factory.mktemp("any") / TABLE
+    path = tmp_path_factory.mktemp("any") / BOX_TABLE
     path.write_bytes(text.encode("utf-8", errors="surrogatepass"))
     try:
-        truth = read_table(path)
+        truth = read_box_table(path)
     except ValueError as error:
         assert str(error).startswith(f"{path}, line ")  # noqa: PT017 (other texts are no error)
     else:
@@ -154,20 +154,20 @@ def test_which_table_is_found(tmp_path: Path) -> None:
     is about other things is left alone, while one with a box's columns is read, be it complete or not.
     """
     video, own = tmp_path / "clip.mp4", tmp_path / "clip.csv"
-    assert find_table(tmp_path, video) is None
+    assert find_box_table(tmp_path, video) is None
     own.write_text("time,acceleration\n0,9.81\n")
-    assert video_table(video) is None
+    assert find_video_box_table(video) is None
     for text in ("x,y,width\n", "1,2,3,4\n", "frame,x,y,w,h\n"):
         own.write_text(text)
-        assert video_table(video) == find_table(tmp_path, video) == own
-    assert find_table(tmp_path) is None
-    (tmp_path / TABLE).touch()
-    assert find_table(tmp_path, video) == tmp_path / TABLE
+        assert find_video_box_table(video) == find_box_table(tmp_path, video) == own
+    assert find_box_table(tmp_path) is None
+    (tmp_path / BOX_TABLE).touch()
+    assert find_box_table(tmp_path, video) == tmp_path / BOX_TABLE
 
 
 def test_what_a_tracker_wrote_beside_a_video_is_not_the_truth(tmp_path):
     """tricue track clip.mp4 --csv clip.csv must not make the next run judge itself by it."""
     (tmp_path / "clip.csv").write_text("frame,time_s,status,score,x,y,width,height\n0,0,tracked,1,1,2,3,4\n")
-    assert video_table(tmp_path / "clip.mp4") is None
+    assert find_video_box_table(tmp_path / "clip.mp4") is None
     (tmp_path / "clip.csv").write_text("frame,status,x,y,width,height\n0,seen,1,2,3,4\n")
-    assert video_table(tmp_path / "clip.mp4") == tmp_path / "clip.csv"
+    assert find_video_box_table(tmp_path / "clip.mp4") == tmp_path / "clip.csv"

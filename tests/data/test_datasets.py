@@ -9,7 +9,7 @@ from tricue.data.open_source import open_source
 
 
 def image(path: Path, dtype: type[np.generic] = np.uint8) -> None:
-    """A small grey image."""
+    """A small gray image."""
     path.parent.mkdir(parents=True, exist_ok=True)
     cv2.imwrite(str(path), np.full((6, 8), 100, dtype))
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Intrinsics
-from tricue.camera.calibration_files import read_intrinsics
+from tricue.camera.read_calibration import read_intrinsics
 from tricue.data.open_source import Source, open_source
 
 
@@ -258,7 +258,9 @@ def test_times_of_their_own_go_before_those_of_other_channels(tmp_path: Path) ->
     color, depth = color_folder(tmp_path / "c", 2), tum(tmp_path / "d", [], [7.0, 7.25])
     source = open_source(color, depth=depth)
     assert ([frame.timestamp for frame in source], source.fps) == ([7.0, 7.25], 4.0)
-    with pytest.raises(ValueError, match=r"^--fps 15: .* but c has its own, 4 frames a second; leave it out"):
+    with pytest.raises(
+        ValueError, match=r"^--fps 15: .* but c has its own, 4 frames per second; leave it out"
+    ):
         open_source(color, depth=depth, fps=15)
     plain = depth_folder(tmp_path / "e", [1000, 2000])
     source = open_source(color, depth=plain, depth_scale=0.001, fps=8)
@@ -282,7 +284,7 @@ def ptb(folder: Path) -> Path:
 @pytest.mark.parametrize("make", [lambda f: tum(f, [1.0], [1.0]), lambda f: tum(f, [], [1.0]), ptb])
 def test_fps_beside_recorded_times_is_refused(tmp_path: Path, make: Callable[[Path], Path]) -> None:
     """It proves that TUM's and Princeton's images keep their own times, also a single one."""
-    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times"):
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images without times"):
         open_source(make(tmp_path), fps=15)
 
 
@@ -384,8 +386,8 @@ def eight_bits(folder: Path) -> Path:
     return folder
 
 
-def grey_bits(folder: Path) -> NDArray[np.uint8]:
-    """An 8-bit grey image."""
+def gray_bits(folder: Path) -> NDArray[np.uint8]:
+    """An 8-bit gray image."""
     image = np.full((30, 40), 90, np.uint8)
     folder.mkdir(parents=True, exist_ok=True)
     cv2.imwrite(str(folder / "1.png"), image)
@@ -468,7 +470,7 @@ def uneven_vot(folder: Path) -> Source:
             "expected depth images where --depth-scale is given, found only color",
         ),
         (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not metres"),
-        (beside(grey_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not metres"),
+        (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not metres"),
         (beside(wide_bits), r"1.png: expected depth, 16 bits of one channel, got uint16 \(30, 40, 3\)"),
         (eight_bits_in_the_middle, "2.png: expected depth, 16 bits of one channel, got uint8"),
         (cut_off, "2.png: expected an image, this file can't be read as one"),

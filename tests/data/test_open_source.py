@@ -12,7 +12,7 @@ from tricue.data.open_source import Source, open_source
 from tricue.data.streams import Camera
 
 
-def grey(level: int) -> NDArray[np.uint8]:
+def gray(level: int) -> NDArray[np.uint8]:
     """An image of one level."""
     return np.full((48, 64, 3), level, np.uint8)
 
@@ -21,7 +21,7 @@ def images(folder: Path, names: list[str]) -> Path:
     """A folder whose images are of the levels 10, 20, ... in the order of the names."""
     folder.mkdir(parents=True, exist_ok=True)
     for index, name in enumerate(names, 1):
-        cv2.imwrite(str(folder / name), grey(10 * index))
+        cv2.imwrite(str(folder / name), gray(10 * index))
     return folder
 
 
@@ -29,7 +29,7 @@ def video(path: Path, frames: int = 6, fps: float = 12.0) -> Path:
     """An MJPG video whose frames have the levels 10, 20, ..."""
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), fps, (64, 48))
     for index in range(1, frames + 1):
-        writer.write(grey(10 * index % 256))
+        writer.write(gray(10 * index % 256))
     writer.release()
     return path
 
@@ -137,23 +137,23 @@ def test_fps_beside_times_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyP
     folder = images(tmp_path / "vot" / "color", ["1.png"]).parent
     (folder / "sequence").write_text("fps=25\nchannels.color=color/%08d.png\n")
     monkeypatch.setattr(cv2, "VideoCapture", UnpluggedCamera)
-    with pytest.raises(ValueError, match=r"^--fps 15: expected with images that tell no times, but camera 3"):
+    with pytest.raises(ValueError, match=r"^--fps 15: expected with images without times, but camera 3"):
         open_source("3", fps=15)
     monkeypatch.undo()
     for place, own in ((video(tmp_path / "v.avi", fps=12.5), "v has its own, 12.5"), (folder, "vot .* 25")):
-        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames a second; leave it out$"):
+        with pytest.raises(ValueError, match=f"^--fps 15: .*, but {own} frames per second; leave it out$"):
             open_source(place, fps=15)
 
 
 @pytest.mark.parametrize(
     ("fps", "error", "message"),
     [
-        (0, ValueError, "expected frames a second above 0, got 0"),
-        (-5.0, ValueError, "expected frames a second above 0, got -5.0"),
+        (0, ValueError, "expected frames per second above 0, got 0"),
+        (-5.0, ValueError, "expected frames per second above 0, got -5.0"),
         (float("nan"), ValueError, "expected a finite number"),
         (float("inf"), ValueError, "expected a finite number"),
-        (1001, ValueError, "expected at most 1000 frames a second, got 1001"),
-        ("30", TypeError, "expected a number, frames a second, got '30'"),
+        (1001, ValueError, "expected at most 1000 frames per second, got 1001"),
+        ("30", TypeError, "expected a number, frames per second, got '30'"),
     ],
 )
 def test_bad_fps_is_named(tmp_path: Path, fps: Any, error: type[Exception], message: str) -> None:
@@ -189,7 +189,7 @@ class UnpluggedCamera:
 
     def read(self) -> tuple[bool, object]:
         self.left -= 1
-        return (True, grey(10)) if self.left >= 0 else (False, None)
+        return (True, gray(10)) if self.left >= 0 else (False, None)
 
     def release(self) -> None:
         self.left = 0

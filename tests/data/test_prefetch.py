@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue.data.open_source import open_source
-from tricue.data.prefetch import AHEAD, prefetched
+from tricue.data.prefetch import MAX_PREFETCHED, prefetch
 
 
 class Counting:
@@ -50,7 +50,7 @@ def until(condition: Callable[[], bool]) -> bool:
 def test_all_come_in_order(ahead: int, end: int) -> None:
     """It proves that nothing is lost, doubled or turned round, and that the thread ends with the last."""
     items = Counting(end)
-    assert list(prefetched(items, ahead)) == list(range(end))
+    assert list(prefetch(items, ahead)) == list(range(end))
     assert items.closed
     assert not threads()
 
@@ -58,7 +58,7 @@ def test_all_come_in_order(ahead: int, end: int) -> None:
 def test_an_error_comes_at_its_place() -> None:
     """It proves that what came before an error is given first, and then that very error."""
     error = OSError("unplugged")
-    found = prefetched(Counting(5, error), 3)
+    found = prefetch(Counting(5, error), 3)
     assert list(islice(found, 5)) == [0, 1, 2, 3, 4]
     with pytest.raises(OSError, match="unplugged") as raised:
         next(found)
@@ -72,19 +72,19 @@ def test_no_more_than_ahead_wait() -> None:
     memory doesn't grow with the length.
     """
     items = Counting()
-    found = prefetched(items)
+    found = prefetch(items)
     for taken in range(1, 40):
         next(found)
-        assert until(lambda: items.made == taken + AHEAD)  # noqa: B023 (called at once)
+        assert until(lambda: items.made == taken + MAX_PREFETCHED)  # noqa: B023 (called at once)
     time.sleep(0.05)
-    assert items.made == 39 + AHEAD
+    assert items.made == 39 + MAX_PREFETCHED
     found.close()  # type: ignore[attr-defined]
 
 
 def test_nothing_is_made_before_it_is_asked_for() -> None:
     """It proves that an iterator that nobody uses starts no thread."""
     items = Counting()
-    found = prefetched(items)
+    found = prefetch(items)
     assert not threads()
     del found
     assert items.made == 0
@@ -92,14 +92,14 @@ def test_nothing_is_made_before_it_is_asked_for() -> None:
 
 def leave_open(items: Counting) -> None:
     """A loop that is broken off."""
-    for number in prefetched(items):
+    for number in prefetch(items):
         if number == 3:
             break
 
 
 def close(items: Counting) -> None:
     """An iterator that is closed."""
-    found: Any = prefetched(items)
+    found: Any = prefetch(items)
     next(found)
     found.close()
 
@@ -108,7 +108,7 @@ def fail(items: Counting) -> None:
     """A consumer that raises."""
 
     def consume() -> None:
-        for _ in prefetched(items):
+        for _ in prefetch(items):
             raise RuntimeError("mine")
 
     with pytest.raises(RuntimeError, match="mine"):
@@ -117,7 +117,7 @@ def fail(items: Counting) -> None:
 
 def leave_in_a_circle(items: Counting) -> None:
     """An iterator that only the garbage collector finds."""
-    found = prefetched(items)
+    found = prefetch(items)
     next(found)
     circle: list[Any] = [found]
     circle.append(circle)
@@ -131,7 +131,7 @@ def test_the_thread_ends_with_its_consumer(leave: Callable[[Counting], None]) ->
     gc.collect()
     assert not threads()
     assert items.closed
-    assert items.made <= 5 + AHEAD
+    assert items.made <= 5 + MAX_PREFETCHED
 
 
 def test_collecting_on_the_thread_itself() -> None:
@@ -149,7 +149,7 @@ def test_collecting_on_the_thread_itself() -> None:
         ended_on.append(threading.current_thread().name)
         yield 1
 
-    holder.append(prefetched(items()))
+    holder.append(prefetch(items()))
     assert next(holder[0]) == 0
     alone.set()
     assert until(lambda: not threads())
@@ -160,7 +160,7 @@ def test_collecting_on_the_thread_itself() -> None:
 def test_bad_ahead_is_refused(ahead: Any, error: type[Exception]) -> None:
     """It proves that a number of items that can't be is an error at once."""
     with pytest.raises(error, match=r"^ahead: expected"):
-        prefetched([], ahead)
+        prefetch([], ahead)
 
 
 def test_frames_of_a_source(tmp_path: Path) -> None:
@@ -168,11 +168,11 @@ def test_frames_of_a_source(tmp_path: Path) -> None:
     for index in range(12):
         cv2.imwrite(str(tmp_path / f"{index}.png"), np.full((8, 8, 3), index, np.uint8))
     source = open_source(tmp_path)
-    for plain, ahead in zip(source, prefetched(source, 3), strict=True):
+    for plain, ahead in zip(source, prefetch(source, 3), strict=True):
         assert plain.timestamp == ahead.timestamp
         np.testing.assert_array_equal(plain.color, ahead.color)
     (tmp_path / "9.png").write_bytes(b"")
-    found = prefetched(source)
+    found = prefetch(source)
     assert len(list(islice(found, 9))) == 9
     with pytest.raises(ValueError, match=r"9\.png: expected an image"):
         next(found)

@@ -23,7 +23,7 @@ def images(folder: Path, count: int) -> Path:
 
 
 def video(path: Path, count: int) -> Path:
-    """An MJPG video of the same levels, at 20 frames a second."""
+    """An MJPG video of the same levels, at 20 frames per second."""
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 20.0, (64, 48))
     for index in range(count):
         writer.write(np.full((48, 64, 3), 10 * index, np.uint8))

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tricue.camera.calibration import kitti_offset
+from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.data import kitti
-from tricue.data.layouts import targets
+from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
 
 CALIBRATION = "P2: 700 0 600 76 0 700 170 -136 0 0 1 0.01\nP3: 700 0 600 -333 0 700 170 2 0 0 1 0.01\n"
@@ -46,12 +46,12 @@ def tracking(root: Path, labels: str, numbers: range = range(6), calibration: st
 LABELS = label(4, 7) + label(1, 7) + label(2, 7, left=110) + label(0, 8, "Van") + label(3, 9) + label(5, 9)
 
 
-def test_a_labelled_target(tmp_path: Path) -> None:
-    """It proves that a label's frames, both images of each, its boxes and its cuboid's centres come, and that
+def test_a_labeled_target(tmp_path: Path) -> None:
+    """It proves that a label's frames, both images of each, its boxes and its cuboid's centers come, and that
     a frame of it without label is unknown.
     """
     root = tracking(tmp_path, LABELS + label(2, -1, "DontCare"))
-    assert targets(root) == targets(root / "image_02" / "0005") == ("Car 7", "Car 9")
+    assert list_targets(root) == list_targets(root / "image_02" / "0005") == ("Car 7", "Car 9")
     source = open_source(root, target="Car 7")
     assert (source.format, source.length, list(source.channels)) == ("KITTI tracking", 4, ["color", "right"])
     assert levels(source) == [1, 2, 3, 4]
@@ -62,7 +62,7 @@ def test_a_labelled_target(tmp_path: Path) -> None:
     assert not source.absent.any()
     assert source.positions is not None
     assert np.isnan(source.positions[2]).all()
-    # The centre is half the height above the bottom; P2 = K [I | (0.1, -0.197, 0.01)].
+    # The center is half the height above the bottom; P2 = K [I | (0.1, -0.197, 0.01)].
     offset = [(76 - 600 * 0.01) / 700, (-136 - 170 * 0.01) / 700, 0.01]
     np.testing.assert_allclose(source.positions[0], np.add([1, 1.6 - 0.75, 20], offset))
     assert open_source(root).truth is None
@@ -70,11 +70,11 @@ def test_a_labelled_target(tmp_path: Path) -> None:
 
 def test_labels_are_by_the_files_numbers(tmp_path: Path) -> None:
     """It proves that of a cut copy, whose images don't begin at 0, the right ones come, and that one that is
-    labelled but isn't there is named.
+    labeled but isn't there is named.
     """
     root = tracking(tmp_path, label(4, 7) + label(5, 7) + label(5, 8) + label(6, 8), range(3, 6))
     assert levels(open_source(root, target="Car 7")) == [4, 5]
-    with pytest.raises(ValueError, match="0005: expected the image of frame 6, which is labelled"):
+    with pytest.raises(ValueError, match="0005: expected the image of frame 6, which is labeled"):
         open_source(root, target="Car 8")
 
 
@@ -90,7 +90,7 @@ def test_labels_are_by_the_files_numbers(tmp_path: Path) -> None:
 def test_bad_labels_are_named(tmp_path: Path, lines: str, message: str) -> None:
     """It proves that what can't be meant is an error with the file's name and the line's number."""
     root = tracking(tmp_path, lines)
-    for call in (targets, lambda folder: open_source(folder, target="Car 1")):
+    for call in (list_targets, lambda folder: open_source(folder, target="Car 1")):
         with pytest.raises(ValueError, match=rf"label_02/0005\.txt, {message}"):
             call(root)
 
@@ -105,7 +105,7 @@ def test_unknown_targets_are_refused(tmp_path: Path) -> None:
     alone = images(tmp_path / "alone", range(2))
     with pytest.raises(ValueError, match="alone: expected target to be none, for it has one target, got '1'"):
         open_source(alone, target="1")
-    assert targets(alone) == ()
+    assert list_targets(alone) == ()
 
 
 WORDS = st.sampled_from(["0", "1", "7", "-1", "Car", "Van", "DontCare", "nan", "1e300", "x", "9" * 30])
@@ -127,15 +127,15 @@ def test_any_labels(tmp_path_factory: pytest.TempPathFactory, text: str) -> None
     else:
         for each in labels:
             assert (np.diff(each.frames) > 0).all()
-            assert len(each.frames) == len(each.boxes) == len(each.nearest) == len(each.positions)
+            assert len(each.frames) == len(each.boxes) == len(each.front_depths) == len(each.positions)
 
 
 def test_real_positions_project_into_their_boxes(data: Path) -> None:
-    """It proves that the centre of a real target's cuboid is seen in the middle of its box, wherever the
+    """It proves that the center of a real target's cuboid is seen in the middle of its box, wherever the
     image's side doesn't cut the box off.
     """
     place = data / "stereo" / "kitti-tracking"
-    assert targets(place) == ("Car 0", "Car 1", "Car 2", "Car 31")
+    assert list_targets(place) == ("Car 0", "Car 1", "Car 2", "Car 31")
     for name, length in {"Car 0": 14, "Car 31": 16}.items():
         source = open_source(place, target=name)
         assert source.length == length
@@ -154,7 +154,9 @@ def test_real_positions_project_into_their_boxes(data: Path) -> None:
         )
         assert whole.sum() > 10
         assert (off[whole] < 0.1).all()
-        np.testing.assert_allclose(kitti_offset(source.calibration), [0.0598, -0.0004, 0.0027], atol=1e-4)
+        np.testing.assert_allclose(
+            read_kitti_offset(source.calibration), [0.0598, -0.0004, 0.0027], atol=1e-4
+        )
 
 
 def otb(folder: Path, numbers: range, boxes: int) -> Path:
@@ -193,7 +195,7 @@ def test_otb_folders_of_two_targets(tmp_path: Path) -> None:
     images(tmp_path / "img", range(1, 3))
     for number in (1, 2):
         (tmp_path / f"groundtruth_rect.{number}.txt").write_text(f"{number},2,3,4\n")
-    assert targets(tmp_path) == ("1", "2")
+    assert list_targets(tmp_path) == ("1", "2")
     for target, x in ((None, 0), ("1", 0), ("2", 1)):
         source = open_source(tmp_path, target=target)
         assert source.truth is not None

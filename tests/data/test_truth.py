@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from tricue.data.truth import OTB, VOT, find_truth, otb_targets, read_truth
+from tricue.data.truth import OTB_TRUTH, VOT_TRUTH, find_truth, otb_targets, read_true_boxes
 
 
 def read(folder: Path, name: str, text: str) -> NDArray[np.float64]:
     """The boxes of a file with this name and text."""
     (folder / name).write_text(text)
-    return read_truth(folder / name)
+    return read_true_boxes(folder / name)
 
 
 @pytest.mark.parametrize(
@@ -21,12 +21,12 @@ def read(folder: Path, name: str, text: str) -> NDArray[np.float64]:
 )
 def test_separators(tmp_path: Path, text: str) -> None:
     """It proves that commas, tabs, blanks and semicolons are read alike, and OTB's count from 1 is undone."""
-    assert read(tmp_path, OTB, text).tolist() == [[4, 5, 7, 8], [0, 1, 3, 4]]
+    assert read(tmp_path, OTB_TRUTH, text).tolist() == [[4, 5, 7, 8], [0, 1, 3, 4]]
 
 
 def test_vot_counts_from_zero(tmp_path: Path) -> None:
     """It proves that VOT's rectangles stay, polygons become the boxes round them, masks their box."""
-    boxes = read(tmp_path, VOT, "5.5,6,7,8\n10,10,20,12,18,30,8,28\nm3,4,5,6,0,12,7\n")
+    boxes = read(tmp_path, VOT_TRUTH, "5.5,6,7,8\n10,10,20,12,18,30,8,28\nm3,4,5,6,0,12,7\n")
     assert boxes.tolist() == [[5.5, 6, 7, 8], [8, 10, 12, 20], [3, 4, 5, 6]]
 
 
@@ -35,7 +35,7 @@ def test_vot_counts_from_zero(tmp_path: Path) -> None:
 )
 def test_absent_targets_are_nan(tmp_path: Path, line: str) -> None:
     """It proves that a frame without the target is a row of NaN, and doesn't shift the rows after it."""
-    boxes = read(tmp_path, VOT, f"1,2,3,4\n{line}\n5,6,7,8\n\n")
+    boxes = read(tmp_path, VOT_TRUTH, f"1,2,3,4\n{line}\n5,6,7,8\n\n")
     assert np.isnan(boxes[1]).all()
     assert boxes[[0, 2]].tolist() == [[1, 2, 3, 4], [5, 6, 7, 8]]
 
@@ -44,13 +44,13 @@ def test_absent_targets_are_nan(tmp_path: Path, line: str) -> None:
 def test_bad_lines_are_named(tmp_path: Path, line: str) -> None:
     """It proves that a line that is no box is an error with the file's name and the line's number."""
     with pytest.raises(ValueError, match=r"groundtruth.txt, line 2: expected four numbers"):
-        read(tmp_path, VOT, f"1,2,3,4\n{line}\n1,2,3,4\n")
+        read(tmp_path, VOT_TRUTH, f"1,2,3,4\n{line}\n1,2,3,4\n")
 
 
 def test_a_folder_without_truth(tmp_path: Path) -> None:
     """It proves that truth is optional and an empty file holds no rows."""
     assert find_truth(tmp_path) is None
-    (tmp_path / OTB).write_text("\n")
+    (tmp_path / OTB_TRUTH).write_text("\n")
     truth = find_truth(tmp_path)
     assert truth is not None
     assert (truth.boxes.shape, truth.absent.shape, truth.positions) == ((0, 4), (0,), None)
@@ -60,7 +60,7 @@ def test_absent_is_not_unknown(tmp_path: Path) -> None:
     """It proves that lines without a box and VOT's tag say "absent", a tag also behind the boxes, and that
     the rest of the rows behind the boxes are unknown.
     """
-    (tmp_path / VOT).write_text("1,2,3,4\n5,6,7,8\nnan,nan,nan,nan\n5,6,0,8\n")
+    (tmp_path / VOT_TRUTH).write_text("1,2,3,4\n5,6,7,8\nnan,nan,nan,nan\n5,6,0,8\n")
     truth = find_truth(tmp_path)
     assert truth is not None
     assert truth.absent.tolist() == [False, False, True, True]
@@ -77,7 +77,7 @@ def test_absent_is_not_unknown(tmp_path: Path) -> None:
 
 def test_depths_beside_the_boxes(tmp_path: Path) -> None:
     """It proves that position_z_mm.txt gives Z in metres, NaN where it says 0 or NaN, and nothing else."""
-    (tmp_path / VOT).write_text("1,2,3,4\n")
+    (tmp_path / VOT_TRUTH).write_text("1,2,3,4\n")
     (tmp_path / "position_z_mm.txt").write_text("1500\n0\nnan\n 2250.5\n\n")
     truth = find_truth(tmp_path)
     assert truth is not None
@@ -89,7 +89,7 @@ def test_depths_beside_the_boxes(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "message"),
     [
-        (VOT, "1,2,3,4\n1,2,inf,4\n", "line 2: expected four numbers"),
+        (VOT_TRUTH, "1,2,3,4\n1,2,inf,4\n", "line 2: expected four numbers"),
         ("absent.tag", "0\n2\n", "line 2: expected 0, or 1 for an absent target, got '2'"),
         ("absent.tag", "0\n\n1\n", "line 2: expected 0, or 1"),
         ("position_z_mm.txt", "1\n-5\n", "line 2: expected a depth in millimetres, 0 if unknown, got '-5'"),
@@ -100,7 +100,7 @@ def test_depths_beside_the_boxes(tmp_path: Path) -> None:
 )
 def test_bad_files_beside_the_boxes_are_named(tmp_path: Path, name: str, text: str, message: str) -> None:
     """It proves that what can't be meant is an error with the file's name and the line's number."""
-    (tmp_path / VOT).write_text("1,2,3,4\n")
+    (tmp_path / VOT_TRUTH).write_text("1,2,3,4\n")
     (tmp_path / name).write_text(text)
     with pytest.raises(ValueError, match=f"{name}, {message}"):
         find_truth(tmp_path)
@@ -129,7 +129,7 @@ LINES = st.lists(st.tuples(st.lists(NUMBERS, max_size=9), st.sampled_from(", \t;
 TEXTS = LINES | st.text(max_size=60)
 
 
-@given(name=st.sampled_from([OTB, VOT]), boxes=TEXTS, tag=TEXTS, depths=TEXTS)
+@given(name=st.sampled_from([OTB_TRUTH, VOT_TRUTH]), boxes=TEXTS, tag=TEXTS, depths=TEXTS)
 def test_any_text(
     tmp_path_factory: pytest.TempPathFactory, name: str, boxes: str, tag: str, depths: str
 ) -> None:

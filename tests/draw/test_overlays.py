@@ -8,14 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Status, Track
-from tricue.draw.overlays import (
-    STATUS_COLORS,
-    OverlayWriter,
-    depth_overlay,
-    depth_picture,
-    depth_range,
-    overlay,
-)
+from tricue.draw.canvas import STATUS_COLORS
+from tricue.draw.depth_pictures import depth_picture, depth_range
+from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.video import OverlayWriter
 
 BLACK = np.zeros((480, 640, 3), np.uint8)
 
@@ -45,7 +41,7 @@ def test_the_image_is_left_alone() -> None:
 
 
 def test_small_images_are_enlarged() -> None:
-    """It proves that a small picture, grey or color, becomes a BGR one of readable size, box and all."""
+    """It proves that a small picture, gray or color, becomes a BGR one of readable size, box and all."""
     for image in (BLACK[:120, :160], BLACK[:120, :160, 0]):
         picture = overlay(image, track(Box(50, 75, 15, 20)))
         assert picture.shape == (480, 640, 3)
@@ -53,7 +49,7 @@ def test_small_images_are_enlarged() -> None:
 
 
 def test_particles_are_dots() -> None:
-    """It proves that each particle changes the pixels at its centre."""
+    """It proves that each particle changes the pixels at its center."""
     particles = np.array([[500.0, 100.0, 9, 9], [550.0, 120.0, 9, 9]])
     picture = overlay(BLACK, track(), particles=particles)
     for x, y, *_ in particles.astype(int):

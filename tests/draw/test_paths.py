@@ -7,7 +7,7 @@ import pytest
 from tricue import Box, Intrinsics, Status, Track
 
 pytest.importorskip("matplotlib")
-from tricue.draw.paths import STATUS_COLORS, check_format, draw_path, path_from_above, save_path
+from tricue.draw.paths import PLOT_STATUS_COLORS, check_format, draw_path, path_from_above, save_path
 
 CAMERA = Intrinsics.from_fov(640, 480, 60)
 
@@ -27,9 +27,9 @@ def test_points_are_where_the_target_was() -> None:
     axes = path_from_above(walk(), CAMERA).axes[0]
     points = {line.get_color(): line.get_xydata().tolist() for line in axes.lines if line.get_marker() == "o"}
     assert points == {
-        STATUS_COLORS[Status.TRACKED]: [[0.5, 2.0]],
-        STATUS_COLORS[Status.OCCLUDED]: [[0.6, 2.5]],
-        STATUS_COLORS[Status.LOST]: [[0.7, 3.0]],
+        PLOT_STATUS_COLORS[Status.TRACKED]: [[0.5, 2.0]],
+        PLOT_STATUS_COLORS[Status.OCCLUDED]: [[0.6, 2.5]],
+        PLOT_STATUS_COLORS[Status.LOST]: [[0.7, 3.0]],
     }
     assert axes.get_aspect() == 1.0
     assert "m" in axes.get_xlabel()

@@ -4,7 +4,7 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Intrinsics, Status, StereoRig, Track
 from tricue.draw.overlays import overlay
-from tricue.draw.stereo import disparity_round, stereo_overlay
+from tricue.draw.stereo import measure_disparity, stereo_overlay
 
 RIG = StereoRig(Intrinsics(400.0, 400.0, 319.5, 239.5, 640, 480), 0.1)
 DISPARITY = 20  # pixels, of everything; at 400 * 0.1 / 20 = 2 m
@@ -26,7 +26,7 @@ def track(box: Box = BOX, place: NDArray[np.float64] | None = PLACE) -> Track:
 
 def test_the_disparity_is_that_of_the_pair(frame: Frame) -> None:
     """It proves that the disparity of the target and its surround is measured, as its distance expects it."""
-    patch = disparity_round(frame, track(), RIG)
+    patch = measure_disparity(frame, track(), RIG)
     assert patch is not None
     assert patch.expected == pytest.approx(DISPARITY)
     assert (patch.left, patch.top) == (182, 176)
@@ -67,7 +67,7 @@ def test_the_inset_stands_apart(
 def test_there_is_not_always_an_inset(frame: Frame, box: Box, place: NDArray[np.float64] | None) -> None:
     """It proves that without a position in front, or beside the image, the plain overlay remains."""
     assert frame.color is not None
-    assert disparity_round(frame, track(box, place), RIG) is None
+    assert measure_disparity(frame, track(box, place), RIG) is None
     drawn = stereo_overlay(frame, track(box, place), RIG)
     assert np.array_equal(drawn, overlay(frame.color, track(box, place)))
 

@@ -19,10 +19,10 @@ from tricue.scenes import (
     face_over_clutter,
     head,
     overtaking,
-    photographs,
     walker,
 )
-from tricue.scenes.paste import ellipse_mask, expose, paste
+from tricue.scenes.rendering import photographs
+from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
 from tricue.track.depth_objects.objects import SLICES, Objects
 
 pytest.register_assert_rewrite("bad_input_cases")  # its asserts tell as much as a test's
@@ -49,8 +49,8 @@ def stage() -> Stage:
 
     def make(places: Sequence[Place], background: str = "coffee", seed: int = 0) -> list[Image]:
         rng = np.random.default_rng(seed)
-        ground = photographs.background(background, HEIGHT, WIDTH, rng).astype(np.float32)
-        portrait = photographs.crop(photographs.photograph("astronaut"), photographs.FACE)
+        ground = photographs.crop_background(background, HEIGHT, WIDTH, rng).astype(np.float32)
+        portrait = photographs.crop(photographs.load_photograph("astronaut"), photographs.ASTRONAUT_FACE)
         face = photographs.resize(portrait, FACE[1], FACE[0]).astype(np.float32)
         opacity = ellipse_mask(FACE[1], FACE[0], edge=2.0)
         return [

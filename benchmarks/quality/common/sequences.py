@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tricue.camera.frame import Frame
 from tricue.data.open_source import open_source
-from tricue.data.truth import OTB, VOT
+from tricue.data.truth import OTB_TRUTH, VOT_TRUTH
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -28,7 +28,7 @@ def data_folder() -> Path:
 
 def find(root: Path) -> list[Path]:
     """The sequence folders directly under ``root`` that hold true boxes, by name."""
-    return sorted({path.parent for name in (OTB, VOT) for path in root.glob(f"*/{name}")})
+    return sorted({path.parent for name in (OTB_TRUTH, VOT_TRUTH) for path in root.glob(f"*/{name}")})
 
 
 def load(folder: Path) -> Sequence:

@@ -11,12 +11,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from tricue.camera.calibration_files import read_rig
 from tricue.camera.frame import Frame
+from tricue.camera.read_calibration import read_rig
 from tricue.camera.rig import StereoRig
 from tricue.data import kitti
 from tricue.data.open_source import Source, open_source
-from tricue.data.truth import read_truth
+from tricue.data.truth import read_true_boxes
 
 RIGHT, CALIBRATION = "groundtruth_right.txt", "calibration.yml"
 KITTI_RATE = 10.0  # frames/s of its cameras (Geiger et al. 2013), not in its folders
@@ -65,7 +65,7 @@ def _single_target(source: Source, folder: Path, unit: float) -> StereoSequence:
     frames = tuple(source)
     if source.truth is None:
         raise ValueError(f"{folder}: expected true boxes of the left images")
-    left, right = source.truth, read_truth(folder / RIGHT)
+    left, right = source.truth, read_true_boxes(folder / RIGHT)
     if len(left) != len(frames) or len(right) != len(frames):
         raise ValueError(f"{folder}: expected {len(frames)} true boxes, got {len(left)} and {len(right)}")
     disparities = (left[:, 0] + left[:, 2] / 2) - (right[:, 0] + right[:, 2] / 2)
@@ -83,6 +83,6 @@ def _targets(source: Source, labels: Path) -> Iterator[StereoSequence]:
         gaps = len(label.frames) <= last - first
         if gaps or len(label.frames) < MIN_KITTI_FRAMES or label.boxes[0, 2:].min() < MIN_KITTI_SIDE:
             continue
-        disparities = rig.intrinsics.fx * rig.baseline / label.nearest
+        disparities = rig.intrinsics.fx * rig.baseline / label.front_depths
         name = f"{source.name} {label.name}"
         yield StereoSequence(name, frames[first : last + 1], label.boxes, disparities, rig)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Boxes in the image: (x, y, width, height) in pixels, floats, x and y at the top-left corner."""
+"""Boxes in the image: (x, y, width, height), floats in pixels; x and y are the top-left corner."""
 
 import math
 from collections.abc import Sequence
@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from tricue.errors import BoxError
 
 BoxLike = Sequence[float] | NDArray[Any]
-LIMIT = 1e6  # pixels; far over any image, and far below where a kernel's integers would overflow
+MAX_COORDINATE = 1e6  # pixels; far beyond any image, and far below where a kernel's integers overflow
 
 
 class Box(NamedTuple):
-    """A rectangle over [x, x + width) by [y, y + height), in pixels; it may reach over the image's edge.
+    """A rectangle over [x, x + width) by [y, y + height), in pixels; it may reach beyond the image.
 
     It unpacks and compares like the tuple ``(x, y, width, height)``. Pixel (row i, column j) covers
-    [j, j + 1) by [i, i + 1). A box that comes from outside goes through :func:`as_box`, which checks it.
+    [j, j + 1) by [i, i + 1). The constructor checks nothing; :func:`as_box` checks what users pass.
     """
 
     x: float
@@ -29,17 +29,17 @@ class Box(NamedTuple):
 
     @classmethod
     def from_xyxy(cls, left: float, top: float, right: float, bottom: float) -> "Box":
-        """The box between two corners."""
+        """The box between two opposite corners, pixels."""
         return cls(left, top, right - left, bottom - top)
 
     @classmethod
     def from_ellipse(cls, x: float, y: float, minor: float, major: float) -> "Box":
-        """The box round an upright ellipse: centre, semi-axes ``minor`` along x, ``major`` along y."""
+        """The bounding box of an upright ellipse: center (x, y), semi-axes minor along x, major along y."""
         return cls(x - minor, y - major, 2 * minor, 2 * major)
 
     @property
     def ellipse(self) -> tuple[float, float, float, float]:
-        """The inscribed ellipse: (x, y, minor, major), its centre and its semi-axes along x and y."""
+        """The inscribed ellipse (x, y, minor, major): its center, and its semi-axes along x and y."""
         return (*self.center, self.width / 2, self.height / 2)
 
     @property
@@ -49,6 +49,7 @@ class Box(NamedTuple):
 
     @property
     def center(self) -> tuple[float, float]:
+        """The center (x, y)."""
         return self.x + self.width / 2, self.y + self.height / 2
 
     @property
@@ -57,15 +58,15 @@ class Box(NamedTuple):
         return self.width * self.height
 
     def as_int(self) -> tuple[int, int, int, int]:
-        """Rounded to whole pixels, at least one pixel wide and high, as OpenCV wants boxes."""
+        """Rounded to whole pixels, as OpenCV wants boxes; at least one pixel wide and high."""
         return round(self.x), round(self.y), max(1, round(self.width)), max(1, round(self.height))
 
     def contains(self, x: float, y: float) -> bool:
-        """Whether the point lies inside; the right and the bottom edge are outside."""
+        """Whether a point lies inside; the right and the bottom edge don't count as inside."""
         return self.x <= x < self.x + self.width and self.y <= y < self.y + self.height
 
     def clip(self, width: float, height: float) -> "Box":
-        """The part inside an image of this size; its area is 0 where nothing is inside."""
+        """The part inside an image of this size; its area is 0 if nothing of the box is inside."""
         left, top, right, bottom = self.xyxy
         x, y = min(max(left, 0.0), width), min(max(top, 0.0), height)
         return Box(x, y, max(min(right, width) - x, 0.0), max(min(bottom, height) - y, 0.0))
@@ -77,7 +78,7 @@ class Box(NamedTuple):
         high = min(bottom, other.y + other.height) - max(top, other.y)
         if wide <= 0 or high <= 0:
             return 0.0
-        # Differences of large coordinates may round to a hair above the union.
+        # Differences of large coordinates may round to slightly above the union.
         return min(1.0, wide * high / (self.area + other.area - wide * high))
 
 
@@ -88,7 +89,7 @@ def as_box(value: BoxLike, name: str = "box") -> Box:
     pixels, and a width or height that isn't above 0. ``name`` is the argument that the message names.
     """
     box = Box(*_four_numbers(value, name))
-    if not all(-LIMIT <= number <= LIMIT for number in box):
+    if not all(-MAX_COORDINATE <= number <= MAX_COORDINATE for number in box):
         expected = "at most a million pixels" if all(map(math.isfinite, box)) else "finite numbers"
         raise BoxError(f"{name}: expected {expected}, got {tuple(box)}")
     if not (box.width > 0 and box.height > 0):
@@ -99,7 +100,7 @@ def as_box(value: BoxLike, name: str = "box") -> Box:
 
 def _four_numbers(value: Any, name: str) -> tuple[float, ...]:
     numbers = value.tolist() if isinstance(value, np.ndarray) and value.ndim == 1 else value
-    wrong = f"{name}: expected four numbers (x, y, width, height), got {_shown(value)}"
+    wrong = f"{name}: expected four numbers (x, y, width, height), got {_describe(value)}"
     if not isinstance(numbers, (tuple, list)) or not all(map(_is_number, numbers)):
         raise TypeError(wrong)
     if len(numbers) != 4:
@@ -112,5 +113,5 @@ def _is_number(value: object) -> bool:
     return kind is float or kind is int or (isinstance(value, Real) and kind is not bool)
 
 
-def _shown(value: object) -> str:
+def _describe(value: object) -> str:
     return f"an array of shape {value.shape}" if isinstance(value, np.ndarray) else f"{value!r:.80}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame: the named channels of one moment."""
+"""A frame: the images that the cameras took at one moment, by channel."""
 
 import warnings
 from dataclasses import dataclass
@@ -11,27 +11,27 @@ from numpy.typing import NDArray
 from tricue.camera.numbers import finite, positive
 from tricue.errors import MissingChannelError
 
-NEAR, FAR = 0.05, 50.0  # metres; a median depth outside of these is most likely in another unit
+MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # metres; a median outside is most likely in another unit
 _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
 
 
 @dataclass(frozen=True, slots=True, eq=False, init=False)
 class Frame:
-    """What the cameras saw at one moment; at least one channel.
+    """The images of one moment; color or depth, or both.
 
-    color: uint8, (H, W, 3) in BGR order or grey (H, W). Of a stereo pair it is the left image.
-    depth: (H, W), metres along the optical axis, kept as float32 with NaN where nothing was measured (what
-        comes as 0, negative, NaN, infinite or masked). float32 or float64 are metres; integers need
-        ``depth_scale``. Its size may differ from the color image's.
-    right: the right image of a rectified pair, of the same shape as ``color``.
+    color: uint8, (H, W, 3) in BGR order or gray (H, W). Of a stereo pair it is the left image.
+    depth: (H, W), metres along the optical axis. float32 and float64 are metres; integers need
+        ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, infinite or
+        masked. Its size may differ from the color image's.
+    right: the right image of a rectified stereo pair, of the same shape as ``color``.
     timestamp: seconds.
     depth_scale: metres per unit of ``depth``, 0.001 for millimetres.
 
-    Images are kept, not copied, where their pixels are packed (whole arrays and crops of them); any other
-    layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError names the
-    channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimetres, or below
-    5 cm.
+    Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
+    other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
+    names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimetres,
+    or below 5 cm.
     """
 
     color: NDArray[np.uint8] | None
@@ -53,19 +53,19 @@ class Frame:
             )
         if depth is None and depth_scale is not None:
             raise ValueError(f"depth_scale: expected together with depth, got {depth_scale!r} alone")
-        keep = object.__setattr__  # the way into a frozen dataclass
-        keep(self, "color", None if color is None else _image(color, "color"))
-        keep(self, "depth", None if depth is None else _depth(depth, depth_scale))
-        keep(self, "right", None if right is None else _right(right, self.color))
-        keep(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
+        assign = object.__setattr__  # the dataclass is frozen
+        assign(self, "color", None if color is None else _image(color, "color"))
+        assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
+        assign(self, "right", None if right is None else _right(right, self.color))
+        assign(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """The names of the channels that are there."""
+        """The names of the channels that the frame has."""
         return tuple(name for name in _CHANNELS if getattr(self, name) is not None)
 
     def require(self, *channels: str) -> None:
-        """Raise ValueError that names the first of ``channels`` that this frame lacks."""
+        """Raise ValueError where the frame lacks one of ``channels``; it names the first that is missing."""
         for name in channels:
             if getattr(self, name) is None:
                 got = " and ".join(self.channels)
@@ -78,7 +78,10 @@ FrameLike = Frame | NDArray[Any]
 
 
 def as_frame(value: FrameLike, name: str = "frame") -> Frame:
-    """The frame itself, or one with a bare image array as its ``color``; else TypeError or ValueError."""
+    """The frame itself, or a frame with the given image array as its ``color``.
+
+    TypeError or ValueError for anything else; ``name`` is the argument that the message names.
+    """
     if isinstance(value, Frame):
         return value
     if not isinstance(value, np.ndarray):
@@ -100,23 +103,23 @@ def _image(value: Any, name: str) -> NDArray[np.uint8]:
     image: NDArray[np.uint8] = value[:, :, 0] if value.ndim == 3 and value.shape[2] == 1 else value
     if image.ndim not in (2, 3) or (image.ndim == 3 and image.shape[2] != 3):
         alpha = "; image[:, :, :3] drops the alpha channel" if value.shape[2:] == (4,) else ""
-        raise ValueError(f"{name}: expected BGR (H, W, 3) or grey (H, W), got {_described(value)}{alpha}")
+        raise ValueError(f"{name}: expected BGR (H, W, 3) or gray (H, W), got {_described(value)}{alpha}")
     if image.size == 0:
         raise ValueError(f"{name}: expected an image with pixels, got {_described(value)}")
-    return image if _packed(image) else image.copy(order="C")
+    return image if _is_packed(image) else image.copy(order="C")
 
 
-def _packed(image: NDArray[np.uint8]) -> bool:
-    """Whether each row's pixels lie side by side, rows in order; rows may be padded, as in a crop."""
-    step, *within = image.strides
-    row = image.size // image.shape[0]
-    return step >= row and within == ([3, 1] if image.ndim == 3 else [1])
+def _is_packed(image: NDArray[np.uint8]) -> bool:
+    """Whether pixels are contiguous within rows, and rows are in order; rows may be padded, as in a crop."""
+    row_stride, *strides = image.strides
+    row_bytes = image.size // image.shape[0]
+    return row_stride >= row_bytes and strides == ([3, 1] if image.ndim == 3 else [1])
 
 
 def _right(value: Any, color: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
     right = _image(value, "right")
     if color is None:
-        raise ValueError("right: expected together with color, the left image of the pair")
+        raise ValueError("right: expected together with color, the left image of the stereo pair")
     if right.shape != color.shape:
         raise ValueError(f"right: expected the shape of color, {color.shape}, got {right.shape}")
     return right
@@ -160,17 +163,19 @@ def _warn_of_unit(metres: NDArray[np.float32], scale: float | None) -> None:
     rows, columns = (max(1, n // 32) for n in metres.shape)
     sample = metres[::rows, ::columns]
     measured = sample[np.isfinite(sample)]
-    median = float(np.median(measured)) if measured.size else FAR
-    if NEAR <= median <= FAR:
+    median = float(np.median(measured)) if measured.size else MAX_MEDIAN_DEPTH
+    if MIN_MEDIAN_DEPTH <= median <= MAX_MEDIAN_DEPTH:
         return
     if scale is not None:
         why = f"a wrong depth_scale, {scale:g} metres per unit"
-    elif median > FAR:
+    elif median > MAX_MEDIAN_DEPTH:
         why = "millimetres; pass depth_scale=0.001"
     else:
         why = "another unit than metres; pass depth_scale, the metres per unit"
-    message = f"depth: its median is {median:.{4 if median > FAR else 2}g} m, which looks like {why}"
-    warnings.warn(message, UserWarning, stacklevel=4)  # points at the line that made the frame
+    message = (
+        f"depth: its median is {median:.{4 if median > MAX_MEDIAN_DEPTH else 2}g} m, which looks like {why}"
+    )
+    warnings.warn(message, UserWarning, stacklevel=4)  # names the line that made the frame
 
 
 def _described(array: NDArray[Any]) -> str:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Checks of single numbers; each returns the number or raises TypeError or ValueError that names it."""
+"""Checks of numbers; each returns the number, or raises TypeError or ValueError that names the argument."""
 
 import math
 from numbers import Integral, Real
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def finite(value: Any, name: str, unit: str) -> float:
-    """Neither NaN nor infinite."""
+    """A number that is neither NaN nor infinite."""
     if not isinstance(value, Real) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a number, {unit}, got {value!r:.80}")
     if not math.isfinite(value):
@@ -16,7 +16,7 @@ def finite(value: Any, name: str, unit: str) -> float:
 
 
 def positive(value: Any, name: str, unit: str) -> float:
-    """Finite and above 0."""
+    """A finite number above 0."""
     if not finite(value, name, unit) > 0:
         raise ValueError(f"{name}: expected {unit} above 0, got {value!r}")
     return float(value)
@@ -27,3 +27,17 @@ def positive_whole(value: Any, name: str, unit: str) -> int:
     if not isinstance(value, Integral) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a whole number, {unit}, got {value!r:.80}")
     return int(positive(value, name, unit))
+
+
+def pinhole(
+    fx: Any, fy: Any, cx: Any, cy: Any, width: Any, height: Any
+) -> tuple[float, float, float, float, int, int]:
+    """The parameters of a pinhole camera, all in pixels: focal lengths and image size above 0."""
+    return (
+        positive(fx, "fx", "pixels"),
+        positive(fy, "fy", "pixels"),
+        finite(cx, "cx", "pixels"),
+        finite(cy, "cy", "pixels"),
+        positive_whole(width, "width", "pixels"),
+        positive_whole(height, "height", "pixels"),
+    )

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Rectified pairs from raw ones: both images remapped so that a point lies in the same row of each.
+"""Rectification of stereo pairs: both images are remapped so that a point lies in the same row of each.
 
-The raw cameras are OpenCV's pinhole model with its distortion coefficients (cv2.stereoCalibrate), not its
-fisheye model. x_right = rotation @ x_left + translation.
+The raw cameras follow OpenCV's pinhole model with its distortion coefficients (cv2.stereoCalibrate), not its
+fisheye model. Points of the camera frames: x_right = rotation @ x_left + translation.
 """
 
 from collections.abc import Sequence
@@ -13,19 +13,21 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.calibration import Matrix, OpenCVFile, projected_rig
+from tricue.camera.calibration_formats import rig_of_projections
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
-from tricue.camera.rig import Path, Size, StereoRig
+from tricue.camera.opencv_file import OpenCVFile
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.types import Matrix, PathLike, Size
 
-# The names in the files of OpenCV's sample stereo_calib, and those that others give.
-_CAMERA = ("M{}", "K{}", "cameraMatrix{}", "camera_matrix_{}", "CM{}")
-_DISTORTION = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
-_ZERO_DISPARITY = 0x400  # cv2.CALIB_ZERO_DISPARITY, which cv2 5 calls otherwise
+# Keys of the left camera (1) and the right one (2): first those of OpenCV's sample stereo_calib.
+_CAMERA_KEYS = ("M{}", "K{}", "cameraMatrix{}", "camera_matrix_{}", "CM{}")
+_DISTORTION_KEYS = ("D{}", "distCoeffs{}", "dist_coeffs_{}", "distortion_{}")
+_ZERO_DISPARITY = 0x400  # cv2.CALIB_ZERO_DISPARITY, which has another name in cv2 5
 
 
-class RawPair(NamedTuple):
-    """Two cameras as they are, left first."""
+class StereoCalibration(NamedTuple):
+    """Two cameras before rectification, left first, as cv2.stereoCalibrate gives them."""
 
     cameras: tuple[Matrix, Matrix]  # (3, 3), pixels
     distortions: tuple[Matrix, Matrix]  # (n,), n = 4, 5, 8, 12 or 14
@@ -33,31 +35,36 @@ class RawPair(NamedTuple):
     translation: Matrix  # (3,), left to right, in the unit of the calibration's board
 
 
-class Rectified(NamedTuple):
-    """What cv2.stereoRectify gives."""
+class RectifyingTransforms(NamedTuple):
+    """The rotations and projections of both rectified cameras, as cv2.stereoRectify gives them."""
 
-    turns: tuple[Matrix, Matrix]  # R1, R2 (3, 3)
+    rotations: tuple[Matrix, Matrix]  # R1, R2 (3, 3)
     projections: tuple[Matrix, Matrix]  # P1, P2 (3, 4)
 
 
 class Rectification:
-    """Rectifies raw pairs of one size; made once, called for each pair.
+    """Rectifies the stereo pairs of one calibrated rig; made once, called for each pair.
 
-    raw: the calibrated cameras. size: width and height of the raw images, pixels; rectified ones are as
-        large, black where the raw ones saw nothing. unit: metres per unit of the translation. rectified:
-        where the images are turned to; by default so that focal length and principal point stay nearly.
-    rig: the rectified pair's.
+    raw: the calibrated cameras. size: width and height of the raw images, pixels; the rectified images are as
+        large, and black where the raw ones saw nothing. unit: metres per unit of the translation. rectified:
+        the transforms to apply; by default those that nearly keep focal length and principal point.
+    rig: the rig of the rectified images.
     """
 
     rig: StereoRig
 
     def __init__(
-        self, raw: RawPair, size: Size, *, unit: float = 1.0, rectified: Rectified | None = None
+        self,
+        raw: StereoCalibration,
+        size: Size,
+        *,
+        unit: float = 1.0,
+        rectified: RectifyingTransforms | None = None,
     ) -> None:
         self._prepare(raw, size, unit, rectified, "rectification")
 
     @classmethod
-    def from_opencv(cls, *paths: Path, unit: float = 1.0, size: Size | None = None) -> "Rectification":
+    def from_opencv(cls, *paths: PathLike, unit: float = 1.0, size: Size | None = None) -> "Rectification":
         """From files of ``cv2.FileStorage``: M1, D1, M2, D2 with R1, R2, P1, P2 or, without these, with R, T.
 
         paths: one file, or several that together hold all, as intrinsics.yml and extrinsics.yml of OpenCV's
@@ -69,7 +76,7 @@ class Rectification:
             raise ValueError("paths: expected a calibration file, got none")
         made = cls.__new__(cls)
         with ExitStack() as stack:
-            files = _Files(
+            files = _CalibrationFiles(
                 [stack.enter_context(OpenCVFile(path)) for path in paths], " and ".join(map(str, paths))
             )
             rectified = files.rectified()
@@ -79,7 +86,7 @@ class Rectification:
         return made
 
     def __call__(self, left: NDArray[Any], right: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """The rectified pair of a raw one: uint8, BGR or grey, of the size of the calibration."""
+        """Rectify a stereo pair: uint8 images, BGR (H, W, 3) or gray (H, W), of the calibration's size."""
         pair = Frame(left, right=right)  # checks both
         camera = self.rig.intrinsics
         if left.shape[:2] != (camera.height, camera.width):
@@ -96,58 +103,64 @@ class Rectification:
         return first, second
 
     def _prepare(
-        self, raw: RawPair, size: Size, unit: float, rectified: Rectified | None, names: str
+        self,
+        raw: StereoCalibration,
+        size: Size,
+        unit: float,
+        rectified: RectifyingTransforms | None,
+        names: str,
     ) -> None:
-        turns, projections = rectified or _rectify(raw, size)
-        self.rig = projected_rig(*projections, positive(unit, "unit", "metres"), size, names)
+        rotations, projections = rectified or _rectify(raw, size)
+        camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "metres"), size, names)
+        self.rig = StereoRig(Intrinsics(*camera), baseline)
         self._maps = [
             # Fixed point: cv2.remap's own resolution, 1/32 px, at a third of the memory of floats.
-            cv2.initUndistortRectifyMap(camera, bent, turn, projection[:, :3], size, cv2.CV_16SC2)
-            for camera, bent, turn, projection in zip(
-                raw.cameras, raw.distortions, turns, projections, strict=True
+            cv2.initUndistortRectifyMap(camera, distortion, rotation, projection[:, :3], size, cv2.CV_16SC2)
+            for camera, distortion, rotation, projection in zip(
+                raw.cameras, raw.distortions, rotations, projections, strict=True
             )
         ]
 
 
-def _rectify(raw: RawPair, size: Size) -> Rectified:
-    """Bouguet's rotations by OpenCV, and one camera matrix for both: the mean focal length, and the principal
-    point that leaves the mean optical axis where it was.
+def _rectify(raw: StereoCalibration, size: Size) -> RectifyingTransforms:
+    """Bouguet's rotations by OpenCV, and one camera matrix for both cameras.
 
-    The matrices of cv2.stereoRectify aren't taken: they come from the undistorted corners, which real
-    coefficients, fitted where the board was, often send anywhere.
+    It has the mean focal length, and the principal point that leaves the mean optical axis where it was. The
+    camera matrix of cv2.stereoRectify isn't used: it depends on the undistorted image corners, which lie
+    anywhere, for distortion coefficients hold only where the calibration board was seen.
     """
-    (left, right), (bent_left, bent_right) = raw.cameras, raw.distortions
-    rotations = cv2.stereoRectify(
+    (left, right), (left_distortion, right_distortion) = raw.cameras, raw.distortions
+    transforms = cv2.stereoRectify(
         left,
-        bent_left,
+        left_distortion,
         right,
-        bent_right,
+        right_distortion,
         size,
         raw.rotation,
         raw.translation[:, None],
         flags=_ZERO_DISPARITY,
     )
-    first, second = (np.asarray(turn, np.float64) for turn in rotations[:2])
+    first, second = (np.asarray(rotation, np.float64) for rotation in transforms[:2])
     focal = float(np.mean([camera[[0, 1], [0, 1]] for camera in raw.cameras]))
-    axes = [turn[:2, 2] / turn[2, 2] for turn in (first, second)]  # where (0, 0, 1) is turned to
-    middle = np.mean(
+    axes = [r[:2, 2] / r[2, 2] for r in (first, second)]  # where the optical axis (0, 0, 1) is rotated to
+    center = np.mean(
         [camera[:2, 2] - focal * axis for camera, axis in zip(raw.cameras, axes, strict=True)], 0
     )
-    one = np.array([[focal, 0, middle[0], 0], [0, focal, middle[1], 0], [0, 0, 1, 0]])
-    other = one.copy()
-    other[:2, 3] = focal * (second @ raw.translation)[:2]
-    return Rectified((first, second), (one, other))
+    left_projection = np.array([[focal, 0, center[0], 0], [0, focal, center[1], 0], [0, 0, 1, 0]])
+    right_projection = left_projection.copy()
+    right_projection[:2, 3] = focal * (second @ raw.translation)[:2]
+    return RectifyingTransforms((first, second), (left_projection, right_projection))
 
 
-class _Files(NamedTuple):
-    """Files that together hold a calibration."""
+class _CalibrationFiles(NamedTuple):
+    """OpenCV files that together hold the calibration of a stereo rig."""
 
     files: Sequence[OpenCVFile]
     names: str
 
-    def raw(self, posed: bool) -> RawPair:
-        """The cameras; ``posed`` needs R and T."""
-        cameras, distortions = self.pair(_CAMERA), self.pair(_DISTORTION)
+    def raw(self, posed: bool) -> StereoCalibration:
+        """The raw cameras. posed: whether R and T are required; else they may be missing."""
+        cameras, distortions = self.pair(_CAMERA_KEYS), self.pair(_DISTORTION_KEYS)
         rotation, translation = self._first(("R", "rotation")), self._first(("T", "translation"))
         there = {"M1 and M2": cameras is not None, "D1 and D2": distortions is not None}
         if posed:
@@ -166,23 +179,23 @@ class _Files(NamedTuple):
                     f"{self.names}: expected 4, 5, 8, 12 or 14 distortion coefficients, got {distortion.size}"
                 )
         if rotation is None or translation is None:
-            return RawPair(cameras, distortions, np.eye(3), np.zeros(3))
+            return StereoCalibration(cameras, distortions, np.eye(3), np.zeros(3))
         rotation = np.asarray(cv2.Rodrigues(rotation)[0]) if rotation.size == 3 else rotation
         self._check(rotation, (3, 3), "a rotation R")
         self._check(translation.ravel(), (3,), "a translation T")
-        return RawPair(cameras, distortions, rotation, translation.ravel())
+        return StereoCalibration(cameras, distortions, rotation, translation.ravel())
 
-    def rectified(self) -> Rectified | None:
-        """R1, R2, P1 and P2, where all of them are there."""
-        turns, projections = self.pair(("R{}",)), self.pair(("P{}",))
-        if turns is None or projections is None:
+    def rectified(self) -> RectifyingTransforms | None:
+        """R1, R2, P1 and P2; None unless all four are there."""
+        rotations, projections = self.pair(("R{}",)), self.pair(("P{}",))
+        if rotations is None or projections is None:
             return None
-        for turn in turns:
-            self._check(turn, (3, 3), "a rotation R1, R2")
-        return Rectified(turns, projections)
+        for rotation in rotations:
+            self._check(rotation, (3, 3), "a rotation R1, R2")
+        return RectifyingTransforms(rotations, projections)
 
     def pair(self, patterns: Sequence[str]) -> tuple[Matrix, Matrix] | None:
-        """Left and right of the first name of which there are both."""
+        """The left and right matrix of the first key pattern that has both; None without one."""
         for pattern in patterns:
             left, right = (self._first((pattern.format(number),)) for number in (1, 2))
             if left is not None and right is not None:

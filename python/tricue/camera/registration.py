@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A color image in the pixels of a depth camera that stands beside the color camera, and the other way
-round.
-"""
+"""Registration: color images in the depth camera's pixels, and depth images in the color camera's."""
 
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -12,11 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.rig import Intrinsics
 
-_OUTSIDE = -2.0  # pixels; where no image is
+_OUTSIDE_IMAGE = -2.0  # a pixel coordinate that is in no image
 
 
 class Extrinsics(NamedTuple):
-    """How the cameras stand: x_color = rotation @ x_depth + translation, (3, 3) and (3,) metres."""
+    """Depth to color camera: x_color = rotation @ x_depth + translation; (3, 3), and (3,) in metres."""
 
     rotation: NDArray[np.float64] = np.eye(3)
     translation: NDArray[np.float64] = np.zeros(3)
@@ -29,65 +27,73 @@ def color_in_depth(
     color_camera: Intrinsics,
     extrinsics: Extrinsics | None = None,
 ) -> NDArray[np.uint8]:
-    """The color (h, w, 3) seen in each pixel of a depth image (h, w), by its point in space; black where that
-    isn't in the color image (H, W, 3).
+    """The color (h, w, 3) at the 3D point of each pixel of a depth image (h, w).
 
-    depth: metres, NaN or 0 where nothing was measured; such a pixel is taken for infinitely far.
-    extrinsics: without them both cameras are taken to stand in one place and to look the same way, so that
-    they differ in their intrinsics alone: b metres between them that nobody told are fx b / z pixels.
+    It is black where the point isn't in the color image (H, W, 3). Occlusion isn't handled: a point that the
+    color camera can't see gets the color of what hides it.
 
-    What the color camera doesn't see because something nearer is before it gets the color of that. ValueError
-    where an image has another size than its camera.
+    depth: metres, NaN or 0 where nothing was measured; such a pixel is assumed infinitely far.
+    extrinsics: by default both cameras are assumed to have one center and orientation, so that they differ
+        in their intrinsics alone. A real baseline of b metres then shifts the color by fx b / z pixels.
+    ValueError where an image has another size than its camera.
     """
     points = np.asarray(depth, np.float64)
     _check("depth", points.shape, depth_camera)
     _check("color", color.shape, color_camera)
     u, v = np.meshgrid(np.arange(depth_camera.width), np.arange(depth_camera.height))
     measured = np.isfinite(points) & (points > 0)
-    seen = depth_camera.back_project(u, v, np.where(measured, points, 1.0))
+    in_color_frame = depth_camera.back_project(u, v, np.where(measured, points, 1.0))
     if extrinsics is not None:
-        seen = seen @ np.asarray(extrinsics.rotation).T + measured[..., None] * extrinsics.translation
-    places = np.nan_to_num(color_camera.project(seen), nan=_OUTSIDE).astype(np.float32)
-    found = cv2.remap(color, places[..., 0], places[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
+        in_color_frame = (
+            in_color_frame @ np.asarray(extrinsics.rotation).T + measured[..., None] * extrinsics.translation
+        )
+    pixels = np.nan_to_num(color_camera.project(in_color_frame), nan=_OUTSIDE_IMAGE).astype(np.float32)
+    found = cv2.remap(color, pixels[..., 0], pixels[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
     return np.asarray(found, np.uint8)
 
 
 @dataclass(frozen=True)
 class Registration:
-    """Brings depth into a color camera's pixels. Both cameras are taken to stand in one place and to look the
-    same way: b metres between them that nobody told are fx b / z pixels.
+    """Brings depth images into a color camera's pixels.
 
-    depth, color: the two cameras.
+    Both cameras are assumed to have one center and orientation. A real baseline of b metres shifts the depth
+    by fx b / z pixels.
+    depth, color: the intrinsics of the two cameras.
     """
 
     depth: Intrinsics
     color: Intrinsics
 
     def __call__(self, metres: NDArray[Any]) -> NDArray[np.float32]:
-        """The depth (H, W) in each pixel of the color image: that of the nearest pixel of the depth image
-        (h, w), as the mean over an edge is the depth of nothing. NaN outside of the depth image.
+        """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in metres.
 
-        From one place both cameras see a point on the same ray, so that z stays, and a column of the one is a
-        column of the other. ValueError where the depth image has another size than its camera.
+        It is that of the nearest depth pixel, for a mean over an edge would be the depth of no surface. NaN
+        outside of the depth image. As the cameras share one center and orientation, z stays the same, and
+        columns map to columns and rows to rows. ValueError where the depth image has another size than its
+        camera.
         """
         image = np.asarray(metres, np.float32)
         _check("depth", image.shape, self.depth)
-        to, of = self.color, self.depth
-        columns = _nearest((np.arange(to.width) - to.cx) * (of.fx / to.fx) + of.cx, of.width)
-        rows = _nearest((np.arange(to.height) - to.cy) * (of.fy / to.fy) + of.cy, of.height)
+        color, depth = self.color, self.depth
+        columns = _nearest(
+            (np.arange(color.width) - color.cx) * (depth.fx / color.fx) + depth.cx, depth.width
+        )
+        rows = _nearest((np.arange(color.height) - color.cy) * (depth.fy / color.fy) + depth.cy, depth.height)
         return np.pad(image, 1, constant_values=np.nan)[np.ix_(rows, columns)]
 
-    def boxes(self, found: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The depth image's boxes (N, 4), x, y, width, height, in the color image's pixels; NaN stays NaN."""
-        to, of = self.color, self.depth
-        scale = np.array([to.fx / of.fx, to.fy / of.fy])
-        of_center, to_center = (np.array([each.cx, each.cy]) + 0.5 for each in (of, to))  # as boxes count
-        return np.hstack([(found[:, :2] - of_center) * scale + to_center, found[:, 2:] * scale])
+    def boxes(self, in_depth: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Boxes (N, 4), x, y, width, height, of the depth image in color pixels; NaN stays NaN."""
+        color, depth = self.color, self.depth
+        scale = np.array([color.fx / depth.fx, color.fy / depth.fy])
+        depth_center, color_center = (
+            np.array([each.cx, each.cy]) + 0.5 for each in (depth, color)
+        )  # in box coordinates
+        return np.hstack([(in_depth[:, :2] - depth_center) * scale + color_center, in_depth[:, 2:] * scale])
 
 
-def _nearest(places: NDArray[np.floating[Any]], length: int) -> NDArray[np.intp]:
-    """The nearest of so many pixels, counted from 1; 0 or length + 1 outside of them."""
-    nearest: NDArray[np.intp] = np.clip(np.rint(places) + 1, 0, length + 1).astype(np.intp)
+def _nearest(coordinates: NDArray[np.floating[Any]], length: int) -> NDArray[np.intp]:
+    """The index of the nearest pixel of a row of ``length``, counted from 1; 0 or length + 1 outside."""
+    nearest: NDArray[np.intp] = np.clip(np.rint(coordinates) + 1, 0, length + 1).astype(np.intp)
     return nearest
 
 

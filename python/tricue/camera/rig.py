@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Cameras: pinhole intrinsics and rectified stereo rigs. Camera frame: x right, y down, z forward, metres."""
+"""Pinhole intrinsics and rectified stereo rigs. Camera frame: x right, y down, z forward, metres."""
 
 import math
-import os
 import warnings
 from dataclasses import dataclass
 from typing import Any
@@ -10,12 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tricue.camera.numbers import finite, positive, positive_whole
+from tricue.camera.numbers import finite, pinhole, positive, positive_whole
+from tricue.camera.types import PathLike, Size
 
-WIDE = 2.0  # metres; a baseline above this is most likely in another unit
-
-Size = tuple[int, int]
-Path = str | os.PathLike[str]
+MAX_PLAUSIBLE_BASELINE = 2.0  # metres; a larger one is most likely in another unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,8 +21,8 @@ class Intrinsics:
 
     fx, fy: focal lengths. cx, cy: the principal point. width, height: the image's size. All in pixels.
 
-    Coordinates (u, v) are OpenCV's: (0, 0) is the *centre* of the first pixel. In a :class:`Box` (0, 0) is
-    that pixel's corner; a point (x, y) of a box is at ``(x - 0.5, y - 0.5)`` here.
+    Coordinates (u, v) are OpenCV's: (0, 0) is the *center* of the first pixel. In a :class:`Box` (0, 0) is
+    that pixel's corner, so a point (x, y) of a box is at ``(x - 0.5, y - 0.5)`` here.
     """
 
     fx: float
@@ -36,43 +33,45 @@ class Intrinsics:
     height: int
 
     def __post_init__(self) -> None:
-        checks = {"fx": positive, "fy": positive, "cx": finite, "cy": finite}
-        for name, check in {**checks, "width": positive_whole, "height": positive_whole}.items():
-            object.__setattr__(self, name, check(getattr(self, name), name, "pixels"))
+        names = ("fx", "fy", "cx", "cy", "width", "height")
+        for name, value in zip(names, pinhole(*(getattr(self, name) for name in names)), strict=True):
+            object.__setattr__(self, name, value)
 
     @classmethod
     def from_fov(
         cls, width: int, height: int, horizontal_deg: float, vertical_deg: float | None = None
     ) -> "Intrinsics":
-        """From the angles of view over the whole image, principal point in its middle.
+        """From the angles of view over the whole image, with the principal point at its center.
 
-        Without the vertical angle the pixels are square.
-        The SR-3000 time-of-flight camera is ``from_fov(176, 144, 47.5, 39.5)``.
+        Pixels are square unless the vertical angle is given. The SR-3000 time-of-flight camera is
+        ``from_fov(176, 144, 47.5, 39.5)``.
         """
         fx = _focal_length(width, horizontal_deg, "width", "horizontal_deg")
         fy = fx if vertical_deg is None else _focal_length(height, vertical_deg, "height", "vertical_deg")
         return cls(fx, fy, (width - 1) / 2, (height - 1) / 2, width, height)
 
-    @classmethod
-    def from_opencv(cls, path: Path, *, key: str | None = None, size: Size | None = None) -> "Intrinsics":
-        """From a file of ``cv2.FileStorage``; see :func:`tricue.camera.calibration.opencv_intrinsics`."""
-        from tricue.camera import calibration
-
-        return calibration.opencv_intrinsics(path, key=key, size=size)
+    # The readers are imported in the methods, as they import cv2, which takes long to load.
 
     @classmethod
-    def from_kitti(cls, path: Path, *, camera: int = 2, size: Size | None = None) -> "Intrinsics":
-        """From a KITTI calibration; see :func:`tricue.camera.calibration.kitti_intrinsics`."""
-        from tricue.camera import calibration
+    def from_opencv(cls, path: PathLike, *, key: str | None = None, size: Size | None = None) -> "Intrinsics":
+        """From a file of ``cv2.FileStorage``: the camera matrix named ``key``, or the first known name."""
+        from tricue.camera.calibration_formats import read_opencv_camera
 
-        return calibration.kitti_intrinsics(path, camera=camera, size=size)
+        return cls(*read_opencv_camera(path, key=key, size=size))
 
     @classmethod
-    def from_toml(cls, path: Path, *, table: str | None = None, size: Size | None = None) -> "Intrinsics":
-        """From keys fx, fy, cx, cy, width, height; see :func:`tricue.camera.calibration.toml_intrinsics`."""
-        from tricue.camera import calibration
+    def from_kitti(cls, path: PathLike, *, camera: int = 2, size: Size | None = None) -> "Intrinsics":
+        """From a KITTI calibration; see :func:`tricue.camera.calibration_formats.read_kitti_camera`."""
+        from tricue.camera.calibration_formats import read_kitti_camera
 
-        return calibration.toml_intrinsics(path, table=table, size=size)
+        return cls(*read_kitti_camera(path, camera=camera, size=size))
+
+    @classmethod
+    def from_toml(cls, path: PathLike, *, table: str | None = None, size: Size | None = None) -> "Intrinsics":
+        """From the keys fx, fy, cx, cy, width, height of a TOML file or of one of its tables."""
+        from tricue.camera.calibration_formats import read_toml_camera
+
+        return cls(*read_toml_camera(path, table=table, size=size))
 
     @property
     def matrix(self) -> NDArray[np.float64]:
@@ -80,12 +79,15 @@ class Intrinsics:
         return np.array([[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1]], np.float64)
 
     def back_project(self, u: ArrayLike, v: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
-        """Points (..., 3) in metres from pixel coordinates and depths, which broadcast; NaN stays NaN."""
+        """Points (..., 3), metres in the camera frame, at pixel coordinates u, v and depths z.
+
+        The arguments broadcast; NaN stays NaN.
+        """
         u, v, z = np.broadcast_arrays(*(np.asarray(a, np.float64) for a in (u, v, z)))
         return np.stack([(u - self.cx) * z / self.fx, (v - self.cy) * z / self.fy, z], axis=-1)
 
     def project(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Pixel coordinates (..., 2) of points (..., 3) in metres; NaN for points behind the camera."""
+        """Pixel coordinates (..., 2) of points (..., 3) in metres, camera frame; NaN behind the camera."""
         points = np.asarray(points, np.float64)
         if points.ndim == 0 or points.shape[-1] != 3:
             raise ValueError(f"points: expected (..., 3), got {points.shape}")
@@ -98,8 +100,8 @@ class Intrinsics:
 class StereoRig:
     """Two rectified cameras side by side, of the same intrinsics, and their baseline.
 
-    baseline: metres between the optical centres. Disparity is positive, x_right = x_left - d.
-    Warns (UserWarning) where the baseline is above 2 m: that looks like another unit.
+    baseline: metres between the optical centers. Disparity is positive: x_right = x_left - d.
+    Warns (UserWarning) where the baseline is above 2 m, which looks like another unit.
     """
 
     intrinsics: Intrinsics
@@ -109,31 +111,37 @@ class StereoRig:
         if not isinstance(self.intrinsics, Intrinsics):
             raise TypeError(f"intrinsics: expected tricue.Intrinsics, got {type(self.intrinsics).__name__}")
         object.__setattr__(self, "baseline", positive(self.baseline, "baseline", "metres"))
-        if self.baseline > WIDE:
+        if self.baseline > MAX_PLAUSIBLE_BASELINE:
             warnings.warn(f"baseline: {self.baseline:g} m is wide; is it in metres?", stacklevel=3)
 
     @classmethod
-    def from_opencv(cls, path: Path, *, unit: float = 1.0, size: Size | None = None) -> "StereoRig":
-        """From the P1 and P2 of ``cv2.stereoRectify``; see :func:`tricue.camera.calibration.opencv_rig`."""
-        from tricue.camera import calibration
+    def from_opencv(cls, path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> "StereoRig":
+        """From P1 and P2 of ``cv2.stereoRectify`` in a file of ``cv2.FileStorage``.
 
-        return calibration.opencv_rig(path, unit=unit, size=size)
+        unit: metres per unit of the calibration board.
+        """
+        from tricue.camera.calibration_formats import read_opencv_rig
+
+        camera, baseline = read_opencv_rig(path, unit=unit, size=size)
+        return cls(Intrinsics(*camera), baseline)
 
     @classmethod
     def from_kitti(
-        cls, path: Path, *, cameras: tuple[int, int] = (2, 3), size: Size | None = None
+        cls, path: PathLike, *, cameras: tuple[int, int] = (2, 3), size: Size | None = None
     ) -> "StereoRig":
-        """From a KITTI calibration; see :func:`tricue.camera.calibration.kitti_rig`."""
-        from tricue.camera import calibration
+        """From a KITTI calibration; see :func:`tricue.camera.calibration_formats.read_kitti_rig`."""
+        from tricue.camera.calibration_formats import read_kitti_rig
 
-        return calibration.kitti_rig(path, cameras=cameras, size=size)
+        camera, baseline = read_kitti_rig(path, cameras=cameras, size=size)
+        return cls(Intrinsics(*camera), baseline)
 
     @classmethod
-    def from_toml(cls, path: Path, *, table: str | None = None, size: Size | None = None) -> "StereoRig":
+    def from_toml(cls, path: PathLike, *, table: str | None = None, size: Size | None = None) -> "StereoRig":
         """As :meth:`Intrinsics.from_toml`, with the key ``baseline`` in metres."""
-        from tricue.camera import calibration
+        from tricue.camera.calibration_formats import read_toml_rig
 
-        return calibration.toml_rig(path, table=table, size=size)
+        camera, baseline = read_toml_rig(path, table=table, size=size)
+        return cls(Intrinsics(*camera), baseline)
 
     def depth(self, disparity: ArrayLike) -> NDArray[np.float64]:
         """Depth z = fx b / d in metres, of the disparity's shape; NaN where the disparity isn't above 0."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Whether a stereo pair looks like a rectified one, left image first: what can be noticed of one that isn't.
+"""Notices stereo pairs that are swapped or not rectified.
 
-Corners of the left image are followed into the right one and back, by the pyramidal tracker of Lucas and
-Kanade (Bouguet, 2000). In a rectified pair they stay in their row and don't move to the right.
+Corners of the left image are tracked into the right one and back by pyramidal Lucas-Kanade optical flow
+(Bouguet, 2000). In a rectified pair they stay in their row, and none moves to the right.
 """
 
 import warnings
@@ -16,57 +16,65 @@ from tricue.camera.frame import Frame
 
 Array = NDArray[np.float64]
 
-MOST_RISE = 1.5  # pixels between the rows of a point, root mean square over the image
-FARTHEST = -0.5  # pixels of disparity: what is below lies behind infinity
-FEWEST = 20  # matches without which nothing is said
-CORNERS, WINDOW, LEVELS = 200, (11, 11), 4
-BACK = 0.5  # pixels within which a corner has to come back
-TRIMS = 4
+MAX_ROW_ERROR = 1.5  # pixels between the rows of one point, root mean square over the image
+MIN_DISPARITY = -0.5  # pixels; a smaller one counts as negative
+MIN_MATCHES = 20  # with fewer, the check says nothing
+MAX_NEGATIVE_SHARE = 0.5  # of the matches; with more, left and right count as swapped
+MAX_CORNERS, FLOW_WINDOW, FLOW_PYRAMID_LEVEL = 200, (11, 11), 4
+MAX_ROUND_TRIP_ERROR = 0.5  # pixels between a corner and where tracking it there and back ends
+PLANE_FIT_ITERATIONS = 4
 
 
 class StereoCheck(NamedTuple):
-    """What the matches of a pair say; NaN where there are fewer than FEWEST."""
+    """The statistics of the matches of a stereo pair; NaN with fewer than MIN_MATCHES matches."""
 
     matches: int
-    rise: float
-    """How far a point's row is off in the right image, pixels, root mean square over the image, by the plane
-    that fits the matches: a shift, a rotation and a scale show in it."""
-    behind: float
-    """Share of the matches with a negative disparity, which nothing before the cameras has."""
+    row_error: float
+    """Pixels between the rows of one point in both images, root mean square over the image. It is taken from
+    the plane that fits the matches, in which a shift, a rotation and a scale show."""
+    negative_share: float
+    """Share of the matches with a negative disparity, which no point in front of the cameras has."""
 
     @property
     def problem(self) -> str:
-        """A sentence about what is wrong with the pair, "" where nothing was noticed."""
-        if self.matches < FEWEST:
+        """A sentence that says what is wrong with the stereo pair, "" if nothing was noticed."""
+        if self.matches < MIN_MATCHES:
             return ""
-        if self.behind > 0.5:
+        if self.negative_share > MAX_NEGATIVE_SHARE:
             return (
-                f"left and right seem to be swapped: {self.behind:.0%} of {self.matches} matches have a "
-                "negative disparity; give the left camera's image as color, the right one's as right"
+                f"left and right seem to be swapped: {self.negative_share:.0%} of {self.matches} matches "
+                "have a negative disparity; give the left camera's image as color, the right one's as right"
             )
-        if self.rise > MOST_RISE:
+        if self.row_error > MAX_ROW_ERROR:
             return (
-                f"the pair seems not to be rectified: rows of left and right differ by {self.rise:.1f} px "
-                "over the image; rectify raw pairs by their calibration (tricue.camera.rectification)"
+                "the stereo pair seems not to be rectified: rows of left and right differ by "
+                f"{self.row_error:.1f} px over the image; rectify raw stereo pairs by their calibration "
+                "(tricue.camera.rectification)"
             )
         return ""
 
 
 def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoCheck:
-    """Match corners of two images of one size, BGR or grey. It takes some milliseconds; deterministic."""
-    corners, found = _follow(_grey(left), _grey(right))
-    if len(corners) < FEWEST:
+    """Match corners of two images of one size, uint8, BGR (H, W, 3) or gray (H, W).
+
+    It is deterministic and takes a few milliseconds.
+    """
+    corners, found = _track_corners(_gray(left), _gray(right))
+    if len(corners) < MIN_MATCHES:
         return StereoCheck(len(corners), np.nan, np.nan)
-    disparity, rise = corners[:, 0] - found[:, 0], found[:, 1] - corners[:, 1]
+    disparity, row_errors = corners[:, 0] - found[:, 0], found[:, 1] - corners[:, 1]
     return StereoCheck(
-        len(corners), _typical_rise(found, rise, left.shape), float(np.mean(disparity < FARTHEST))
+        len(corners),
+        _mean_row_error(found, row_errors, left.shape),
+        float(np.mean(disparity < MIN_DISPARITY)),
     )
 
 
 def warn_of_stereo(frame: Frame, stacklevel: int = 2) -> StereoCheck:
-    """Check a frame's pair and warn (UserWarning) of a problem that it shows; what was found.
+    """Check a frame's stereo pair, warn (UserWarning) of a problem, and return what was found.
 
-    stacklevel: as of warnings.warn, seen from the caller: 2 is the line that calls the caller.
+    stacklevel: as in warnings.warn, counted from the caller: 2 is the line that calls the caller.
+    ValueError for a frame without a stereo pair.
     """
     frame.require("color", "right")
     assert frame.color is not None
@@ -77,34 +85,39 @@ def warn_of_stereo(frame: Frame, stacklevel: int = 2) -> StereoCheck:
     return check
 
 
-def _grey(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _gray(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY) if image.ndim == 3 else image, np.uint8)
 
 
-def _follow(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[Array, Array]:
-    """Corners (n, 2) of the left image and where they are in the right one, of those that come back."""
-    apart = max(5, left.shape[1] // 60)
-    corners = cv2.goodFeaturesToTrack(left, CORNERS, 0.01, apart)
+def _track_corners(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> tuple[Array, Array]:
+    """Corners (n, 2) of the left image that track there and back, and their places in the right one."""
+    min_distance = max(5, left.shape[1] // 60)
+    corners = cv2.goodFeaturesToTrack(left, MAX_CORNERS, 0.01, min_distance)
     if corners is None:
         return np.zeros((0, 2)), np.zeros((0, 2))
     guess = np.empty_like(corners)  # not used; cv2's signature asks for it
-    there, seen, _ = cv2.calcOpticalFlowPyrLK(left, right, corners, guess, winSize=WINDOW, maxLevel=LEVELS)
-    back, known, _ = cv2.calcOpticalFlowPyrLK(
-        right, left, there, guess.copy(), winSize=WINDOW, maxLevel=LEVELS
+    there, seen, _ = cv2.calcOpticalFlowPyrLK(
+        left, right, corners, guess, winSize=FLOW_WINDOW, maxLevel=FLOW_PYRAMID_LEVEL
     )
-    missed = np.abs(back - corners).max(axis=(1, 2))
-    good = (seen.ravel() == 1) & (known.ravel() == 1) & (missed < BACK)
+    back, known, _ = cv2.calcOpticalFlowPyrLK(
+        right, left, there, guess.copy(), winSize=FLOW_WINDOW, maxLevel=FLOW_PYRAMID_LEVEL
+    )
+    round_trip = np.abs(back - corners).max(axis=(1, 2))
+    good = (seen.ravel() == 1) & (known.ravel() == 1) & (round_trip < MAX_ROUND_TRIP_ERROR)
     return corners[good, 0].astype(np.float64), there[good, 0].astype(np.float64)
 
 
-def _typical_rise(places: Array, rise: Array, shape: tuple[int, ...]) -> float:
-    """The root mean square over the image of the plane through (u, v, rise), wrong matches trimmed."""
+def _mean_row_error(points: Array, errors: Array, shape: tuple[int, ...]) -> float:
+    """The root mean square over the image of the plane that fits the row errors (n,) at points (n, 2).
+
+    Outliers are trimmed: in each iteration the plane is fitted to what lies within three medians of the last.
+    """
     size = np.array([shape[1], shape[0]])
-    design = np.column_stack([np.ones(len(places)), places / size - 0.5])
-    near = np.abs(rise - np.median(rise))
-    for _ in range(TRIMS):
-        keep = near <= max(3 * float(np.median(near)), 0.25)
-        plane = np.linalg.lstsq(design[keep], rise[keep], rcond=None)[0]
-        near = np.abs(rise - design @ plane)
+    design = np.column_stack([np.ones(len(points)), points / size - 0.5])
+    residuals = np.abs(errors - np.median(errors))
+    for _ in range(PLANE_FIT_ITERATIONS):
+        keep = residuals <= max(3 * float(np.median(residuals)), 0.25)
+        plane = np.linalg.lstsq(design[keep], errors[keep], rcond=None)[0]
+        residuals = np.abs(errors - design @ plane)
     # Over [-1/2, 1/2]^2 the mean square of a + b u + c v is a^2 + (b^2 + c^2) / 12.
     return float(np.sqrt(plane[0] ** 2 + (plane[1] ** 2 + plane[2] ** 2) / 12))

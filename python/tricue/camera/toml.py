@@ -13,7 +13,7 @@ Value = bool | int | float | str | tuple[Any, ...]
 
 
 def read(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """The file's tables; ValueError that names the file if it isn't TOML, OSError if it can't be read."""
+    """The file's keys and tables. ValueError names a file that isn't TOML, OSError one that can't be read."""
     try:
         parser = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
     except ImportError:
@@ -25,7 +25,7 @@ def read(path: str | os.PathLike[str]) -> dict[str, Any]:
 
 
 def dumps(table: Mapping[str, Value], comments: Mapping[str, str] | None = None) -> str:
-    """One line a key, with its comment behind it where there is one."""
+    """TOML text with one line per key, and its comment behind it where there is one."""
     comments = comments or {}
     notes = {key: f"  # {' '.join(text.split())}" for key, text in comments.items() if text.strip()}
     return "".join(f"{key} = {_literal(value)}{notes.get(key, '')}\n" for key, value in table.items())

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from tricue.camera.calibration_files import read_intrinsics, read_registration, read_rig
+from tricue.camera.read_calibration import read_intrinsics, read_registration, read_rig
 from tricue.camera.rectification import Rectification
 from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig

@@ -13,7 +13,14 @@ from tricue.data import layouts
 from tricue.data.datasets import find_sequences
 from tricue.data.open_source import Source, open_source
 from tricue.data.streams import Camera
-from tricue.data.summary import Facts, calibration_facts, channel_facts, depth_facts, seconds, truth_facts
+from tricue.data.summary import (
+    Summary,
+    compute_duration,
+    summarize_calibration,
+    summarize_channel,
+    summarize_depth,
+    summarize_truth,
+)
 
 EXAMPLES = """\
 examples:
@@ -65,8 +72,8 @@ def _open(options: argparse.Namespace) -> Source:
     return source
 
 
-def _facts(source: Source, options: argparse.Namespace) -> Facts:
-    channels = {name: channel_facts(stream) for name, stream in source.channels.items()}
+def _facts(source: Source, options: argparse.Namespace) -> Summary:
+    channels = {name: summarize_channel(stream) for name, stream in source.channels.items()}
     frames = min(each["frames"] for each in channels.values())
     unit = f"{source.format.split()[0]}'s format" if options.depth_scale is None else "--depth-scale"
     depth = source.channels.get("depth")
@@ -76,21 +83,21 @@ def _facts(source: Source, options: argparse.Namespace) -> Facts:
         "frames": frames,
         "fps": source.fps,
         "fps_known": source.rate is not None or source.clock.timed,
-        "seconds": seconds(source, frames),
+        "seconds": compute_duration(source, frames),
         "channels": channels,
-        "depth": None if depth is None else depth_facts(depth, unit),
-        "truth": truth_facts(source, frames),
+        "depth": None if depth is None else summarize_depth(depth, unit),
+        "truth": summarize_truth(source, frames),
         "targets": _targets(Path(options.place)),
-        "calibration": calibration_facts(source, options.calibration),
+        "calibration": summarize_calibration(source, options.calibration),
         "notes": list(source.notes),
     }
 
 
 def _targets(place: Path) -> list[str]:
-    return list(layouts.targets(place)) if place.is_dir() else []
+    return list(layouts.list_targets(place)) if place.is_dir() else []
 
 
-def _lines(facts: Facts) -> Iterator[str]:
+def _lines(facts: Summary) -> Iterator[str]:
     """The same for people."""
     yield f"{facts['name']}: {facts['format']}"
     assumed = "" if facts["fps_known"] else " (assumed, nothing tells the times)"
@@ -110,7 +117,7 @@ def _lines(facts: Facts) -> Iterator[str]:
         yield _line("note", note)
 
 
-def _depth_lines(depth: Facts, frames: int) -> Iterator[str]:
+def _depth_lines(depth: Summary, frames: int) -> Iterator[str]:
     yield _line("", f"{depth['metres_per_unit']:g} m per unit, by {depth['unit_from']}")
     looked = depth["frames_looked_at"]
     sample = "all frames" if looked >= frames else f"{looked} frames, evenly spaced"
@@ -121,7 +128,7 @@ def _depth_lines(depth: Facts, frames: int) -> Iterator[str]:
     yield _line("", f"{middle}; {100 * depth['invalid']:.1f} % invalid pixels; of {sample}")
 
 
-def _truth_lines(truth: Facts | None) -> Iterator[str]:
+def _truth_lines(truth: Summary | None) -> Iterator[str]:
     if truth is None:
         yield _line("truth", "none")
         return
@@ -136,7 +143,7 @@ def _truth_lines(truth: Facts | None) -> Iterator[str]:
         yield _line("", f"{truth['behind_the_end']} rows more than there are frames")
 
 
-def _calibration_lines(camera: Facts | None) -> Iterator[str]:
+def _calibration_lines(camera: Summary | None) -> Iterator[str]:
     if camera is None:
         yield _line("calibration", "none found")
         return
@@ -166,7 +173,7 @@ def _list(root: Path, places: list[Path], options: argparse.Namespace) -> int:
     return 0
 
 
-def _short(root: Path, place: Path, scale: float | None) -> Facts:
+def _short(root: Path, place: Path, scale: float | None) -> Summary:
     name = place.relative_to(root).as_posix()
     try:
         source, names = _opened(place, scale), _targets(place)
@@ -193,7 +200,7 @@ def _opened(place: Path, scale: float | None) -> Source:
         return open_source(place, depth_scale=scale)
 
 
-def _short_line(facts: Facts) -> str:
+def _short_line(facts: Summary) -> str:
     if "error" in facts:
         return f"{facts['place']}: can't be opened: {facts['error']}"
     frames = "frames not counted" if facts["frames"] is None else f"{facts['frames']} frames"

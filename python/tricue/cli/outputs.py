@@ -12,9 +12,12 @@ from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
-from tricue.draw.flow_depth import flow_depth_overlay
-from tricue.draw.overlays import Image, OverlayWriter, depth_overlay, depth_picture, depth_range, overlay
+from tricue.draw.canvas import Image
+from tricue.draw.depth_pictures import depth_picture, depth_range
+from tricue.draw.masks import flow_depth_overlay
+from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.stereo import stereo_overlay
+from tricue.draw.video import OverlayWriter
 from tricue.track.base.track import Track
 
 CALM = 0.1  # a frame's share in the range of the video's shades

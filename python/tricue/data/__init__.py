@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Input: videos, folders, cameras, the layouts of data sets, true boxes."""
+"""Input: videos, image folders, cameras, data set layouts, true boxes."""

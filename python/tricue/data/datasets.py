@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Folders of sequences: which folders and videos below have true boxes, by the files' names alone."""
+"""Finds the sequences with true boxes under a folder, by file names alone."""
 
 from collections.abc import Iterator
 from pathlib import Path
 
 from tricue.data import kitti, princeton, tum
-from tricue.data.box_table import TABLE, video_table
+from tricue.data.box_table import BOX_TABLE, find_video_box_table
 from tricue.data.files import is_video, natural_order
-from tricue.data.truth import OTB, PTB_FIRST, VOT, otb_targets
+from tricue.data.truth import OTB_TRUTH, PRINCETON_FIRST_BOX, VOT_TRUTH, otb_targets
 
 
 def find_sequences(root: Path) -> list[Path]:
-    """The sequence folders at or under ``root`` that have true boxes or KITTI's labels, and the video files
-    with a table of boxes beside them, in natural order.
+    """The sequences at or under ``root``, in natural order.
 
-    Nothing below a sequence is looked at, and each folder once, however many links lead to it. No image is
-    read: a sequence that is malformed is among them, for opening it says what is wrong.
+    They are the folders with true boxes or KITTI's labels, and the video files with a table of boxes beside
+    them. Nothing below a sequence is searched, and each folder once, however many links lead to it. No image
+    is read, so malformed sequences are included; opening one says what is wrong with it.
     """
     if root.is_file():
         return [root] if _is_sequence_video(root) else []
@@ -37,17 +37,19 @@ def _below(folder: Path, seen: set[Path]) -> Iterator[Path]:
 
 
 def _is_sequence_video(path: Path) -> bool:
-    return is_video(path) and path.is_file() and video_table(path) is not None
+    return is_video(path) and path.is_file() and find_video_box_table(path) is not None
 
 
 def _is_sequence(folder: Path) -> bool:
-    """Whether a file of true boxes or of KITTI's labels lies where the layouts look for it."""
-    if (folder / TABLE).is_file() or (folder / OTB).is_file() or otb_targets(folder):
+    """Whether a file of true boxes or of KITTI's labels is where its layout has it."""
+    if (folder / BOX_TABLE).is_file() or (folder / OTB_TRUTH).is_file() or otb_targets(folder):
         return True
-    if (folder / VOT).is_file() and not tum.is_tum(folder):  # whose file of this name is the camera's path
+    if (folder / VOT_TRUTH).is_file() and not tum.is_tum(
+        folder
+    ):  # whose groundtruth.txt is the camera's trajectory
         return True
-    if any((folder / name).is_file() for name in (PTB_FIRST, f"{folder.resolve().name}.txt")):
-        return all(princeton.images_in(folder / channel) for channel in ("rgb", "depth"))
+    if any((folder / name).is_file() for name in (PRINCETON_FIRST_BOX, f"{folder.resolve().name}.txt")):
+        return all(princeton.find_timestamped_images(folder / channel) for channel in ("rgb", "depth"))
     try:
         return kitti.find_labels(folder) is not None
     except ValueError:  # several sequences, each of which is found by itself

@@ -1,33 +1,46 @@
 # SPDX-License-Identifier: MIT
-"""Which files are pictures and videos, by their names, and in which order they come."""
+"""Which files are images and videos, by their names, and their natural order."""
 
 import re
 from collections.abc import Iterable
 from pathlib import Path
 
-_IMAGES = {".bmp", ".jp2", ".jpeg", ".jpg", ".pbm", ".pgm", ".png", ".pnm", ".ppm", ".tif", ".tiff", ".webp"}
-_VIDEOS = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
+_IMAGE_SUFFIXES = {
+    ".bmp",
+    ".jp2",
+    ".jpeg",
+    ".jpg",
+    ".pbm",
+    ".pgm",
+    ".png",
+    ".pnm",
+    ".ppm",
+    ".tif",
+    ".tiff",
+    ".webp",
+}
+_VIDEO_SUFFIXES = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
 
 
 def image_paths(folder: Path) -> list[Path]:
-    """The image files of a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
+    """The image files in a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
     paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))
     return natural_order(paths)
 
 
 def natural_order(paths: Iterable[Path]) -> list[Path]:
-    """The paths by the numbers in their names: 2.png before 10.png."""
+    """The paths, sorted by the numbers in their names: 2.png before 10.png."""
     return sorted(paths, key=lambda path: [_natural(part) for part in path.parts])
 
 
 def is_image(path: Path) -> bool:
-    """Whether the file's name says that it is a picture."""
-    return path.suffix.lower() in _IMAGES
+    """Whether the file's suffix is that of an image."""
+    return path.suffix.lower() in _IMAGE_SUFFIXES
 
 
 def is_video(path: Path) -> bool:
-    """Whether the file's name says that it is a video."""
-    return path.suffix.lower() in _VIDEOS
+    """Whether the file's suffix is that of a video."""
+    return path.suffix.lower() in _VIDEO_SUFFIXES
 
 
 def _natural(name: str) -> list[tuple[int, str]]:

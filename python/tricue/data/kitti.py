@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""KITTI's folders: color images of the left camera in image_02 (or image_2), of the right one in image_03.
+"""KITTI's folders: image_02 (or image_2) holds the left color images, image_03 (or image_3) the right ones.
 
 Tracking: image_02/0005/000000.png with calib/0005.txt. Odometry: image_2/000000.png with calib.txt. Raw:
 image_02/data/0000000000.png with calib_cam_to_cam.txt one folder up. All are rectified.
@@ -11,39 +11,38 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.camera.calibration import kitti_offset
+from tricue.camera.calibration_formats import read_kitti_offset
 from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream
-from tricue.data.truth import Truth, truth_of
+from tricue.data.truth import MAX_FRAME_NUMBER, Truth, truth_from_rows
 
-SIDES = {"image_02": "image_03", "image_2": "image_3"}
-LABEL = 17  # words in a line of a tracking label
-IGNORED = "DontCare"
-LONGEST = 10_000_000  # frames; a number above isn't meant as a frame's
-FARTHEST = 1e9  # pixels, metres; neither is a larger value meant
+RIGHT_FOLDERS = {"image_02": "image_03", "image_2": "image_3"}
+LABEL_WORDS = 17  # in a line of a tracking label
+IGNORED_TYPE = "DontCare"
+MAX_LABEL_VALUE = 1e9  # pixels, metres; a larger value can be neither
 
 
-class Label(NamedTuple):
-    """A target of a tracking sequence, a row for each of the M frames in which it is labelled.
+class LabeledTarget(NamedTuple):
+    """A target of a tracking sequence, with a row for each of the M frames in which it is labeled.
 
-    frames: (M,) counted from 0, rising. boxes: (M, 4) x, y, width, height, pixels of the left image. nearest:
-    (M,) the depth of the nearest side of its cuboid, metres, as the left camera sees it. positions: (M, 3)
-    the cuboid's centre X, Y, Z in metres, in the frame of camera 0, beside the left one.
+    frames: (M,) numbers from 0, increasing. boxes: (M, 4) x, y, width, height, pixels of the left image.
+    front_depths: (M,) metres, the smallest depth of its cuboid in the left camera's frame. positions: (M, 3)
+    the cuboid's center X, Y, Z, metres in the frame of camera 0.
     """
 
     name: str
     frames: NDArray[np.int64]
     boxes: NDArray[np.float64]
-    nearest: NDArray[np.float64]
+    front_depths: NDArray[np.float64]
     positions: NDArray[np.float64]
 
     def truth(self, offset: NDArray[np.float64]) -> Truth:
-        """A row a frame from the first to the last; those between that have no label are unknown.
+        """One row per frame from the first label to the last; frames without a label are unknown.
 
-        offset: (3,) metres, from camera 0's frame to the left camera's.
+        offset: (3,) metres, the translation from camera 0's frame to the left color camera's.
         """
         rows = self.frames - self.frames[0]
-        known = truth_of(self.boxes)
+        known = truth_from_rows(self.boxes)
         boxes, positions = (np.full((rows[-1] + 1, columns), np.nan) for columns in (4, 3))
         absent = np.zeros(len(boxes), np.bool_)
         boxes[rows], absent[rows], positions[rows] = known.boxes, known.absent, self.positions + offset
@@ -57,10 +56,10 @@ class _Line(NamedTuple):
     values: list[float]
 
 
-def read_labels(path: Path) -> list[Label]:
-    """The targets in a file of KITTI's tracking labels, by their numbers; regions to ignore are left out.
+def read_labels(path: Path) -> list[LabeledTarget]:
+    """The targets in a file of KITTI's tracking labels, by track number; DontCare regions are left out.
 
-    ValueError names the line that isn't such a label, or is the second of a target in a frame.
+    ValueError names a line that isn't a label, or a target's second label in one frame.
     """
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     rows: dict[tuple[int, str], dict[int, list[float]]] = {}
@@ -70,7 +69,7 @@ def read_labels(path: Path) -> list[Label]:
         label = _line(line)
         if label is None:
             raise ValueError(f"{path}, line {number}: expected a tracking label, got {line!r:.60}")
-        if label.kind == IGNORED:
+        if label.kind == IGNORED_TYPE:
             continue
         target = rows.setdefault((label.track, label.kind), {})
         if label.frame in target:
@@ -85,27 +84,34 @@ def read_labels(path: Path) -> list[Label]:
 def _line(line: str) -> _Line | None:
     words = line.split()
     try:
-        frame, track, kind, values = int(words[0]), int(words[1]), words[2], [*map(float, words[5:LABEL])]
+        frame, track, kind, values = (
+            int(words[0]),
+            int(words[1]),
+            words[2],
+            [*map(float, words[5:LABEL_WORDS])],
+        )
     except (IndexError, ValueError):
         return None
-    if len(values) != LABEL - 5 or not 0 <= frame < LONGEST:
+    if len(values) != LABEL_WORDS - 5 or not 0 <= frame < MAX_FRAME_NUMBER:
         return None
-    return _Line(frame, track, kind, values) if all(abs(value) < FARTHEST for value in values) else None
+    return (
+        _Line(frame, track, kind, values) if all(abs(value) < MAX_LABEL_VALUE for value in values) else None
+    )
 
 
-def _label(name: str, rows: dict[int, list[float]]) -> Label:
+def _label(name: str, rows: dict[int, list[float]]) -> LabeledTarget:
     frames = np.array(sorted(rows), np.int64)
-    # alpha, the box's corners, height, width, length, the cuboid's x, y, z in metres, its turn about y
+    # alpha, the box's corners, height, width, length, the cuboid's x, y, z in metres, its rotation about y
     columns = np.array([rows[frame] for frame in sorted(rows)]).T
-    _, x0, y0, x1, y1, height, width, length, x, y, z, turn = columns
-    half = (np.abs(np.sin(turn)) * length + np.abs(np.cos(turn)) * width) / 2
+    _, x0, y0, x1, y1, height, width, length, x, y, z, yaw = columns
+    half = (np.abs(np.sin(yaw)) * length + np.abs(np.cos(yaw)) * width) / 2
     boxes = np.stack([x0, y0, x1 - x0, y1 - y0], axis=1)
-    # the location is the middle of the bottom
-    return Label(name, frames, boxes, z - half, np.stack([x, y - height / 2, z], axis=1))
+    # the location is the center of the bottom face
+    return LabeledTarget(name, frames, boxes, z - half, np.stack([x, y - height / 2, z], axis=1))
 
 
-class Sequence(NamedTuple):
-    """Where a sequence's images are, and its calibration."""
+class KittiSequence(NamedTuple):
+    """Where the images of a sequence are, and its calibration file."""
 
     left: Path
     right: Path | None
@@ -113,22 +119,24 @@ class Sequence(NamedTuple):
 
     @property
     def labels(self) -> Path:
-        """Where a tracking sequence has its labels, be they there or not."""
+        """Where a tracking sequence has its labels; the file may be missing."""
         return self.left.parent.parent / "label_02" / f"{self.left.name}.txt"
 
     @property
     def tracking(self) -> bool:
-        """Whether it is of the tracking benchmark, not of the others."""
+        """Whether the sequence is of the tracking benchmark."""
         named = self.calibration is not None and self.calibration.parent.name == "calib"
         return named or self.labels.is_file()
 
 
-def channels(sequence: Sequence, target: str | None = None) -> tuple[dict[str, Stream], Truth | None]:
-    """The color pair, or the left images alone.
+def read_channels(
+    sequence: KittiSequence, target: str | None = None
+) -> tuple[dict[str, Stream], Truth | None]:
+    """The color stereo pair, or the left images alone, and the truth of one target.
 
-    target: the name of a label. Then the images are those from its first frame to its last, by the numbers
-    in the files' names, and the truth is the target's; positions are in the left color camera's frame where
-    the calibration lies beside the images. Without it there is no truth, for the labels are of many targets.
+    target: the name of a labeled target. The images are then cut to its first to last frame, by the numbers
+    in the file names. Its positions are in the left color camera's frame where the calibration is beside the
+    images, else in camera 0's. Without a target there is no truth.
     """
     folders = {"color": sequence.left, "right": sequence.right}
     paths = {name: image_paths(folder) for name, folder in folders.items() if folder is not None}
@@ -136,17 +144,17 @@ def channels(sequence: Sequence, target: str | None = None) -> tuple[dict[str, S
         return {name: Images(found) for name, found in paths.items()}, None
     label = next(label for label in read_labels(sequence.labels) if label.name == target)
     frames = range(int(label.frames[0]), int(label.frames[-1]) + 1)
-    offset = np.zeros(3) if sequence.calibration is None else kitti_offset(sequence.calibration)
+    offset = np.zeros(3) if sequence.calibration is None else read_kitti_offset(sequence.calibration)
     cut: dict[str, Stream] = {name: Images(_numbered(found, frames)) for name, found in paths.items()}
     return cut, label.truth(offset)
 
 
 def _numbered(paths: list[Path], frames: range) -> list[Path]:
-    """The images of these numbers; ValueError names the folder that lacks one."""
+    """The images with these numbers; ValueError names the folder that lacks one."""
     by_number = {int(path.stem): path for path in paths if path.stem.isdecimal()}
     for frame in (frames[0], frames[-1], *frames):
         if frame not in by_number:
-            raise ValueError(f"{paths[0].parent}: expected the image of frame {frame}, which is labelled")
+            raise ValueError(f"{paths[0].parent}: expected the image of frame {frame}, which is labeled")
     return [by_number[frame] for frame in frames]
 
 
@@ -156,12 +164,12 @@ def find_labels(folder: Path) -> Path | None:
     return sequence.labels if sequence is not None and sequence.labels.is_file() else None
 
 
-def find_sequence(folder: Path) -> Sequence | None:
-    """The sequence that a folder is or holds, None where it isn't KITTI's; ValueError if it holds several."""
+def find_sequence(folder: Path) -> KittiSequence | None:
+    """The sequence that a folder is or holds; None where it isn't KITTI's. ValueError if it holds several."""
     folder = folder.resolve()
-    if folder.parent.name in SIDES or (folder.name in SIDES and image_paths(folder)):
+    if folder.parent.name in RIGHT_FOLDERS or (folder.name in RIGHT_FOLDERS and image_paths(folder)):
         return _sequence(folder)
-    left = next((folder / name for name in SIDES if (folder / name).is_dir()), None)
+    left = next((folder / name for name in RIGHT_FOLDERS if (folder / name).is_dir()), None)
     if left is None:
         return None
     if image_paths(left):
@@ -174,14 +182,14 @@ def find_sequence(folder: Path) -> Sequence | None:
     return _sequence(inner[0])
 
 
-def _sequence(left: Path) -> Sequence | None:
+def _sequence(left: Path) -> KittiSequence | None:
     if not image_paths(left):
         return None
-    inside = left.parent.name in SIDES
+    inside = left.parent.name in RIGHT_FOLDERS
     side = left.parent if inside else left
-    other = side.with_name(SIDES[side.name])
+    other = side.with_name(RIGHT_FOLDERS[side.name])
     right = other / left.name if inside else other
     root = side.parent
     places = (root / "calib" / f"{left.name}.txt", root / "calib.txt", root.parent / "calib_cam_to_cam.txt")
     calibration = next((path for path in places if path.is_file()), None)
-    return Sequence(left, right if right.is_dir() and image_paths(right) else None, calibration)
+    return KittiSequence(left, right if right.is_dir() and image_paths(right) else None, calibration)

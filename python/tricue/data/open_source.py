@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: MIT
-"""Whatever can be tracked in: a video, a folder of images, a sequence of a benchmark, a camera."""
+"""Opens whatever can be tracked in: a video, a folder of images, a benchmark's sequence, a camera."""
 
 from dataclasses import replace
 from pathlib import Path
 
-from tricue.data.box_table import read_table, video_table
+from tricue.data.box_table import find_video_box_table, read_box_table
 from tricue.data.files import image_paths, is_image
-from tricue.data.layouts import depth_images, read_layout, table_note
+from tricue.data.layouts import depth_images, note_box_table, read_layout
 from tricue.data.source import Source
 from tricue.data.streams import Camera, Stream, Video
 from tricue.data.truth import Truth, check_target
 
 __all__ = ["Source", "open_source"]
 
-CALIBRATION = "intrinsics.toml"  # looked for in a sequence's folder, and in the folder of all sequences
-PRINCETON = "frames.mat"  # the same of the Princeton benchmark, in the sequence's folder
+CALIBRATION_FILE = "intrinsics.toml"  # searched in a sequence's folder and in the folder above
+PRINCETON_CALIBRATION_FILE = "frames.mat"  # searched in the sequence's folder
 
 
 def open_source(
@@ -29,16 +29,16 @@ def open_source(
     """Open a video file, a folder of images, a sequence folder, or a camera by its number.
 
     A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
-    benchmark's (``rgb/r-0-1.png``), or one video, with a file of true boxes. 16-bit images are depth. Stereo
-    pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
+    benchmark's (``rgb/r-0-1.png``), or holds one video, with a file of true boxes. 16-bit images are depth.
+    Stereo pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
 
-    depth: a folder of 16-bit images, or a sequence folder with depth, beside the color of ``place``; they are
-        paired by order.
-    depth_scale: metres per unit of depth; needed but for VOT's, TUM's and Princeton's, whose format says it.
-    fps: frames a second of images of which nothing tells the times, 30 without it; ValueError beside times.
+    depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
+        they are paired by order.
+    depth_scale: metres per unit of depth; required unless the format defines it (VOT, TUM, Princeton).
+    fps: frames per second of images without times, 30 by default; ValueError for images with times.
     right: the right camera's video, folder or number, where ``place`` is the left one's; paired by order.
-    target: one of :func:`tricue.data.layouts.targets` of a folder with several; of KITTI's, the frames are
-        those in which it is labelled.
+    target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
+        cut to the frames in which it is labeled.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
     source = _opened(place, depth_scale, target)
@@ -73,9 +73,11 @@ def _opened(place: str | Path, scale: float | None, target: str | None = None) -
     if target is not None:
         check_target(target, (), path)
     video = Source(path.stem, {"color": Video(path)}, format="video")
-    table = video_table(path)
+    table = find_video_box_table(path)
     return (
-        video if table is None else replace(_with_truth(video, read_table(table)), notes=(table_note(table),))
+        video
+        if table is None
+        else replace(_with_truth(video, read_box_table(table)), notes=(note_box_table(table),))
     )
 
 
@@ -86,7 +88,7 @@ def _with_truth(source: Source, truth: Truth | None) -> Source:
 
 
 def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
-    """The source's color as the left image, with another place's color as the right one."""
+    """The source as a stereo pair: its color images are the left ones, those of ``right`` the right ones."""
     streams = [opened.channels.get("color") for opened in (source, _opened(right, None))]
     for stream, at in zip(streams, (place, f"--right {right}"), strict=True):
         if stream is None:
@@ -104,7 +106,7 @@ def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
 
 
 def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | None) -> Source:
-    """The source's color with another place's depth."""
+    """The source with the depth images of another place."""
     color = source.channels.get("color")
     if color is None:
         raise ValueError(f"{place}: expected color images beside --depth {depth}, found only depth")
@@ -126,7 +128,11 @@ def _depth_stream(place: Path, scale: float | None) -> Stream:
 
 
 def _calibration(folder: Path) -> Path | None:
-    places = (folder / CALIBRATION, folder.resolve().parent / CALIBRATION, folder / PRINCETON)
+    places = (
+        folder / CALIBRATION_FILE,
+        folder.resolve().parent / CALIBRATION_FILE,
+        folder / PRINCETON_CALIBRATION_FILE,
+    )
     return next((path for path in places if path.is_file()), None)
 
 

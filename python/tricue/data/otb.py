@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""OTB's sequences whose images and true boxes don't begin or end together.
+"""OTB's sequences whose true boxes cover only a range of the images.
 
 Source: Wu, Lim, Yang, "Object Tracking Benchmark", PAMI 2015; its evaluation code names the ranges.
 """
@@ -7,9 +7,9 @@ Source: Wu, Lim, Yang, "Object Tracking Benchmark", PAMI 2015; its evaluation co
 from pathlib import Path
 
 from tricue.data.streams import Images, Stream
-from tricue.data.truth import OTB, otb_targets
+from tricue.data.truth import OTB_TRUTH, otb_targets
 
-RANGES = {  # the first and the last image that has a true box, by their files' numbers
+FRAME_RANGES = {  # file numbers of the first and the last image that has a true box
     "david": (300, 770),
     "football1": (1, 74),
     "freeman3": (1, 460),
@@ -18,22 +18,23 @@ RANGES = {  # the first and the last image that has a true box, by their files' 
 }
 
 
-def is_otb(folder: Path) -> bool:
-    """Whether true boxes by OTB lie in the folder."""
-    return (folder / OTB).is_file() or bool(otb_targets(folder))
+def has_otb_truth(folder: Path) -> bool:
+    """Whether the folder has a file of true boxes by OTB."""
+    return (folder / OTB_TRUTH).is_file() or bool(otb_targets(folder))
 
 
-def cut(folder: Path, color: Stream, boxes: int) -> Images | None:
-    """Of a sequence with more images than boxes the images that the boxes are for, else None.
+def cut_to_range(folder: Path, color: Stream, boxes: int) -> Images | None:
+    """The images that the true boxes are for, where a sequence has more images than boxes; else None.
 
-    Images that already begin where the range does stay, for then each box is at its image's place.
+    boxes: how many true boxes there are. Images that already begin where the range does need no cut, for
+    boxes and images then correspond by index.
     """
-    first, last = RANGES.get(folder.resolve().name.lower(), (0, -1))
+    first, last = FRAME_RANGES.get(folder.resolve().name.lower(), (0, -1))
     if not (isinstance(color, Images) and boxes == last - first + 1 < len(color.paths)):
         return None
     names = [path.stem for path in color.paths]
     if not all(name.isdecimal() for name in names):
         return None
     numbers = [int(name) for name in names]
-    within = [path for number, path in zip(numbers, color.paths, strict=True) if first <= number <= last]
-    return Images(within, color.rate, color.read) if len(within) == boxes and numbers[0] < first else None
+    in_range = [path for number, path in zip(numbers, color.paths, strict=True) if first <= number <= last]
+    return Images(in_range, color.rate, color.read) if len(in_range) == boxes and numbers[0] < first else None

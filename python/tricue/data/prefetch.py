@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Items made ahead of their use, on a thread of their own: decoding while a tracker works."""
+"""Prefetching: a background thread makes items before they are needed, such as decoding while tracking."""
 
 from collections.abc import Generator, Iterable, Iterator
 from queue import SimpleQueue
@@ -9,15 +9,15 @@ from typing import Generic, TypeVar
 from tricue.camera.numbers import positive_whole
 
 T = TypeVar("T")
-AHEAD = 8
+MAX_PREFETCHED = 8
 
 
-def prefetched(iterable: Iterable[T], ahead: int = AHEAD) -> Generator[T, None, None]:
-    """The items of ``iterable`` in their order; a background thread makes up to ``ahead`` of them in advance.
+def prefetch(iterable: Iterable[T], ahead: int = MAX_PREFETCHED) -> Generator[T, None, None]:
+    """Iterate over ``iterable``; a background thread makes up to ``ahead`` items in advance.
 
-    An exception of the iterable is raised after the items that came before it. The thread starts with the
-    first item that is asked for. It ends with the iterable, and as soon as the item at hand is made when the
-    iterator is closed, or nothing refers to it any more; the iterable's own iterator is closed by then.
+    An exception of the iterable is raised after the items that came before it. The thread starts when the
+    first item is requested. It ends with the iterable, or once the item in progress is made after this
+    iterator is closed or garbage collected; the iterable's own iterator is closed then.
     ValueError or TypeError where ``ahead`` isn't a whole number above 0.
     """
     return _consume(_Producer(iterable, positive_whole(ahead, "ahead", "items")))
@@ -31,7 +31,7 @@ class _Failure:
 
 
 class _Producer(Generic[T]):
-    """The thread's side. ``room`` counts how many more items may be made, so that none waits in its hands."""
+    """The background thread's side; ``room`` counts how many more items may be made."""
 
     def __init__(self, iterable: Iterable[T], ahead: int) -> None:
         self.iterable = iterable
@@ -58,7 +58,7 @@ class _Producer(Generic[T]):
                 close()
 
     def _stops(self) -> bool:
-        """Whether to end, after waiting for room."""
+        """Wait for room, then tell whether to end."""
         self.room.acquire()
         return self.stopped.is_set()
 

@@ -11,35 +11,36 @@ from pathlib import Path
 
 import numpy as np
 
-from tricue.data.depth_images import MILLIMETRES, DepthReader
-from tricue.data.streams import Images, Stream, Timed, timed_images
+from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
+from tricue.data.streams import Images, Stream, TimedPaths, timed_images
 
-TICK = 1e-6  # seconds per unit of the times in the files' names
-_NAME = re.compile(r"[rd]-(\d+)-(\d+)\.png")
+SECONDS_PER_TICK = 1e-6  # seconds per unit of the times in the files' names
+_FILE_NAME = re.compile(r"[rd]-(\d+)-(\d+)\.png")
 
 
-def named_images(paths: Iterable[Path]) -> Timed:
-    """Times in seconds and files, in the order of the frames' numbers; other files are left out."""
-    names = ((_NAME.fullmatch(path.name), path) for path in paths)
-    found = sorted((int(name[2]), int(name[1]) * TICK, path) for name, path in names if name)
+def timestamped_images(paths: Iterable[Path]) -> TimedPaths:
+    """Times in seconds and files, in order of the frame numbers in the names; other files are left out."""
+    names = ((_FILE_NAME.fullmatch(path.name), path) for path in paths)
+    found = sorted((int(name[2]), int(name[1]) * SECONDS_PER_TICK, path) for name, path in names if name)
     return [(time, path) for _, time, path in found]
 
 
-def images_in(folder: Path) -> Timed:
-    """The same of a folder; nothing where there is none."""
-    return named_images(folder.iterdir()) if folder.is_dir() else []
+def find_timestamped_images(folder: Path) -> TimedPaths:
+    """The timestamped images in a folder; empty where there is no such folder."""
+    return timestamped_images(folder.iterdir()) if folder.is_dir() else []
 
 
-def depth_images(images: Timed, scale: float | None) -> Images:
-    """Depth in millimetres unless the scale says otherwise, whose bits are turned."""
-    return timed_images(images, DepthReader(MILLIMETRES if scale is None else scale, rotated=True))
+def depth_images(images: TimedPaths, scale: float | None) -> Images:
+    """A stream of depth images with rotated bits. scale: metres per unit, 0.001 by default."""
+    return timed_images(images, DepthReader(METRES_PER_MILLIMETRE if scale is None else scale, rotated=True))
 
 
-def channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
-    """Each color image, for which a true box stands, with the depth image that is nearest in time; None where
-    it isn't Princeton's.
+def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
+    """Each color image with the depth image that is nearest in time; None where the folder isn't Princeton's.
+
+    The true boxes belong to the color images.
     """
-    color, depth = (images_in(folder / channel) for channel in ("rgb", "depth"))
+    color, depth = (find_timestamped_images(folder / channel) for channel in ("rgb", "depth"))
     if not (color and depth):
         return None
     times = np.array([time for time, _ in depth])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Frames in order, of several channels, and what is known about them."""
+"""A source of frames: one stream per channel, and what is known about them."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
-from tricue.data.streams import FASTEST, Stream
+from tricue.data.streams import MAX_FPS, Stream
 
 Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
 Register = Callable[[NDArray[Any]], NDArray[Any]]
@@ -22,24 +22,24 @@ Register = Callable[[NDArray[Any]], NDArray[Any]]
 
 @dataclass(frozen=True)
 class Source:
-    """Frames in order, made of one stream a channel, with what is known about them.
+    """Frames in order, with one stream per channel, and what is known about them.
 
-    channels: "color", "right", "depth"; images that belong together are at the same place of each. Times and
-        frame rate are those of the first channel that has its own.
+    channels: "color", "right", "depth"; images of one frame have the same index in each. Times and frame rate
+        are those of the first channel that has its own.
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where absent or unknown; M may differ
         from the number of frames.
-    calibration: a file with the cameras' intrinsics that lies beside the images.
-    notes: what was left out of a folder and why, a sentence each.
-    rate: frames a second of images of which nothing tells the times.
-    rectify: makes a raw pair of color and right a rectified one.
+    calibration: a calibration file that was found beside the images.
+    notes: what was left out of a folder and why, one sentence each.
+    rate: frames per second, for images without times.
+    rectify: rectifies a raw stereo pair (color, right).
     register: brings depth into the color image's pixels.
-    absent: (M,) whether it is known that the target can't be seen; of the others without a box, and of frames
-        behind M, nothing is known.
+    absent: (M,) whether the target is known to be out of sight; other frames without a box, and frames after
+        the last row, are unknown.
     positions: (K, 3) the target's true X, Y, Z in the camera's frame, metres, NaN where unknown.
-    format: the name of the layout that was recognised, such as "VOT RGB-D".
+    format: the name of the layout, such as "VOT RGB-D".
 
-    ValueError where the channels are known to differ in length, also while iterating, and for a ``rate``
-    beside times of their own.
+    ValueError where the channels differ in length, which may show only while iterating, and for a ``rate``
+    where images have times of their own.
     """
 
     name: str
@@ -66,28 +66,28 @@ class Source:
 
     @property
     def fps(self) -> float:
-        """Frames a second, by which a video is written."""
+        """Frames per second."""
         return self.clock.fps if self.rate is None else self.rate
 
     @property
     def clock(self) -> Stream:
-        """The channel whose times count, unless there is a ``rate``."""
+        """The stream whose times are the frames' times, unless there is a ``rate``."""
         return self.channels[self._clock]
 
     @property
     def length(self) -> int | None:
-        """The number of frames, None where only reading them tells."""
+        """The number of frames, None if it isn't known before reading them."""
         lengths = (stream.length for stream in self.channels.values())
         return next((length for length in lengths if length is not None), None)
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height, pixels, that a calibration has to fit: the depth images', else the color's."""
+        """Width and height in pixels that a calibration has to match: of depth, else of color images."""
         return self.channels.get("depth", self._first).size
 
     @property
     def first_box(self) -> Box | None:
-        """The true box in the first frame, if it is known."""
+        """The true box in the first frame; None where it isn't known."""
         if self.truth is None or len(self.truth) == 0 or np.isnan(self.truth[0]).any():
             return None
         return Box(*self.truth[0].tolist())
@@ -96,11 +96,11 @@ class Source:
         return self._frames({name: iter(stream) for name, stream in self.channels.items()}, count())
 
     def frames(self, indices: Iterable[int]) -> Iterator[Frame]:
-        """The frames of these rising numbers from 0 only. Of image files only theirs are read.
+        """Only the frames with these increasing indices from 0; of image files only those are read.
 
-        ValueError for other numbers, and where there is no such frame.
+        ValueError for indices that don't increase, and for an index beyond the last frame.
         """
-        wanted = _rising(indices)
+        wanted = _increasing(indices)
         return self._frames({name: stream.at(wanted) for name, stream in self.channels.items()}, wanted)
 
     def _frames(
@@ -132,24 +132,24 @@ class Source:
 
     @property
     def _clock(self) -> str:
-        """Its name."""
+        """The channel name of :attr:`clock`."""
         return next(
             (name for name, stream in self.channels.items() if stream.timed), next(iter(self.channels))
         )
 
     def _check_rate(self, rate: float) -> None:
-        if not positive(rate, "--fps", "frames a second") <= FASTEST:
-            raise ValueError(f"--fps: expected at most {FASTEST:.0f} frames a second, got {rate}")
+        if not positive(rate, "--fps", "frames per second") <= MAX_FPS:
+            raise ValueError(f"--fps: expected at most {MAX_FPS:.0f} frames per second, got {rate}")
         clock = self.clock
         if clock.timed:
             raise ValueError(
-                f"--fps {rate:g}: expected with images that tell no times, but {self.name} has its own, "
-                f"{clock.fps:.4g} frames a second; leave it out"
+                f"--fps {rate:g}: expected with images without times, but {self.name} has its own, "
+                f"{clock.fps:.4g} frames per second; leave it out"
             )
 
 
-def _rising(indices: Iterable[int]) -> list[int]:
-    """The numbers, checked."""
+def _increasing(indices: Iterable[int]) -> list[int]:
+    """The indices as a list; ValueError unless they increase from 0 on."""
     numbers = list(map(index, indices))
     if any(low >= high for low, high in pairwise([-1, *numbers])):
         raise ValueError(f"indices: expected rising numbers of frames from 0, got {numbers!r:.60}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One channel's images in order: from a folder, a video file, or a live camera."""
+"""Streams: the images of one channel in order, from a folder, a video file, or a live camera."""
 
 import os
 import time
@@ -13,29 +13,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 DEFAULT_FPS = 30.0
-FASTEST = 1000.0  # frames a second
-
+MAX_FPS = 1000.0
 
 Image = NDArray[Any]
-Read = Callable[[Path], Image]
-Timed = list[tuple[float, Path]]  # seconds, and the image of that time
+ImageReader = Callable[[Path], Image]
+TimedPaths = list[tuple[float, Path]]
+"""Times in seconds, and the image files of these times."""
 
 
 def read_color(path: Path) -> Image:
-    """A picture as BGR, (H, W, 3) uint8; ValueError or FileNotFoundError that names the file."""
-    return decode(path, cv2.IMREAD_COLOR)
+    """Read an image as BGR, (H, W, 3) uint8; ValueError or FileNotFoundError names the file."""
+    return read_image(path, cv2.IMREAD_COLOR)
 
 
 class Stream(Protocol):
-    """Images with their times in seconds; each iteration starts again (a camera goes on)."""
+    """Images with their times in seconds. Each iteration starts at the first one; a live camera goes on."""
 
     @property
     def fps(self) -> float:
-        """Frames a second; :data:`DEFAULT_FPS` where nothing tells them."""
+        """Frames per second; :data:`DEFAULT_FPS` where the input doesn't say."""
 
     @property
     def timed(self) -> bool:
-        """Whether the input tells when its images were taken, or how many there are in a second."""
+        """Whether the input has times or a frame rate."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -43,25 +43,25 @@ class Stream(Protocol):
 
     @property
     def length(self) -> int | None:
-        """The number of images, None where only reading them tells."""
+        """The number of images, None if it isn't known before reading them."""
 
     def __iter__(self) -> Iterator[tuple[float, Image]]: ...
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        """The images of these rising numbers only; ValueError where there is none."""
+        """Only the images with these increasing indices; ValueError for an index beyond the last image."""
 
 
 @dataclass(frozen=True)
 class Images:
-    """Image files, in the given order; the error of ``read`` names the first that can't be read.
+    """Image files in the given order; the error of ``read`` names the first that can't be read.
 
-    rate: frames a second, None where nothing tells them. times: seconds, one an image; without them they
-        follow from ``fps``.
+    rate: frames per second, None where unknown. times: seconds, one per image; without them they follow from
+        ``fps``.
     """
 
     paths: Sequence[Path]
     rate: float | None = None
-    read: Read = read_color
+    read: ImageReader = read_color
     times: Sequence[float] | None = None
 
     @property
@@ -92,23 +92,23 @@ class Images:
             yield index / self.fps if self.times is None else self.times[index], self.read(self.paths[index])
 
 
-def timed_images(images: Timed, read: Read = read_color) -> Images:
-    """Images with times of their own, and the frame rate that follows from them."""
+def timed_images(images: TimedPaths, read: ImageReader = read_color) -> Images:
+    """Images with times, and the frame rate that follows from the median step between these."""
     times = [time for time, _ in images]
     step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
-    rate = 1 / step if step > 1 / FASTEST else None
+    rate = 1 / step if step > 1 / MAX_FPS else None
     return Images([path for _, path in images], rate, read, times)
 
 
 class Video:
-    """A video file. Its frame count is not used: containers state it wrongly, or not at all."""
+    """A video file. Its length is None, for containers state their frame count wrongly or not at all."""
 
     length = None
 
     def __init__(self, path: Path) -> None:
         self.path = path
         capture = self._open()
-        rate = sane_rate(capture.get(cv2.CAP_PROP_FPS))
+        rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS))
         self.fps, self.timed = rate or DEFAULT_FPS, rate is not None
         capture.release()
 
@@ -128,7 +128,7 @@ class Video:
             raise ValueError(f"{self.path}: expected a video, this file has no frame that can be decoded")
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        """Those between are read through, for videos can't be trusted to jump to the frame that was meant."""
+        """Reads all frames between, for seeking in videos isn't reliable."""
         capture, index = self._open(), 0
         try:
             for wanted in indices:
@@ -143,7 +143,7 @@ class Video:
             capture.release()
 
     def count(self) -> int:
-        """The number of frames, by reading through."""
+        """The number of frames, by reading all of them."""
         capture, count = self._open(), 0
         try:
             while capture.grab():
@@ -160,7 +160,7 @@ class Video:
 
 
 class Camera:
-    """A live camera by its number; OSError when it can't be opened or stops."""
+    """A live camera by its number; OSError where it can't be opened or stops giving frames."""
 
     length = None
     timed = True  # by the clock
@@ -170,7 +170,7 @@ class Camera:
         self.capture = cv2.VideoCapture(number)
         if not self.capture.isOpened():
             raise OSError(f"camera {number}: can't be opened; is it plugged in and not in use elsewhere?")
-        self.fps = sane_rate(self.capture.get(cv2.CAP_PROP_FPS)) or DEFAULT_FPS
+        self.fps = plausible_fps(self.capture.get(cv2.CAP_PROP_FPS)) or DEFAULT_FPS
 
     @property
     def size(self) -> tuple[int, int]:
@@ -188,35 +188,35 @@ class Camera:
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
         raise ValueError(
-            f"camera {self.number}: expected a recording, of which frames {indices[0]}, ... can be"
+            f"camera {self.number}: expected a recording; a live camera can't give frames {indices[0]}, ..."
         )
 
 
-def decode(path: Path, flag: int) -> Image:
-    """The picture in a file as cv2.imread gives it; ValueError or FileNotFoundError that names the file."""
+def read_image(path: Path, flag: int) -> Image:
+    """The image in a file as cv2.imread gives it; ValueError or FileNotFoundError names the file."""
     if not path.exists():
         raise FileNotFoundError(f"{path}: there is no such file")
     try:
-        image = None if _cut_off(path) else cv2.imread(str(path), flag)
-    except cv2.error:  # a picture larger than OpenCV allows
+        image = None if _is_truncated(path) else cv2.imread(str(path), flag)
+    except cv2.error:  # an image larger than OpenCV allows
         image = None
     if image is None:
         raise ValueError(f"{path}: expected an image, this file can't be read as one")
     return image
 
 
-def _cut_off(path: Path) -> bool:
-    """Whether a PNG file lacks its end, about which libpng would write to stderr by itself."""
+def _is_truncated(path: Path) -> bool:
+    """Whether a PNG file is truncated; libpng would write to stderr about it."""
     if path.suffix.lower() != ".png":
         return False
     with path.open("rb") as file:
-        file.seek(max(0, file.seek(0, os.SEEK_END) - 4096))  # some tools write more behind the end
+        file.seek(max(0, file.seek(0, os.SEEK_END) - 4096))  # some tools write more after the end
         return b"IEND" not in file.read()
 
 
-def sane_rate(fps: float) -> float | None:
-    """Frames a second that a file states; None for what can't be meant: 0, NaN, thousands."""
-    return fps if 0 < fps <= FASTEST else None
+def plausible_fps(fps: float) -> float | None:
+    """The frame rate that a file states; None where it is implausible: 0, NaN, thousands."""
+    return fps if 0 < fps <= MAX_FPS else None
 
 
 def _read(capture: cv2.VideoCapture) -> Image | None:

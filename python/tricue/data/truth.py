@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Files of true boxes: OTB's groundtruth_rect.txt counts pixels from 1, VOT's groundtruth.txt from 0.
 
-Princeton's are <sequence>.txt, which is public for few sequences, and init.txt, the first box alone. Without
-any of them a table does, boxes.csv; see :mod:`tricue.data.box_table`.
+Princeton's are <sequence>.txt, which is public for few sequences, and init.txt, the first box alone. Folders
+without any of them may have a table, boxes.csv; see :mod:`tricue.data.box_table`.
 """
 
 import re
@@ -13,18 +13,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-OTB, VOT, PTB_FIRST = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
-ABSENT = "absent.tag"  # VOT's: a line a frame, 1 where the target can't be seen
-DEPTHS = "position_z_mm.txt"  # a line a frame, the target's median depth in millimetres, 0 or NaN if unknown
-_OTB_TARGET = re.compile(r"groundtruth_rect\.(\d+)\.txt")  # where a folder's targets have a file each
+OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth.txt", "init.txt"
+ABSENT_TAG = "absent.tag"  # VOT's: one line per frame, 1 where the target can't be seen
+MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
+DEPTHS_FILE = (
+    "position_z_mm.txt"  # one line per frame: the target's median depth in millimetres, 0 or NaN if unknown
+)
+_OTB_TARGET_TRUTH = re.compile(r"groundtruth_rect\.(\d+)\.txt")  # in folders with several targets
 
 
 class Truth(NamedTuple):
-    """What is known of the target, a row a frame; frames behind the last row are unknown.
+    """What is known of the target, one row per frame; frames after the last row are unknown.
 
-    boxes: (M, 4) x, y, width, height, pixels from 0, NaN where absent or unknown. absent: (M,) whether it is
-    known that the target can't be seen. positions: (K, 3) X, Y, Z in metres in the camera's frame, NaN where
-    unknown; None where nothing tells them.
+    boxes: (M, 4) x, y, width, height, pixels from 0, NaN where absent or unknown. absent: (M,) whether the
+    target is known to be out of sight. positions: (K, 3) X, Y, Z in metres in the camera's frame, NaN where
+    unknown; None without any.
     """
 
     boxes: NDArray[np.float64]
@@ -32,8 +35,8 @@ class Truth(NamedTuple):
     positions: NDArray[np.float64] | None = None
 
 
-def truth_of(boxes: ArrayLike, positions: NDArray[np.float64] | None = None) -> Truth:
-    """The truth of rows that a file has: a box with NaN, or without width or height, says "absent"."""
+def truth_from_rows(boxes: ArrayLike, positions: NDArray[np.float64] | None = None) -> Truth:
+    """The truth from the rows (M, 4) of a file: a row with NaN, or a width or height of 0, means absent."""
     rows = np.array(boxes, np.float64).reshape(-1, 4)
     there = np.isfinite(rows).all(axis=1) & (rows[:, 2:] > 0).all(axis=1)
     absent: NDArray[np.bool_] = np.logical_not(there)
@@ -42,60 +45,60 @@ def truth_of(boxes: ArrayLike, positions: NDArray[np.float64] | None = None) -> 
 
 
 def find_truth(folder: Path, target: str | None = None) -> Truth | None:
-    """The truth of a sequence folder by OTB or VOT, with what lies beside it; None without such a file.
+    """The truth of a sequence folder by OTB or VOT, with the tags and depths beside it; None without a file.
 
-    target: one of :func:`otb_targets`; by default the first, where there is no file for a single one.
+    target: one of :func:`otb_targets`. By default the file without a number, else that of the first target.
     ValueError names the file and its line, or the targets that there are.
     """
     path = _truth_path(folder, target)
-    return None if path is None else completed(read_boxes(path), folder)
+    return None if path is None else add_tags_and_depths(read_truth_file(path), folder)
 
 
-def find_ptb_truth(folder: Path) -> Truth | None:
-    """The same for a sequence of the Princeton Tracking Benchmark, whose lines go on behind the box."""
-    names = (f"{folder.resolve().name}.txt", PTB_FIRST)
+def find_princeton_truth(folder: Path) -> Truth | None:
+    """The truth of a sequence of the Princeton Tracking Benchmark; its lines hold more than the box."""
+    names = (f"{folder.resolve().name}.txt", PRINCETON_FIRST_BOX)
     path = next((folder / name for name in names if (folder / name).is_file()), None)
-    return None if path is None else completed(read_boxes(path, count=4), folder)
+    return None if path is None else add_tags_and_depths(read_truth_file(path, count=4), folder)
 
 
 def otb_targets(folder: Path) -> tuple[str, ...]:
-    """The numbers in the names groundtruth_rect.1.txt and so on, of OTB's folders with several targets."""
-    names = (_OTB_TARGET.fullmatch(path.name) for path in folder.iterdir())
+    """The numbers in the file names groundtruth_rect.1.txt, ... of OTB's folders with several targets."""
+    names = (_OTB_TARGET_TRUTH.fullmatch(path.name) for path in folder.iterdir())
     return tuple(sorted((name[1] for name in names if name), key=int))
 
 
-def completed(truth: Truth, folder: Path) -> Truth:
-    """The truth with VOT's tag of absent frames and the file of depths, where they lie in the folder."""
-    if (folder / ABSENT).is_file():
-        truth = _tagged(truth, _read_tag(folder / ABSENT))
-    if truth.positions is None and (folder / DEPTHS).is_file():
-        depths = _read_depths(folder / DEPTHS)
+def add_tags_and_depths(truth: Truth, folder: Path) -> Truth:
+    """Add VOT's tags of absent frames and the file of depths, where the folder has them."""
+    if (folder / ABSENT_TAG).is_file():
+        truth = _apply_tag(truth, _read_tag(folder / ABSENT_TAG))
+    if truth.positions is None and (folder / DEPTHS_FILE).is_file():
+        depths = _read_depths(folder / DEPTHS_FILE)
         unknown = np.full(len(depths), np.nan)
         truth = truth._replace(positions=np.stack([unknown, unknown, depths], axis=1))
     return truth
 
 
-def read_truth(path: Path, count: int | None = None) -> NDArray[np.float64]:
-    """The boxes of :func:`read_boxes` alone, (M, 4)."""
-    return read_boxes(path, count).boxes
+def read_true_boxes(path: Path, count: int | None = None) -> NDArray[np.float64]:
+    """Only the boxes (M, 4) of :func:`read_truth_file`."""
+    return read_truth_file(path, count).boxes
 
 
-def read_boxes(path: Path, count: int | None = None) -> Truth:
-    """A row x, y, width, height a line, pixels counted from 0.
+def read_truth_file(path: Path, count: int | None = None) -> Truth:
+    """Read a file with one box per line: x, y, width, height; the result counts pixels from 0.
 
-    Commas, tabs, semicolons or blanks part the numbers. VOT's polygons become the boxes round them, its masks
-    their box. count: how many numbers of a line are read, by default all. ValueError names a line that holds
+    Commas, tabs, semicolons or blanks separate the numbers. VOT's polygons and masks become their bounding
+    boxes. count: how many numbers of a line are read, by default all. ValueError names a line that holds
     anything else.
     """
-    numbered = enumerate(text_lines(path), 1)
-    truth = truth_of([_box(line, f"{path}, line {number}", count) for number, line in numbered])
-    if path.name == OTB or _OTB_TARGET.fullmatch(path.name):
+    numbered = enumerate(read_lines(path), 1)
+    truth = truth_from_rows([_box(line, f"{path}, line {number}", count) for number, line in numbered])
+    if path.name == OTB_TRUTH or _OTB_TARGET_TRUTH.fullmatch(path.name):
         return truth._replace(boxes=truth.boxes - [1, 1, 0, 0])
     return truth
 
 
-def text_lines(path: Path) -> list[str]:
-    """The lines of a text file without the empty ones at its end, whatever its bytes are."""
+def read_lines(path: Path) -> list[str]:
+    """The lines of a text file without empty ones at its end; bytes that aren't UTF-8 are replaced."""
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
     while lines and not lines[-1].strip():
         lines.pop()
@@ -103,7 +106,7 @@ def text_lines(path: Path) -> list[str]:
 
 
 def _truth_path(folder: Path, target: str | None) -> Path | None:
-    names, several = [OTB, VOT], otb_targets(folder)
+    names, several = [OTB_TRUTH, VOT_TRUTH], otb_targets(folder)
     if target is not None:
         check_target(target, several, folder)
         names = [f"groundtruth_rect.{target}.txt"]
@@ -113,7 +116,7 @@ def _truth_path(folder: Path, target: str | None) -> Path | None:
 
 
 def check_target(target: str, known: Sequence[str], folder: Path) -> None:
-    """ValueError, which lists the known ones, where the folder has no such target."""
+    """Raise ValueError where the folder has no such target; it lists the known ones."""
     if target not in known:
         listed = f"one of {', '.join(map(repr, known))}" if known else "none, for it has one target"
         raise ValueError(f"{folder}: expected target to be {listed}, got {target!r}")
@@ -137,8 +140,8 @@ def _box(line: str, place: str, count: int | None) -> tuple[float, ...]:
     raise ValueError(f"{place}: expected four numbers x, y, width, height, got {line.strip()!r:.60}")
 
 
-def _tagged(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
-    """The truth, absent too in the tagged frames; a tag that goes on behind the boxes lengthens them."""
+def _apply_tag(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
+    """The truth with tagged frames absent too; tags beyond the last box lengthen it."""
     count = max(len(truth.boxes), len(tag))
     boxes, absent = np.full((count, 4), np.nan), np.zeros(count, np.bool_)
     boxes[: len(truth.boxes)], absent[: len(truth.absent)] = truth.boxes, truth.absent
@@ -148,7 +151,7 @@ def _tagged(truth: Truth, tag: NDArray[np.bool_]) -> Truth:
 
 
 def _read_tag(path: Path) -> NDArray[np.bool_]:
-    words = [line.strip() for line in text_lines(path)]
+    words = [line.strip() for line in read_lines(path)]
     for number, word in enumerate(words, 1):
         if word not in ("0", "1"):
             raise ValueError(
@@ -158,9 +161,9 @@ def _read_tag(path: Path) -> NDArray[np.bool_]:
 
 
 def _read_depths(path: Path) -> NDArray[np.float64]:
-    """Metres, NaN where unknown."""
+    """Depths (M,) in metres, NaN where unknown."""
     depths = []
-    for number, line in enumerate(text_lines(path), 1):
+    for number, line in enumerate(read_lines(path), 1):
         try:
             depth = float(line)
         except ValueError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""TUM's RGB-D folders: rgb.txt and depth.txt list times and files; groundtruth.txt is the camera's path.
+"""TUM's RGB-D folders: rgb.txt and depth.txt list times and files; groundtruth.txt has the camera's poses.
 
 Source: Sturm, Engelhard, Endres, Burgard, Cremers, "A Benchmark for the Evaluation of RGB-D SLAM Systems",
 IROS 2012, and the file formats on its page.
@@ -12,43 +12,46 @@ from pathlib import Path
 import numpy as np
 
 from tricue.data.depth_images import DepthReader
-from tricue.data.streams import Stream, Timed, timed_images
+from tricue.data.streams import Stream, TimedPaths, timed_images
 
-SCALE = 1 / 5000  # metres per unit; the format's definition, as the next
-APART = 0.02  # seconds, within which a color and a depth image belong together
-LISTS = {"color": "rgb.txt", "depth": "depth.txt"}
+TUM_METRES_PER_UNIT = 1 / 5000  # by the format's definition, as the next
+MAX_TIME_DIFFERENCE = 0.02  # seconds between a color and a depth image of one frame
+LIST_FILES = {"color": "rgb.txt", "depth": "depth.txt"}
 
 
 def is_tum(folder: Path) -> bool:
-    """Whether one of the lists lies in the folder."""
-    return any((folder / name).is_file() for name in LISTS.values())
+    """Whether the folder has one of the lists."""
+    return any((folder / name).is_file() for name in LIST_FILES.values())
 
 
-def channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream], tuple[str, ...]]:
-    """The images that belong together, or those of the only list; with notes on what was left out.
+def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream], tuple[str, ...]]:
+    """Color and depth images paired by time, or those of the only list, and notes on what was left out.
 
-    scale: metres per unit of depth, where the files don't keep to the format's.
+    scale: metres per unit of depth, where the files don't follow the format.
     """
-    color, depth = (_read_list(folder / name) for name in LISTS.values())
-    reader = DepthReader(SCALE if scale is None else scale)
+    color, depth = (_read_list(folder / name) for name in LIST_FILES.values())
+    reader = DepthReader(TUM_METRES_PER_UNIT if scale is None else scale)
     if not (color and depth):
         return {"color": timed_images(color)} if color else {"depth": timed_images(depth, reader)}, ()
-    pairs = _closest_pairs([time for time, _ in color], [time for time, _ in depth], APART)
-    if not pairs:
+    matches = _match_times([time for time, _ in color], [time for time, _ in depth], MAX_TIME_DIFFERENCE)
+    if not matches:
         raise ValueError(
-            f"{folder}: expected color and depth images within {APART} s of each other, found none"
+            f"{folder}: expected color and depth images within {MAX_TIME_DIFFERENCE} s of each other, "
+            "found none"
         )
     paired: dict[str, Stream] = {
-        "color": timed_images([color[i] for i, _ in pairs]),
-        "depth": timed_images([depth[j] for _, j in pairs], reader),
+        "color": timed_images([color[i] for i, _ in matches]),
+        "depth": timed_images([depth[j] for _, j in matches], reader),
     }
-    alone = len(color) - len(pairs)
-    note = f"left out {alone} of {len(color)} color images, with no depth image within {APART} s"
+    alone = len(color) - len(matches)
+    note = (
+        f"left out {alone} of {len(color)} color images, with no depth image within {MAX_TIME_DIFFERENCE} s"
+    )
     return paired, (note,) if alone else ()
 
 
-def _read_list(path: Path) -> Timed:
-    """The times and images of a list, in the order of time; empty where there is no such file."""
+def _read_list(path: Path) -> TimedPaths:
+    """The times and images of a list, sorted by time; empty where there is no such file."""
     if not path.is_file():
         return []
     lines = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
@@ -73,18 +76,20 @@ def _entry(line: str, path: Path, number: int) -> tuple[float, Path]:
     return seconds, path.parent / name[0]
 
 
-def _closest_pairs(first: Sequence[float], second: Sequence[float], apart: float) -> list[tuple[int, int]]:
-    """Indices of times that belong together, each once, the closest first served; both are sorted."""
+def _match_times(
+    first: Sequence[float], second: Sequence[float], max_difference: float
+) -> list[tuple[int, int]]:
+    """Pairs of indices into two sorted lists of times, closest matches first; each index is used once."""
     times = np.array(second)
-    low = np.searchsorted(times, np.subtract(first, apart), "left").tolist()
-    high = np.searchsorted(times, np.add(first, apart), "right").tolist()
+    low = np.searchsorted(times, np.subtract(first, max_difference), "left").tolist()
+    high = np.searchsorted(times, np.add(first, max_difference), "right").tolist()
     close = sorted(
         (abs(first[i] - second[j]), i, j) for i in range(len(first)) for j in range(low[i], high[i])
     )
-    pairs: dict[int, int] = {}
+    matches: dict[int, int] = {}
     taken: set[int] = set()
     for _, i, j in close:
-        if i not in pairs and j not in taken:
-            pairs[i] = j
+        if i not in matches and j not in taken:
+            matches[i] = j
             taken.add(j)
-    return sorted(pairs.items())
+    return sorted(matches.items())

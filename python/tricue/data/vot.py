@@ -1,32 +1,34 @@
 # SPDX-License-Identifier: MIT
-"""VOT's folders: ``sequence`` names the channels; CDTB's and DepthTrack's come as color/ and depth/ alone."""
+"""VOT's folders: ``sequence`` lists the channels; CDTB and DepthTrack have only color/ and depth/."""
 
 import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from tricue.data.depth_images import MILLIMETRES, DepthReader
+from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
 from tricue.data.files import image_paths
-from tricue.data.streams import Images, Stream, sane_rate
-from tricue.data.truth import VOT
+from tricue.data.streams import Images, Stream, plausible_fps
+from tricue.data.truth import VOT_TRUTH
 
-SEQUENCE = "sequence"
+SEQUENCE_FILE = "sequence"
 
 
-def channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
-    """The channels, depth in millimetres unless ``scale`` says otherwise; None where it isn't VOT's."""
-    if (folder / SEQUENCE).is_file():
-        return _listed(folder, DepthReader(MILLIMETRES if scale is None else scale))
-    if (folder / VOT).is_file() and all(_counted(folder / channel) for channel in ("color", "depth")):
-        reader = DepthReader(MILLIMETRES if scale is None else scale)
+def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
+    """The folder's channels; None where it isn't VOT's. scale: metres per unit of depth, 0.001 by default."""
+    if (folder / SEQUENCE_FILE).is_file():
+        return _listed(folder, DepthReader(METRES_PER_MILLIMETRE if scale is None else scale))
+    if (folder / VOT_TRUTH).is_file() and all(
+        _has_numbered_images(folder / channel) for channel in ("color", "depth")
+    ):
+        reader = DepthReader(METRES_PER_MILLIMETRE if scale is None else scale)
         color, depth = (image_paths(folder / channel) for channel in ("color", "depth"))
         return {"color": Images(color), "depth": Images(depth, read=reader)}
     return None
 
 
 def _listed(folder: Path, reader: DepthReader) -> dict[str, Stream]:
-    """The channels by their patterns, such as color/%08d.jpg, counted from 1."""
-    lines = (folder / SEQUENCE).read_text(encoding="utf-8", errors="replace").splitlines()
+    """The channels that the file lists by patterns such as color/%08d.jpg, which count from 1."""
+    lines = (folder / SEQUENCE_FILE).read_text(encoding="utf-8", errors="replace").splitlines()
     values = {
         key.strip(): value.strip() for key, found, value in (line.partition("=") for line in lines) if found
     }
@@ -41,13 +43,13 @@ def _listed(folder: Path, reader: DepthReader) -> dict[str, Stream]:
 
 def _fps(values: Mapping[str, str]) -> float | None:
     try:
-        return sane_rate(float(values.get("fps", "")))
+        return plausible_fps(float(values.get("fps", "")))
     except ValueError:
         return None
 
 
 def _color(values: Mapping[str, str]) -> str:
-    """The pattern of the color channel, which may have another name if it is the default; "" without one."""
+    """The pattern of the channel named color, else of the default channel; "" without one."""
     default = values.get("channel.default")
     return values.get("channels.color") or (
         values.get(f"channels.{default}", "") if default != "depth" else ""
@@ -55,13 +57,13 @@ def _color(values: Mapping[str, str]) -> str:
 
 
 def _images(folder: Path, channel: str, pattern: str) -> list[Path]:
-    """The images that the pattern names, in the order of their numbers."""
+    """The images that match the pattern, sorted by number."""
     place = (folder / pattern).parent
     around = re.split(r"%\d*d", Path(pattern).name)
     if len(around) != 2 or not _is_folder(place):
         suffix = {"color": "jpg", "depth": "png"}[channel]
         raise ValueError(
-            f"{folder / SEQUENCE}: expected channels.{channel}={channel}/%08d.{suffix}, got {pattern!r}"
+            f"{folder / SEQUENCE_FILE}: expected channels.{channel}={channel}/%08d.{suffix}, got {pattern!r}"
         )
     name = re.compile(r"\d+".join(map(re.escape, around)))
     paths = [path for path in image_paths(place) if name.fullmatch(path.name)]
@@ -71,14 +73,14 @@ def _images(folder: Path, channel: str, pattern: str) -> list[Path]:
 
 
 def _is_folder(path: Path) -> bool:
-    """Whether there is such a folder; False too for a name that no file can have."""
+    """Whether there is such a folder; False also for a name that no file can have."""
     try:
         return path.is_dir()
     except (OSError, ValueError):
         return False
 
 
-def _counted(folder: Path) -> bool:
-    """Whether the images are called 00000001.jpg and so on, as all of VOT's are."""
+def _has_numbered_images(folder: Path) -> bool:
+    """Whether all images are named by eight digits, such as 00000001.jpg, as VOT's are."""
     paths = image_paths(folder) if folder.is_dir() else []
     return bool(paths) and all(re.fullmatch(r"\d{8}", path.stem) for path in paths)

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Pictures and videos of tracks."""
+"""Drawing of tracks: overlays on images, masks, paths from above, and videos."""
 
-from tricue.draw.flow_depth import block_picture, flow_depth_overlay
-from tricue.draw.overlays import (
-    STATUS_COLORS,
-    OverlayWriter,
-    depth_overlay,
-    depth_picture,
-    depth_range,
-    overlay,
-)
+from tricue.draw.canvas import STATUS_COLORS
+from tricue.draw.depth_pictures import depth_picture, depth_range
+from tricue.draw.masks import block_picture, flow_depth_overlay
+from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.paths import draw_path, path_from_above, save_path
 from tricue.draw.stereo import stereo_overlay
+from tricue.draw.video import OverlayWriter
 
 __all__ = [
     "STATUS_COLORS",
@@ -19,7 +16,10 @@ __all__ = [
     "depth_overlay",
     "depth_picture",
     "depth_range",
+    "draw_path",
     "flow_depth_overlay",
     "overlay",
+    "path_from_above",
+    "save_path",
     "stereo_overlay",
 ]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What all figures share: colors, style, a file (matplotlib, from the ``demo`` extra)."""
+"""What all matplotlib figures share: colors, style, saving (matplotlib is in the ``demo`` extra)."""
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -12,7 +12,7 @@ C = TypeVar("C")
 S = TypeVar("S")
 
 Draw = Callable[[Any, Sequence[C], Mapping[str, S]], None]
-"""Fills an empty matplotlib figure with curves C; the scenes S, from seed 0, illustrate them."""
+"""Fills an empty matplotlib figure from curves C; the scenes S, by name, illustrate them."""
 
 # Okabe and Ito's colors, which color-blind readers can tell apart.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")
@@ -27,7 +27,7 @@ STYLE: dict[Any, Any] = {
 
 
 def require() -> None:
-    """Raise ImportError that names the extra where matplotlib is missing."""
+    """Raise ImportError, which names the extra, where matplotlib is missing."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError:
@@ -35,7 +35,7 @@ def require() -> None:
 
 
 def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: Path) -> None:
-    """Draw a figure into a file."""
+    """Make a figure by ``draw`` and write it to a file."""
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
@@ -46,7 +46,7 @@ def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: P
 
 
 def draw_box(axes: Any, box: ArrayLike, color: str) -> None:
-    """Outline a box (x, y, width, height) over an image; pixel (i, j) has its centre at (j, i)."""
+    """Outline a box (x, y, width, height) over an image; pixel (i, j) has its center at (j, i)."""
     from matplotlib.patches import Rectangle
 
     x, y, width, height = np.asarray(box, np.float64).tolist()

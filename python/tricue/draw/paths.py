@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where a target went, in metres, seen from above (matplotlib, from the ``demo`` extra)."""
+"""Paths of targets in metres, seen from above (matplotlib, from the ``demo`` extra)."""
 
 import math
 from collections.abc import Iterable
@@ -13,19 +13,19 @@ from tricue.camera.rig import Intrinsics
 from tricue.draw.figures import COLORS, STYLE, require
 from tricue.track.base.track import Status, Track
 
-STATUS_COLORS = {Status.TRACKED: COLORS[2], Status.OCCLUDED: COLORS[4], Status.LOST: COLORS[1]}
-_CAMERA = 0.05  # of the depth shown: how large the camera is drawn
-_MARGIN = 1.1  # of the farthest point: how deep the field of view is drawn
+PLOT_STATUS_COLORS = {Status.TRACKED: COLORS[2], Status.OCCLUDED: COLORS[4], Status.LOST: COLORS[1]}
+_CAMERA_SYMBOL_SIZE = 0.05  # as a share of the depth shown
+_SHOWN_DEPTH = 1.1  # of the farthest point: how deep the field of view is drawn
 
 
 def path_from_above(
     tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
 ) -> Any:
-    """A matplotlib figure of the tracks' positions, x against z in metres, at one scale, from above.
+    """A matplotlib figure of the tracks' positions from above: x against z in metres, at equal scale.
 
-    The camera is at (0, 0) and looks up the page, over its field of view where ``intrinsics`` are known. The
-    color of a point is its status. truth: (N, 3) true positions, metres in the camera frame, a thin line; NaN
-    where unknown. ValueError where no track has a position.
+    The camera is at (0, 0) and looks up the page; with ``intrinsics`` its field of view is drawn. The color
+    of a point is its status. truth: (N, 3) true positions, metres in the camera frame, NaN where unknown,
+    drawn as a thin line. ValueError where no track has a position.
     """
     require()
     from matplotlib import rc_context
@@ -40,12 +40,12 @@ def path_from_above(
 def draw_path(
     axes: Any, tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
 ) -> None:
-    """The same into the axes of a figure that has others beside."""
+    """Draw what :func:`path_from_above` shows into given matplotlib axes."""
     placed = [track for track in tracks if track.position is not None]
     if not placed:
         raise ValueError("tracks: expected one with a position, got none")
     points = np.array([track.position for track in placed])
-    _draw_camera(axes, intrinsics, _MARGIN * float(np.nanmax(points[:, 2])))
+    _draw_camera(axes, intrinsics, _SHOWN_DEPTH * float(np.nanmax(points[:, 2])))
     if truth is not None:
         x, _, z = _positions(truth).T
         axes.plot(x, z, color="black", linewidth=0.8, label="truth")
@@ -65,7 +65,7 @@ def save_path(
 
 
 def check_format(path: Path) -> None:
-    """Raise ImportError where matplotlib is missing, ValueError where it can't write such a file."""
+    """Raise ImportError where matplotlib is missing, ValueError for a suffix that it can't write."""
     require()
     from matplotlib.figure import Figure
 
@@ -82,10 +82,10 @@ def _positions(truth: ArrayLike) -> NDArray[np.float64]:
 
 
 def _draw_camera(axes: Any, intrinsics: Intrinsics | None, depth: float) -> None:
-    side = _CAMERA * depth
+    side = _CAMERA_SYMBOL_SIZE * depth
     axes.fill([0, -side / 2, side / 2], [0, -side, -side], color="0.3", label="camera")
     if intrinsics is not None:
-        # The outer edges of the first and of the last pixel, whose centres are at 0 and width - 1.
+        # The outer edges of the first and of the last pixel, whose centers are at 0 and width - 1.
         edges = [(u - intrinsics.cx) / intrinsics.fx for u in (-0.5, intrinsics.width - 0.5)]
         angle = math.degrees(math.atan(edges[1]) - math.atan(edges[0]))
         left, right = (edge * depth for edge in edges)
@@ -94,7 +94,7 @@ def _draw_camera(axes: Any, intrinsics: Intrinsics | None, depth: float) -> None
 
 def _draw_path(axes: Any, points: NDArray[np.float64], statuses: list[Status]) -> None:
     axes.plot(points[:, 0], points[:, 2], color="0.6", linewidth=0.8)
-    for status, color in STATUS_COLORS.items():
+    for status, color in PLOT_STATUS_COLORS.items():
         chosen = points[[other is status for other in statuses]]
         if len(chosen):
             axes.plot(chosen[:, 0], chosen[:, 2], "o", color=color, markersize=4, label=str(status))

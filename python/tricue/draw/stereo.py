@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pictures of tracks in a stereo pair: the overlay of tricue.draw, and in a corner the target's disparity."""
+"""Overlays on stereo pairs: the left image with the track, and an inset with the target's disparity."""
 
 import math
 from typing import NamedTuple
@@ -12,45 +12,49 @@ from tricue import kernels
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
-from tricue.draw.overlays import STATUS_COLORS, Image, depth_picture, letter_size, overlay, put_text
+from tricue.draw.canvas import STATUS_COLORS, WHITE, Image, choose_font_scale, put_text, to_gray
+from tricue.draw.depth_pictures import depth_picture
+from tricue.draw.overlays import overlay
 from tricue.track.base.track import Track
 
 Disparity = NDArray[np.float32]
 
-AROUND = 1.6  # ellipses: the surround that is shown with the target
-REACH = 0.3  # of the target's disparity, as far as disparities are shown
-LEAST_REACH = 4.0  # pixels
-RESOLUTION = 160  # columns, of which an image has a step each
-WINDOW, WIDEST = 5, 31  # pixels, in an image of that resolution, and at most
-UNIQUENESS, NO_CHECK = 10, -1
-INSET = 0.35  # of the picture's height, and at most of its width
-EDGE = 8  # pixels round the inset
-_FRAME, _DARK = (255, 255, 255), 0.5
+SURROUND_SCALE = 1.6  # of the target's ellipse: the region whose disparity is shown
+DISPARITY_RANGE = 0.3  # on both sides of the target's disparity, as a share of it
+MIN_DISPARITY_RANGE = 4.0  # pixels
+COLUMNS_PER_WINDOW_STEP = 160  # the matching window grows by 2 pixels for each of them
+MATCHING_WINDOW, MAX_MATCHING_WINDOW = 5, 31  # pixels
+MATCHING_UNIQUENESS, NO_LEFT_RIGHT_CHECK = 10, -1  # as the kernel sad_disparity takes them
+MAX_INSET_SHARE = 0.35  # of the image's height and width
+INSET_MARGIN = 8  # pixels between the inset and the image's edge
+_UNMATCHED_BRIGHTNESS = 0.5
 
 
-class Patch(NamedTuple):
-    """The disparities (h, w), pixels, of a part of the left image that begins at (left, top); NaN where
-    nothing was matched, or beside the image.
+class DisparityPatch(NamedTuple):
+    """The disparities (h, w), pixels, of the part of the left image that begins at (left, top).
+
+    They are NaN where nothing was matched.
     """
 
     left: int
     top: int
     disparity: Disparity
-    expected: float  # the target's, by its position
+    expected: float  # the target's disparity, from its position
 
 
 def stereo_overlay(
     frame: Frame, track: Track, rig: StereoRig, *, truth: Box | None = None, note: str = ""
 ) -> Image:
-    """The left image with the track in it, see :func:`tricue.draw.overlay`, and an inset of the disparity.
+    """The left image with the track in it (see :func:`tricue.draw.overlay`), and an inset of its disparity.
 
     The inset shows the target and its surround: near is bright, far is dark, and where nothing was matched
-    the image itself. There is none without a position. ValueError for a frame without a pair.
+    it is the darkened image. Without a position there is no inset. truth: the true box. note: text below the
+    status. ValueError for a frame without a stereo pair.
     """
     frame.require("color", "right")
     assert frame.color is not None
     canvas = overlay(frame.color, track, truth=truth, note=note)
-    patch = disparity_round(frame, track, rig)
+    patch = measure_disparity(frame, track, rig)
     if patch is not None:
         scale = canvas.shape[0] / frame.color.shape[0]
         target = Box(*(scale * number for number in track.box))
@@ -58,10 +62,11 @@ def stereo_overlay(
     return canvas
 
 
-def disparity_round(frame: Frame, track: Track, rig: StereoRig) -> Patch | None:
-    """The disparity where a track is, and round it; None where it has no position or is beside the image.
+def measure_disparity(frame: Frame, track: Track, rig: StereoRig) -> DisparityPatch | None:
+    """The disparity of a track's target and its surround.
 
-    ValueError for a frame without a pair.
+    None where the track has no position or is outside the image. ValueError for a frame without a stereo
+    pair.
     """
     frame.require("color", "right")
     assert frame.color is not None
@@ -71,19 +76,21 @@ def disparity_round(frame: Frame, track: Track, rig: StereoRig) -> Patch | None:
     if region is None or track.position is None or not track.position[2] > 0:
         return None
     expected = rig.intrinsics.fx * rig.baseline / float(track.position[2])
-    reach = _reach(expected)
-    first, last = (min(max(0, round(end)), width) for end in (expected - reach, expected + reach))
-    window = min(WINDOW + 2 * (max(1, round(width / RESOLUTION)) - 1), WIDEST)
-    pair = _grey(frame.color), _grey(frame.right)
+    span = _disparity_range(expected)
+    first, last = (min(max(0, round(end)), width) for end in (expected - span, expected + span))
+    window = min(
+        MATCHING_WINDOW + 2 * (max(1, round(width / COLUMNS_PER_WINDOW_STEP)) - 1), MAX_MATCHING_WINDOW
+    )
+    pair = to_gray(frame.color), to_gray(frame.right)
     match = kernels.load("native").sad_disparity
-    found = match(*pair, region, False, first, last, window, UNIQUENESS, True, NO_CHECK)
-    return Patch(*region[:2], found, expected)
+    found = match(*pair, region, False, first, last, window, MATCHING_UNIQUENESS, True, NO_LEFT_RIGHT_CHECK)
+    return DisparityPatch(*region[:2], found, expected)
 
 
 def _surround(box: Box, width: int, height: int) -> tuple[int, int, int, int] | None:
-    """x0, y0, x1, y1 of a target's surround, whole pixels of an image; None outside."""
+    """The region x0, y0, x1, y1 of a target's surround, whole pixels; None where it is outside the image."""
     x, y, minor, major = box.ellipse
-    part = Box.from_ellipse(x, y, AROUND * minor, AROUND * major).clip(width, height)
+    part = Box.from_ellipse(x, y, SURROUND_SCALE * minor, SURROUND_SCALE * major).clip(width, height)
     if part.area <= 0:
         return None
     left, top = math.floor(part.x), math.floor(part.y)
@@ -91,22 +98,20 @@ def _surround(box: Box, width: int, height: int) -> tuple[int, int, int, int] | 
     return left, top, right, bottom
 
 
-def _reach(expected: float) -> float:
-    """How far from the target's disparity others are looked for and shown, pixels."""
-    return max(REACH * expected, LEAST_REACH)
+def _disparity_range(expected: float) -> float:
+    """How far from the target's disparity others are searched and shown, pixels."""
+    return max(DISPARITY_RANGE * expected, MIN_DISPARITY_RANGE)
 
 
-def _grey(image: NDArray[np.uint8]) -> Image:
-    return np.asarray(image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8)
-
-
-def _inset(image: NDArray[np.uint8], track: Track, patch: Patch, shape: tuple[int, ...]) -> Image:
-    """The patch as a picture that fits into a corner of one of a shape."""
+def _inset(image: NDArray[np.uint8], track: Track, patch: DisparityPatch, shape: tuple[int, ...]) -> Image:
+    """The patch as a BGR image that fits into a corner of an image of this shape, with the ellipse."""
     rows, columns = patch.disparity.shape
-    scale = INSET * min(shape[0] / rows, shape[1] / columns)
+    scale = MAX_INSET_SHARE * min(shape[0] / rows, shape[1] / columns)
     size = max(1, round(columns * scale)), max(1, round(rows * scale))
     part = image[patch.top : patch.top + rows, patch.left : patch.left + columns]
-    picture = np.asarray(cv2.resize(_shades(_grey(part), patch), size, interpolation=cv2.INTER_NEAREST))
+    picture = np.asarray(
+        cv2.resize(_color_patch(to_gray(part), patch), size, interpolation=cv2.INTER_NEAREST)
+    )
     x, y, minor, major = track.box.ellipse
     center = round((x - patch.left) * scale), round((y - patch.top) * scale)
     axes = round(minor * scale), round(major * scale)
@@ -114,24 +119,27 @@ def _inset(image: NDArray[np.uint8], track: Track, patch: Patch, shape: tuple[in
     return picture.astype(np.uint8, copy=False)
 
 
-def _shades(part: Image, patch: Patch) -> Image:
-    """A color a pixel (h, w, 3): of its disparity; where there is none that of the image, grey and dark."""
-    reach = _reach(patch.expected)
-    # The less a negative disparity is, the nearer, as with depth.
-    shades = depth_picture(np.negative(patch.disparity), -patch.expected - reach, -patch.expected + reach)
+def _color_patch(part: Image, patch: DisparityPatch) -> Image:
+    """The colors (h, w, 3) of the disparities; where there is none, the gray image, darkened."""
+    span = _disparity_range(patch.expected)
+    # The negative disparity grows with distance, as depth does.
+    colors = depth_picture(np.negative(patch.disparity), -patch.expected - span, -patch.expected + span)
     unseen = np.isnan(patch.disparity)
-    shades[unseen] = (part[unseen] * _DARK).astype(np.uint8)[:, None]
-    return shades
+    colors[unseen] = (part[unseen] * _UNMATCHED_BRIGHTNESS).astype(np.uint8)[:, None]
+    return colors
 
 
-def _paste(canvas: Image, inset: Image, patch: Patch, target: Box) -> None:
-    """Into a corner where the target isn't, the words in the upper left one aside; captioned."""
+def _paste(canvas: Image, inset: Image, patch: DisparityPatch, target: Box) -> None:
+    """Paste the inset with a caption into the corner that overlaps the target least.
+
+    The upper left corner isn't used, for it holds the text.
+    """
     height, width = inset.shape[:2]
-    caption = round(32 * letter_size(canvas))
-    low, right = canvas.shape[0] - height - caption - EDGE, canvas.shape[1] - width - EDGE
-    corners = (right, low), (EDGE, low), (right, EDGE)
+    caption = round(32 * choose_font_scale(canvas))
+    low, right = canvas.shape[0] - height - caption - INSET_MARGIN, canvas.shape[1] - width - INSET_MARGIN
+    corners = (right, low), (INSET_MARGIN, low), (right, INSET_MARGIN)
     left, top = min(corners, key=lambda at: target.iou(Box(at[0], at[1], width, height + caption)))
     canvas[top : top + height, left : left + width] = inset
-    cv2.rectangle(canvas, (left - 1, top - 1), (left + width, top + height), _FRAME, 1)
-    words = f"disparity {patch.expected:.1f} px"
-    put_text(canvas, words, (left, top + height + round(0.8 * caption)), _FRAME)
+    cv2.rectangle(canvas, (left - 1, top - 1), (left + width, top + height), WHITE, 1)
+    text = f"disparity {patch.expected:.1f} px"
+    put_text(canvas, text, (left, top + height + round(0.8 * caption)), WHITE)

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera import toml
-from tricue.camera.calibration_files import read_intrinsics, read_rig
 from tricue.camera.numbers import positive
+from tricue.camera.read_calibration import read_intrinsics, read_rig
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.datasets import find_sequences
-from tricue.data.layouts import targets
+from tricue.data.layouts import list_targets
 from tricue.data.open_source import Source, open_source
 from tricue.data.streams import Images, Stream, Video
 
@@ -195,7 +195,7 @@ def find_entries(root: Path, reading: Reading = Reading()) -> list[Entry]:
     entries = []
     for place in find_sequences(root):
         name = _name(root, place)
-        labelled = targets(place) if place.is_dir() else ()
+        labelled = list_targets(place) if place.is_dir() else ()
         each = [Entry(f"{name}/{target}", place, target, reading) for target in labelled]
         entries += each or [Entry(name, place, None, reading)]
     if not entries:

@@ -15,7 +15,7 @@ from pathlib import Path
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.data.prefetch import prefetched
+from tricue.data.prefetch import prefetch
 from tricue.evaluation import one_pass, restarts
 from tricue.evaluation.dataset import Entry, Opened
 from tricue.evaluation.record import Record
@@ -57,7 +57,7 @@ def perform(task: Task, ahead: int = 0) -> Record:
     """
     opened = task.entry.open()
     frames = map(task.tracker.view(opened), opened.source)
-    with closing(prefetched(frames, ahead)) if ahead else nullcontext(frames) as shown:
+    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as shown:
         return _restarted(task, opened, shown) if task.kind == RESTARTS else _one_pass(task, opened, shown)
 
 

@@ -13,7 +13,7 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.draw.overlays import depth_picture, depth_range
+from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.errors import one_line
 from tricue.evaluation import baselines
 from tricue.evaluation.one_pass import AnyTracker

@@ -1,33 +1,40 @@
 # SPDX-License-Identifier: MIT
-"""Scenes with exact truth.
+"""Rendered scenes with exact truth.
 
-Those in color are made from photographs of scikit-image (``pip install tricue[demo]``); those in depth, of
-people before a depth camera, and those in stereo, of a head or of walkers before a pair, need nothing but
-NumPy and OpenCV.
+The face scenes and the stress scenes use photographs of scikit-image (``pip install tricue[demo]``). The
+others need only NumPy and OpenCV: people before a depth camera, a head before a stereo pair, and walkers
+before a panning stereo pair.
 """
 
-from tricue.scenes.clutter import face_over_clutter
-from tricue.scenes.heads import KINDS, head
-from tricue.scenes.light import light_change
-from tricue.scenes.overtakings import OVERTAKINGS, overtaking
-from tricue.scenes.people import crossing, walker
-from tricue.scenes.photographs import BACKGROUNDS
+from tricue.scenes.faces.clutter import face_over_clutter
+from tricue.scenes.faces.light_change import light_change
+from tricue.scenes.heads.head import HEAD_KINDS, head
+from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
+from tricue.scenes.people.walkers import crossing, walker
+from tricue.scenes.rendering.photographs import BACKGROUNDS
 from tricue.scenes.scene import Bystander, DepthScene, Events, Scene, StereoScene, WalkScene
+from tricue.scenes.stress.files import write_sequence
+from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS, StressScene, stress_scene
 
 __all__ = [
     "BACKGROUNDS",
-    "KINDS",
-    "OVERTAKINGS",
+    "HEAD_KINDS",
+    "OVERTAKING_KINDS",
+    "STRESS_CHANNELS",
+    "STRESS_KINDS",
     "Bystander",
     "DepthScene",
     "Events",
     "Scene",
     "StereoScene",
+    "StressScene",
     "WalkScene",
     "crossing",
     "face_over_clutter",
     "head",
     "light_change",
     "overtaking",
+    "stress_scene",
     "walker",
+    "write_sequence",
 ]

@@ -1,23 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""Paths along which a target moves, and steps by which its brightness changes."""
+"""Random motion over time: paths in the image, smooth oscillations, and steps of brightness."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from tricue.scenes.arrays import Array
 
 
-def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
-    """A smooth nonlinear motion: (frames, 2) offsets in pixels within ±reach, no step over ``max_speed``.
+def sample_path(frames: int, reach: tuple[float, float], max_speed: float, rng: np.random.Generator) -> Array:
+    """A smooth random path: offsets (frames, 2), pixels, within ±reach, at most ``max_speed`` per frame.
 
-    Sums of two sines on each axis, their phases random and the pace uneven: fast on long stretches, slow in
-    turns. A step is never longer than the curve's longest derivative times the step in its angle, which
-    bounds the pace.
+    Each axis is a sum of two sines with random phases; the speed is uneven, lower in turns. A step is at most
+    the curve's largest derivative times the step of its parameter, which bounds the speed.
     """
     if frames < 1:
         raise ValueError(f"frames: expected 1 or more, got {frames}")
     if not (max_speed > 0 and np.isfinite(max_speed)):
-        raise ValueError(f"max_speed: expected pixels a frame above 0, got {max_speed}")
+        raise ValueError(f"max_speed: expected pixels per frame above 0, got {max_speed}")
     phases = rng.uniform(0, 2 * np.pi, (2, 2))
     size = np.array(reach)[:, None] * _SHARES
     longest = np.hypot(*_sines(np.linspace(0, 2 * np.pi, 4001), phases + np.pi / 2, size * _TURNS).T).max()
@@ -26,22 +24,29 @@ def wander(frames: int, reach: tuple[float, float], max_speed: float, rng: np.ra
 
 
 _SHARES = np.array([0.75, 0.25])
-_TURNS = np.array([[1.0, 3.0], [2.0, 3.0]])  # of each sine on each axis, for one round of the curve
+_TURNS = np.array([[1.0, 3.0], [2.0, 3.0]])  # periods of each sine on each axis, in one round of the curve
 
 
 def _sines(angle: Array, phases: Array, size: Array) -> Array:
-    """The curve at each angle, (n, 2); its derivative for phases a quarter on and sizes times their turns."""
+    """The curve (n, 2) at each angle; with phases + pi / 2 and sizes times _TURNS it is the derivative."""
     curve: Array = (size * np.sin(angle[:, None, None] * _TURNS + phases)).sum(axis=2)
     return curve
 
 
-def steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Array:
-    """A gain per frame: 1 at first, every 10 to 20 frames changed by a quarter of [low, high] or more."""
+def sample_gain_steps(frames: int, low: float, high: float, rng: np.random.Generator) -> Array:
+    """A gain per frame: 1 at first, then a jump every 10 to 20 frames, by at least a quarter of the range."""
     gains = np.ones(frames)
     start = int(rng.integers(10, 21))
     while start < frames:
-        # Adding a quarter to three quarters of a circle keeps away from where it was, on both sides.
+        # Adding a quarter to three quarters, modulo 1, keeps away from the last share on both sides.
         share = (gains[start - 1] - low) / (high - low) + rng.uniform(0.25, 0.75)
         gains[start:] = low + (share % 1.0) * (high - low)
         start += int(rng.integers(10, 21))
     return gains
+
+
+def sample_sway(time: Array, shortest: float, longest: float, rng: np.random.Generator) -> Array:
+    """A smooth oscillation (M,) within [-1, 1]: two sines with periods in this range, seconds."""
+    periods, phases = rng.uniform(shortest, longest, 2), rng.uniform(0, 2 * np.pi, 2)
+    waves: Array = np.sin(2 * np.pi * time[:, None] / periods + phases) @ [0.65, 0.35]
+    return waves

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 Image = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 
-WAVES = 60
-SHAPE = (120, 160)
+WAVE_COUNT = 60
+WAVES_SHAPE = (120, 160)
 
 
 def moving_waves(
@@ -17,13 +17,14 @@ def moving_waves(
     shift: float,
     rng: np.random.Generator,
     noise: float,
-    shape: tuple[int, int] = SHAPE,
+    shape: tuple[int, int] = WAVES_SHAPE,
 ) -> tuple[Image, Image, Floats]:
-    """Previous and current frame (H, W), and the true flow (H, W, 2), pixels, of the previous one's pixels.
+    """Previous and current frame (H, W), uint8, and the true flow (H, W, 2), pixels, at the previous one.
 
-    Waves of 4 to 40 px, amplitudes that fall as those of real surfaces, contrast that fades from full to a
-    sixth over the frame; between the frames all turns about the centre, grows, and shifts so many pixels in a
-    random direction. Each frame gets noise of its own, of a deviation in gray levels, and is rounded.
+    The texture has wavelengths of 4 to 40 pixels with the amplitudes of real surfaces. Its contrast varies
+    between one sixth and full over the frame. Between the frames it rotates about the center by ``degrees``,
+    is scaled by ``growth``, and shifts by ``shift`` pixels in a random direction. noise: standard deviation
+    in gray levels, independent in both frames.
     """
     height, width = shape
     y, x = np.mgrid[:height, :width].astype(float)
@@ -32,8 +33,11 @@ def moving_waves(
     away = shift * np.exp(2j * np.pi * rng.random())
     flow = position * turn + away - position
 
-    length = 4 * 10 ** rng.random(WAVES)
-    wave, phase = 2 * np.pi / length * np.exp(2j * np.pi * rng.random(WAVES)), 2 * np.pi * rng.random(WAVES)
+    length = 4 * 10 ** rng.random(WAVE_COUNT)
+    wave, phase = (
+        2 * np.pi / length * np.exp(2j * np.pi * rng.random(WAVE_COUNT)),
+        2 * np.pi * rng.random(WAVE_COUNT),
+    )
     weight = length**0.5 / np.sqrt(length.sum() / 2)
 
     def render(at: NDArray[np.complex128]) -> Image:

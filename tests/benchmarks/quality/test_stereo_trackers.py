@@ -130,8 +130,8 @@ def test_labels_are_read_by_target(tmp_path):
     assert (car.name, van.name) == ("Car 7", "Van 8")
     np.testing.assert_array_equal(car.frames, [0, 1])
     np.testing.assert_array_equal(car.boxes[0], [100, 50, 40, 30])
-    np.testing.assert_allclose(car.nearest, [20 - 0.8, 19 - 0.8])
-    np.testing.assert_allclose(van.nearest, [20 - 2.25])
+    np.testing.assert_allclose(car.front_depths, [20 - 0.8, 19 - 0.8])
+    np.testing.assert_allclose(van.front_depths, [20 - 2.25])
 
 
 @pytest.mark.parametrize("line", ["0 1 Car 0 0\n", _label(0, 1).replace("100", "x")])

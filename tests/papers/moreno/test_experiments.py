@@ -9,7 +9,7 @@ from tricue.papers import reproduce
 from tricue.papers.experiment import Case
 from tricue.papers.moreno import experiments as stereo_experiments
 from tricue.papers.moreno.experiments import Trial
-from tricue.scenes import KINDS
+from tricue.scenes import HEAD_KINDS
 from tricue.track.stereo_head.params import StereoHeadParams
 
 EXPERIMENT = stereo_experiments.EXPERIMENTS["moreno-fig3"]
@@ -85,7 +85,7 @@ def test_variants_differ_from_the_default_as_they_say():
 def test_scenes_are_all_kinds_and_the_noisy_and_the_large_one():
     """Every kind of head scene is run; the large pictures from a few seeds only."""
     keywords = [make.keywords for make in EXPERIMENT.scenes.values()]
-    assert {each["kind"] for each in keywords} == set(KINDS)
+    assert {each["kind"] for each in keywords} == set(HEAD_KINDS)
     assert [each["noise"] for each in keywords].count(0.3) == 1
     assert [each["camera"] for each in keywords].count("640x480") == 1
     assert set(EXPERIMENT.max_seeds) < set(EXPERIMENT.scenes)

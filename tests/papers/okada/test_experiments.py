@@ -8,7 +8,7 @@ from tricue.papers.experiment import Case
 from tricue.papers.okada import curves as walk_curves
 from tricue.papers.okada import experiments as walk_experiments
 from tricue.papers.okada import figures as walk_figures
-from tricue.scenes import OVERTAKINGS, Events, overtaking
+from tricue.scenes import OVERTAKING_KINDS, Events, overtaking
 
 EXPERIMENT = walk_experiments.EXPERIMENTS["okada-fig8"]
 CASE = Case("m", "s", 0)
@@ -79,7 +79,7 @@ def test_cues_are_both_and_each_alone():
     cues = [make.keywords.get("cues") for make in EXPERIMENT.models.values()]
     assert cues == [None, ("flow",), ("disparity",)]
     scenes = [(make.keywords["kind"], make.keywords["depth"]) for make in EXPERIMENT.scenes.values()]
-    assert sorted(scenes) == [(kind, depth) for kind in OVERTAKINGS for depth in (False, True)]
+    assert sorted(scenes) == [(kind, depth) for kind in OVERTAKING_KINDS for depth in (False, True)]
 
 
 def test_key_frames_are_in_the_scene(scene):

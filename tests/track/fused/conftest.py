@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes with everything, each drawn once, with whatever channels a test asks for."""
+"""Stress scenes, each drawn once, with whatever channels a test asks for."""
 
 from collections.abc import Callable, Sequence
 from functools import cache
@@ -21,9 +21,9 @@ ALONE = ("leaving", "lookalike")  # kinds that are drawn without a right image, 
 def drawn() -> Callable[..., object]:
     """A scene by its kind, seed and channels; "stereo" knows the rig, and all have the same truth."""
     pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
-    from tricue.scenes.stress_scene import everything
+    from tricue.scenes.stress.scene import stress_scene
 
-    draw = cache(lambda kind, seed, channels: everything(kind, seed, channels=channels))
+    draw = cache(lambda kind, seed, channels: stress_scene(kind, seed, channels=channels))
 
     def scene(kind: str, seed: int = 0, channels: str = "") -> object:
         return draw(kind, seed, channels or ("rgbd" if kind in ALONE else "stereo"))

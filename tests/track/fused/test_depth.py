@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, FusedTracker, Intrinsics, Status, Track
-from tricue.scenes.stress_scene import Scene
+from tricue.scenes.stress.scene import StressScene
 
 CHANNELS = ("rgbd", "pair", "depth")
 SLOW = {"rgbd": 0.02, "pair": 0.04, "depth": 0.02}  # of the distance, bound of the median error
@@ -24,7 +24,7 @@ SHOWN += [("rgbd", "leaving"), ("depth", "leaving")]
 class Run:
     """A scene and the tracks of a tracker that knows its cameras."""
 
-    def __init__(self, scene: Scene, frames: list[Frame]) -> None:
+    def __init__(self, scene: StressScene, frames: list[Frame]) -> None:
         camera = scene.intrinsics if scene.rig is None else None
         tracker = FusedTracker(rig=scene.rig, intrinsics=camera)
         self.scene = scene
@@ -239,7 +239,7 @@ def test_positions_scale_with_the_baseline(name, drawn, shoot):
     assert there == pytest.approx((2 if name == "pair" else 1) * here, rel=0.02)
 
 
-def last_position(frames: list[Frame], scene: Scene, rig) -> NDArray[np.float64]:
+def last_position(frames: list[Frame], scene: StressScene, rig) -> NDArray[np.float64]:
     """(3,) metres, after the last of the frames."""
     tracker = FusedTracker(rig=rig)
     tracker.init(frames[0], scene.boxes[0])

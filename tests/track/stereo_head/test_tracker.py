@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Intrinsics, Status, StereoHeadTracker, StereoRig, Track
-from tricue.scenes import StereoScene, photographs
+from tricue.scenes import StereoScene
+from tricue.scenes.rendering import photographs
 from tricue.track.stereo_head import tracker as stereo_head
 
 Floats = NDArray[np.float64]
@@ -268,11 +269,11 @@ def test_finds_the_face_of_a_photograph():
     """In a photograph of a face, seen by two cameras as if it hung at 1.2 m, a start without a box is on the
     face, at that distance.
     """
-    image = photographs.resize(photographs.photograph("astronaut"), 320, 320).astype(np.uint8)
+    image = photographs.resize(photographs.load_photograph("astronaut"), 320, 320).astype(np.uint8)
     frame = Frame(image, right=np.roll(image, -28, axis=1))
     camera = StereoRig(Intrinsics.from_fov(320, 320, 60), 0.12)
     track = StereoHeadTracker(rig=camera).init(frame)
-    x, y, width, height = (320 / 512 * number for number in photographs.FACE)
+    x, y, width, height = (320 / 512 * number for number in photographs.ASTRONAUT_FACE)
     assert track.box.iou(Box(x, y, width, height)) > 0.4
     assert track.position[2] == pytest.approx(camera.depth(28), rel=0.02)
 

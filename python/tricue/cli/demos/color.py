@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from tricue.cli.progress import Progress
 from tricue.cli.steps import Clock, steps
-from tricue.draw.overlays import OverlayWriter, overlay
+from tricue.draw.overlays import overlay
+from tricue.draw.video import OverlayWriter
 from tricue.track.base.registry import create
 
 LOST = 25.0  # pixels off the true centre, where a face counts as lost

@@ -10,7 +10,9 @@ import numpy as np
 
 from tricue.cli.demos.metric import Result, follow_all
 from tricue.cli.steps import steps
-from tricue.draw.overlays import OverlayWriter, depth_overlay, depth_range
+from tricue.draw.depth_pictures import depth_range
+from tricue.draw.overlays import depth_overlay
+from tricue.draw.video import OverlayWriter
 from tricue.scenes import DepthScene, crossing, walker
 from tricue.track.base.registry import create
 from tricue.track.base.track import Status

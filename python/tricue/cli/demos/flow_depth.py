@@ -10,8 +10,8 @@ import numpy as np
 
 from tricue.cli.demos.metric import Result, follow_all
 from tricue.cli.steps import steps
-from tricue.draw.flow_depth import flow_depth_overlay
-from tricue.draw.overlays import OverlayWriter
+from tricue.draw.masks import flow_depth_overlay
+from tricue.draw.video import OverlayWriter
 from tricue.scenes import WalkScene, overtaking
 from tricue.track.base.registry import create
 from tricue.track.base.track import Status

@@ -13,24 +13,26 @@ from tricue.camera.frame import Frame
 from tricue.cli.demos.metric import Floats, Result, follow_all
 from tricue.cli.outputs import Step
 from tricue.cli.steps import steps
-from tricue.draw.overlays import Image, OverlayWriter, depth_overlay, overlay
-from tricue.scenes.stress_scene import Scene, everything
+from tricue.draw.canvas import Image
+from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.video import OverlayWriter
+from tricue.scenes.stress.scene import StressScene, stress_scene
 from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 30.0  # the cameras'
 HELD = 0.5  # of overlap
 
-Entry = tuple[Callable[..., Scene], tuple[str, ...]]
+Entry = tuple[Callable[..., StressScene], tuple[str, ...]]
 """How to make a scene, and the channels that the tracker is shown of it."""
 
-_rgbd = lru_cache(maxsize=1)(partial(everything, "all", channels="rgbd"))  # it takes seconds to make
+_rgbd = lru_cache(maxsize=1)(partial(stress_scene, "all", channels="rgbd"))  # it takes seconds to make
 
 ENTRIES: Mapping[str, Entry] = {
     "color alone": (_rgbd, ("color",)),
     "depth alone": (_rgbd, ("depth",)),
     "color and depth": (_rgbd, ("color", "depth")),
-    "a pair": (partial(everything, "all", channels="stereo"), ("color", "right")),
+    "a pair": (partial(stress_scene, "all", channels="stereo"), ("color", "right")),
 }
 
 
@@ -51,7 +53,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _follow(options: Namespace, name: str, scene: Scene, video: OverlayWriter) -> Result[Scene]:
+def _follow(options: Namespace, name: str, scene: StressScene, video: OverlayWriter) -> Result[StressScene]:
     """Track one scene from its first true box into the video."""
     shown = ENTRIES[name][1]
     camera: dict[str, Any] = {"rig": scene.rig} if "right" in shown else {}
@@ -78,7 +80,7 @@ def _picture(step: Step, numbers: Floats, note: str) -> Image:
     return depth_overlay(step.frame.depth, step.track, truth=truth, note=note)
 
 
-def _table(results: Mapping[str, Result[Scene]]) -> str:
+def _table(results: Mapping[str, Result[StressScene]]) -> str:
     """Overlaps and errors in the frames in which at least half of the target is visible."""
     errors = f"{'median error':>14}{'90 %':>9}"
     lines = [f"{'channels':20}{'mean IoU':>10}{'IoU > 0.5':>11}{errors}{'gone: said':>12}{'frames/s':>10}"]
@@ -96,7 +98,7 @@ def _table(results: Mapping[str, Result[Scene]]) -> str:
     return "\n".join([*lines, f"\n{note}"])
 
 
-def _plot(figure: Any, results: Mapping[str, Result[Scene]]) -> None:
+def _plot(figure: Any, results: Mapping[str, Result[StressScene]]) -> None:
     """A row of each set of channels: the path from above where there is a position, beside it the overlap
     over the frames, with the names of what happens.
     """

@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from tricue.cli.progress import Progress
 from tricue.cli.steps import Clock
-from tricue.draw.overlays import OverlayWriter
+from tricue.draw.video import OverlayWriter
 from tricue.evaluation import metrics
 from tricue.papers.curves import HIDDEN_BELOW, MIN_VISIBLE
 from tricue.scenes import DepthScene, StereoScene, WalkScene
-from tricue.scenes.stress_scene import Scene
+from tricue.scenes.stress.scene import StressScene
 from tricue.track.base.track import Status, Track
 
 Floats = NDArray[np.float64]
-S = TypeVar("S", DepthScene, StereoScene, WalkScene, Scene)
+S = TypeVar("S", DepthScene, StereoScene, WalkScene, StressScene)
 
 
 @dataclass(frozen=True)

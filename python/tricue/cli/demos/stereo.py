@@ -10,8 +10,8 @@ import numpy as np
 
 from tricue.cli.demos.metric import Floats, Result, follow_all
 from tricue.cli.steps import steps
-from tricue.draw.overlays import OverlayWriter
 from tricue.draw.stereo import stereo_overlay
+from tricue.draw.video import OverlayWriter
 from tricue.scenes import StereoScene, head
 from tricue.track.base.registry import create
 from tricue.track.base.track import Status

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
-from tricue.draw.overlays import depth_picture, depth_range
+from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.errors import one_line
 from tricue.evaluation.dataset import Opened
 from tricue.evaluation.evaluate import Result

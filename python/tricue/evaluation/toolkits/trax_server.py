@@ -17,17 +17,17 @@ from typing import Any, NamedTuple
 import cv2
 
 from tricue.camera.box import Box
-from tricue.camera.calibration_files import read_intrinsics
 from tricue.camera.frame import Frame
-from tricue.data.depth_images import MILLIMETRES, DepthReader
-from tricue.data.streams import Read, read_color
+from tricue.camera.read_calibration import read_intrinsics
+from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
+from tricue.data.streams import ImageReader, read_color
 from tricue.errors import BoxError
 from tricue.track.base.registry import create, tracker_class, traits
 from tricue.track.base.track import Track, Tracker
 
 SMALLEST = 2.0  # pixels, of a box that a tracker starts on
 DECIMALS = 4  # of the protocol's boxes, which its library keeps as float32
-READERS: dict[str, Read] = {"color": read_color, "depth": DepthReader(MILLIMETRES)}
+READERS: dict[str, ImageReader] = {"color": read_color, "depth": DepthReader(METRES_PER_MILLIMETRE)}
 EXTRA = "the TraX protocol needs an extra: pip install tricue[vot]"
 
 NOWHERE = Box(0.0, 0.0, 0.0, 0.0)  # what VOT's own trackers answer where there is nothing

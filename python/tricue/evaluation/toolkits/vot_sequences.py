@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.data.depth_images import MILLIMETRES, DepthReader
+from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
 from tricue.data.open_source import Source
 from tricue.data.streams import Images, Stream, read_color
 
@@ -20,7 +20,7 @@ ANCHORS = 50  # frames from one start of the multistart experiment to the next, 
 DEEPEST = 65535  # millimetres in 16 bits
 ABSENT = "nan,nan,nan,nan"
 _SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's name of images that it reads
-_AS_THEY_ARE = {"color": read_color, "depth": DepthReader(MILLIMETRES)}
+_AS_THEY_ARE = {"color": read_color, "depth": DepthReader(METRES_PER_MILLIMETRE)}
 
 
 def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from tricue.draw.figures import COLORS
-from tricue.draw.flow_depth import block_picture
+from tricue.draw.masks import block_picture
 from tricue.papers.curves import MIN_OVERLAP, first_runs, models_of, stacked
 from tricue.papers.okada.curves import (
     FRAMES_AFTER_PASS,

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from tricue.draw.depth_pictures import depth_picture
 from tricue.draw.figures import COLORS, draw_box
-from tricue.draw.overlays import depth_picture
 from tricue.papers.curves import models_of, stacked
 from tricue.papers.plots import plot_band, shade_hidden, show_frame
 from tricue.papers.sabeti_depth.curves import DepthCurve

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""One reader for each calibration format: OpenCV's, KITTI's, the Princeton Tracking Benchmark's, TOML.
+
+The readers return checked numbers; :class:`tricue.Intrinsics` and :class:`tricue.StereoRig` are made of them.
+Many files don't hold the image's size: then ``size=(width, height)`` gives it. Errors name the file and the
+key: ValueError, or OSError for a file that isn't there.
+"""
+
+import pathlib
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from tricue.camera import toml
+from tricue.camera.numbers import pinhole, positive
+from tricue.camera.opencv_file import OpenCVFile
+from tricue.camera.types import Matrix, PathLike, Size
+
+T = TypeVar("T")
+# Names that OpenCV's samples and tutorials write. In the file of a rectified stereo pair P1 is the camera's.
+_OPENCV_KEYS = ("camera_matrix", "cameraMatrix", "K", "P1", "M1", "K1")
+
+
+class PinholeParameters(NamedTuple):
+    """A pinhole camera without distortion, all in pixels; see :class:`tricue.Intrinsics`."""
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+
+
+class RigParameters(NamedTuple):
+    """A rectified stereo rig: the camera matrix of both cameras, and the baseline in metres."""
+
+    camera: PinholeParameters
+    baseline: float
+
+
+def read_opencv_camera(
+    path: PathLike, *, key: str | None = None, size: Size | None = None
+) -> PinholeParameters:
+    """The camera matrix in a file of ``cv2.FileStorage``: YAML, XML or JSON.
+
+    key: its name in the file; by default the first of camera_matrix, cameraMatrix, K, P1, M1, K1.
+    """
+    with OpenCVFile(path) as file:
+        keys = (key,) if key else _OPENCV_KEYS
+        matrix = next((m for m in map(file.matrix, keys) if m is not None), None)
+        if matrix is None:
+            raise ValueError(f"{path}: expected a camera matrix named {' or '.join(keys)}, found none")
+        return _camera_of_matrix(matrix, size or file.size(), path)
+
+
+def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> RigParameters:
+    """The rectified rig in a file of ``cv2.FileStorage`` with P1 and P2 of ``cv2.stereoRectify``.
+
+    unit: metres per unit of the calibration board, 0.001 where its squares were given in millimetres.
+    """
+    with OpenCVFile(path) as file:
+        left, right = file.matrix("P1"), file.matrix("P2")
+        if left is None or right is None:
+            raise ValueError(
+                f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them"
+            )
+        return rig_of_projections(left, right, positive(unit, "unit", "metres"), size or file.size(), path)
+
+
+def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = None) -> PinholeParameters:
+    """A rectified camera in KITTI's calib.txt (P2) or calib_cam_to_cam.txt (P_rect_02).
+
+    camera: KITTI's number; 2 is the left color camera.
+    """
+    values = _kitti_values(path)
+    projection = _kitti_projection(values, camera, path)
+    return _camera_of_matrix(projection, size or _kitti_size(values, camera), path)
+
+
+def read_kitti_rig(
+    path: PathLike, *, cameras: tuple[int, int] = (2, 3), size: Size | None = None
+) -> RigParameters:
+    """Two rectified cameras in a KITTI calibration, left first: (2, 3) are color, (0, 1) gray."""
+    values = _kitti_values(path)
+    left, right = (_kitti_projection(values, camera, path) for camera in cameras)
+    return rig_of_projections(left, right, 1.0, size or _kitti_size(values, cameras[0]), path)
+
+
+def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
+    """The translation (3,), metres, from camera 0's frame to a rectified camera's frame.
+
+    KITTI's labels are in the frame of camera 0. The camera's projection matrix is K [I | offset].
+    """
+    matrix = _kitti_projection(_kitti_values(path), camera, path)
+    k = _camera_of_matrix(matrix, (1, 1), path)  # refuses what can't be a camera; the size plays no part
+    x, y, z = map(float, matrix[:, 3])
+    return np.array([(x - k.cx * z) / k.fx, (y - k.cy * z) / k.fy, z])
+
+
+def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> PinholeParameters:
+    """The camera matrix K in a frames.mat, which counts pixels from 1, as MATLAB does.
+
+    It takes SciPy; ValueError where that isn't installed.
+    """
+    try:
+        from scipy.io import loadmat
+    except ImportError:
+        raise ValueError(f"{path}: it takes SciPy to read it, pip install scipy") from None
+    with pathlib.Path(path).open("rb") as file:
+        try:
+            matrix = np.array(loadmat(file, simplify_cells=True)["frames"]["K"], np.float64)
+        except Exception:  # loadmat has no error of its own: zlib's, its stream's and others come through
+            raise ValueError(f"{path}: expected MATLAB's file of a struct frames with the matrix K") from None
+    if matrix.shape == (3, 3):
+        matrix[:2, 2] -= 1
+    return _camera_of_matrix(matrix, size, path)
+
+
+def read_toml_camera(
+    path: PathLike, *, table: str | None = None, size: Size | None = None
+) -> PinholeParameters:
+    """The keys fx, fy, cx, cy, and width, height unless ``size`` is given.
+
+    table: the TOML table that holds them; by default the top of the file, or its only table with fx.
+    """
+    return _toml_camera(_toml_table(path, table), size, path)
+
+
+def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None = None) -> RigParameters:
+    """The keys of :func:`read_toml_camera` and ``baseline`` in metres."""
+    values = _toml_table(path, table)
+    camera = _toml_camera(values, size, path)
+    baseline = _required(values, "baseline", path)
+    return RigParameters(camera, _name_file(path, lambda: positive(baseline, "baseline", "metres")))
+
+
+def rig_of_projections(
+    left: Matrix, right: Matrix, unit: float, size: Size | None, path: PathLike
+) -> RigParameters:
+    """The rig of two rectified cameras, from their projection matrices (3, 4).
+
+    unit: metres per unit of the matrices' last column. path: named in errors. ValueError unless both cameras
+    have one camera matrix and stand side by side, left first.
+    """
+    camera = _camera_of_matrix(left, size, path)
+    if left.shape != (3, 4) or right.shape != (3, 4):
+        raise ValueError(f"{path}: expected projection matrices (3, 4), got {left.shape} and {right.shape}")
+    if not np.allclose(left[:, :3], right[:, :3], rtol=0, atol=1e-3):
+        raise ValueError(
+            f"{path}: expected the same camera matrix in both cameras (cv2.CALIB_ZERO_DISPARITY), got two"
+        )
+    baseline, vertical = (left[:2, 3] - right[:2, 3]) / left[[0, 1], [0, 1]]
+    if abs(vertical) > abs(baseline):
+        raise ValueError(f"{path}: expected cameras side by side, got one above the other")
+    if baseline < 0:
+        raise ValueError(f"{path}: the right camera is left of the left one; swap the two cameras")
+    if baseline == 0:
+        raise ValueError(f"{path}: expected two cameras apart from each other, got baseline 0")
+    return RigParameters(camera, float(baseline) * unit)
+
+
+def _camera_of_matrix(matrix: Matrix, size: Size | None, path: PathLike) -> PinholeParameters:
+    if matrix.shape not in ((3, 3), (3, 4)):
+        raise ValueError(f"{path}: expected a camera matrix (3, 3) or (3, 4), got {matrix.shape}")
+    if size is None:
+        raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
+    fx, fy, cx, cy = map(float, (matrix[0, 0], matrix[1, 1], matrix[0, 2], matrix[1, 2]))
+    return _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, *size)))
+
+
+def _name_file(path: PathLike, check: Callable[[], T]) -> T:
+    """The value of a check, whose error gets the file's name in front."""
+    try:
+        return check()
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"{path}: {error}") from None
+
+
+def _kitti_values(path: PathLike) -> dict[str, list[float]]:
+    """The numbers of each line "key: numbers" or "key numbers"; other lines, such as dates, are left out."""
+    lines = pathlib.Path(path).read_text(encoding="utf-8", errors="replace").splitlines()
+    split = (line.replace(":", " ", 1).split() for line in lines if line.strip())
+    return {key: numbers for key, *words in split if (numbers := _numbers(words)) is not None}
+
+
+def _numbers(words: Iterable[str]) -> list[float] | None:
+    try:
+        return [float(word) for word in words]
+    except ValueError:
+        return None
+
+
+def _kitti_projection(values: Mapping[str, list[float]], camera: int, path: PathLike) -> Matrix:
+    names = (f"P{camera}", f"P_rect_{camera:02d}")
+    numbers = next((values[name] for name in names if len(values.get(name, ())) == 12), None)
+    if numbers is None:
+        raise ValueError(f"{path}: expected a line {' or '.join(names)} with 12 numbers, found none")
+    return np.reshape(numbers, (3, 4))
+
+
+def _kitti_size(values: Mapping[str, list[float]], camera: int) -> Size | None:
+    size = values.get(f"S_rect_{camera:02d}")
+    return (round(size[0]), round(size[1])) if size and len(size) == 2 else None
+
+
+def _toml_table(path: PathLike, table: str | None) -> Mapping[str, Any]:
+    values = toml.read(path)
+    tables = {name: value for name, value in values.items() if isinstance(value, dict) and "fx" in value}
+    if table is None and "fx" in values:
+        return values
+    if table is None and len(tables) == 1:
+        return next(iter(tables.values()))
+    if table not in tables:
+        known = ", ".join(map(repr, tables)) or "none with the key fx"
+        raise ValueError(f"{path}: expected table to be one of its tables ({known}), got {table!r}")
+    return tables[table]
+
+
+def _toml_camera(values: Mapping[str, Any], size: Size | None, path: PathLike) -> PinholeParameters:
+    if size is None and not ("width" in values and "height" in values):
+        raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
+    fx, fy, cx, cy = (_required(values, key, path) for key in ("fx", "fy", "cx", "cy"))
+    width, height = size or (values["width"], values["height"])
+    return _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, width, height)))
+
+
+def _required(values: Mapping[str, Any], key: str, path: PathLike) -> Any:
+    if key not in values:
+        raise ValueError(f"{path}: expected the key {key}, found {', '.join(values)}")
+    return values[key]

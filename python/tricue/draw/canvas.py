@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""Drawing on images with OpenCV: enlarged copies, boxes, ellipses, dots, text."""
+
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tricue.camera.box import Box
+from tricue.track.base.track import Status
+
+Image = NDArray[np.uint8]
+Color = tuple[int, int, int]
+"""BGR."""
+
+STATUS_COLORS: dict[Status, Color] = {  # they differ in lightness too, for red-green color blindness
+    Status.TRACKED: (90, 220, 60),
+    Status.OCCLUDED: (0, 160, 250),
+    Status.LOST: (80, 60, 255),
+}
+WHITE, BLACK = (255, 255, 255), (0, 0, 0)
+MIN_ROWS = 480  # smaller images are enlarged, so that lines and letters stay fine
+MAX_DRAWN_COORDINATE = 30000  # pixels, which OpenCV's integers can hold
+_FONT = cv2.FONT_HERSHEY_SIMPLEX
+
+
+def to_bgr(image: NDArray[Any]) -> Image:
+    """An image, BGR (H, W, 3) or gray (H, W), as BGR; a BGR image itself, not a copy."""
+    return np.asarray(cv2.cvtColor(image, cv2.COLOR_GRAY2BGR) if image.ndim == 2 else image, np.uint8)
+
+
+def to_gray(image: NDArray[Any]) -> Image:
+    """An image, BGR (H, W, 3) or gray (H, W), as gray; a gray image itself, not a copy."""
+    return np.asarray(image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), np.uint8)
+
+
+def choose_scale(rows: int) -> int:
+    """The whole number by which an image of so many rows is enlarged before it is drawn on."""
+    return max(1, MIN_ROWS // rows)
+
+
+def enlarge(image: NDArray[Any], scale: int, interpolation: int) -> Image:
+    """A copy as BGR, enlarged by a whole number. interpolation: one of cv2.INTER_*."""
+    color = to_bgr(image)
+    large = (
+        cv2.resize(color, None, fx=scale, fy=scale, interpolation=interpolation)
+        if scale > 1
+        else color.copy()
+    )
+    return np.asarray(large, np.uint8)
+
+
+def to_pixels(coordinates: ArrayLike, scale: int) -> list[int]:
+    """Image coordinates, scaled, rounded, and clipped to what OpenCV's integers can hold."""
+    scaled = np.rint(np.asarray(coordinates, np.float64) * scale)
+    return [int(n) for n in np.clip(scaled, -MAX_DRAWN_COORDINATE, MAX_DRAWN_COORDINATE)]
+
+
+def draw_box(canvas: Image, box: Box, scale: int, color: Color, thickness: int) -> None:
+    """Outline a box, given in the pixels of the image before it was enlarged by ``scale``."""
+    left, top, right, bottom = to_pixels(box.xyxy, scale)
+    cv2.rectangle(canvas, (left, top), (right - 1, bottom - 1), color, thickness, cv2.LINE_AA)
+
+
+def draw_ellipse(canvas: Image, box: Box, scale: int, color: Color) -> None:
+    """Outline the inscribed ellipse of a box."""
+    x, y, minor, major = to_pixels(box.ellipse, scale)
+    cv2.ellipse(canvas, (x, y), (minor, major), 0, 0, 360, color, 1, cv2.LINE_AA)
+
+
+def draw_dots(canvas: Image, points: NDArray[np.float64], scale: int, color: Color) -> None:
+    """A dot at each of the points (N, 2 or more), x and y first."""
+    for x, y in points[:, :2]:
+        cv2.circle(canvas, tuple(to_pixels((x, y), scale)), 2, color, -1, cv2.LINE_AA)
+
+
+def choose_font_scale(canvas: Image) -> float:
+    """OpenCV's font scale for text in an image of this height."""
+    return max(0.4, float(canvas.shape[0]) / 800)
+
+
+def put_text(canvas: Image, text: str, position: tuple[int, int], color: Color) -> None:
+    """Write outlined text whose baseline begins at (x, y), pixels, or farther left so that it fits."""
+    size = choose_font_scale(canvas)
+    (width, _), _ = cv2.getTextSize(text, _FONT, size, 1)
+    x, y = max(0, min(position[0], canvas.shape[1] - width - 2)), position[1]
+    # A thick line for the outline would be a bolder, wider font in cv2 5, whose letters lie elsewhere.
+    around = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (dx, dy) != (0, 0)]
+    for (dx, dy), ink in [*((step, BLACK) for step in around), ((0, 0), color)]:
+        cv2.putText(canvas, text, (x + dx, y + dy), _FONT, size, ink, 1, cv2.LINE_AA)
+
+
+def put_line(canvas: Image, text: str, line: int, color: Color) -> None:
+    """Write a line of text in the upper left corner; lines count from 0."""
+    size = choose_font_scale(canvas)
+    put_text(canvas, text, (round(16 * size), round(36 * size * (line + 1))), color)

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""Depth images as colors."""
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.draw.canvas import Image
+
+_DEPTH_COLORMAP = cv2.COLORMAP_CIVIDIS  # even in lightness, and readable with red-green color blindness
+
+
+def depth_picture(depth: NDArray[np.float32], near: float | None = None, far: float | None = None) -> Image:
+    """A depth image (H, W), metres, as a BGR image (H, W, 3): near is bright, far is dark, NaN is black.
+
+    near, far: the depths of the brightest and of the darkest color, metres; by default the 2nd and the 98th
+    percentile of the image. ValueError where near isn't below far.
+    """
+    if near is not None and far is not None and not near < far:
+        raise ValueError(f"near, far: expected near below far, metres, got {near} and {far}")
+    low, high = depth_range(depth) or (0.0, 1.0)
+    low, high = low if near is None else near, high if far is None else far
+    with np.errstate(invalid="ignore"):
+        closeness = (high - np.asarray(depth, np.float32)) / max(high - low, 1e-6)
+    gray = np.nan_to_num(np.clip(closeness, 0, 1) * 255).astype(np.uint8)
+    picture = cv2.applyColorMap(gray, _DEPTH_COLORMAP)
+    picture[~np.isfinite(depth)] = 0
+    return np.asarray(picture, np.uint8)
+
+
+def depth_range(depth: NDArray[np.float32]) -> tuple[float, float] | None:
+    """The 2nd and the 98th percentile of the measured depths, metres; None where nothing was measured."""
+    rows, columns = (max(1, n // 120) for n in depth.shape)  # some ten thousand pixels suffice
+    sample = depth[::rows, ::columns]
+    measured = sample[np.isfinite(sample)]
+    if measured.size == 0:
+        measured = depth[np.isfinite(depth)]
+    if measured.size == 0:
+        return None
+    low, high = np.percentile(measured, [2, 98])
+    return float(low), float(high)

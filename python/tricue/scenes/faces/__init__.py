@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Scenes of a face, made from photographs, for color trackers."""

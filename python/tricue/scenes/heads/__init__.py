@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Scenes of a head before a stereo pair."""

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""A stereo rig that pans about the vertical with constant angular velocity.
+
+The level frame is fixed to the room, with the left camera at its origin: x right, y down, z forward, metres.
+The rig rotates about the left camera's center.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.camera.rig import StereoRig
+from tricue.scenes.arrays import Array
+from tricue.scenes.people.body import rotation_about_y
+
+
+class Pan(NamedTuple):
+    """The rig, and the angle that it looks at in each of M frames."""
+
+    rig: StereoRig
+    height: float  # of the cameras above the floor, metres
+    angles: Array  # (M,) radians from z towards x
+
+    def to_camera(self, index: int) -> Array:
+        """The rotation (3, 3) from the level frame to the left camera's frame."""
+        return rotation_about_y(-float(self.angles[index]))
+
+    def on_floor(self, column: Array, depth: Array) -> Array:
+        """The places (M, 2), x and z in the level frame, at a column and a depth in each frame.
+
+        column: X / Z in the camera's frame. depth: z in the camera's frame, metres.
+        """
+        sin, cos = np.sin(self.angles), np.cos(self.angles)
+        return np.stack([(cos * column + sin) * depth, (cos - sin * column) * depth], axis=1)
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """The leftmost and the rightmost angle that the left camera sees in any frame, radians."""
+        half = math.atan(self.rig.intrinsics.width / 2 / self.rig.intrinsics.fx)
+        return float(self.angles.min()) - half, float(self.angles.max()) + half

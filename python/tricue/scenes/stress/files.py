@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""Writes a stress scene as a folder that ``tricue evaluate`` and ``tricue track`` read."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.data.box_table import BOX_TABLE
+from tricue.data.open_source import CALIBRATION_FILE
+from tricue.data.vot import SEQUENCE_FILE
+from tricue.scenes.stress.events import STRESS_FRAME_RATE
+from tricue.scenes.stress.scene import StressScene
+
+TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
+RIG_FILE = "calibration.yml"
+MIN_WRITTEN_SIDE = 1.0  # pixels; smaller boxes aren't written
+
+
+def write_sequence(scene: StressScene, folder: str | Path) -> None:
+    """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
+
+    A stereo pair goes to left/ and right/ with calibration.yml. Other scenes become a sequence of VOT with
+    color/, depth/ in millimetres, or both, and intrinsics.toml; their boxes are clipped to the image. The
+    truth goes to boxes.csv, with empty cells where nothing of the target is visible, which readers take as
+    absent. Of the times only the frame rate is kept, and of a stereo pair's not even that.
+    FileExistsError where the folder has files already.
+    """
+    folder = Path(folder)
+    if folder.exists() and any(folder.iterdir()):
+        raise FileExistsError(f"{folder}: expected a new or an empty folder")
+    pair = scene.rig is not None
+    folders = {"color": "left" if pair else "color", "right": "right", "depth": "depth"}
+    channels = scene.frames[0].channels
+    for channel in channels:
+        (folder / folders[channel]).mkdir(parents=True)
+    for number, frame in enumerate(scene.frames, 1):
+        for channel in channels:
+            _write(folder / folders[channel] / f"{number:08d}.png", getattr(frame, channel))
+    (folder / BOX_TABLE).write_text(_table(scene, clipped=not pair))
+    if scene.rig is not None:
+        _write_rig(folder / RIG_FILE, scene.rig)
+    else:
+        (folder / CALIBRATION_FILE).write_text(_toml(scene.intrinsics))
+        lines = [f"channels.{channel}={channel}/%08d.png" for channel in channels]
+        (folder / SEQUENCE_FILE).write_text(
+            "\n".join([*lines, f"fps={STRESS_FRAME_RATE:g}", f"name={scene.name}"]) + "\n"
+        )
+
+
+def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
+    """Write color as it is, and depth (float32 metres) as 16-bit millimetres, 0 where unmeasured."""
+    if image.dtype == np.float32:
+        image = np.rint(np.nan_to_num(image) * 1000).astype(np.uint16)
+    if not cv2.imwrite(str(path), image):
+        raise OSError(f"{path}: can't be written")
+
+
+def _table(scene: StressScene, clipped: bool) -> str:
+    size = scene.intrinsics.width, scene.intrinsics.height
+    lines = [TABLE_HEADER]
+    for index, row in enumerate(scene.boxes):
+        box = Box(*row.tolist())
+        written = box.clip(*size) if clipped else box
+        # A sliver at the edge, which no tracker could follow, has no box either.
+        seen = scene.visible[index] > 0 and min(written.width, written.height) >= MIN_WRITTEN_SIDE
+        cells = [f"{value:.4f}" for value in written] if seen else [""] * 4
+        place = scene.positions[index]
+        cells += [""] * 3 if np.isnan(place).any() else [f"{value:.6f}" for value in place]
+        lines.append(",".join([str(index), *cells]))
+    return "\n".join(lines) + "\n"
+
+
+def _toml(camera: Intrinsics) -> str:
+    names = ("fx", "fy", "cx", "cy", "width", "height")
+    return "".join(f"{name} = {getattr(camera, name)!r}\n" for name in names)
+
+
+def _write_rig(path: Path, rig: StereoRig) -> None:
+    """Write P1 = K [I | 0] and P2 = K [I | -b e_x], as cv2.stereoRectify gives them."""
+    left = np.hstack([rig.intrinsics.matrix, np.zeros((3, 1))])
+    right = left.copy()
+    right[0, 3] = -rig.intrinsics.fx * rig.baseline
+    storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+    storage.write("image_width", rig.intrinsics.width)
+    storage.write("image_height", rig.intrinsics.height)
+    storage.write("P1", left)
+    storage.write("P2", right)
+    storage.release()

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""The timeline of a stress scene: its length, and when its events happen."""
+
+import numpy as np
+
+from tricue.camera.rig import Intrinsics
+from tricue.scenes.arrays import Array
+from tricue.scenes.motion import sample_sway
+from tricue.scenes.stress import events
+from tricue.scenes.stress.appearance import StressCards
+from tricue.scenes.stress.events import EVENTS, STRESS_FRAME_RATE, CardPath, StressMotion
+
+FRAME_COUNTS = {
+    "plain": 120,
+    "fast": 120,
+    "light": 120,
+    "camera": 120,
+    "scale": 241,
+    "leaving": 130,
+    "hidden": 110,
+    "lookalike": 150,
+    "blank": 110,
+    "all": 300,
+}
+EVENT_LENGTHS = {"camera": 40, "light": 45, "leaving": 70, "lookalike": 65, "hidden": 42, "blank": 32}
+"""The frames that each event takes in a scene with all of them; they leave six quiet ones at the start."""
+QUIET_FRAMES = 12  # at the start of a scene with one event
+SCALE_FRAMES = 120  # in which the size changes 1:4
+MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target, in its widths per frame
+
+
+def plan_motion(
+    kind: str, camera: Intrinsics, cards: StressCards, middle: float, rng: np.random.Generator
+) -> StressMotion:
+    """The motion and the events of a scene. kind: one of FRAME_COUNTS. middle: the mean depth, metres."""
+    frames = FRAME_COUNTS[kind]
+    depth = _depth(kind, frames, middle, rng)
+    speed = MAX_FAST_SPEED if kind == "fast" else MAX_SPEED
+    paths = [
+        events.sample_card_path(camera, card, depth.copy(), speed, rng)
+        for card in (
+            cards.target,
+            cards.same_colors,
+            cards.same_structure,
+            cards.occluder,
+        )
+    ]
+    motion = StressMotion(
+        camera,
+        paths[0],
+        (paths[1], paths[2]),
+        _hide_occluder(paths[3]),
+        angles=np.zeros((frames, 2)),
+        light=np.ones((frames, 3)),
+        black=np.zeros(frames, bool),
+        in_other_room=np.zeros(frames, bool),
+        spans=_spans(kind, frames, rng),
+    )
+    for path in motion.lookalikes:
+        path.present[:] = False
+    for name, event in EVENTS.items():
+        if name in motion.spans:
+            event(motion, motion.spans[name], rng)
+    return motion
+
+
+def _spans(kind: str, frames: int, rng: np.random.Generator) -> dict[str, range]:
+    if kind in EVENTS:
+        return {kind: range(QUIET_FRAMES, frames)}
+    spans, start = {}, frames - sum(EVENT_LENGTHS.values())
+    if kind == "all":
+        for name in rng.permutation(list(EVENT_LENGTHS)).tolist():
+            spans[name] = range(start, start + EVENT_LENGTHS[name])
+            start += EVENT_LENGTHS[name]
+    return spans
+
+
+def _depth(kind: str, frames: int, middle: float, rng: np.random.Generator) -> Array:
+    """The target's depth (N,), metres: 1:4 and back, or varying by a tenth."""
+    time = np.arange(frames)
+    if kind in ("scale", "all"):
+        phase = np.pi * (rng.integers(2) if kind == "scale" else rng.random() * 2)
+        return middle * 2.0 ** np.cos(np.pi * time / SCALE_FRAMES + phase)
+    return middle * (1 + 0.1 * sample_sway(time / STRESS_FRAME_RATE, 2.0, 5.0, rng))
+
+
+def _hide_occluder(path: CardPath) -> CardPath:
+    """The occluder's path before its event: upright, and not in the scene."""
+    path.roll[:] = path.yaw[:] = 0
+    path.present[:] = False
+    return path

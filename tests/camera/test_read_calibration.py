@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tricue import Intrinsics
+from tricue.camera.read_calibration import read_intrinsics, read_registration
+
+SIZE = (640, 480)
+CAMERA = Intrinsics(500.0, 510.0, 320.0, 240.0, *SIZE)
+
+
+def toml(path: Path, text: str = "", focal: float = 500.0) -> Path:
+    """The camera's four numbers in TOML, before or after other lines."""
+    path.write_text(f"{text}fx = {focal}\nfy = 510.0\ncx = 320.0\ncy = 240.0\n")
+    return path
+
+
+def opencv(path: Path, size: tuple[int, int] | None = None) -> Path:
+    """The camera as cv2.FileStorage writes it."""
+    storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_WRITE)
+    storage.write("camera_matrix", CAMERA.matrix)
+    if size:
+        storage.write("image_width", size[0])
+        storage.write("image_height", size[1])
+    storage.release()
+    return path
+
+
+def kitti(path: Path) -> Path:
+    """The camera as P2 of a KITTI calibration."""
+    numbers = " ".join(map(str, np.column_stack([CAMERA.matrix, np.zeros(3)]).ravel()))
+    path.write_text(f"P0: {numbers}\nP2: {numbers}\n")
+    return path
+
+
+def test_every_format_is_known(tmp_path: Path) -> None:
+    """It proves that TOML, OpenCV's three and KITTI's file give the same camera, of the images' size."""
+    names = ("c.yml", "c.yaml", "c.xml", "c.json")
+    files = [opencv(tmp_path / name) for name in names]
+    files += [toml(tmp_path / "c.toml"), kitti(tmp_path / "calib.txt")]
+    files.append(opencv(tmp_path / "d.yml").rename(tmp_path / "yaml.txt"))  # known by what is in it
+    for path in files:
+        assert read_intrinsics(path, SIZE, "depth") == CAMERA, path
+
+
+def test_the_channel_chooses_the_table(tmp_path: Path) -> None:
+    """It proves that of a file's tables the one of the channel is read, and an only one whatever its name."""
+    color, depth = (toml(tmp_path / name).read_text() for name in ("a.toml", "b.toml"))
+    both = tmp_path / "both.toml"
+    both.write_text(f"[color]\n{color}[depth]\n{depth.replace('fx = 500.0', 'fx = 567.9')}")
+    assert read_intrinsics(both, SIZE, "depth").fx == 567.9
+    assert read_intrinsics(both, SIZE, "color").fx == 500.0
+    assert read_intrinsics(toml(tmp_path / "o.toml", "[color]\n"), SIZE, "depth").fx == 500.0
+
+
+@pytest.mark.parametrize("suffix", ["toml", "yml"])
+def test_another_size_is_refused(tmp_path: Path, suffix: str) -> None:
+    """It proves that a file that says it is for images of another size is an error that names both sizes."""
+    path = tmp_path / f"c.{suffix}"
+    if suffix == "toml":
+        toml(path, "width = 320\nheight = 240\n")
+    else:
+        opencv(path, (320, 240))
+    assert read_intrinsics(path, (320, 240), "depth").width == 320
+    with pytest.raises(
+        ValueError, match=r"expected .* the depth images of 640x480 pixels, got one for 320x240"
+    ):
+        read_intrinsics(path, SIZE, "depth")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("c.toml", "fx = 500\n", "c.toml: expected the key fy"),
+        ("c.toml", "fx = -1\nfy = 1\ncx = 1\ncy = 1\n", "c.toml: fx: expected pixels above 0"),
+        ("c.toml", "fx 500", "c.toml: expected a TOML file"),
+        ("c.yml", "fx: 500\n", "c.yml: expected"),
+        ("c.txt", "500 500 320 240\n", r"c.txt: expected a calibration by OpenCV .*, KITTI .* or in \.toml"),
+        ("c.bin", "", "c.bin: expected a calibration by OpenCV"),
+    ],
+)
+def test_bad_files_are_named(tmp_path: Path, name: str, text: str, message: str) -> None:
+    """It proves that a file that holds no camera is an error with its name."""
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ValueError, match=message):
+        read_intrinsics(tmp_path / name, SIZE, "depth")
+
+
+def test_a_missing_file_is_named(tmp_path: Path) -> None:
+    """It proves that a file that isn't there is an OSError, whatever its suffix."""
+    for name in ("no.toml", "no.yml", "no.txt"):
+        with pytest.raises(FileNotFoundError, match=name):
+            read_intrinsics(tmp_path / name, SIZE, "depth")
+
+
+def test_a_princeton_file_without_its_matrix_is_named(tmp_path: Path) -> None:
+    """It proves that a frames.mat that is none, is cut off or lacks K is an error that names it."""
+    io = pytest.importorskip("scipy.io")
+    whole, other, text, wide = (tmp_path / name for name in ("w.mat", "o.mat", "t.mat", "v.mat"))
+    io.savemat(whole, {"frames": {"K": CAMERA.matrix}}, do_compression=True)
+    io.savemat(other, {"frames": {"length": 3.0}})
+    io.savemat(wide, {"frames": {"K": np.ones((2, 2))}})
+    text.write_text("K = eye(3)")
+    assert read_intrinsics(whole, SIZE, "depth").fx == CAMERA.fx
+    whole.write_bytes(whole.read_bytes()[:-20])
+    for path in (whole, other, text):
+        with pytest.raises(ValueError, match=f"{path}: expected MATLAB's file of a struct frames"):
+            read_intrinsics(path, SIZE, "depth")
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.mat"):
+        read_intrinsics(tmp_path / "nowhere.mat", SIZE, "depth")
+    with pytest.raises(ValueError, match=r"v.mat: expected a camera matrix \(3, 3\)"):
+        read_intrinsics(wide, SIZE, "depth")
+
+
+def test_a_princeton_file_needs_scipy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that without SciPy the error says what to install."""
+    monkeypatch.setitem(sys.modules, "scipy.io", None)
+    with pytest.raises(ValueError, match=r"frames\.mat: it takes SciPy to read it, pip install scipy"):
+        read_intrinsics(tmp_path / "frames.mat", SIZE, "depth")
+
+
+def test_two_cameras_are_a_registration(tmp_path: Path) -> None:
+    """It proves that the tables of a depth and a color camera tell how depth comes into the color image, each
+    for its own size; the same camera twice, one camera and other formats tell that there is nothing to do.
+    """
+    depth, color = "[depth]\nscale = 0.001\n", "[color]\n"
+    path = toml(tmp_path / "c.toml", depth, 567.9)
+    assert read_registration(path, (320, 240), SIZE) is None
+    path.write_text(path.read_text() + toml(tmp_path / "d.toml", color).read_text())
+    found = read_registration(path, (320, 240), SIZE)
+    assert found is not None
+    assert found.depth == Intrinsics(567.9, 510.0, 320.0, 240.0, 320, 240)
+    assert found.color == CAMERA
+    path.write_text(path.read_text().replace("567.9", "500.0"))
+    assert read_registration(path, SIZE, SIZE) is None
+    assert read_registration(kitti(tmp_path / "calib.txt"), SIZE, SIZE) is None
+
+
+def test_a_registration_of_another_size_is_refused(tmp_path: Path) -> None:
+    """It proves that the color camera's size is checked against the color images."""
+    path = tmp_path / "c.toml"
+    tables = [toml(path, f"[{name}]\n").read_text() for name in ("depth", "color")]
+    path.write_text("".join(tables) + "width = 1280\nheight = 960\n")
+    with pytest.raises(ValueError, match="expected a calibration for the color images of 640x480"):
+        read_registration(path, SIZE, SIZE)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: MIT
+import numpy as np
+import pytest
+
+pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+
+from tricue.evaluation.dataset import find_entries
+from tricue.scenes.stress.files import write_sequence
+from tricue.scenes.stress.scene import stress_scene
+
+
+@pytest.mark.parametrize("channels", ["color", "rgbd", "stereo", "depth"])
+def test_what_is_written_is_read_back(tmp_path, channels):
+    """A data set of one scene has its frames bit for bit, its truth, who is absent, and its camera."""
+    made = stress_scene("leaving", 2, (160, 120), channels)
+    write_sequence(made, tmp_path / "scene")
+    (entry,) = find_entries(tmp_path)
+    opened, count = entry.open(), len(made.frames)
+    opened.check()
+    assert opened.group == channels
+    assert opened.start == 0
+    frames = tuple(opened.source)
+    assert len(frames) == count
+    for found, true in zip(frames, made.frames, strict=True):
+        assert found.channels == true.channels
+        for name in true.channels:
+            assert np.array_equal(getattr(found, name), getattr(true, name), equal_nan=name == "depth")
+    absent = made.visible == 0
+    assert np.array_equal(opened.absent(count), absent)
+    assert absent.sum() == 30
+    true = made.boxes if channels == "stereo" else np.array([clipped(box) for box in made.boxes])
+    true[absent] = np.nan
+    assert opened.truth(count) == pytest.approx(true, abs=1e-4, nan_ok=True)
+    assert opened.positions(count) == pytest.approx(made.positions, abs=1e-6, nan_ok=True)
+    assert opened.rig == made.rig
+    if channels in ("rgbd", "depth"):
+        assert opened.intrinsics == made.intrinsics
+        assert opened.registered
+
+
+def clipped(box):
+    """The part of a box in 160x120 pixels."""
+    ends = np.clip([box[:2], box[:2] + box[2:]], 0, [160, 120])
+    return np.concatenate([ends[0], ends[1] - ends[0]])
+
+
+def test_a_hidden_target_is_absent_but_has_a_position(tmp_path):
+    """While it is hidden the table's box is empty, and the position is told."""
+    made = stress_scene("hidden", 1, (160, 120))
+    write_sequence(made, tmp_path / "scene")
+    opened = find_entries(tmp_path)[0].open()
+    count = len(made.frames)
+    assert opened.absent(count).sum() == 20
+    assert np.isnan(opened.truth(count)).any(axis=1).sum() == 20
+    assert not np.isnan(opened.positions(count)).any()
+
+
+def test_a_full_folder_is_refused(tmp_path):
+    """Nothing is written among other files."""
+    made = stress_scene("plain", 0, (80, 80))
+    write_sequence(made, tmp_path)
+    with pytest.raises(FileExistsError, match="expected a new or an empty folder"):
+        write_sequence(made, tmp_path)
