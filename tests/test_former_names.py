@@ -4,6 +4,7 @@ import subprocess
 import sys
 
 import pytest
+from tricue import scenes
 from tricue.former_names import MODULES
 
 
@@ -33,3 +34,14 @@ def test_other_names_are_not_found() -> None:
     """A name that never was is missing as ever."""
     with pytest.raises(ModuleNotFoundError, match=r"No module named .tricue\.camera\.nothing"):
         importlib.import_module("tricue.camera.nothing")
+
+
+@pytest.mark.parametrize(
+    ("former", "present"), [("KINDS", "HEAD_KINDS"), ("OVERTAKINGS", "OVERTAKING_KINDS")]
+)
+def test_former_names_of_a_module_are_the_present_ones(former: str, present: str) -> None:
+    """What a module exported by another name is still there, with a warning."""
+    with pytest.warns(DeprecationWarning, match=rf"{former} is deprecated: it is {present} now"):
+        assert getattr(scenes, former) is getattr(scenes, present)
+    with pytest.raises(AttributeError, match="has no attribute 'SORTS'"):
+        _ = scenes.SORTS

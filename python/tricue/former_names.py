@@ -5,10 +5,11 @@ import importlib
 import importlib.util
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.abc import InspectLoader
 from importlib.machinery import ModuleSpec
 from types import CodeType, ModuleType
+from typing import Any
 
 MODULES = {
     "camera.box_table": "data.box_table",
@@ -50,6 +51,20 @@ MODULES = {
     "trax": "cli.trax",
 }
 """Former and present names, both without "tricue."."""
+
+
+def attributes(module: str, names: Mapping[str, str]) -> Callable[[str], Any]:
+    """The ``__getattr__`` of a module whose names changed; names: former and present ones."""
+
+    def former_attribute(name: str) -> Any:
+        if name not in names:
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        warnings.warn(
+            f"{module}.{name} is deprecated: it is {names[name]} now", DeprecationWarning, stacklevel=2
+        )
+        return getattr(sys.modules[module], names[name])
+
+    return former_attribute
 
 
 class _Former:

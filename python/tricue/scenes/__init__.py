@@ -6,6 +6,7 @@ others need only NumPy and OpenCV: people before a depth camera, a head before a
 before a panning stereo pair.
 """
 
+from tricue.former_names import attributes
 from tricue.scenes.faces.clutter import face_over_clutter
 from tricue.scenes.faces.light_change import light_change
 from tricue.scenes.heads.head import HEAD_KINDS, head
@@ -38,3 +39,5 @@ __all__ = [
     "walker",
     "write_sequence",
 ]
+
+__getattr__ = attributes(__name__, {"KINDS": "HEAD_KINDS", "OVERTAKINGS": "OVERTAKING_KINDS"})
