@@ -34,7 +34,10 @@ class Card(NamedTuple):
     def cut(cls, picture: NDArray[np.uint8] | Picture, outline: Array, size: tuple[float, float]) -> "Card":
         """A picture (h, w, 3) cut along an outline."""
         share = _opacity(outline, *picture.shape[:2])[..., None]
-        return cls(pyramid(np.dstack([picture * share, share]).astype(np.float32)), outline, size)
+        cut = np.empty((*picture.shape[:2], 4), np.float32)
+        np.multiply(picture, share, out=cut[..., :3])
+        cut[..., 3:] = share
+        return cls(pyramid(cut), outline, size)
 
 
 class Pose(NamedTuple):
