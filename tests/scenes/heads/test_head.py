@@ -19,7 +19,7 @@ def all_kinds(rendered):
 
 
 @pytest.fixture(scope="module")
-def stress_scene(all_kinds):
+def everything(all_kinds):
     """The same in one list."""
     return [scene for same in all_kinds.values() for scene in same]
 
