@@ -50,6 +50,8 @@ class Intrinsics:
         fy = fx if vertical_deg is None else _focal_length(height, vertical_deg, "height", "vertical_deg")
         return cls(fx, fy, (width - 1) / 2, (height - 1) / 2, width, height)
 
+    # The readers are imported in the methods, as they import cv2, which takes long to load.
+
     @classmethod
     def from_opencv(cls, path: PathLike, *, key: str | None = None, size: Size | None = None) -> "Intrinsics":
         """From a file of ``cv2.FileStorage``: the camera matrix named ``key``, or the first known name."""
