@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Fixtures that all tests share."""
 
+import functools
 import os
+import pickle
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import cv2
 import hypothesis
@@ -50,6 +54,32 @@ def vot_venv() -> Path:
     if not (folder / "bin" / "vot").is_file():
         pytest.skip(f"no VOT toolkit in {folder}; make vot installs it")
     return folder
+
+
+@pytest.fixture(scope="session")
+def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Any]:
+    """``rendered(head, 0, kind="ramp")``: the scene, rendered once in a run of the tests and then read by all
+    processes; nobody may write into it.
+    """
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent  # which all workers share
+
+    @functools.cache
+    def make(scene: Callable[..., Any], *arguments: Any, **keywords: Any) -> Any:
+        words = map(
+            str, (scene.__name__, *arguments, *(f"{key}={keywords[key]}" for key in sorted(keywords)))
+        )
+        path = folder / f"{' '.join(words)}.scene"
+        if path.is_file():
+            return pickle.loads(path.read_bytes())
+        made = scene(*arguments, **keywords)
+        part = path.with_suffix(f".{os.getpid()}")
+        part.write_bytes(pickle.dumps(made))
+        part.replace(path)
+        return made
+
+    return make
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

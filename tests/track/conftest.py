@@ -68,9 +68,9 @@ def follow() -> Follow:
 
 
 @pytest.fixture(scope="session")
-def scene() -> Scene:
+def scene(rendered: Callable[..., Scene]) -> Scene:
     """36 frames of the face over clutter."""
-    return face_over_clutter(seed=3, frames=36)
+    return rendered(face_over_clutter, seed=3, frames=36)
 
 
 @pytest.fixture(scope="session")
@@ -80,21 +80,21 @@ def run(scene: Scene, follow: Follow) -> Callable[..., list[Track]]:
 
 
 @pytest.fixture(scope="session")
-def walkers() -> list[DepthScene]:
+def walkers(rendered: Callable[..., DepthScene]) -> list[DepthScene]:
     """Four people who walk alone for six seconds."""
-    return [walker(seed) for seed in range(4)]
+    return [rendered(walker, seed) for seed in range(4)]
 
 
 @pytest.fixture(scope="session")
-def crossings() -> list[DepthScene]:
+def crossings(rendered: Callable[..., DepthScene]) -> list[DepthScene]:
     """Six people whom somebody nearer hides, in six seconds each."""
-    return [crossing(seed) for seed in range(6)]
+    return [rendered(crossing, seed) for seed in range(6)]
 
 
 @pytest.fixture(scope="session")
-def passing() -> DepthScene:
+def passing(rendered: Callable[..., DepthScene]) -> DepthScene:
     """36 frames of somebody who is hidden half way."""
-    return crossing(seed=2, frames=36)
+    return rendered(crossing, seed=2, frames=36)
 
 
 @pytest.fixture(scope="session")
@@ -125,9 +125,9 @@ def objects_of() -> Callable[..., Objects]:
 
 
 @pytest.fixture(scope="session")
-def heads() -> Callable[..., StereoScene]:
+def heads(rendered: Callable[..., StereoScene]) -> Callable[..., StereoScene]:
     """Scenes of a head before a stereo pair, by the arguments of ``head``; each is made once."""
-    return functools.cache(head)
+    return functools.partial(rendered, head)
 
 
 @pytest.fixture(scope="session")
@@ -145,9 +145,9 @@ def cover_up(covered: StereoScene, follow: Follow) -> Callable[..., list[Track]]
 
 
 @pytest.fixture(scope="session")
-def overtakings() -> Callable[..., WalkScene]:
+def overtakings(rendered: Callable[..., WalkScene]) -> Callable[..., WalkScene]:
     """Scenes of a walker who is overtaken, by the arguments of ``overtaking``; each is made once."""
-    return functools.cache(overtaking)
+    return functools.partial(rendered, overtaking)
 
 
 @pytest.fixture(scope="session")

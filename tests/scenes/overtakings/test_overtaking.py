@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import subprocess
 import sys
+from functools import cache
 
 import cv2
 import numpy as np
@@ -12,6 +13,7 @@ from tricue.scenes.overtakings.hall import Hall
 from tricue.scenes.overtakings.truth import WalkGeometry
 
 WIDTH, HEIGHT = 160, 120
+overtaking = cache(scenes.overtaking)  # for scenes that several tests look at
 
 
 @pytest.fixture(scope="module")
@@ -22,8 +24,8 @@ def clean():
 
 @pytest.fixture(scope="module")
 def stories():
-    """The plan, the people's places and all sights of 100 frames: of 3 plain seeds, and 16 varied ones."""
-    return [story(kind, seed) for kind, count in (("plain", 3), ("varied", 16)) for seed in range(count)]
+    """The plan, the people's places and all sights of 100 frames: of 2 plain seeds, and 9 varied ones."""
+    return [story(kind, seed) for kind, count in (("plain", 2), ("varied", 9)) for seed in range(count)]
 
 
 def story(kind, seed):
@@ -85,8 +87,8 @@ def test_seed_decides_everything(kind, depth):
 )
 def test_scene_is_whole(camera, shape):
     """Images, masks, flow and disparity have the camera's size; there is one of each truth a frame."""
-    scene = scenes.overtaking(1, 2, camera, kind="varied")
-    assert scene.name == f"overtaking, varied, {camera}, seed 1"
+    scene = overtaking(2, 2, camera, kind="varied")
+    assert scene.name == f"overtaking, varied, {camera}, seed 2"
     assert [frame.channels for frame in scene.frames] == [("color", "right")] * 2
     assert {frame.color.shape for frame in scene.frames} == {(*shape, 3)}
     assert [frame.timestamp for frame in scene.frames] == pytest.approx(np.arange(2) / 15)
@@ -101,7 +103,7 @@ def test_scene_is_whole(camera, shape):
 
 def test_both_cameras_see_one_world():
     """At 640x480 boxes, flow and disparity are those of 160x120, four times as long."""
-    small, large = (scenes.overtaking(2, 2, camera, kind="varied") for camera in overtakings.RAYS_PER_PIXEL)
+    small, large = (overtaking(2, 2, camera, kind="varied") for camera in overtakings.RAYS_PER_PIXEL)
     assert np.array(large.boxes) == pytest.approx(4 * np.array(small.boxes))
     np.testing.assert_allclose(large.positions, small.positions, atol=0.01)
     for name in ("disparity", "flow"):
@@ -119,7 +121,7 @@ def test_flow_takes_the_frame_before_to_this_one(kind):
 
     In frame 7 the legs are apart, so that little of one was behind the other before.
     """
-    scene = scenes.overtaking(3, 8, "640x480", kind=kind, noise=0)
+    scene = scenes.overtaking(3, 8, "640x480", kind=kind, depth=True, noise=0)
     before, now = (scene.frames[i].color.astype(np.float32) for i in (6, 7))
     flow, mask = scene.flow[7], scene.masks[7]
     v, u = np.indices(mask.shape)
@@ -151,7 +153,7 @@ def test_disparity_takes_the_right_image_to_the_left(clean):
 def test_disparities_are_those_of_the_story():
     """The target has 4 to 6 px, who overtakes 3 to 5.5 px more, the hall less, and all pixels have one."""
     for seed in range(4):
-        scene = scenes.overtaking(seed, 1, kind="varied")
+        scene = overtaking(seed, 2, "160x120", kind="varied")
         disparity = scene.disparity[0]
         intrinsics, baseline = scene.rig.intrinsics, scene.rig.baseline
         target, overtaker = (
@@ -262,9 +264,9 @@ def test_who_stands_moves_with_the_hall(stories):
         assert moved.mean() == pytest.approx(plan.pan_speed, rel=0.05, abs=0.01)
 
 
-def test_varied_scenes_vary(stories):
+def test_varied_scenes_vary():
     """Among 16 varied seeds both directions and both sides of who stands occur; pans differ."""
-    plans = [plan for plan, *_ in stories[3:]]
+    plans = [overtaking_moves.sample_plan(np.random.default_rng(seed)) for seed in range(16)]
     assert {plan.direction for plan in plans} == {-1, 1}
     assert {np.sign(plan.standing_depth_offset) for plan in plans} == {-1, 1}
     pans = [plan.pan_speed for plan in plans]
@@ -273,9 +275,9 @@ def test_varied_scenes_vary(stories):
     assert all(0 <= pan <= 0.9 for pan in pans)
 
 
-def test_limbs_move_against_the_trunk():
+def test_limbs_move_against_the_trunk(clean):
     """While the trunk walks on evenly, flow on the target differs by a pixel or more: legs and arms swing."""
-    scene = scenes.overtaking(0, 12)
+    scene = clean[0]
     spread = [np.ptp(scene.flow[i][scene.masks[i]][:, 0]) for i in range(1, 12)]
     assert max(spread) > 1.0
 
@@ -283,7 +285,7 @@ def test_limbs_move_against_the_trunk():
 def test_depth_frames_hold_the_true_depth():
     """With depth=True most pixels have a depth, some have none; off the edges errors are a sensor's."""
     scene = scenes.overtaking(2, 2, kind="varied", depth=True)
-    same = scenes.overtaking(2, 2, kind="varied")
+    same = overtaking(2, 2, "160x120", kind="varied")
     assert [frame.channels for frame in scene.frames] == [("color", "depth")] * 2
     assert scene.boxes == same.boxes
     for frame, disparity in zip(scene.frames, scene.disparity, strict=True):

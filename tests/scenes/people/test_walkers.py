@@ -13,16 +13,14 @@ SHORT = {"tof": 30, "rgbd": 60}  # two seconds
 
 @pytest.fixture(scope="module")
 def crossings():
-    """Two seconds of 20 crossings before the time-of-flight camera."""
-    return [scenes.crossing(seed, frames=30) for seed in range(20)]
+    """Two seconds of 12 crossings before the time-of-flight camera."""
+    return [scenes.crossing(seed, frames=30) for seed in range(12)]
 
 
 @pytest.fixture(scope="module")
-def walkers():
-    """Six seconds of 10 walkers before the time-of-flight camera, one second of 3 before the RGB-D one."""
-    return [scenes.walker(seed) for seed in range(10)] + [
-        scenes.walker(seed, frames=30, camera="rgbd") for seed in range(3)
-    ]
+def walkers(rendered):
+    """Six seconds of 6 walkers before the time-of-flight camera, one second of 1 before the RGB-D one."""
+    return [rendered(scenes.walker, seed) for seed in range(6)] + [scenes.walker(0, 30, "rgbd")]
 
 
 def assert_same_bits(first, second):
@@ -75,7 +73,7 @@ def test_walker_is_seen_whole_in_range_and_in_the_image(walkers):
 
 def test_walker_changes_scale_and_pose(walkers):
     """In six seconds each walker comes nearer, and the box changes its shape as arms and knees bend."""
-    for scene in walkers[:10]:
+    for scene in walkers[:6]:
         assert np.ptp(scene.positions[:, 2]) > 1.2
         ratio = np.array([box.height / box.width for box in scene.boxes])
         assert ratio.max() > 1.5 * ratio.min()
@@ -107,7 +105,7 @@ def test_positions_project_into_the_boxes(walkers, crossings):
 def test_exact_depths_at_the_target_are_the_truths():
     """Without noise and gaps, the true box is filled with depths about the true one: the body's surface."""
     for seed in range(3):
-        scene = scenes.walker(seed, frames=10, missing=0, noise=0)
+        scene = scenes.walker(seed, frames=5, missing=0, noise=0)
         for frame, box, position in zip(scene.frames, scene.visible_boxes, scene.positions, strict=True):
             x, y, width, height = box.as_int()
             part = frame.depth[y : y + height, x : x + width]
@@ -129,7 +127,7 @@ def test_only_the_visible_box_differs_from_the_empty_room():
 
 
 def test_target_is_hidden_and_comes_free(crossings):
-    """In each of 20 seeds the target is seen at first, hidden for four frames or more, and then free."""
+    """In each of 12 seeds the target is seen at first, hidden for four frames or more, and then free."""
     for scene in crossings:
         hidden = np.flatnonzero(scene.visible < 0.15)
         assert len(hidden) >= 4
@@ -149,7 +147,7 @@ def test_who_hides_is_nearer_and_who_passes_behind_is_farther(crossings):
         for others, z in zip(scene.others, target, strict=True):
             assert all(other.position[2] > z for other in others[1:])
         thirds += len(scene.others[0]) - 1
-    assert 4 <= thirds <= 16
+    assert 2 <= thirds <= 10
 
 
 def test_visible_box_is_the_part_that_is_seen(crossings):

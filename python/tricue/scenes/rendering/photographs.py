@@ -2,6 +2,7 @@
 """Photographs for scenes: those inside the scikit-image wheel, so that nothing is downloaded."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import cv2
@@ -21,14 +22,26 @@ ASTRONAUT_HEAD = Box(152, 12, 152, 176)
 
 
 def load_photograph(name: str) -> Image:
-    """One of scikit-image's photographs as BGR (H, W, 3); ImportError, which names the extra, without it."""
+    """One of scikit-image's photographs as BGR (H, W, 3), read-only, for each is decoded once.
+
+    ImportError, which names the extra, without scikit-image.
+    """
     try:
-        from skimage import data
+        import skimage  # noqa: F401
     except ImportError:
         raise ImportError("scenes: expected scikit-image to be installed: pip install tricue[demo]") from None
+    return _decode(name)
+
+
+@cache
+def _decode(name: str) -> Image:
+    from skimage import data
+
     load: Callable[[], Any] = getattr(data, "stereo_motorcycle" if name == "motorcycle" else name)
     picture = load()[0] if name == "motorcycle" else load()
-    return np.ascontiguousarray(picture[..., ::-1])
+    flipped = np.ascontiguousarray(picture[..., ::-1])
+    flipped.setflags(write=False)
+    return flipped
 
 
 def crop_background(name: str, height: int, width: int, rng: np.random.Generator) -> Image:

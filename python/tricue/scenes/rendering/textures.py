@@ -7,6 +7,7 @@ Noise whose amplitude falls with the frequency has the statistics of real surfac
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -60,13 +61,25 @@ def make_noise(
 
     Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are longer along v and u.
     """
+    spectrum = np.fft.rfft2(rng.standard_normal((height, width)))
+    spectrum /= _frequency_power(height, width, slope, stretch)
+    values = np.fft.irfft2(spectrum, s=(height, width))
+    values /= values.std()
+    return np.asarray(values, np.float32)
+
+
+@lru_cache(maxsize=32)
+def _frequency_power(
+    height: int, width: int, slope: float, stretch: tuple[float, float]
+) -> NDArray[np.float64]:
+    """frequency^slope of each coefficient of a real FFT (height, width // 2 + 1), infinite at 0; read-only."""
     v = np.fft.fftfreq(height)[:, None] * stretch[0]
     u = np.fft.rfftfreq(width)[None, :] * stretch[1]
     frequency = np.hypot(v, u)
     frequency[0, 0] = np.inf
-    spectrum = np.fft.rfft2(rng.standard_normal((height, width))) / frequency**slope
-    values = np.fft.irfft2(spectrum, s=(height, width))
-    return np.asarray(values / values.std(), np.float32)
+    power = np.asarray(frequency**slope, np.float64)
+    power.setflags(write=False)
+    return power
 
 
 def make_skin(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
@@ -137,7 +150,10 @@ def _spot(u: Picture, v: Picture, center_u: float, center_v: float, half_u: floa
 
 
 def _blend(picture: Picture, color: NDArray[np.float64], opacity: Picture) -> Picture:
-    return np.asarray(picture + opacity[..., None] * (color.astype(np.float32) - picture), np.float32)
+    blended = color.astype(np.float32) - picture
+    blended *= opacity[..., None]
+    blended += picture
+    return np.asarray(blended, np.float32)
 
 
 def make_surface(

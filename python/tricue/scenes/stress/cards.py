@@ -34,7 +34,10 @@ class Card(NamedTuple):
     ) -> "Card":
         """A card of an image (h, w, 3), cut along an outline."""
         share = _opacity(outline, *picture.shape[:2])[..., None]
-        return cls(build_pyramid(np.dstack([picture * share, share]).astype(np.float32)), outline, size)
+        cut = np.empty((*picture.shape[:2], 4), np.float32)
+        np.multiply(picture, share, out=cut[..., :3])
+        cut[..., 3:] = share
+        return cls(build_pyramid(cut), outline, size)
 
 
 class CardPose(NamedTuple):

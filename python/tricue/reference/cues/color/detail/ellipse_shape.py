@@ -44,13 +44,12 @@ def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
     columns = np.arange(shape[1]) - np.floor(x)
     rows = np.arange(shape[0]) - np.floor(y)
     x, y = x - np.floor(x), y - np.floor(y)
-    mask = np.zeros(shape, np.bool_)
-    for i, row in enumerate(rows):
-        if np.ceil(y - major - 0.5) <= row <= np.floor(y + major - 0.5):
-            v = (row + 0.5 - y) / major
-            reach = minor * np.sqrt(max(1 - v * v, 0))
-            mask[i] = (columns >= np.ceil(x - reach - 0.5)) & (columns <= np.floor(x + reach - 0.5))
-    return mask
+    with np.errstate(over="ignore"):  # far from a very flat ellipse
+        v = (rows + 0.5 - y) / major
+        reach = minor * np.sqrt(np.maximum(1 - v * v, 0))
+    first, last = np.ceil(x - reach - 0.5), np.floor(x + reach - 0.5)
+    within = (rows >= np.ceil(y - major - 0.5)) & (rows <= np.floor(y + major - 0.5))
+    return within[:, None] & (columns >= first[:, None]) & (columns <= last[:, None])
 
 
 def masks_of(ellipse: Floats, margin: float, shape: tuple[int, ...]) -> tuple[Mask, Mask]:
