@@ -286,7 +286,10 @@ def odd_pairs(left: Image, right: Image) -> dict[str, tuple[Image, Image]]:
     black, white = np.zeros_like(left), np.full_like(left, 255)
     stripes = np.tile(np.array([[[0] * 3, [255] * 3]], np.uint8), (height, width // 2, 1))
     noise = rng.integers(0, 256, (3, *left.shape), np.uint8)
-    lines = [np.where(np.arange(width)[:, None] == column, white, black) for column in (width // 2, width // 2 - 12)]
+    lines = [
+        np.where(np.arange(width)[:, None] == column, white, black)
+        for column in (width // 2, width // 2 - 12)
+    ]
     return {
         "black": (black, black),
         "white": (white, white),
