@@ -249,7 +249,7 @@ def cases(of):
 
 
 def other_kinds(tracker, name):
-    """Values that the field's type doesn't have: a switch has True, and None is one where it is the default."""
+    """Values that the field's type doesn't have: a switch has True, and some have None."""
     default = fields(tracker)[name].default
     allowed = [value for value in (True, None) if type(value) is type(default)]
     return [value for value in OTHER_KINDS if not any(value is each for each in allowed)]
