@@ -149,7 +149,7 @@ def boxes_of(case: Case, name: str) -> np.ndarray:
 
 @pytest.mark.parametrize(("case", "name"), RUNS)
 def bench_update(benchmark: Any, case: Case, name: str) -> None:
-    """A round is a frame; init is left out. Both sets of kernels give one track, but for what a case allows."""
+    """A round is a frame; init is left out. Both sets of kernels give one track, as near as the case says."""
     benchmark.group = case.group
     boxes = []
     tracker = case.started(name)

@@ -377,7 +377,8 @@ def test_params_may_come_first(tracker):
 
 @pytest.mark.parametrize("tracker", TRACKERS)
 @pytest.mark.parametrize(
-    ("seed", "error"), [(-1, ValueError), (None, TypeError), ("a", TypeError), (0.5, TypeError)]
+    ("seed", "error"),
+    [(-1, ValueError), (None, TypeError), ("a", TypeError), (0.5, TypeError), (True, TypeError)],
 )
 def test_seeds_are_whole_numbers(tracker, seed, error):
     """A seed that is no whole number from 0 up is named, also where it changes nothing; None, which would
