@@ -50,7 +50,7 @@ sanitize: $(VENV)/dev
 	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
 	    $(BIN)/python -m pytest --capture=sys $(PARALLEL) tests/camera tests/cues tests/fuse \
-	    tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+	    tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
 
 # The VOT toolkit, beside which our trackers and numbers are tested, in an environment of its own: it brings another OpenCV.
 vot: $(VOT)/bin/vot

@@ -2,6 +2,7 @@
 """Fixtures that all tests share."""
 
 import functools
+import inspect
 import os
 import pickle
 from collections.abc import Callable
@@ -66,20 +67,22 @@ def rendered(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Any]:
         folder = folder.parent  # which all workers share
 
     @functools.cache
-    def make(scene: Callable[..., Any], *arguments: Any, **keywords: Any) -> Any:
-        words = map(
-            str, (scene.__name__, *arguments, *(f"{key}={keywords[key]}" for key in sorted(keywords)))
-        )
-        path = folder / f"{' '.join(words)}.scene"
+    def make(scene: Callable[..., Any], arguments: tuple[tuple[str, Any], ...]) -> Any:
+        path = folder / " ".join((scene.__name__, *(f"{name}={value}" for name, value in arguments)))
         if path.is_file():
             return pickle.loads(path.read_bytes())
-        made = scene(*arguments, **keywords)
-        part = path.with_suffix(f".{os.getpid()}")
+        made = scene(**dict(arguments))
+        part = path.with_name(f"{path.name} of {os.getpid()}")
         part.write_bytes(pickle.dumps(made))
         part.replace(path)
         return made
 
-    return make
+    def find(scene: Callable[..., Any], *arguments: Any, **keywords: Any) -> Any:
+        bound = inspect.signature(scene).bind(*arguments, **keywords)
+        bound.apply_defaults()
+        return make(scene, tuple(bound.arguments.items()))
+
+    return find
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

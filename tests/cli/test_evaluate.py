@@ -82,20 +82,30 @@ def test_ctrl_c_and_the_same_command_again_give_the_same_tables(dataset, tmp_pat
     """Interrupted after some runs: exit code 130, no traceback; then as if nothing had happened."""
     options = [str(dataset), "--trackers", "color-particle,script-pf", "--seeds", "6", "--no-restarts"]
     assert main(["evaluate", *options, "--output", str(tmp_path / "whole")]) == 0
-    command = [*COMMAND, *options, "--jobs", jobs, "--output", str(tmp_path / "parts")]
-    child = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
-    deadline = time.monotonic() + 60
-    while len(list((tmp_path / "parts").rglob("*.json"))) < 5 and time.monotonic() < deadline:
-        time.sleep(0.01)
-    os.killpg(child.pid, signal.SIGINT)  # as a terminal does
-    _, error = child.communicate(timeout=60)
-    finished = len(list((tmp_path / "parts").rglob("*.json")))
-    assert child.returncode == 130
-    assert 5 <= finished < 48
+    for attempt in range(5):
+        parts = tmp_path / f"parts{attempt}"
+        command = [*COMMAND, *options, "--jobs", jobs, "--output", str(parts)]
+        code, error = interrupted(command, parts)
+        if code != 0:  # else a busy machine let it finish before this process could see the fifth file
+            break
+    assert code == 130
+    assert 5 <= len(list(parts.rglob("*.json"))) < 48
     assert "the same command goes on" in error
     assert "Traceback" not in error
     assert subprocess.run(command, check=False, capture_output=True).returncode == 0
-    assert rows(tmp_path / "parts") == rows(tmp_path / "whole")
+    assert rows(parts) == rows(tmp_path / "whole")
+
+
+def interrupted(command: list[str], output: Path) -> tuple[int, str]:
+    """The exit code and the standard error of a command that gets Ctrl-C when it has written five runs."""
+    child = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    deadline = time.monotonic() + 120
+    while len(list(output.rglob("*.json"))) < 5 and time.monotonic() < deadline and child.poll() is None:
+        time.sleep(0.01)
+    if child.poll() is None:
+        os.killpg(child.pid, signal.SIGINT)  # as a terminal does
+    _, error = child.communicate(timeout=120)
+    return child.returncode, error
 
 
 def test_memory_does_not_grow_with_the_length(tmp_path):

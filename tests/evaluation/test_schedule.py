@@ -80,9 +80,10 @@ def test_processes_give_what_is_finished_as_it_comes(tmp_path):
         assert all("no such file or folder" in each.error for each in found)
 
 
-def test_no_scheduler_is_told_by_its_address():
+def test_no_scheduler_is_told_by_its_address(monkeypatch):
     """Nothing listens there: OSError, not a hang."""
     pytest.importorskip("distributed", reason="needs the extra dask")
+    monkeypatch.setattr(schedule, "CONNECT_TIMEOUT", "1s")
     with pytest.raises(OSError, match=r"127\.0\.0\.1:9"):
         list(
             schedule.completed(

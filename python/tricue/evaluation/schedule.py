@@ -10,6 +10,7 @@ from tricue.evaluation.record import Record
 from tricue.evaluation.tasks import Task
 
 Perform = Callable[[Task], Record]
+CONNECT_TIMEOUT = "10s"  # to a Dask scheduler
 NEEDED = "needs the extra: pip install 'tricue[{}]'"
 
 
@@ -64,7 +65,7 @@ def _on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Genera
         from distributed import Client, as_completed
     except ImportError:
         raise ImportError(f"--scheduler {NEEDED.format('dask')}") from None
-    with Client(address, timeout="10s", set_as_default=False) as client:
+    with Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False) as client:
         indices = range(len(tasks))
         futures = [
             client.submit(finished, index, tasks[index], perform, pure=False, priority=-index)

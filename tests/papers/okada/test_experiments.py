@@ -90,14 +90,14 @@ def test_key_frames_are_in_the_scene(scene):
     assert walk_figures.key_frames(overtaking(0, frames=2)) == (1,)
 
 
-def test_both_cues_follow_through_the_occlusion():
+def test_both_cues_follow_through_the_occlusion(rendered):
     """With the default the targets of three plain scenes are tracked, reported hidden and recovered in time.
 
     Twenty of them are in docs/experiments.md; in one alone, overlaps may lie just under a half for a while,
     as they do in the first with cv2 5, whose scenes differ by a gray level here and there.
     """
     model = EXPERIMENT.models[walk_figures.BOTH]
-    curves = [walk_experiments.measure(CASE, model, overtaking(seed)) for seed in range(3)]
+    curves = [walk_experiments.measure(CASE, model, rendered(overtaking, seed)) for seed in range(3)]
     assert np.mean([curve.success for curve in curves]) >= 0.9
     for curve in curves:
         assert curve.success >= 0.8

@@ -97,11 +97,6 @@ def test_another_size_is_named(shape):
     assert tracker.update(NEXT) == EXPECTED
 
 
-def test_update_before_init_is_named():
-    """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
-    cases.assert_init_comes_first(ColorParticleTracker(), IMAGE)
-
-
 @pytest.mark.parametrize("name", VIEWS)
 def test_views_are_read_as_they_look(name):
     """Crops, mirrored and reordered views, also read-only ones, give the track of a packed copy, bit for

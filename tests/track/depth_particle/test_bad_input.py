@@ -158,11 +158,6 @@ def test_what_is_no_camera_is_named(camera):
         DepthParticleTracker(intrinsics=camera)
 
 
-def test_update_before_init_is_named():
-    """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
-    cases.assert_init_comes_first(DepthParticleTracker(), Frame(depth=DEPTH))
-
-
 GAPS = {"NaN": np.nan, "0": 0, "negative": -2.5, "infinite": np.inf, "minus infinite": -np.inf}
 
 

@@ -1,63 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""The parameters of the flow and depth tracker: what is refused, that they come back from a file, and that
+"""The parameters of the flow and depth tracker: that they come back from a file, and that
 the paper's own form runs.
 """
 
-import dataclasses
 import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import tricue
 from tricue import FlowDepthTracker, Frame, Status, Track
 from tricue.scenes import WalkScene
 
 Params = FlowDepthTracker.Params
-FIELDS = {field.name: field for field in dataclasses.fields(Params)}
 
-REFUSED: dict[str, tuple[Any, ...]] = {
-    "cues": ((), ("depth",), ("flow", "flow"), ("flow", "disparity", "flow"), "flow"),
-    "resolution": (31, 0, -1),
-    "vergence": (-45, 45, 90),
-    "sigma": (0, 0.49, 8.1),
-    "flow_levels": (0, 7),
-    "min_angle": (-0.1, 1.1),
-    "min_contrast": (-0.1,),
-    "disparity_levels": (0, 7),
-    "bins": (7, 513),
-    "smoothing": (0, 8.1),
-    "ripple": (-0.1, 1),
-    "flow_reach": (0.009, 0, -1),
-    "depth_reach": (0.009, 0, -1),
-    "flow_change": (0, -1),
-    "depth_change": (0, -1),
-    "surround": (-0.1, 1),
-    "margin": (-0.1, 2.1),
-    "memory": (-0.1, 1),
-    "posterior": (0, 1.1),
-    "posterior_alone": (0, 1.1),
-    "neighbours": (-1, 9),
-    "block": (0, 1.1),
-    "share": (0, 1.1),
-    "votes": (0, -1),
-    "against": (0, -1),
-    "nearer": (0, -1),
-    "similar": (0, -1),
-    "thickness": (-0.1, 1),
-    "sharp": (0, 1.1),
-    "idle": (0, -1),
-    "covered": (0, 1.1),
-    "few": (0, 1.1),
-    "again": (0, 1.1),
-    "unsure": (-0.1,),
-    "lost_after": (-0.1,),
-    "rate": (0, -30),
-    "place_noise": (0, -1),
-    "disparity_noise": (0, -1),
-    "agility": (0, -1),
-}
 
 PAPER: dict[str, Any] = {
     "flow_levels": 1,
@@ -82,79 +38,9 @@ def assert_sane(tracks: list[Track]) -> None:
             assert np.linalg.eigvalsh(track.covariance).min() > 0
 
 
-def test_every_field_has_its_bad_values():
-    """The table above names every field there is: a new one must be tried too."""
-    assert set(REFUSED) == set(FIELDS)
-
-
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, value) for name, values in REFUSED.items() for value in values]
-)
-def test_values_out_of_range_are_named(name, value):
-    """A value out of range is an error that begins with the field's name, before any frame."""
-    with pytest.raises((TypeError, ValueError), match=f"^{name}: expected"):
-        FlowDepthTracker(**{name: value})
-
-
-@pytest.mark.parametrize("name", FIELDS)
-@pytest.mark.parametrize("value", [..., "many", float("nan"), b"1", [None, None], True, None], ids=repr)
-def test_values_of_another_kind_are_named(name, value):
-    """Whatever isn't a value of the field's type, NaN and True included, is an error that begins with its
-    name.
-    """
-    with pytest.raises((TypeError, ValueError), match=f"^{name}: expected"):
-        FlowDepthTracker(**{name: value})
-
-
-@pytest.mark.parametrize("name", [n for n, f in FIELDS.items() if isinstance(f.default, float)])
-def test_numbers_are_finite(name):
-    """An infinite number is a ValueError that begins with the field's name, whatever its range."""
-    for value in (float("inf"), -float("inf")):
-        with pytest.raises(ValueError, match=f"^{name}: expected"):
-            FlowDepthTracker(**{name: value})
-
-
-def test_unknown_names_are_errors():
-    """A misspelt parameter is a TypeError that proposes the right one."""
-    with pytest.raises(TypeError, match=r"^cue: unknown parameter of .*did you mean cues"):
-        FlowDepthTracker(cue=("flow",))
-
-
-def test_params_and_keywords_are_the_same(overtaken: WalkScene, walk_on):
-    """Parameters by params=, by keywords and through create() give one track; both ways at once are an
-    error.
-    """
-    assert walk_on(params=Params(bins=32)) == walk_on(bins=32) != walk_on()
-    tracker = tricue.create("flow-depth", seed=3, bins=32, rig=overtaken.rig)
-    assert isinstance(tracker, FlowDepthTracker)
-    assert (tracker.seed, tracker.params, tracker.rig) == (3, Params(bins=32), overtaken.rig)
-    with pytest.raises(TypeError, match=r"^params: expected alone, got also bins"):
-        FlowDepthTracker(params=Params(), bins=32)
-    for other in ({}, tricue.ColorParticleTracker.Params()):
-        with pytest.raises(TypeError, match=r"^params: expected FlowDepthParams, got "):
-            FlowDepthTracker(params=other)
-
-
 def test_the_order_of_cues_does_not_matter(walk_on):
     """Both cues are both cues, whichever is named first."""
     assert walk_on(cues=("disparity", "flow")) == walk_on(cues=["flow", "disparity"]) == walk_on()
-
-
-@pytest.mark.parametrize(
-    ("seed", "error"), [(-1, ValueError), (None, TypeError), ("a", TypeError), (0.5, TypeError)]
-)
-def test_seeds_are_whole_numbers(seed, error):
-    """A seed that is no whole number from 0 up is named, though it changes nothing."""
-    with pytest.raises(error, match=r"^seed: expected"):
-        FlowDepthTracker(seed=seed)
-    assert FlowDepthTracker(seed=np.int64(5)).seed == 5
-
-
-@pytest.mark.parametrize("name", ["", "cuda", None, []])
-def test_kernels_are_native_or_reference(name):
-    """Another set of kernels is a ValueError that names both."""
-    with pytest.raises(ValueError, match=r"^kernels: expected 'native' or 'reference'"):
-        FlowDepthTracker(kernels=name)
 
 
 @pytest.mark.parametrize(
@@ -178,12 +64,6 @@ def test_a_file_is_checked_as_keywords_are(text, message, tmp_path: Path):
     (tmp_path / "params.toml").write_text(text)
     with pytest.raises(ValueError, match=rf"params.toml: {message}"):
         Params.from_toml(tmp_path / "params.toml")
-
-
-def test_every_parameter_says_its_unit_and_source():
-    """Each field has a unit and a source, and its default passes its own check."""
-    assert all(field.metadata["unit"] and field.metadata["source"] for field in FIELDS.values())
-    assert Params(**{name: field.default for name, field in FIELDS.items()}) == Params()
 
 
 def test_the_papers_form_is_the_one_described():

@@ -213,22 +213,6 @@ def test_what_is_no_calibration_is_named(rig):
         FusedTracker(rig=RIG, intrinsics=RIG.intrinsics)
 
 
-@pytest.mark.parametrize(
-    ("seed", "error"),
-    [(-1, ValueError), (0.5, TypeError), ("0", TypeError), (None, TypeError), (True, TypeError)],
-)
-def test_bad_seeds_are_named(seed, error):
-    """A seed that isn't a whole number from 0 on is an error that names it."""
-    with pytest.raises(error, match=r"^seed: expected"):
-        FusedTracker(seed=seed)
-
-
-def test_bad_kernels_are_named():
-    """A set of kernels that there isn't is an error that names it."""
-    with pytest.raises(ValueError, match=r"^kernels: expected"):
-        FusedTracker(kernels="fast")
-
-
 BAD_BOXES = {**cases.BAD_BOXES, "None": (None, ValueError, "expected")}
 GOOD_BOXES = {**cases.same_box(BOX), **cases.ODD_BOXES, "fractions": (47.6, 29.3, 32.7, 37.9)}
 
@@ -408,11 +392,6 @@ def test_two_times_the_same_frame():
             track = tracker.update(seen_by("rgbd", shift))
             assert track.status is Status.TRACKED
     assert track.box.iou(Box(BOX[0] + 13, *BOX[1:])) > 0.7
-
-
-def test_update_before_init():
-    """update says that init comes first, also after an init that failed."""
-    cases.assert_init_comes_first(FusedTracker(), LEFT)
 
 
 KERNELS = {

@@ -208,11 +208,6 @@ def test_what_is_no_rig_is_named(rig):
         StereoHeadTracker(rig=rig)
 
 
-def test_update_before_init_is_named():
-    """Update before init, and after an init that failed, is a RuntimeError that says what to do."""
-    cases.assert_init_comes_first(StereoHeadTracker(), FIRST)
-
-
 @pytest.mark.parametrize(
     "name", ["black", "white", "grey", "left black", "right black", "right white", "noise", "far apart"]
 )

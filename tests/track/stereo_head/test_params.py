@@ -1,61 +1,18 @@
 # SPDX-License-Identifier: MIT
-"""The parameters of the stereo head tracker: what is refused, that they come back from a file, and that the
+"""The parameters of the stereo head tracker: that they come back from a file, and that the
 paper's own forms run.
 """
 
-import dataclasses
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import tricue
 from tricue import Frame, Status, StereoHeadTracker, Track
 from tricue.scenes import StereoScene
 
 Params = StereoHeadTracker.Params
-FIELDS = {field.name: field for field in dataclasses.fields(Params)}
 
-REFUSED: dict[str, tuple[Any, ...]] = {
-    "resolution": (15, 0, -1),
-    "search": ((-1, 4), (8, 65), (8,), (8, 4, 2)),
-    "bins": ((0, 16, 8), (16, 65, 8), (16, 16), (64, 64, 64)),
-    "chroma": (0, 256),
-    "light": (),
-    "ring": (1, 0.5, 4.1),
-    "ring_weight": (-0.1,),
-    "depth_weight": (-0.1,),
-    "depth_ring": (-0.1,),
-    "coherent": (0, -0.1),
-    "hair": (-0.1, 1.1),
-    "anchor": (-0.1, 1.1),
-    "learning_rate": (-0.1, 1.1),
-    "learn": ("Coherent", "", "none"),
-    "gate": (-0.1, 1.1),
-    "disparities": ((0, 4), (4, 65), (4,), (4, 4, 4)),
-    "window": (0, -1, 4, 17),
-    "uniqueness": (-1, 101),
-    "prefilter": (),
-    "rim": (-0.1, 1.1),
-    "center": ("mode", ""),
-    "fuse": (),
-    "motion": ("acceleration", ""),
-    "agility": (0, -0.1),
-    "fastest": (0, -1.0),
-    "noise": ("cubic", ""),
-    "disparity_noise": (0, -0.1),
-    "place_noise": (0, -0.1),
-    "color_noise": (0, -0.1),
-    "feedback": (),
-    "rate": (0, -30.0),
-    "seen_above": (-0.1, 1.1),
-    "surprise": (0, -0.1),
-    "again_after": (-0.1,),
-    "again_above": (-0.1, 1.1),
-    "lost_after": (-0.1,),
-    "near": (0, -1.0, 0.0009, 6.0, 9.0),
-    "far": (0, -1.0),
-}
 
 PRINTED: dict[str, Any] = {
     "ring_weight": 0,
@@ -83,88 +40,6 @@ def assert_sane(tracks: list[Track]) -> None:
         assert np.linalg.eigvalsh(track.covariance).min() > 0
 
 
-def test_every_field_has_its_bad_values():
-    """The table above names every field there is: a new one must be tried too."""
-    assert set(REFUSED) == set(FIELDS)
-
-
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, value) for name, values in REFUSED.items() for value in values]
-)
-def test_values_out_of_range_are_named(name, value):
-    """A value out of range is a ValueError that begins with the field's name, before any frame."""
-    with pytest.raises(ValueError, match=f"^{name}: expected"):
-        StereoHeadTracker(**{name: value})
-
-
-@pytest.mark.parametrize("name", FIELDS)
-@pytest.mark.parametrize("value", [..., "many", float("nan"), b"1", [None, None]], ids=repr)
-def test_values_of_another_kind_are_named(name, value):
-    """Whatever isn't a value of the field's type, NaN included, is an error that begins with its name."""
-    with pytest.raises((TypeError, ValueError), match=f"^{name}: expected"):
-        StereoHeadTracker(**{name: value})
-
-
-@pytest.mark.parametrize("name", [n for n, f in FIELDS.items() if not isinstance(f.default, bool)])
-def test_true_is_no_number(name):
-    """True is no number, and no pair or word."""
-    with pytest.raises((TypeError, ValueError), match=f"^{name}: expected"):
-        StereoHeadTracker(**{name: True})
-
-
-@pytest.mark.parametrize("name", [n for n, f in FIELDS.items() if isinstance(f.default, float)])
-def test_numbers_are_finite(name):
-    """An infinite number is a ValueError that begins with the field's name, whatever its range."""
-    for value in (float("inf"), -float("inf")):
-        with pytest.raises(ValueError, match=f"^{name}: expected"):
-            StereoHeadTracker(**{name: value})
-
-
-@pytest.mark.parametrize(("near", "far"), [(3.0, 3.0), (3.0, 2.0), (6.0, 6.0)])
-def test_near_is_under_far(near, far):
-    """A range that is empty or upside down is refused by the name of its lower end."""
-    with pytest.raises(ValueError, match=r"^near: expected under far, .*got"):
-        StereoHeadTracker(near=near, far=far)
-
-
-def test_unknown_names_are_errors():
-    """A misspelt parameter is a TypeError that proposes the right one."""
-    with pytest.raises(TypeError, match=r"^disparity: unknown parameter of .*did you mean disparit"):
-        StereoHeadTracker(disparity=(1, 2))
-
-
-def test_params_and_keywords_are_the_same(covered: StereoScene, cover_up):
-    """Parameters by params=, by keywords and through create() give one track; both ways at once are an
-    error.
-    """
-    assert cover_up(params=Params(window=7)) == cover_up(window=7)
-    tracker = tricue.create("stereo-head", seed=3, window=7, rig=covered.rig)
-    assert isinstance(tracker, StereoHeadTracker)
-    assert (tracker.seed, tracker.params, tracker.rig) == (3, Params(window=7), covered.rig)
-    with pytest.raises(TypeError, match=r"^params: expected alone, got also window"):
-        StereoHeadTracker(params=Params(), window=7)
-    for other in ({}, tricue.ColorParticleTracker.Params()):
-        with pytest.raises(TypeError, match=r"^params: expected StereoHeadParams, got "):
-            StereoHeadTracker(params=other)
-
-
-@pytest.mark.parametrize(
-    ("seed", "error"), [(-1, ValueError), (None, TypeError), ("a", TypeError), (0.5, TypeError)]
-)
-def test_seeds_are_whole_numbers(seed, error):
-    """A seed that is no whole number from 0 up is named, though it changes nothing."""
-    with pytest.raises(error, match=r"^seed: expected"):
-        StereoHeadTracker(seed=seed)
-    assert StereoHeadTracker(seed=np.int64(5)).seed == 5
-
-
-@pytest.mark.parametrize("name", ["", "cuda", None, []])
-def test_kernels_are_native_or_reference(name):
-    """Another set of kernels is a ValueError that names both."""
-    with pytest.raises(ValueError, match=r"^kernels: expected 'native' or 'reference'"):
-        StereoHeadTracker(kernels=name)
-
-
 @pytest.mark.parametrize(
     "params",
     [Params(), Params(**PRINTED), Params(bins=(8, 8, 4), search=(2, 0), near=0.1, far=20, fuse=False)],
@@ -184,12 +59,6 @@ def test_a_file_is_checked_as_keywords_are(text, message, tmp_path: Path):
     (tmp_path / "params.toml").write_text(text)
     with pytest.raises(ValueError, match=rf"params.toml: {message}"):
         Params.from_toml(tmp_path / "params.toml")
-
-
-def test_every_parameter_says_its_unit_and_source():
-    """Each field has a unit and a source, and its default passes its own check."""
-    assert all(field.metadata["unit"] and field.metadata["source"] for field in FIELDS.values())
-    assert Params(**{name: field.default for name, field in FIELDS.items()}) == Params()
 
 
 def test_the_printed_form_is_the_one_described():

@@ -72,7 +72,7 @@ def make_noise(
 def _frequency_power(
     height: int, width: int, slope: float, stretch: tuple[float, float]
 ) -> NDArray[np.float64]:
-    """frequency^slope of each coefficient of a real FFT (height, width // 2 + 1), infinite at 0; read-only."""
+    """frequency^slope of each coefficient of a real FFT (height, width // 2 + 1); infinite at 0."""
     v = np.fft.fftfreq(height)[:, None] * stretch[0]
     u = np.fft.rfftfreq(width)[None, :] * stretch[1]
     frequency = np.hypot(v, u)

@@ -78,7 +78,9 @@ def test_frames_are_read_with_their_flow(tmp_path):
 
 def test_rubber_whale(data):
     """One level's half has at most DIS ultrafast's error, the pyramid's at most 0.7 times that."""
-    frames = flow.load(data / "flow" / "RubberWhale")
+    whole = flow.load(data / "flow" / "RubberWhale")
+    middle = np.s_[64:324, 132:452]
+    frames = flow.Frames("middle", *(np.ascontiguousarray(image[middle]) for image in whole[1:]))
     column = 1 + flow.BASELINES.index("DIS ultrafast")
     for name, most in (("one level", 1.0), ("pyramid", 0.7)):
         result = flow.measure(frames, flow.METHODS[name], rounds=1)

@@ -49,7 +49,7 @@ def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
         reach = minor * np.sqrt(np.maximum(1 - v * v, 0))
     first, last = np.ceil(x - reach - 0.5), np.floor(x + reach - 0.5)
     within = (rows >= np.ceil(y - major - 0.5)) & (rows <= np.floor(y + major - 0.5))
-    return within[:, None] & (columns >= first[:, None]) & (columns <= last[:, None])
+    return np.asarray(within[:, None] & (columns >= first[:, None]) & (columns <= last[:, None]))
 
 
 def masks_of(ellipse: Floats, margin: float, shape: tuple[int, ...]) -> tuple[Mask, Mask]:

@@ -1,0 +1,408 @@
+# SPDX-License-Identifier: MIT
+"""The parameters of every tracker: what is refused and how it is named, and that all ways to give them are
+one; each tracker's own test_params.py adds its forms, files and extremes.
+"""
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+import tricue
+from tricue import (
+    ColorParticleTracker,
+    DepthParticleTracker,
+    FlowDepthTracker,
+    FusedTracker,
+    StereoHeadTracker,
+)
+
+REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
+    ColorParticleTracker: {
+        "particles": (1, 0, -5, 100_001),
+        "observation": ("ranks", "", "RANK-SPATIAL"),
+        "likelihood": ("square", ""),
+        "sharpness": (0, -1.0),
+        "grid": ((1, 12), (12, 65), (12,), (12, 12, 12)),
+        "grid_reach": (0, -1, 4.1),
+        "color_weight": (-0.1,),
+        "ring": ((0.9, 1.8), (1.3, 8.1), (1.3,)),
+        "ring_samples": (0,),
+        "skin_threshold": (-1.1, 1.1),
+        "skin_share": (-0.1, 1.0),
+        "reach": (-1,),
+        "reach_sizes": (-0.1,),
+        "velocity_rate": (-0.1, 1.1),
+        "position_noise": (-0.1,),
+        "velocity_noise": (-0.1,),
+        "size_noise": (-0.1,),
+        "aspect_noise": (-0.1,),
+        "size_pull": (-0.1, 1.1),
+        "size_memory": (-0.1, 1.1),
+        "size_range": ((0, 4), (-1, 4), (0.3,)),
+        "resample_below": (-0.1, 1.1),
+        "surprise": (-0.1,),
+        "sweep": (0, -0.1),
+        "learning_rate": (-0.1, 1.1),
+        "color_rate": (-0.1, 1.1),
+        "anchor": (-0.1, 1.1),
+        "learn_above": (-0.1, 1.1),
+        "lost_below": (-0.1, 1.1),
+        "lost_after": (-0.1,),
+        "found_above": (-0.1, 1.1),
+        "rate": (0, -1),
+    },
+    DepthParticleTracker: {
+        "particles": (1, 0, -5, 100_001),
+        "near": (0, -1.0, 8.0, 9.0),
+        "far": (0, -1.0),
+        "resolution": (15, 0, -1),
+        "rate": (0, -15.0),
+        "floor": (),
+        "floor_clear": (-0.1,),
+        "edges": (),
+        "edge_gap": (-0.1,),
+        "edge_slope": (-0.1,),
+        "ragged": (-0.1, 1.1),
+        "gap_passes": (-1, 17),
+        "levels": (7, 0, 4097),
+        "bandwidth": (0, -0.1),
+        "prominence": (-0.1, 1.1),
+        "least_area": (0, -0.1),
+        "aspect": ((0, 5), (-1, 5), (5.0, 1.0), (1.0,), (1.0, 2.0, 3.0)),
+        "human_height": ((0, 2), (-1, 2), (2.2, 0.9), (1.0,)),
+        "fill": (0, -0.1, 1.1),
+        "histogram": ("Relative", "", "both"),
+        "likelihood": ("square", ""),
+        "sharpness": (0, -1.0),
+        "reach": (0, -0.5),
+        "bins": (3, 0, 4097),
+        "grid": ((1, 10), (14, 65), (14,), (14, 10, 3)),
+        "contrast": (-0.1,),
+        "margin": (1.0, 0.5),
+        "measurement": (-0.1,),
+        "object_share": (-0.1, 1.0),
+        "fastest": (0, -1.0),
+        "velocity_rate": (-0.1, 1.1),
+        "agility": (-0.1,),
+        "size_noise": (0, -0.1),
+        "size_rate": (-0.1, 1.1),
+        "learning_rate": (-0.1, 1.1),
+        "nearer": (0, -0.1),
+        "hidden_above": (-0.1, 1.1),
+        "seen_above": (-0.1, 1.1),
+        "surprise": (-0.1,),
+        "lost_after": (-0.1,),
+    },
+    StereoHeadTracker: {
+        "resolution": (15, 0, -1),
+        "search": ((-1, 4), (8, 65), (8,), (8, 4, 2)),
+        "bins": ((0, 16, 8), (16, 65, 8), (16, 16), (64, 64, 64)),
+        "chroma": (0, 256),
+        "light": (),
+        "ring": (1, 0.5, 4.1),
+        "ring_weight": (-0.1,),
+        "depth_weight": (-0.1,),
+        "depth_ring": (-0.1,),
+        "coherent": (0, -0.1),
+        "hair": (-0.1, 1.1),
+        "anchor": (-0.1, 1.1),
+        "learning_rate": (-0.1, 1.1),
+        "learn": ("Coherent", "", "none"),
+        "gate": (-0.1, 1.1),
+        "disparities": ((0, 4), (4, 65), (4,), (4, 4, 4)),
+        "window": (0, -1, 4, 17),
+        "uniqueness": (-1, 101),
+        "prefilter": (),
+        "rim": (-0.1, 1.1),
+        "center": ("mode", ""),
+        "fuse": (),
+        "motion": ("acceleration", ""),
+        "agility": (0, -0.1),
+        "fastest": (0, -1.0),
+        "noise": ("cubic", ""),
+        "disparity_noise": (0, -0.1),
+        "place_noise": (0, -0.1),
+        "color_noise": (0, -0.1),
+        "feedback": (),
+        "rate": (0, -30.0),
+        "seen_above": (-0.1, 1.1),
+        "surprise": (0, -0.1),
+        "again_after": (-0.1,),
+        "again_above": (-0.1, 1.1),
+        "lost_after": (-0.1,),
+        "near": (0, -1.0, 0.0009, 6.0, 9.0),
+        "far": (0, -1.0),
+    },
+    FlowDepthTracker: {
+        "cues": ((), ("depth",), ("flow", "flow"), ("flow", "disparity", "flow"), "flow"),
+        "resolution": (31, 0, -1),
+        "vergence": (-45, 45, 90),
+        "sigma": (0, 0.49, 8.1),
+        "flow_levels": (0, 7),
+        "min_angle": (-0.1, 1.1),
+        "min_contrast": (-0.1,),
+        "disparity_levels": (0, 7),
+        "bins": (7, 513),
+        "smoothing": (0, 8.1),
+        "ripple": (-0.1, 1),
+        "flow_reach": (0.009, 0, -1),
+        "depth_reach": (0.009, 0, -1),
+        "flow_change": (0, -1),
+        "depth_change": (0, -1),
+        "surround": (-0.1, 1),
+        "margin": (-0.1, 2.1),
+        "memory": (-0.1, 1),
+        "posterior": (0, 1.1),
+        "posterior_alone": (0, 1.1),
+        "neighbours": (-1, 9),
+        "block": (0, 1.1),
+        "share": (0, 1.1),
+        "votes": (0, -1),
+        "against": (0, -1),
+        "nearer": (0, -1),
+        "similar": (0, -1),
+        "thickness": (-0.1, 1),
+        "sharp": (0, 1.1),
+        "idle": (0, -1),
+        "covered": (0, 1.1),
+        "few": (0, 1.1),
+        "again": (0, 1.1),
+        "unsure": (-0.1,),
+        "lost_after": (-0.1,),
+        "rate": (0, -30),
+        "place_noise": (0, -1),
+        "disparity_noise": (0, -1),
+        "agility": (0, -1),
+    },
+    FusedTracker: {
+        "cues": (
+            (),
+            ("smell",),
+            "filter",
+            ("ranks",),
+            ("depth", "flow"),
+            ("ranks", "edges", "depth", "flow"),
+        ),
+        "context": (1.4, 8.1, 0, -3),
+        "label_width": (0, 1.1),
+        "ridge": (0, -1),
+        "filter_rate": (-0.1, 0.6),
+        "anchor": (-0.1, 1.1),
+        "filter_weight": (-0.1,),
+        "focus": (1, 99.1),
+        "background": (-0.1,),
+        "color_weight": (-0.1,),
+        "color_rate": (-0.1, 0.6),
+        "frame": (1, 0.5),
+        "around": (-0.1,),
+        "scales": (2, 4, 10, 101, 0),
+        "scale_step": (1, 2.1),
+        "scale_reach": (0, -1),
+        "scale_label": (0, -1),
+        "scale_prior": (-0.1,),
+        "scale_anchor": (-0.1, 1.1),
+        "rank_weight": (-0.1,),
+        "edge_weight": (-0.1,),
+        "size_range": ((2.0, 1.0), (0.0, 1.0), (-1.0, 1.0), (1.0,), (1.0, 2.0, 3.0)),
+        "depth_rate": (-0.1, 1.1),
+        "outline_time": (0, -1),
+        "hidden_above": (-0.1, 1.1),
+        "continuity": (-0.1,),
+        "agility": (0, -1),
+        "fastest": (0, -1),
+        "rate": (0, -30),
+        "velocity_rate": (-0.1, 1.1),
+        "drift": (-0.1, 1.1),
+        "doubt": (-0.1, 1.1),
+        "far": (-0.1,),
+        "learn_every": (0, -1, 31, 2.5),
+        "learn_above": (-0.1, 1.1),
+        "learn_odd": (-0.1, 1.1),
+        "lost_below": (-0.1, 1.1),
+        "hopeless": (-0.1, 1.1),
+        "lost_after": (-0.1,),
+        "collapse": (-0.1,),
+        "again": (-0.1, 1.1),
+        "reach": (0, -1),
+        "found_above": (-0.1, 1.1),
+        "candidates": (0, 100),
+    },
+}
+TRACKERS = tuple(REFUSED)
+TYPES = [("cues", "flow"), ("cues", "filter"), ("learn_every", 2.5)]  # not numbers out of range
+OTHER_KINDS = (..., "many", float("nan"), b"1", [None, None], True, None)
+
+
+def fields(tracker):
+    """The tracker's parameters, by name."""
+    return {field.name: field for field in dataclasses.fields(tracker.Params)}
+
+
+def cases(of):
+    """A parameter set for each tracker, name and value that ``of(tracker, name)`` gives, named after them."""
+    return [
+        pytest.param(tracker, name, value, id=f"{tracker.__name__}-{name}-{value!r}")
+        for tracker in TRACKERS
+        for name in fields(tracker)
+        for value in of(tracker, name)
+    ]
+
+
+def other_kinds(tracker, name):
+    """Values that the field's type doesn't have: a switch has True, and some have None."""
+    default = fields(tracker)[name].default
+    allowed = [value for value in (True, None) if type(value) is type(default)]
+    return [value for value in OTHER_KINDS if not any(value is each for each in allowed)]
+
+
+def infinities(tracker, name):
+    """Both, for numbers; None stands for one that is worked out."""
+    is_number = isinstance(fields(tracker)[name].default, float | None)
+    return [float("inf"), -float("inf")] if is_number else []
+
+
+@pytest.mark.parametrize("tracker", TRACKERS)
+def test_every_field_has_its_bad_values(tracker):
+    """The table above names every field there is: a new one must be tried too."""
+    assert set(REFUSED[tracker]) == set(fields(tracker))
+
+
+@pytest.mark.parametrize(("tracker", "name", "value"), cases(lambda tracker, name: REFUSED[tracker][name]))
+def test_values_out_of_range_are_named(tracker, name, value):
+    """A value out of range is a ValueError that begins with the field's name, before any frame; a TypeError
+    where a word stands for a list, or a fraction for a count.
+    """
+    error = TypeError if (name, value) in TYPES else ValueError
+    with pytest.raises(error, match=f"^{name}: expected"):
+        tracker(**{name: value})
+
+
+@pytest.mark.parametrize(("tracker", "name", "value"), cases(other_kinds))
+def test_values_of_another_kind_are_named(tracker, name, value):
+    """Whatever isn't a value of the field's type, NaN and True included, is an error that begins with its
+    name.
+    """
+    with pytest.raises((TypeError, ValueError), match=f"^{name}: expected"):
+        tracker(**{name: value})
+
+
+@pytest.mark.parametrize(("tracker", "name", "value"), cases(infinities))
+def test_numbers_are_finite(tracker, name, value):
+    """An infinite number is a ValueError that begins with the field's name, whatever its range."""
+    with pytest.raises(ValueError, match=f"^{name}: expected"):
+        tracker(**{name: value})
+
+
+@pytest.mark.parametrize(
+    ("tracker", "near", "far"),
+    [
+        (DepthParticleTracker, 3.0, 3.0),
+        (DepthParticleTracker, 3.0, 2.0),
+        (DepthParticleTracker, 8.0, 8.0),
+        (StereoHeadTracker, 3.0, 3.0),
+        (StereoHeadTracker, 3.0, 2.0),
+        (StereoHeadTracker, 6.0, 6.0),
+    ],
+)
+def test_near_is_under_far(tracker, near, far):
+    """A range that is empty or upside down is refused by the name of its lower end."""
+    with pytest.raises(ValueError, match=r"^near: expected under far, .*got"):
+        tracker(near=near, far=far)
+
+
+@pytest.mark.parametrize(
+    ("tracker", "wrong", "right"),
+    [
+        (ColorParticleTracker, "particle", "particles"),
+        (DepthParticleTracker, "aspects", "aspect"),
+        (StereoHeadTracker, "disparity", "disparit"),
+        (FlowDepthTracker, "cue", "cues"),
+        (FusedTracker, "rigde", "ridge"),
+    ],
+)
+def test_unknown_names_are_errors(tracker, wrong, right):
+    """A misspelt parameter is a TypeError that proposes the right one."""
+    with pytest.raises(TypeError, match=rf"^{wrong}: unknown parameter of .*did you mean {right}"):
+        tracker(**{wrong: 1})
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "runner", "camera"),
+    [
+        ("color-particle", {"particles": 40}, "run", None),
+        ("depth-particle", {"particles": 50}, "pass_by", ("passing", "intrinsics")),
+        ("stereo-head", {"window": 7}, "cover_up", ("covered", "rig")),
+        ("flow-depth", {"bins": 32}, "walk_on", ("overtaken", "rig")),
+    ],
+)
+def test_params_and_keywords_are_the_same(name, values, runner, camera, request):
+    """Parameters by params=, by keywords and through create() give one track, another than without."""
+    tracks = request.getfixturevalue(runner)
+    cameras = {camera[1]: getattr(request.getfixturevalue(camera[0]), camera[1])} if camera else {}
+    made = tricue.create(name, seed=3, **cameras, **values)
+    params = type(made).Params(**values)
+    assert tracks(params=params) == tracks(**values) != tracks()
+    assert (made.seed, made.params) == (3, params)
+    assert all(getattr(made, key) == value for key, value in cameras.items())
+
+
+@pytest.mark.parametrize(
+    ("tracker", "name", "value"),
+    [
+        (ColorParticleTracker, "particles", 40),
+        (DepthParticleTracker, "particles", 40),
+        (StereoHeadTracker, "window", 7),
+        (FlowDepthTracker, "bins", 32),
+        (FusedTracker, "drift", 0.25),
+    ],
+)
+def test_params_come_alone_and_are_the_trackers(tracker, name, value):
+    """Both ways at once are an error, as are parameters of another kind and another tracker's."""
+    given = tracker.Params(**{name: value})
+    assert tracker(params=given).params is given
+    assert tracker(**{name: value}).params == given != tracker().params == tracker.Params()
+    with pytest.raises(TypeError, match=rf"^params: expected alone, got also {name}"):
+        tracker(params=given, **{name: value})
+    for other in ({}, TRACKERS[TRACKERS.index(tracker) - 1].Params()):
+        with pytest.raises(TypeError, match=rf"^params: expected {tracker.Params.__name__}, got "):
+            tracker(params=other)
+
+
+@pytest.mark.parametrize("tracker", [FlowDepthTracker, FusedTracker])
+def test_params_may_come_first(tracker):
+    """These two take them without a name."""
+    given = tracker.Params(rate=25.0)
+    assert tracker(given).params is given
+
+
+@pytest.mark.parametrize("tracker", TRACKERS)
+@pytest.mark.parametrize(
+    ("seed", "error"),
+    [(-1, ValueError), (None, TypeError), ("a", TypeError), (0.5, TypeError), (True, TypeError)],
+)
+def test_seeds_are_whole_numbers(tracker, seed, error):
+    """A seed that is no whole number from 0 up is named, also where it changes nothing; None, which would
+    mean chance, too.
+    """
+    with pytest.raises(error, match=r"^seed: expected"):
+        tracker(seed=seed)
+    assert tracker(seed=np.int64(5)).seed == 5
+
+
+@pytest.mark.parametrize("tracker", TRACKERS)
+@pytest.mark.parametrize("name", ["", "cuda", None, []])
+def test_kernels_are_native_or_reference(tracker, name):
+    """Another set of kernels is a ValueError that names both."""
+    with pytest.raises(ValueError, match=r"^kernels: expected 'native' or 'reference'"):
+        tracker(kernels=name)
+
+
+@pytest.mark.parametrize("tracker", TRACKERS)
+def test_every_parameter_says_its_unit_and_source(tracker):
+    """Each field has a unit and a source, is in the table, and its default passes its own check."""
+    known = fields(tracker)
+    lines = tracker.Params.describe().splitlines()
+    assert [line.split()[0] for line in lines[1:]] == list(known)
+    assert all(field.metadata["unit"] and field.metadata["source"] for field in known.values())
+    assert tracker.Params(**{name: field.default for name, field in known.items()}) == tracker.Params()
