@@ -9,8 +9,8 @@ namespace tricue {
 /// Responses of F correlation filters with K channels to the same cells, equation (6): the inverse Fourier transform of Σ_k A_k Z_k
 /// / (B + λ).
 ///
-/// Z_k is the spectrum of channel k, computed once for all filters; A_k stands for the conjugate of the paper's. λ is ridge times
-/// the mean of the filter's B, at least 1e-12.
+/// Z_k is the spectrum of channel k, computed once for all filters; A_k stands for the conjugate of the paper's. λ is ridge
+/// max(mean of the filter's B, 1e-12).
 ///
 /// @param cells float32 (K, R, C), already tapered; at least one channel and cell
 /// @param numerators complex64 (F, K, R, C // 2 + 1), A: non-negative frequencies along x, in the order of numpy.fft.rfft2; F at

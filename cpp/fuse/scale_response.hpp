@@ -9,7 +9,7 @@ namespace tricue {
 /// Response of a correlation filter over scales, equation (6) along one dimension: the inverse Fourier transform of Σ_d A_d Z_d /
 /// (B + λ).
 ///
-/// λ is ridge times the mean of B, at least 1e-12. Sums over the channels have sixteen parts, d modulo 16.
+/// λ is ridge max(mean of B, 1e-12). Sums over the channels have sixteen parts, d modulo 16.
 ///
 /// @param looks float32 (S, D): D features of a target at S steps of scale, D at least 1
 /// @param numerator complex64 (S // 2 + 1, D), A: non-negative frequencies, in the order of numpy.fft.rfft

@@ -302,7 +302,7 @@ def correlation_response(
     Fourier transform of Σ_k A_k Z_k / (B + λ).
 
     Z_k is the spectrum of channel k, computed once for all filters; A_k stands for the conjugate of the
-    paper's. λ is ridge times the mean of the filter's B, at least 1e-12.
+    paper's. λ is ridge max(mean of the filter's B, 1e-12).
 
     Args:
         cells: float32 (K, R, C), already tapered; at least one channel and cell
@@ -924,7 +924,8 @@ def gradient_color_cells(
 
     where outside the patch its outermost cells are repeated; 32 levels keep noise from full contrast.
     Planes 8 to 10: B, G, R in [0, 1], minus their means over the patch. All planes are multiplied by
-    the taper. Everything is float32, summed over columns first, then over rows, and over bins upwards.
+    the taper. All but the means is float32, summed over columns first, then over rows, and over bins
+    upwards.
 
     Args:
         patch: uint8 (2R, 2C, 3) BGR
@@ -1777,8 +1778,7 @@ def scale_response(
     Response of a correlation filter over scales, equation (6) along one dimension: the inverse Fourier
     transform of Σ_d A_d Z_d / (B + λ).
 
-    λ is ridge times the mean of B, at least 1e-12. Sums over the channels have sixteen parts, d modulo
-    16.
+    λ is ridge max(mean of B, 1e-12). Sums over the channels have sixteen parts, d modulo 16.
 
     Args:
         looks: float32 (S, D): D features of a target at S steps of scale, D at least 1

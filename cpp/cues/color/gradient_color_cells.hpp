@@ -14,8 +14,8 @@ namespace tricue {
 ///     min(c_k / sqrt(Σ c_l² over the 3 x 3 cells around + 32²), 0.4)
 ///
 /// where outside the patch its outermost cells are repeated; 32 levels keep noise from full contrast. Planes 8 to 10: B, G, R in
-/// [0, 1], minus their means over the patch. All planes are multiplied by the taper. Everything is float32, summed over columns
-/// first, then over rows, and over bins upwards.
+/// [0, 1], minus their means over the patch. All planes are multiplied by the taper. All but the means is float32, summed over
+/// columns first, then over rows, and over bins upwards.
 ///
 /// @param patch uint8 (2R, 2C, 3) BGR
 /// @param taper float32 (R, C), at least one cell
