@@ -8,9 +8,9 @@ SANITIZED := build/sanitized
 VOT := build/vot
 # A process a core; a file's tests stay together, for they share what is slow to make.
 PARALLEL := -n auto --dist loadfile --benchmark-disable
-SOURCES := pyproject.toml CMakeLists.txt README.md $(shell find cpp python -not -path '*/__pycache__*')
+SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test setup bench lint format stubs sanitize vot clean
+.PHONY: demo test setup bench lint format stubs kernel-docs sanitize vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -39,6 +39,9 @@ format: $(VENV)/dev
 stubs: $(VENV)/dev
 	$(BIN)/python tools/stubs.py
 	$(BIN)/python tools/tracker_table.py
+
+kernel-docs:
+	$(PYTHON) tools/kernel_docs.py --markdown
 
 # The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
 # Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.

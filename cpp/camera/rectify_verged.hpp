@@ -11,31 +11,34 @@ namespace tricue {
 /// The bytes of an image, pixel by pixel, row by row.
 using ImageBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 
-/// The right camera of a rig, of the left one's intrinsics, its optical centre on the left one's x-axis.
+/// The right camera of a pair, with the left one's intrinsics and its optical center on the left one's x axis.
 struct VergedCamera {
-    double
-        angle;  ///< radians about y, above 0 where it is turned inwards, to the left; between -pi/2 and pi/2
-    double focal;   ///< fx, pixels; fy cancels out
-    double cx, cy;  ///< principal point, pixels; (0, 0) is the centre of the first pixel
+    /// a, radians about y, above 0 where the camera is turned inwards, to the left; between -pi/2 and pi/2
+    double angle;
+    double focal;   ///< f = fx, pixels, finite, above 0; fy cancels out
+    double cx, cy;  ///< principal point, pixels; (0, 0) is the center of the first pixel
 };
 
-/// Equation (8): the image of a right camera turned by a about y, as the camera that is parallel to the left one would see it.
+/// Rectifies the right image of a verged pair: as a camera parallel to the left one would see it.
 ///
-/// A ray (x, y, f) of the parallel camera, pixels from the principal point, is (x cos a + f sin a, y, f cos a - x sin a) in the
-/// turned one, so
-///     x_R = f (x cos a + f sin a) / (f cos a - x sin a),   y_R = f y / (f cos a - x sin a) = y (cos a + x_R sin a / f)
-/// The latter is (8), which is printed without its parentheses; y is y_L, as parallel cameras see a point in one row.
+/// A ray (x, y, f) of the parallel camera, in pixels from the principal point, maps to this pixel of the camera turned by a:
+///     x_R = f (x cos a + f sin a) / (f cos a - x sin a)
+///     y_R = f y / (f cos a - x sin a) = y (cos a + x_R sin a / f)                                     (8)
 ///
-/// Rows and columns are turned back: only then is the disparity f b / z wherever a point is, which positions and one disparity
-/// for a flat target need. Of (8) alone, `rows_only`, the epipolar lines are as horizontal, but one depth has not one x_L - x_R:
-/// beside f tan a it changes by up to 0.085 f across the image (10 degrees, 60 of view), which is 47 of 640 pixels.
+/// (8) is printed without its parentheses; y is y_L, as parallel cameras see a point in one row. With both equations the disparity
+/// is f b / z - shift everywhere. With (8) alone (rows_only) epipolar lines are horizontal, but the disparity of one depth varies
+/// across the image: beside f tan a by up to 0.085 f at 10 degrees and a field of view of 60.
 ///
-/// What a verged camera sees in addition lies left of column 0. A `shift` moves the picture to the right to keep that:
-/// disparities are then f b / z - shift; f tan a puts the turned camera's axis into the principal point.
+/// What only the verged camera sees lies left of column 0; a shift to the right keeps it. A shift of f tan a puts the axis of the
+/// turned camera at the principal point. Sampling is bilinear, places rounded to 1/2048 pixel, values half up.
 ///
-/// @param right gray or BGR
-/// @returns     as many pixels, packed; bilinear, places to 1/2048 px, rounded half up; black where the camera saw nothing
-/// @throws std::invalid_argument on an image without pixels and on numbers out of range
+/// @param right uint8 (H, W) gray or (H, W, 3) BGR, at least one pixel
+/// @param center (cx, cy), the principal point, finite, pixels; (0, 0) is the center of the first pixel; None for the middle of the
+///     image
+/// @param shift pixels by which the image moves to the right, finite
+/// @param rows_only whether only the rows are rectified, by (8)
+/// @returns uint8 of right's shape; black where the camera saw nothing
+/// @throws std::invalid_argument on an image without pixels, or numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 3.1 and figure 3.
 ImageBytes rectify_verged(const ImageView& right, const VergedCamera& camera, double shift, bool rows_only);
 

@@ -7,21 +7,21 @@
 
 namespace tricue {
 
-/// Of N blocks each.
+/// What N blocks hold.
 struct BlockCounts {
-    Indices pixels;    ///< in the image
-    Indices targets;   ///< set in the mask
-    Indices readings;  ///< with a finite disparity
-    Vector mean;       ///< disparity of those, pixels; NaN without any
+    Indices pixels;    ///< int64 (N,): pixels of each block that are in the image
+    Indices targets;   ///< int64 (N,): those set in the mask
+    Indices readings;  ///< int64 (N,): those with a finite disparity
+    Vector mean;       ///< float64 (N,): mean of these disparities, pixels; NaN without any
 };
 
 /// What is seen in the blocks of the target window, by which their states change.
 ///
-/// @param mask      (H, W) target pixels, those that aren't 0
-/// @param disparity (H, W) pixels, NaN where there is no reading
-/// @param blocks    (N, 4) x0, y0, x1, y1: of a block are the pixels whose centres lie in it (camera/rectangle.hpp)
-/// @returns         means of sums in float64
-/// @throws std::invalid_argument on a mask of another shape, and blocks of another shape or that aren't finite
+/// @param mask uint8 (H, W): target pixels, those that are not 0
+/// @param disparity float32 (H, W), pixels, NaN where there is none
+/// @param blocks float64 (N, 4): x0, y0, x1, y1, pixels, finite; a block has the pixels whose centers lie in it, the first pixel
+///     being [0, 1) x [0, 1)
+/// @throws std::invalid_argument on a mask of another shape, blocks of another shape, or corners that are not finite
 /// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7.
 BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, StatesRef blocks);
 

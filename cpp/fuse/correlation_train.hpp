@@ -8,24 +8,24 @@ namespace tricue {
 
 /// A correlation filter with K channels: what correlation_response takes.
 struct CorrelationFilter {
-    Complexes numerator;  ///< K R x (C / 2 + 1): the planes one below the other
-    Floats denominator;   ///< R x (C / 2 + 1)
+    Complexes numerator;  ///< complex64 (K, R, C // 2 + 1), A; in C++ the planes one below the other
+    Floats denominator;   ///< float32 (R, C // 2 + 1), B
 };
 
-/// A correlation filter with new cells of K channels blended in.
+/// Updates a correlation filter with K channels with new cells, equation (5):
+///     A_k = Y conj(X_k),   B = Σ_k |X_k|²,   both become (1 - rate) old + rate new
 ///
-/// Equation (5): A_k = Y conj(X_k) and B = sum_k |X_k|², X_k the spectrum of channel k times the focus; both become
-/// (1 - rate) old + rate new, so a rate of 1 starts them. What the focus leaves out, cells times (1 - focus), should be answered by 0
-/// and only adds its energy, `background` times, to B.
+/// X_k is the spectrum of channel k times the focus. What the focus leaves out, cells times (1 - focus), should get a response of
+/// 0: it only adds its energy, `background` times, to B.
 ///
-/// @param cells       K x R x C, tapered already; at least one channel and cell
-/// @param focus       R x C, usually 1 on the target and 0 far from it
-/// @param label       R x (C / 2 + 1), Y: the spectrum, as numpy.fft.rfft2's, of the wanted answer, its peak at (0, 0)
-/// @param numerator   K x R x (C / 2 + 1), A until now
-/// @param denominator R x (C / 2 + 1), B until now
-/// @param rate        0 to 1
-/// @param background  finite, not negative
-/// @throws std::invalid_argument on other shapes, and on numbers out of range
+/// @param cells float32 (K, R, C), already tapered; at least one channel and cell
+/// @param focus float32 (R, C), usually 1 on the target and 0 far from it
+/// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as of numpy.fft.rfft2
+/// @param numerator complex64 (K, R, C // 2 + 1), A so far
+/// @param denominator float32 (R, C // 2 + 1), B so far
+/// @param rate learning rate, in [0, 1]; 1 starts the filter
+/// @param background finite, at least 0
+/// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.1; focus and background are ours.
 CorrelationFilter correlation_train(const FloatStack& cells, FloatsRef focus, ComplexesRef label,
                                     const ComplexStack& numerator, FloatsRef denominator, double rate,

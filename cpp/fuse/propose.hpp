@@ -6,22 +6,23 @@
 
 namespace tricue {
 
-/// How far a state may go, per dimension: lower <= upper, either may be infinite.
+/// How far a state may go.
 struct Bounds {
-    VectorRef lower;
-    VectorRef upper;
+    VectorRef lower;  ///< float64 (D,): lower bounds of a state, may be infinite
+    VectorRef upper;  ///< float64 (D,): upper bounds, not below the lower ones, may be infinite
 };
 
-/// Draws the next particles from the mixture proposal: x' = x + drift + scale * noise, equation (30) with the velocity in
-/// the mean; floor(share N) of them instead have their first K numbers at mean + root * noise. Those are spread evenly over the
-/// particles, which resampling leaves in the order of their ancestors. The same row of noise serves both, so a particle's
-/// draw doesn't depend on which side of the share it falls. All are clamped to the bounds.
+/// Draws the next particles from the mixture proposal: x' = x + drift + scale * noise, equation (30) with the velocity in the mean;
+/// floor(share N) of them instead have their first K numbers at mean + root noise.
 ///
-/// @param particles N states of D numbers, those that a detection is about first
-/// @param noise     N x D independent standard normal numbers
-/// @returns         N x D
-/// @throws std::invalid_argument on sizes that don't agree, numbers that aren't finite, a negative scale, a share outside
-///         [0, 1), a root without a positive diagonal, or bounds that cross
+/// Those are spread evenly over the particles, which resampling leaves in the order of their ancestors. Both use the same row of
+/// noise, so a particle's draw does not depend on which side of the share it falls. All are clamped to the bounds.
+///
+/// @param particles float64 (N, D), finite, the numbers that a detection is about first
+/// @param noise float64 (N, D): independent standard normal numbers
+/// @returns float64 (N, D)
+/// @throws std::invalid_argument on unlike sizes, numbers that are not finite, a negative scale, a share outside [0, 1), a root
+///     without a positive diagonal, or bounds that cross
 /// Source: Sabeti, Parvizi, Wu 2008, section III.A and equation (30).
 States propose(StatesRef particles, const Dynamics& dynamics, StatesRef noise, const Detection& detection,
                const Bounds& bounds);

@@ -27,7 +27,7 @@ double log_measured(const double* state, const MeasuredState& measured) {
     double sum = 0.0;
     for (Index i = 0; i < measured.state.size(); ++i)
         sum += square((state[i] - measured.state[i]) / measured.deviation[i]);
-    return -std::min(0.5 * sum, measured.most);
+    return -std::min(0.5 * sum, measured.max_cost);
 }
 
 void require_positive(VectorRef values, const char* name) {
@@ -51,7 +51,7 @@ void require(StatesRef states, const UsualSize& usual, const MeasuredState& meas
     require_finite(measured.state, "state");
     require_size(measured.deviation, D, "deviation");
     require_positive(measured.deviation, "deviation");
-    if (!(measured.most >= 0.0)) refuse("most", "a number of at least 0", measured.most);
+    if (!(measured.max_cost >= 0.0)) refuse("max_cost", "a number of at least 0", measured.max_cost);
 }
 
 }  // namespace

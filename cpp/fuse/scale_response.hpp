@@ -6,18 +6,17 @@
 
 namespace tricue {
 
-/// The answer of a correlation filter over scales: how much the looks of a target at S steps of scale, shifted, are as those that
-/// scale_train learnt from.
+/// Response of a correlation filter over scales, equation (6) along one dimension: the inverse Fourier transform of Σ_d A_d Z_d /
+/// (B + λ).
 ///
-/// Equation (6) along one dimension: the inverse transform of sum_d A_d Z_d / (B + lambda), as correlation_response; lambda is ridge
-/// times B's mean, which is taken for 1e-12 at least. Sums over the channels have sixteen parts, d modulo 16.
+/// λ is ridge max(mean of B, 1e-12). Sums over the channels have sixteen parts, d modulo 16.
 ///
-/// @param looks       S x D: D channels at every scale, at least one
-/// @param numerator   (S / 2 + 1) x D, A: a frequency a row, not negative, as numpy.fft.rfft orders them
-/// @param denominator 1 x (S / 2 + 1), B: at least 0
-/// @param ridge       finite, above 0
-/// @returns           S x 1; no change of scale is at S / 2
-/// @throws std::invalid_argument on other shapes, and on a ridge out of range
+/// @param looks float32 (S, D): D features of a target at S steps of scale, D at least 1
+/// @param numerator complex64 (S // 2 + 1, D), A: non-negative frequencies, in the order of numpy.fft.rfft
+/// @param denominator float32 (S // 2 + 1,), B, at least 0
+/// @param ridge finite, above 0
+/// @returns float32 (S,): no change of scale is at S // 2
+/// @throws std::invalid_argument on other shapes, or a ridge out of range
 /// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.2.
 Eigen::ArrayXf scale_response(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator, double ridge);
 

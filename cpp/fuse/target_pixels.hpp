@@ -25,27 +25,33 @@ struct TargetPlace {
 };
 
 struct TargetPixels {
-    Labels mask;       ///< H x W: 1 where the posterior is at least the threshold, else 0
-    Floats posterior;  ///< H x W: P(obj | F)
+    Labels mask;       ///< uint8 (H, W): 1 where the posterior is at least the threshold, else 0
+    Floats posterior;  ///< float32 (H, W): P(obj | F)
 };
 
 /// Which pixels belong to the target, by Bayes' rule, prior and posterior in one pass:
 ///     P(obj | F) = P(obj) L / (P(obj) L + A),   L = Π P(reading | obj),   A = Π P(reading | not obj)
 ///
-/// L / A, in float32, is the product in order of density · bins, or of density / alternative up to 1e12, so that no product
-/// overflows, which are rounded to float32, of the bin that the reading lies in (value_bins.hpp); 0 without
-/// a reading or outside the range: a target pixel has every cue. The prior is min(a, b), a by the column and b by the row,
-/// so that pixels of one prior lie on a rectangle: the least of 1 and, for each side where the window doesn't
-/// reach the candidate region's edge, the distance of the pixel's centre from that edge over the window's; at least 0, in float64,
-/// rounded to float32. Pixels whose centres aren't in the candidate region are 0.
+/// L / A is, in float32, the product of each cue's ratio at the bin of its reading: density times bins, or density / alternative,
+/// at most 1e12, rounded to float32. It is 0 without a reading or outside the range: a target pixel has every cue. Bins are those
+/// of weighted_histogram.
 ///
-/// @param cues      1 to 3, of one shape; alternatives are above 0 everywhere, as what the target isn't may be anything, and of a sum
-///                  of at most 1: of what was seen round the target some may lie outside the range
-/// @param threshold in (0, 1]
-/// @throws std::invalid_argument on another number of cues, unlike shapes, a density, alternative or range that is none, corners
-///                  that aren't finite, and another threshold
-/// Source: Okada, Shirai, Miura 1996, sections 4.1 and 4.3, equations (10)-(12), figure 5. P(F) as printed is constant;
-/// that every cue has to be there, and the alternatives, are ours.
+/// The prior P(obj) is 1 in the window and falls linearly to 0 at the edge of the candidate region: min(a, b, 1), at least 0, with
+/// a by the column and b by the row the distance of the pixel's center from that edge over the window's, on each side where the
+/// window does not reach the edge; in float64, rounded to float32. Pixels whose centers are not in the candidate region are 0.
+///
+/// @param planes float32 (H, W), one to three: readings u, v or d, the vector F of (10), NaN where there is none
+/// @param densities float64 (bins,) for each plane: P(reading | obj), of sum 1, or all 0, as target_distribution gives it
+/// @param ranges (low, high) for each plane: what its bins span, finite, low < high
+/// @param window (x0, y0, x1, y1), where the target surely may be, pixels, finite
+/// @param candidate (x0, y0, x1, y1), where the target may be at all, pixels, finite
+/// @param threshold smallest posterior of a target pixel, in (0, 1]
+/// @param alternatives float64 (bins,) for each plane: P(reading | not obj), above 0, of a sum of at most 1, as readings may lie
+///     outside the range; None for 1 / bins each
+/// @throws std::invalid_argument on another number of cues, unlike shapes, an invalid density, alternative, range or threshold, or
+///     corners that are not finite
+/// Source: Okada, Shirai, Miura 1996, sections 4.1 and 4.3, equations (10)-(12), figure 5. P(F) as printed is constant; that every
+/// cue has to be there, and the alternatives, are ours.
 TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& place, double threshold);
 
 }  // namespace tricue

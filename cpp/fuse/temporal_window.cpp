@@ -89,7 +89,7 @@ std::pair<int, int> trimmed(const Counts& counts, std::int64_t count, std::int64
 }
 
 void require(int neighbours, double share, double trim) {
-    if (neighbours < 0 || neighbours > 8) refuse("neighbours", "0 to 8", std::to_string(neighbours));
+    if (neighbours < 0 || neighbours > 8) refuse("neighbors", "0 to 8", std::to_string(neighbours));
     if (!(share >= 0.0 && share <= 1.0)) refuse("share", "a number in [0, 1]", share);
     if (!(trim >= 0.0 && trim < 0.5)) refuse("trim", "a number in [0, 0.5)", trim);
 }

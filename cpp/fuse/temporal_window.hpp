@@ -10,23 +10,23 @@
 namespace tricue {
 
 struct TemporalWindow {
-    Region box;          ///< all 0 where nothing is left
-    std::int64_t count;  ///< pixels left
-    Labels mask;         ///< H x W: 1 for pixels left, else 0
+    Region box;          ///< (x0, y0, x1, y1), pixels; all 0 where nothing is kept
+    std::int64_t count;  ///< number of pixels kept
+    Labels mask;         ///< uint8 (H, W): 1 for pixels kept, else 0
 };
 
-/// What is left of a frame's target pixels, and the rectangle round it, the temporal target window.
+/// Cleans the target pixels of a frame, and boxes them: the temporal target window.
 ///
-/// A pixel is left if at least `neighbours` of the 8 round it are set, none beyond the edge, and if of those it belongs to a region
-/// (8 neighbours) of at least `share` times the largest one's pixels. Of the n pixels left the box leaves out floor(trim n) at
-/// its left, and as many right, above and below: [x0, x1) is from the floor(trim n)-th column, in order, to that many from the last.
+/// A set pixel is kept if at least `neighbors` of the 8 around it are set, none beyond the edge, and if its region of such pixels (8
+/// neighbors) has at least `share` times the pixels of the largest. Of the n pixels kept the box leaves out floor(trim n) at its
+/// left, and as many right, above and below: [x0, x1) is from the floor(trim n)-th column, in order, to that many from the last.
 ///
-/// @param mask       (H, W), pixels that aren't 0 are set
-/// @param neighbours 0 to 8
-/// @param share      in [0, 1]
-/// @param trim       in [0, 0.5)
-/// @throws std::invalid_argument on other numbers
+/// @param mask uint8 (H, W): pixels that are not 0 are set
+/// @param neighbors 0 to 8
+/// @param share in [0, 1]
+/// @param trim in [0, 0.5)
+/// @throws std::invalid_argument on numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 4 and figure 4; the clean-up and the trimmed edges are ours.
-TemporalWindow temporal_window(const ImageView& mask, int neighbours, double share, double trim);
+TemporalWindow temporal_window(const ImageView& mask, int neighbors, double share, double trim);
 
 }  // namespace tricue

@@ -9,14 +9,19 @@
 
 namespace tricue {
 
-/// The histogram of a flow or a disparity in a region, weighted by its reliability: the sum of the weights in every bin (value_bins.hpp).
+/// Histogram of a flow or a disparity in a region, weighted by its reliability: the sum of the weights in each bin.
 ///
-/// @param values  (H, W) pixels a frame, or pixels; NaN, and what isn't in [low, high), isn't counted
-/// @param weights (H, W) reliability, equation (5) or (9); one that isn't above 0 and finite doesn't count
-/// @param region  pixels whose centres lie in it count
-/// @param mask    (H, W), pixels where it is 0 don't count; all count where its data is null
-/// @returns       (bins,), summed in float64
-/// @throws std::invalid_argument on weights or a mask of another shape, corners that aren't finite, a range that is none
+/// Bin floor((value - low) (bins / (high - low))), at most bins - 1, in float32, to which low and the quotient are rounded; whether
+/// a value is in [low, high) is decided exactly.
+///
+/// @param values float32 (H, W), pixels per frame or pixels; NaN, and what is not in [low, high), is not counted
+/// @param weights float32 (H, W): reliability, equation (5) or (9); one that is not finite and above 0 does not count
+/// @param region (x0, y0, x1, y1), pixels: pixels whose centers lie in it count
+/// @param low, high range of the bins, pixels, finite, low < high
+/// @param bins 1 to 65536
+/// @param mask uint8 (H, W): pixels where it is 0 do not count; None for all
+/// @returns float64 (bins,)
+/// @throws std::invalid_argument on weights or a mask of another shape, corners that are not finite, or an invalid range
 /// Source: Okada, Shirai, Miura 1996, section 4.2; the mask is ours: it keeps out what is nearer than the target.
 Vector weighted_histogram(const PlaneView& values, const PlaneView& weights, const Rectangle& region,
                           const ValueRange& range, const ImageView& mask);

@@ -11,6 +11,7 @@
 #include "fuse/target_pixels.hpp"
 #include "fuse/temporal_window.hpp"
 #include "fuse/weighted_histogram.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -92,11 +93,11 @@ std::tuple<Bytes, Array<float>> target_pixels_arrays(const std::vector<Array<flo
     return {give(std::move(target.mask)), give(std::move(target.posterior))};
 }
 
-std::tuple<Box, std::int64_t, Bytes> temporal_window_arrays(const Bytes& mask, int neighbours, double share,
+std::tuple<Box, std::int64_t, Bytes> temporal_window_arrays(const Bytes& mask, int neighbors, double share,
                                                             double trim) {
     const auto set = mask_view(mask, "mask");
     auto window = unlocked(std::ptrdiff_t{set.rows} * set.cols,
-                           [&] { return temporal_window(set, neighbours, share, trim); });
+                           [&] { return temporal_window(set, neighbors, share, trim); });
     const auto& box = window.box;
     return {Box{box.x0, box.y0, box.x1, box.y1}, window.count, give(std::move(window.mask))};
 }
@@ -120,33 +121,20 @@ Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
 
 void define_bayes(py::module_& m) {
     m.def("block_counts", block_counts_arrays, py::arg("mask"), py::arg("disparity"), py::arg("blocks"),
-          "(N,) each, of blocks (N, 4) x0, y0, x1, y1: how many pixels lie in the image, are set in the mask "
-          "(H, W), have a finite disparity (H, W); and the mean disparity of those, NaN without any.");
+          docs::block_counts);
     m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
-          "(H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0.");
+          docs::block_mask);
     m.def("target_distribution", target_distribution_arrays, py::arg("histogram"), py::arg("smoothing"),
           py::arg("ripple") = 0.05, py::arg("expected") = std::numeric_limits<double>::quiet_NaN(),
-          py::arg("spread") = 1.0,
-          "(L,) of sum 1: a histogram (L,), smoothed by a Gaussian of so many bins, beyond its minima beside "
-          "the peak a line down to 0 (figure 6); and the peak, bin i being [i, i + 1), NaN of zeros. What "
-          "rises by at most ripple of the peak ends no minimum. The peak is the highest, or, unless expected "
-          "is NaN, the highest times a Gaussian of spread bins round it.");
+          py::arg("spread") = 1.0, docs::target_distribution);
     m.def("target_pixels", target_pixels_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
           py::arg("window"), py::arg("candidate"), py::arg("threshold") = 0.5,
-          py::arg("alternatives") = py::none(),
-          "(H, W) 1 where the posterior is at least the threshold, else 0; and the posterior (H, W), "
-          "equations (10)-(12), of 1 to 3 planes (H, W), each with its density (bins,) over its range (low, "
-          "high). The prior is 1 in the window x0, y0, x1, y1 and falls to 0 at the candidate region's edge. "
-          "The alternatives (bins,) are the densities of what isn't the target; without, all is as likely.");
-    m.def("temporal_window", temporal_window_arrays, py::arg("mask"), py::arg("neighbours"), py::arg("share"),
-          py::arg("trim") = 0.02,
-          "The box x0, y0, x1, y1 of what is left of a mask (H, W), without a share trim of it at each side; "
-          "how many pixels are left; and which, (H, W) of 1 and 0: those with enough of 8 neighbours set, in "
-          "regions of at least a share of the largest one's pixels.");
+          py::arg("alternatives") = py::none(), docs::target_pixels);
+    m.def("temporal_window", temporal_window_arrays, py::arg("mask"), py::arg("neighbors"), py::arg("share"),
+          py::arg("trim") = 0.02, docs::temporal_window);
     m.def("weighted_histogram", weighted_histogram_arrays, py::arg("values"), py::arg("weights"),
           py::arg("region"), py::arg("low"), py::arg("high"), py::arg("bins"), py::arg("mask") = py::none(),
-          "(bins,) sums of the weights (H, W) of the values (H, W) in each bin of [low, high), of the pixels "
-          "in a region x0, y0, x1, y1 whose mask (H, W) isn't 0; NaN doesn't count.");
+          docs::weighted_histogram);
 }
 
 }  // namespace tricue::bindings

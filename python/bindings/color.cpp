@@ -11,6 +11,7 @@
 #include "cues/color/rank_sections.hpp"
 #include "cues/color/sample_ellipses.hpp"
 #include "cues/color/section_distance.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -117,37 +118,24 @@ Array<double> section_distance_arrays(const Array<float>& sections, const Array<
 
 void define_color(py::module_& m) {
     m.def("sample_ellipses", sample_ellipses_arrays, py::arg("image"), py::arg("ellipses"),
-          py::arg("pattern"),
-          "The pixels (N, 3, n) at the places (u, v) of the pattern (n, 2) in each ellipse (N, 4): x, y, "
-          "minor, major.");
-    m.def("color_ranks", color_ranks_arrays, py::arg("samples"),
-          "Mid-ranks (N, 3, n) of the samples in their own ellipse and channel, equation (17).");
-    m.def(
-        "learn_contrast", learn_contrast_arrays, py::arg("inside"), py::arg("around"), py::arg("target"),
-        py::arg("surround"), py::arg("rate"), py::arg("rare"),
-        "The joint histograms (B, B, B) of target and surround with the colors of samples inside and around "
-        "blended in, and the table target / (target + surround + rare).");
-    m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"),
-          "(N, M) twice the mean absolute difference between the samples' mid-ranks and each rank map (M, 3, "
-          "n), in [0, 1].");
+          py::arg("pattern"), docs::sample_ellipses);
+    m.def("color_ranks", color_ranks_arrays, py::arg("samples"), docs::color_ranks);
+    m.def("learn_contrast", learn_contrast_arrays, py::arg("inside"), py::arg("around"), py::arg("target"),
+          py::arg("surround"), py::arg("rate"), py::arg("rare"), docs::learn_contrast);
+    m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"), docs::rank_distance);
     m.def("rank_contrast", rank_contrast_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
-          py::arg("around"), py::arg("models"), py::arg("table"),
-          "rank_distance (N, M) of the pixels at the places inside each ellipse (N, 4), and (N,) how much "
-          "higher "
-          "the table's mean is over them than over those around.");
+          py::arg("around"), py::arg("models"), py::arg("table"), docs::rank_contrast);
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),
-          "Joint color histograms (N, bins^3) of sum 1; cell (b bins + g) bins + r.");
+          docs::joint_histogram);
     m.def("color_histogram", color_histogram_arrays, py::arg("samples"), py::arg("bins"),
-          "Histograms (N, 3 bins) of the samples of each ellipse, each channel's bins of sum 1.");
+          docs::color_histogram);
     m.def("bhattacharyya", bhattacharyya_arrays, py::arg("histograms"), py::arg("model"), py::arg("groups"),
-          "(N,) sqrt(1 - mean over the groups of sum sqrt(p q)), in [0, 1].");
-    m.def("color_lookup", color_lookup_arrays, py::arg("samples"), py::arg("table"),
-          "table[b B/256, g B/256, r B/256] of every sample: (N, n).");
+          docs::bhattacharyya);
+    m.def("color_lookup", color_lookup_arrays, py::arg("samples"), py::arg("table"), docs::color_lookup);
     m.def("rank_sections", rank_sections_arrays, py::arg("samples"), py::arg("sections"),
-          "Sums of rank measures over the levels of every section, (N, 3, S), equations (17), (19)-(28), "
-          "each of sum 1.");
+          docs::rank_sections);
     m.def("section_distance", section_distance_arrays, py::arg("sections"), py::arg("model"),
-          "(N,) equation (29) divided by 3 sqrt 2, in [0, 1].");
+          docs::section_distance);
 }
 
 }  // namespace tricue::bindings

@@ -10,6 +10,7 @@
 #include "cues/color/ellipse_search.hpp"
 #include "cues/color/histogram_mean.hpp"
 #include "cues/color/shift_histogram.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -64,10 +65,10 @@ Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Arra
     return give(std::move(found), {rows, cols, 4});
 }
 
-Array<double> ellipse_gradient_arrays(const Array<std::uint8_t>& grey, const Array<double>& ellipse,
+Array<double> ellipse_gradient_arrays(const Array<std::uint8_t>& gray, const Array<double>& ellipse,
                                       const Triple& grid, const Array<double>& pattern) {
-    const auto array = require<std::uint8_t>(grey, "grey", 2, "a uint8 grey image (H, W)");
-    const ImageView view{contiguous<std::uint8_t>(array, "grey"), static_cast<int>(array.shape(0)),
+    const auto array = require<std::uint8_t>(gray, "gray", 2, "a uint8 gray image (H, W)");
+    const ImageView view{contiguous<std::uint8_t>(array, "gray"), static_cast<int>(array.shape(0)),
                          static_cast<int>(array.shape(1)), 1, array.shape(1)};
     const auto numbers = vector(ellipse, "ellipse");
     const auto [rows, cols, step] = grid;
@@ -95,29 +96,17 @@ Array<double> shift_histogram_arrays(const Array<double>& histogram, const Tripl
 
 void define_color_search(py::module_& m) {
     m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("bins"),
-          py::arg("chroma"), py::arg("step"),
-          "The bin of every step-th pixel of region (x0, y0, x1, y1) in the space (B - G, G - R, B + G + R), "
-          "(H, W) uint16; 65535 outside the image.");
+          py::arg("chroma"), py::arg("step"), docs::color_bins);
     m.def("ellipse_histogram", ellipse_histogram_arrays, py::arg("bins"), py::arg("ellipses"),
-          py::arg("size"), py::arg("margin"),
-          "(N, size) counts of the bins (H, W) inside each ellipse (N, 4) x, y, minor, major, and (N, size) "
-          "of those in the ring between it and one margin times as large.");
-    m.def(
-        "ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
-        py::arg("model"), py::arg("margin"), py::arg("mask"),
-        "(rows, cols, 4) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
-        "the intersection, equation (1), of a model (L,) with the bins inside, and with those of the ring up "
-        "to margin times as large, and the shares of the mask's pixels (H, W) in both.");
-    m.def("ellipse_gradient", ellipse_gradient_arrays, py::arg("grey"), py::arg("ellipse"), py::arg("grid"),
-          py::arg("pattern"),
-          "(rows, cols) over a grid (rows, cols, step) of places round an ellipse (4,) x, y, minor, major: "
-          "the mean |n . grad I| at the points (u, v) (n, 2) of its outline.");
+          py::arg("size"), py::arg("margin"), docs::ellipse_histogram);
+    m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
+          py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
+    m.def("ellipse_gradient", ellipse_gradient_arrays, py::arg("gray"), py::arg("ellipse"), py::arg("grid"),
+          py::arg("pattern"), docs::ellipse_gradient);
     m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
-          "(3,) the mean B - G, G - R and B + G + R of a histogram (L,) over the space.");
+          docs::histogram_mean);
     m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
-          py::arg("mean"),
-          "(L,) of the same sum: a histogram moved to a mean (3,), each bin's mass split between the eight "
-          "that it comes to lie between, clamped to the axes.");
+          py::arg("mean"), docs::shift_histogram);
 }
 
 }  // namespace tricue::bindings

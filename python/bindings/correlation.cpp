@@ -4,6 +4,7 @@
 #include "fuse/correlation_train.hpp"
 #include "fuse/scale_response.hpp"
 #include "fuse/scale_train.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -80,30 +81,14 @@ std::tuple<Complex, Floating> scale_train_arrays(const Floating& looks, const Co
 
 void define_correlation(py::module_& m) {
     m.def("correlation_response", correlation_response_arrays, py::arg("cells"), py::arg("numerators"),
-          py::arg("denominators"), py::arg("ridge"),
-          "(F, R, C), no shift at (R // 2, C // 2): how much cells (K, R, C), shifted, look as those learnt: "
-          "equation (6), of F filters, their numerators (F, K, R, C // 2 + 1) and denominators "
-          "(F, R, C // 2 + 1) as correlation_train makes them; lambda is ridge times a denominator's mean.");
-    m.def(
-        "correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
-        py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
-        "Numerator (K, R, C // 2 + 1) and denominator (R, C // 2 + 1), equation (5), with cells (K, R, C) "
-        "times a focus (R, C) blended in at a rate from 0 to 1, which starts them. The rest adds its energy "
-        "to the denominator, background times. label (R, C // 2 + 1) is the spectrum of the wanted answer, "
-        "its peak at (0, 0).");
+          py::arg("denominators"), py::arg("ridge"), docs::correlation_response);
+    m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
+          py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
+          docs::correlation_train);
     m.def("scale_response", scale_response_arrays, py::arg("looks"), py::arg("numerator"),
-          py::arg("denominator"), py::arg("ridge"),
-          "(S,), no change at S // 2: how much the looks (S, D) of a target at S steps of scale, shifted, "
-          "are as those learnt: equation (6) along one dimension, of the numerator (S // 2 + 1, D) and "
-          "the denominator (S // 2 + 1,) that scale_train makes; lambda is ridge times the denominator's "
-          "mean.");
+          py::arg("denominator"), py::arg("ridge"), docs::scale_response);
     m.def("scale_train", scale_train_arrays, py::arg("looks"), py::arg("label"), py::arg("numerator"),
-          py::arg("denominator"), py::arg("rate"),
-          "Numerator (S // 2 + 1, D) and denominator (S // 2 + 1,), equation (5) along one dimension, with "
-          "looks (S, D) "
-          "blended in at a rate from 0 to 1, which starts them; label (S // 2 + 1,) is the spectrum of the "
-          "wanted "
-          "answer, its peak at 0.");
+          py::arg("denominator"), py::arg("rate"), docs::scale_train);
 }
 
 }  // namespace tricue::bindings

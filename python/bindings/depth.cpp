@@ -11,6 +11,7 @@
 #include "cues/depth/floor_plane.hpp"
 #include "cues/depth/height_above.hpp"
 #include "cues/depth/plane_support.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -67,13 +68,13 @@ Eigen::Map<const Triples> index_triples(const Array<std::int64_t>& triples) {
 
 Array<double> floor_plane_arrays(const Array<float>& depth, const Array<double>& camera,
                                  const Array<std::int64_t>& triples, double tolerance,
-                                 const Array<double>& up, double least_cosine) {
+                                 const Array<double>& up, double min_cosine) {
     const auto view = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
     const auto draws = index_triples(triples);
     const auto upward = vector(up, "up");
     return give(unlocked(draws.rows() * pixels(view),
-                         [&] { return floor_plane(view, lens, draws, tolerance, {upward, least_cosine}); }));
+                         [&] { return floor_plane(view, lens, draws, tolerance, {upward, min_cosine}); }));
 }
 
 Array<float> height_above_arrays(const Array<float>& depth, const Array<double>& camera,
@@ -104,48 +105,25 @@ Array<double> plane_support_arrays(const Array<float>& depth, const Array<double
 }  // namespace
 
 void define_depth(py::module_& m) {
-    m.def(
-        "above_floor", above_floor_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
-        py::arg("near"), py::arg("far"), py::arg("clear"),
-        "Depth (H, W) where it is in [near, far) and more than clear above the floor, NaN elsewhere, metres. "
-        "plane (4,): nx, ny, nz, d, zeros for none; camera (4,): fx, fy, cx, cy.");
+    m.def("above_floor", above_floor_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
+          py::arg("near"), py::arg("far"), py::arg("clear"), docs::above_floor);
     m.def("depth_edges", depth_edges_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
-          "1 at the farther of each two neighbours whose depths differ by more than gap + slope z^2, z the "
-          "nearer: (H, W).");
+          docs::depth_edges);
     m.def("depth_histogram", depth_histogram_arrays, py::arg("depth"), py::arg("mask"), py::arg("near"),
-          py::arg("far"), py::arg("levels"),
-          "Counts (levels,) of the pixels of depth (H, W), metres, under the mask (H, W) that lie in [near, "
-          "far).");
-    m.def(
-        "depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
-        py::arg("step"), py::arg("rows"), py::arg("columns"), py::arg("expected"), py::arg("sigma"),
-        py::arg("near_margin"),
-        "(rows, columns) P(target | z), and (rows, columns) 1 where z is less than expected - near_margin; z "
-        "is the depth of the pixel under the centre of each square of step pixels of a grid with its top "
-        "left corner at (x0, y0). 1/2 where nothing is measured.");
+          py::arg("far"), py::arg("levels"), docs::depth_histogram);
+    m.def("depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
+          py::arg("step"), py::arg("rows"), py::arg("columns"), py::arg("expected"), py::arg("sigma"),
+          py::arg("near_margin"), docs::depth_posterior);
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
-          "The label l in 1..M where dividers[l - 1] <= depth < dividers[l] under the mask, else 0: (H, W), "
-          "equations (35), (36).");
-    m.def(
-        "fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"), py::arg("ragged"),
-        py::arg("passes"),
-        "Depth (H, W), metres, in which gaps have the mean of their neighbours on the nearest surface, those "
-        "up to gap + slope z^2 behind the nearest; where there are more small gaps than the share ragged of "
-        "the measured pixels, else as it is. NaN where nothing was measured nor filled.");
-    m.def(
-        "floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
-        py::arg("tolerance"), py::arg("up"), py::arg("least_cosine"),
-        "(6,) nx, ny, nz, d of the floor n . X + d = 0, the share of the measured pixels within tolerance of "
-        "it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three "
-        "pixels, "
-        "row * cols + col.");
+          docs::divide_depth);
+    m.def("fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
+          py::arg("ragged"), py::arg("passes"), docs::fill_gaps);
+    m.def("floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
+          py::arg("tolerance"), py::arg("up"), py::arg("min_cosine"), docs::floor_plane);
     m.def("height_above", height_above_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
-          "Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where "
-          "nothing was measured. camera (4,): fx, fy, cx, cy.");
+          docs::height_above);
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
-          py::arg("tolerance"), py::arg("step"),
-          "(2,) shares of the measured pixels, every step-th, that are within tolerance of a plane (4,): nx, "
-          "ny, nz, d, and that are below it.");
+          py::arg("tolerance"), py::arg("step"), docs::plane_support);
 }
 
 }  // namespace tricue::bindings

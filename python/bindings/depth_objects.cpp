@@ -8,6 +8,7 @@
 #include "cues/depth/depth_distance.hpp"
 #include "cues/depth/measure_objects.hpp"
 #include "cues/depth/rectangle_histogram.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -112,44 +113,25 @@ Array<double> measure_objects_arrays(const Array<double>& table, const Array<flo
 }  // namespace
 
 void define_depth_objects(py::module_& m) {
-    m.def(
-        "cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
-        py::arg("border"), py::arg("beside"), py::arg("nearer"), py::arg("share"),
-        "(C, 4) whether the objects of a table (C, 7), depth_components', may go on at the left, right, top, "
-        "bottom: at the image's border, or behind something nearer right beside.");
-    m.def(
-        "depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),
-        py::arg("model"), py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("nearer"),
-        "(N, 4) of each state (N, 5) X, Y, Z, width, height, metres: equation (38) over sqrt 2 between its "
-        "depths relative to Z and the model (L,); the shares of the places inside that are within reach of "
-        "Z, and nearer than Z - nearer; the share round it within reach. grid: rows, columns; ring: margin, "
-        "places a side.");
+    m.def("cut_sides", cut_sides_arrays, py::arg("depth"), py::arg("table"), py::arg("camera"),
+          py::arg("border"), py::arg("beside"), py::arg("nearer"), py::arg("share"), docs::cut_sides);
+    m.def("depth_contrast", depth_contrast_arrays, py::arg("depth"), py::arg("camera"), py::arg("states"),
+          py::arg("model"), py::arg("grid"), py::arg("ring"), py::arg("reach"), py::arg("nearer"),
+          docs::depth_contrast);
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
-          "p(z) of equation (32), (L,) of sum 1: a histogram (L,) of depth levels, smoothed by a Gaussian.");
+          docs::depth_density);
     m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
-          "Levels (M,) of a density's maxima of at least this prominence, and (M - 1,) of its minima between "
-          "them, equations (32)-(34).");
-    m.def(
-        "depth_components", depth_components_arrays, py::arg("labels"), py::arg("depth"), py::arg("near"),
-        py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"), py::arg("image"),
-        "The 8-connected regions of one label, largest first: (C, 7) x, y, width, height, area, mean depth, "
-        "label; (C, levels) depth histograms; (C, bins) spread over columns, and over rows; (H, W) which "
-        "region has a pixel, from 1, or (0, 0) without an image.");
+          docs::density_extrema);
+    m.def("depth_components", depth_components_arrays, py::arg("labels"), py::arg("depth"), py::arg("near"),
+          py::arg("far"), py::arg("levels"), py::arg("bins"), py::arg("min_area"), py::arg("image"),
+          docs::depth_components);
     m.def("depth_distance", depth_distance_arrays, py::arg("depth"), py::arg("rectangles"), py::arg("model"),
-          py::arg("pattern"), py::arg("reach"), py::arg("nearer"),
-          "(N, 3) of each rectangle (N, 5) x, y, width, height, z: equation (38) over sqrt 2 between its "
-          "depths "
-          "relative to z and the model (L,); the share of the places (n, 2) within reach of z; the share "
-          "nearer than z - nearer.");
-    m.def(
-        "measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
-        py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), py::arg("legs"),
-        "(C, 8) of depth_components' objects: X, Y, Z, width, height of the box, metres; from its centre to "
-        "the centroid, x, y; area, m^2. Those that end less than feet above the plane (4,) stand on it.");
+          py::arg("pattern"), py::arg("reach"), py::arg("nearer"), docs::depth_distance);
+    m.def("measure_objects", measure_objects_arrays, py::arg("table"), py::arg("columns"), py::arg("rows"),
+          py::arg("cut"), py::arg("camera"), py::arg("plane"), py::arg("feet"), py::arg("legs"),
+          docs::measure_objects);
     m.def("rectangle_histogram", rectangle_histogram_arrays, py::arg("depth"), py::arg("rectangle"),
-          py::arg("levels"), py::arg("pattern"), py::arg("reach"),
-          "(levels,) of sum 1: the depths in a rectangle (5,) x, y, width, height, z, relative to z, in "
-          "[-reach, reach).");
+          py::arg("levels"), py::arg("pattern"), py::arg("reach"), docs::rectangle_histogram);
 }
 
 }  // namespace tricue::bindings

@@ -5,6 +5,7 @@
 #include "fuse/resample.hpp"
 #include "fuse/reweight.hpp"
 #include "fuse/summarize.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -50,33 +51,26 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
 
 Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array<double>& size,
                                      const Array<double>& spread, const Array<double>& state,
-                                     const Array<double>& deviation, double most) {
+                                     const Array<double>& deviation, double max_cost) {
     const auto each = states(particles, "states");
     const UsualSize usual{vector(size, "size"), vector(spread, "spread")};
-    const MeasuredState measured{vector(state, "state"), vector(deviation, "deviation"), most};
+    const MeasuredState measured{vector(state, "state"), vector(deviation, "deviation"), max_cost};
     return give(unlocked(each.size(), [&] { return rectangle_prior(each, usual, measured); }));
 }
 
 }  // namespace
 
 void define_fuse(py::module_& m) {
-    m.def("resample", resample_arrays, py::arg("weights"), py::arg("offset"),
-          "Systematic resampling: N indices, ascending, drawn by one comb shifted by offset in [0, 1).");
-    m.def(
-        "propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"), py::arg("noise"),
-        py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"), py::arg("upper"),
-        "Mixture proposal: particles (N, D) moved by drift + scale * noise, equation (30); floor(share N) of "
-        "them have their first K numbers from N(mean, root root^T) instead; all clamped to [lower, upper].");
+    m.def("resample", resample_arrays, py::arg("weights"), py::arg("offset"), docs::resample);
+    m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
+          py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
+          py::arg("upper"), docs::propose);
     m.def("rectangle_prior", rectangle_prior_arrays, py::arg("states"), py::arg("size"), py::arg("spread"),
-          py::arg("state"), py::arg("deviation"), py::arg("most"),
-          "(N,) log-likelihood of rectangles (N, D), width and height last, by their usual size (2,), spread "
-          "being the deviation of its logarithm, and by a measured state (D,), which costs at most most.");
+          py::arg("state"), py::arg("deviation"), py::arg("max_cost"), docs::rectangle_prior);
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),
           py::arg("drift"), py::arg("scale"), py::arg("mean"), py::arg("root"), py::arg("share"),
-          "Weights (N,) of proposed particles, equation (2), with sum 1, and the log of their mean before "
-          "normalising.");
-    m.def("summarize", summarize_arrays, py::arg("particles"), py::arg("weights"),
-          "Expected value (D,), covariance (D, D) and effective sample size of weighted particles (N, D).");
+          docs::reweight);
+    m.def("summarize", summarize_arrays, py::arg("particles"), py::arg("weights"), docs::summarize);
 }
 
 }  // namespace tricue::bindings

@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "fuse/kalman_predict.hpp"
 #include "fuse/kalman_update.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -34,14 +35,9 @@ std::tuple<Numbers, Numbers, Numbers, Numbers> kalman_update_arrays(const Number
 
 void define_kalman(py::module_& m) {
     m.def("kalman_predict", kalman_predict_arrays, py::arg("mean"), py::arg("covariance"),
-          py::arg("transition"), py::arg("noise"),
-          "Mean (D,) and covariance (D, D) one step on: F x, F P F^T + Q, with F the transition and Q the "
-          "noise.");
+          py::arg("transition"), py::arg("noise"), docs::kalman_predict);
     m.def("kalman_update", kalman_update_arrays, py::arg("mean"), py::arg("covariance"),
-          py::arg("measurement"), py::arg("observation"), py::arg("noise"),
-          "Mean (D,), covariance (D, D), innovation (M,) and its covariance (M, M) after a measurement (M,) "
-          "= H x "
-          "+ noise (M, M), H the observation (M, D).");
+          py::arg("measurement"), py::arg("observation"), py::arg("noise"), docs::kalman_update);
 }
 
 }  // namespace tricue::bindings

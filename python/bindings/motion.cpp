@@ -5,6 +5,7 @@
 #include "cues/motion/flow_scale.hpp"
 #include "cues/motion/gradient_flow.hpp"
 #include "cues/motion/pyramid_flow.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -53,40 +54,24 @@ Planes pyramid_flow_arrays(const Bytes& previous, const Bytes& current, double s
 }
 
 std::tuple<double, double, std::int64_t> flow_scale_arrays(const Array<float>& u, const Array<float>& v,
-                                                           double outliers, int least) {
+                                                           double outliers, int min_pixels) {
     constexpr const char* kFlow = "float32 flow (h, w)";
     const auto across = plane_view(u, "u", kFlow), down = plane_view(v, "v", kFlow);
     const auto found = unlocked(std::ptrdiff_t{across.rows} * across.cols,
-                                [&] { return flow_scale(across, down, outliers, least); });
+                                [&] { return flow_scale(across, down, outliers, min_pixels); });
     return {found.a, found.spread, found.count};
 }
 
 }  // namespace
 
 void define_motion(py::module_& m) {
-    m.def(
-        "gradient_flow", gradient_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
-        py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
-        "Flow u, v, pixels a frame, NaN where a reliability is under its minimum, and the reliabilities "
-        "angle, 0 to 1, and contrast, (h, w) each, of the region (x0, y0, x1, y1) of two gray frames (H, W), "
-        "or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, "
-        "along "
-        "x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.");
-    m.def(
-        "pyramid_flow", pyramid_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
-        py::arg("levels"), py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
-        py::arg("pool") = 3, py::arg("max_step") = 0.4,
-        "As gradient_flow, (h, w) each, for longer motions: from coarse to fine over 2 to 8 levels, previous "
-        "warped towards current, constraints pooled over 2 pool + 1 pixels square. The flow of what is at "
-        "the "
-        "pixel in current, NaN also where the last level's step is longer than max_step pixels; angle and "
-        "contrast are those of the window.");
-    m.def(
-        "flow_scale", flow_scale_arrays, py::arg("u"), py::arg("v"), py::arg("outliers"), py::arg("least"),
-        "How much a flow u, v (h, w), pixels a frame, NaN where unknown, stretches: a of x - u = a x + b, "
-        "y - v = a y + c by least squares, and once more without the pixels whose squared residual is above "
-        "outliers^2 times the mean; the mean squared residual of the last fit, pixels^2; and the count "
-        "of its pixels. a and the residual are NaN where fewer than least pixels are left, or just one.");
+    m.def("gradient_flow", gradient_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
+          py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(), docs::gradient_flow);
+    m.def("pyramid_flow", pyramid_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
+          py::arg("levels"), py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
+          py::arg("pool") = 3, py::arg("max_step") = 0.4, docs::pyramid_flow);
+    m.def("flow_scale", flow_scale_arrays, py::arg("u"), py::arg("v"), py::arg("outliers"),
+          py::arg("min_pixels"), docs::flow_scale);
 }
 
 }  // namespace tricue::bindings

@@ -4,6 +4,7 @@
 #include "cues/color/box_means.hpp"
 #include "cues/color/gradient_color_cells.hpp"
 #include "cues/color/sample_windows.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -49,22 +50,13 @@ Array<double> box_means_arrays(const Array<float>& plane, double x, double y, co
 
 void define_patch(py::module_& m) {
     m.def("sample_windows", sample_windows_arrays, py::arg("image"), py::arg("windows"), py::arg("rows"),
-          py::arg("columns"),
-          "Windows (N, 4), left, top, width, height in pixels, of a BGR image (H, W, 3) on a grid each: (N, "
-          "rows, columns, 3) means of up to 4 x 4 bilinear readings of what a sample covers, rounded; the "
-          "image's edge is repeated.");
+          py::arg("columns"), docs::sample_windows);
     m.def("gradient_color_cells", gradient_color_cells_arrays, py::arg("patch"), py::arg("taper"),
-          "(11, R, C) of a BGR patch (2R, 2C, 3), times a taper (R, C): eight signed orientations, every 45 "
-          "degrees, of gradients over the contrast around, then blue, green and red in [0, 1] without their "
-          "means.");
+          docs::gradient_color_cells);
     m.def("box_contrast", box_contrast_arrays, py::arg("plane"), py::arg("width"), py::arg("height"),
-          py::arg("outer"), py::arg("around"),
-          "(R, C) of a map (2R, 2C): its mean in a box of width by height pixels at every second place, the "
-          "middle one at (R // 2, C // 2), minus around times that in the frame that reaches to outer times "
-          "its size.");
+          py::arg("outer"), py::arg("around"), docs::box_contrast);
     m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("x"), py::arg("y"), py::arg("widths"),
-          py::arg("heights"),
-          "(N,) means of a map (H, W) in boxes of N sizes round (x, y), pixels; 0 lies outside.");
+          py::arg("heights"), docs::box_means);
 }
 
 }  // namespace tricue::bindings

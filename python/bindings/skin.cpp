@@ -8,6 +8,7 @@
 #include "cues/color/skin_moments.hpp"
 #include "cues/color/skin_reference.hpp"
 #include "cues/color/skin_rule.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -52,31 +53,23 @@ Array<float> skin_rule_arrays(const Bytes& pixels) {
 Array<float> skin_gaussian_arrays(const Bytes& pixels, const Array<double>& mean,
                                   const Array<double>& precision) {
     const auto view = samples(pixels, "samples");
-    const auto centre = vector(mean, "mean");
+    const auto center = vector(mean, "mean");
     const auto inverse = states(precision, "precision");
-    return give(unlocked(view.ellipses * view.n, [&] { return skin_gaussian(view, centre, inverse); }));
+    return give(unlocked(view.ellipses * view.n, [&] { return skin_gaussian(view, center, inverse); }));
 }
 
 }  // namespace
 
 void define_skin(py::module_& m) {
-    m.def("skin_reference", skin_reference_arrays, py::arg("patch"),
-          "Reference color (3,) of a BGR patch: the mode of its histogram of 32 levels a channel, refined by "
-          "the mean there.");
-    m.def("skin_boundary", skin_boundary_arrays, py::arg("image"), py::arg("reference"),
-          "255 max(b, g, r) - 255 max|c - c0| of every pixel, (H, W) int16, equations (5)-(10).");
+    m.def("skin_reference", skin_reference_arrays, py::arg("patch"), docs::skin_reference);
+    m.def("skin_boundary", skin_boundary_arrays, py::arg("image"), py::arg("reference"), docs::skin_boundary);
     m.def("skin_moments", skin_moments_arrays, py::arg("image"), py::arg("reference"), py::arg("threshold"),
-          py::arg("region"),
-          "(6,) count, mean x, mean y, var xx, var yy, cov xy of the skin pixels in region (x0, y0, x1, y1), "
-          "equations "
-          "(5)-(16) divided by the count; zeros where there are none.");
+          py::arg("region"), docs::skin_moments);
     m.def("skin_blobs", skin_blobs_arrays, py::arg("image"), py::arg("reference"), py::arg("threshold"),
-          py::arg("min_area"),
-          "(M, 7) x, y, width, height, area, cx, cy of the 8-connected regions of skin, largest first.");
-    m.def("skin_rule", skin_rule_arrays, py::arg("samples"),
-          "1 where a sample is skin by the explicit rule of Peer et al. 2003, else 0: (N, n).");
+          py::arg("min_area"), docs::skin_blobs);
+    m.def("skin_rule", skin_rule_arrays, py::arg("samples"), docs::skin_rule);
     m.def("skin_gaussian", skin_gaussian_arrays, py::arg("samples"), py::arg("mean"), py::arg("precision"),
-          "exp(-d^2 / 2) of every sample, d the Mahalanobis distance of its (Cb, Cr) to the mean: (N, n).");
+          docs::skin_gaussian);
 }
 
 }  // namespace tricue::bindings

@@ -9,6 +9,7 @@
 #include "camera/rectify_verged.hpp"
 #include "cues/stereo/gradient_disparity.hpp"
 #include "cues/stereo/sad_disparity.hpp"
+#include "kernel_docs.hpp"
 
 namespace tricue::bindings {
 namespace {
@@ -87,33 +88,16 @@ void define_stereo(py::module_& m) {
     m.def("sad_disparity", sad_disparity_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
           py::arg("ellipse"), py::arg("first"), py::arg("last"), py::arg("window") = 5,
           py::arg("uniqueness") = 15, py::arg("prefilter") = true, py::arg("tolerance") = -1,
-          "Disparities (h, w), pixels, of the region (x0, y0, x1, y1) of the left of two rectified "
-          "gray images (H, W), or of the ellipse in it, x_right = x_left - d, d in [first, last]: equations "
-          "(3), (4); NaN where rejected or not seen. uniqueness in percent, 0 rejects nothing; tolerance of "
-          "the "
-          "left-right check in pixels, negative for none.");
-    m.def(
-        "back_project", back_project_arrays, py::arg("measurements"), py::arg("variances"), py::arg("camera"),
-        py::arg("baseline"),
-        "Points (N, 3), metres, and covariances (N, 3, 3) = J S J^T of u, v, d (N, 3), pixels, for the "
-        "rectified "
-        "rig camera (4,): fx, fy, cx, cy, and baseline in metres; variances (3,) of u, v, d, or S (N, 3, 3). "
-        "NaN where u, v, d aren't finite or d isn't above 0.");
+          docs::sad_disparity);
+    m.def("back_project", back_project_arrays, py::arg("measurements"), py::arg("variances"),
+          py::arg("camera"), py::arg("baseline"), docs::back_project);
     m.def("gradient_disparity", gradient_disparity_arrays, py::arg("left"), py::arg("right"),
           py::arg("disparity"), py::arg("levels") = 3, py::arg("sigma") = 1.0, py::arg("radius") = 2,
           py::arg("min_reliability") = 0.3, py::arg("max_residual") = 0.2, py::arg("max_step") = 1.0,
-          py::arg("region") = py::none(),
-          "Disparities and reliabilities (9), each (h, w), of the region (x0, y0, x1, y1) of the left of two "
-          "rectified gray images (H, W), by default the whole: measured round a predicted disparity by the "
-          "gradient method (7), coarse to fine; pixels, x_right = x_left - d, NaN where rejected or not "
-          "seen. levels = 1, radius = 0 is the paper's method.");
+          py::arg("region") = py::none(), docs::gradient_disparity);
     m.def("rectify_verged", rectify_verged_arrays, py::arg("right"), py::arg("angle"), py::arg("focal"),
           py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
-          "The right image, gray (H, W) or BGR (H, W, 3), of a camera turned inwards by an angle, radians "
-          "about "
-          "y, as one parallel to the left camera sees it: equation (8), and the columns with it. focal and "
-          "center, the image's middle by default, in pixels; disparities are f b / z - shift. Black where "
-          "the camera saw nothing.");
+          docs::rectify_verged);
 }
 
 }  // namespace tricue::bindings

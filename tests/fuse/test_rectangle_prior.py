@@ -29,7 +29,7 @@ def case(count: int = 40, dimensions: int = 5, seed: int = 0, **changes: Any) ->
         "spread": rng.uniform(0.1, 0.5, 2),
         "state": rng.normal(0, 1, dimensions),
         "deviation": rng.uniform(0.05, 1, dimensions),
-        "most": 12.0,
+        "max_cost": 12.0,
     }
     return arguments | changes
 
@@ -39,7 +39,7 @@ def test_twin_knows_the_same(seed: int, count: int, dimensions: int, most: float
     """Native and reference agree for any N and D: of D + 2 squares, all of one sign, each is rounded twice
     but for its logarithm, which two libraries compute to 4 ulps; and their sum D + 2 times.
     """
-    arguments = case(count, dimensions, seed, most=most)
+    arguments = case(count, dimensions, seed, max_cost=most)
     native, twin = (k.rectangle_prior(**arguments) for k in (_core, reference))
     assert native.shape == (count,)
     assert_allclose(native, twin, rtol=(2 * 4 + 4 + dimensions + 2) * EPS)
@@ -49,7 +49,7 @@ def test_agrees_with_densities(kernels: Kernels) -> None:
     """Without a limit it is the logarithm of log-normal densities of the sizes, and normal ones of the state,
     SciPy's, each over its density at its mode.
     """
-    arguments = case(30, most=np.inf)
+    arguments = case(30, max_cost=np.inf)
     states, size, spread, state, deviation, _ = arguments.values()
     # The mode of log(s / size), not of s: without the 1 / s of the change of variables.
     expected = norm.logpdf(np.log(states[:, 3:]), np.log(size), spread) - norm.logpdf(0, 0, spread)
@@ -96,7 +96,7 @@ def test_costs_at_most_the_most(seed: int, most: float) -> None:
     """A measured state costs from nothing to ``most``, whatever its deviation, and at the best both are at
     their best: no prior is above 0.
     """
-    measured = case(30, seed=seed, most=most)
+    measured = case(30, seed=seed, max_cost=most)
     nothing = measured | {"deviation": np.full(5, np.inf)}
     sharp = measured | {"deviation": np.full(5, 1e-300)}
     for kernels in (_core, reference):
@@ -109,7 +109,7 @@ def test_costs_at_most_the_most(seed: int, most: float) -> None:
 
 
 @pytest.mark.parametrize(
-    "unmeasured", [{"deviation": np.full(5, np.inf)}, {"most": 0.0}], ids=["wide", "free"]
+    "unmeasured", [{"deviation": np.full(5, np.inf)}, {"max_cost": 0.0}], ids=["wide", "free"]
 )
 def test_not_measured(kernels: Kernels, unmeasured: Case) -> None:
     """Infinite deviations, or a cost of at most nothing, leave the sizes alone: the state isn't seen."""
@@ -146,8 +146,8 @@ BAD_VALUES: list[tuple[Case, str]] = [
     ({"deviation": np.ones(6)}, r"deviation: expected shape \(5,\), got \(6,\)"),
     ({"deviation": np.zeros(5)}, "deviation: expected numbers above 0, got 0"),
     ({"deviation": np.full(5, np.nan)}, "deviation: expected numbers above 0, got nan"),
-    ({"most": -1.0}, "most: expected a number of at least 0, got -1"),
-    ({"most": np.nan}, "most: expected a number of at least 0, got nan"),
+    ({"max_cost": -1.0}, "max_cost: expected a number of at least 0, got -1"),
+    ({"max_cost": np.nan}, "max_cost: expected a number of at least 0, got nan"),
 ]
 
 

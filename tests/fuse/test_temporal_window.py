@@ -168,8 +168,8 @@ def test_nothing_left(kernels: Kernels) -> None:
 @pytest.mark.parametrize(
     ("neighbours", "share", "trim", "message"),
     [
-        (-1, 0.2, 0.02, "neighbours: expected 0 to 8, got -1"),
-        (9, 0.2, 0.02, "neighbours: expected 0 to 8, got 9"),
+        (-1, 0.2, 0.02, "neighbors: expected 0 to 8, got -1"),
+        (9, 0.2, 0.02, "neighbors: expected 0 to 8, got 9"),
         (3, -0.1, 0.02, r"share: expected a number in \[0, 1\], got -0.1"),
         (3, np.nan, 0.02, r"share: expected a number in \[0, 1\], got nan"),
         (3, 1.5, 0.02, r"share: expected a number in \[0, 1\], got 1.5"),

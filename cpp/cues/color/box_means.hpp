@@ -6,16 +6,17 @@
 
 namespace tricue {
 
-/// Means of a map in boxes of N sizes round a place, over the areas that they have, outside the map lying 0.
+/// Means of a map in N boxes of different sizes around one place.
 ///
-/// Pixels count by the part that is covered. Two of them give what lies between two boxes, along a target's edge. Sums in
-/// float64.
+/// A pixel counts by the part of it that is covered; outside the map the values are 0. Sums are float64. The means of two boxes
+/// give what lies between them, along a target's edge.
 ///
-/// @param plane   H x W, finite, at least one pixel
-/// @param x, y    the place, pixels from the map's corner, finite
-/// @param widths  N, pixels, finite, above 0
-/// @param heights N, pixels, finite, above 0
-/// @throws std::invalid_argument on a plane without pixels, unlike sizes, and numbers out of range
+/// @param plane float32 (H, W), finite, at least one pixel
+/// @param x, y center of the boxes, finite, pixels from the map's top left corner
+/// @param widths float64 (N,), finite, above 0, pixels
+/// @param heights float64 (N,), finite, above 0, pixels
+/// @returns float64 (N,)
+/// @throws std::invalid_argument on a plane without pixels, unlike sizes, or numbers out of range
 /// Source: ours.
 Vector box_means(const PlaneView& plane, double x, double y, VectorRef widths, VectorRef heights);
 

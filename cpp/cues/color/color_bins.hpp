@@ -13,18 +13,19 @@ namespace tricue {
 /// A bin for every pixel of a region, (H, W).
 using Bins = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The bin of every pixel of a region in the space (B - G, G - R, B + G + R).
+/// The bin of each pixel of a region in the color space (B - G, G - R, B + G + R).
 ///
-/// Whole numbers throughout: an axis of n bins over L levels has level v in bin floor(v n / L). With a step of s the pixel
-/// (x0 + s j + s / 2, y0 + s i + s / 2) alone stands for the s x s pixels round it, and place x of the image is (x - x0) / s here.
+/// Bin (i, j, k) has the index (i n_1 + j) n_2 + k. An axis of n bins over L whole levels has level v in bin floor(v n / L). With
+/// step s only pixel (x0 + s j + s // 2, y0 + s i + s // 2) is read for output (i, j): place x of the image is (x - x0) / s there.
 ///
-/// @param image  uint8 BGR, may be empty
-/// @param region may reach over the edge; a side is at most 32768 pixels
-/// @param space  bins an axis, and where the axes of chroma end
-/// @param step   pixels from one to the next, 1 to 1024
-/// @returns      (ceil(height / step), ceil(width / step)); kNoBin outside the image; empty for an empty region
-/// @throws std::invalid_argument on other values
-/// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1, after Birchfield 1998; they don't say where the axes end.
+/// @param image uint8 (H, W, 3) BGR, may be empty
+/// @param region (x0, y0, x1, y1), pixels; may reach over the image's edge; sides of at most 32768
+/// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+/// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond are in the end bins
+/// @param step pixels from one sample to the next, 1 to 1024
+/// @returns uint16 (ceil(height / step), ceil(width / step)); 65535 outside the image; empty for an empty region
+/// @throws std::invalid_argument on values out of range
+/// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1, after Birchfield 1998; neither says where the axes end.
 Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& space, int step);
 
 }  // namespace tricue

@@ -6,14 +6,14 @@
 
 namespace tricue {
 
-/// What a table says of every sample's color: table[b B/256, g B/256, r B/256].
+/// Looks the color of each sample up in a table: table[b B // 256, g B // 256, r B // 256].
 ///
-/// @param samples (N, 3, n)
-/// @param table   (B^2, B): rows (blue, green), columns red; B a power of two, at most 64
-/// @returns       (N, n)
+/// @param samples uint8 (N, 3, n): N ellipses, channels B, G, R
+/// @param table float32 (B, B, B), B a power of two up to 64; in C++ B² rows (blue, green) of B reds
+/// @returns float32 (N, n)
 /// @throws std::invalid_argument on a table of another size
-/// Source: the normalised look-up table of Vezhnevets, Sazonov, Andreeva 2003, section 3.1; the histogram
-/// model of Sabeti, Parvizi, Wu 2008, figure 1.
+/// Source: the normalized look-up table of Vezhnevets, Sazonov, Andreeva 2003, section 3.1; the histogram model of Sabeti, Parvizi,
+/// Wu 2008, figure 1.
 Floats color_lookup(const SampleView& samples, FloatsRef table);
 
 }  // namespace tricue

@@ -6,15 +6,15 @@
 
 namespace tricue {
 
-/// The rank of every sample among the samples of its own ellipse and channel, equation (17) as a mid-rank:
-/// (samples of a lower level + half of those of the same level) / n.
+/// The mid-rank of each sample among the samples of its ellipse and channel: (samples of a lower level + half of those of the same
+/// level) / n.
 ///
-/// (17) as printed counts all samples of the same level; then a wide flat area ranks higher than a narrow one. The middle
-/// has no such bias and a mean of 1/2. Any strictly increasing change of a channel leaves its ranks as they are.
+/// Equation (17) as printed counts all samples of the same level, so that a large flat area ranks higher than a small one; the
+/// mid-rank has no such bias, and a mean of 1/2. Any strictly increasing change of a channel leaves the ranks as they are.
 ///
-/// @param samples N ellipses of n >= 1 samples in 3 channels
-/// @returns       N x 3n, each in (0, 1): rows of the blue, the green and the red ranks
-/// @throws std::invalid_argument where an ellipse has no samples
+/// @param samples uint8 (N, 3, n): N ellipses, channels B, G, R, n at least 1
+/// @returns float32 (N, 3, n), each in (0, 1); in C++ N rows of 3 n
+/// @throws std::invalid_argument on n = 0
 /// Source: Sabeti, Parvizi, Wu 2008, equation (17); Muselet, Macaire 2006.
 Floats color_ranks(const SampleView& samples);
 

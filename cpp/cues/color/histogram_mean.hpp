@@ -6,13 +6,15 @@
 
 namespace tricue {
 
-/// The mean color of a histogram over the space (B - G, G - R, B + G + R): μ of the state.
+/// Mean color (B - G, G - R, B + G + R) of a histogram over that space.
 ///
-/// A bin stands for the mean of the whole levels in it: with as many bins as levels it is the mean of the pixels.
+/// A bin stands for the mean of the whole levels in it: with as many bins as levels the result is the mean of the pixels.
 ///
-/// @param histogram (L,) as color_bins numbers it, L the bins of the space; finite, none negative, a sum above 0
-/// @returns         (3,) color units
-/// @throws std::invalid_argument on another size or values
+/// @param histogram float64 (L,), L = n_0 n_1 n_2, in the order of color_bins; finite, none negative, a sum above 0
+/// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+/// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255
+/// @returns float64 (3,), color levels
+/// @throws std::invalid_argument on another size or other values
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, μ of equation (7).
 Vector histogram_mean(VectorRef histogram, const ColorSpace& space);
 

@@ -6,12 +6,11 @@
 
 namespace tricue {
 
-/// The joint color histogram of each ellipse's samples: bins³ cells, index (b bins + g) bins + r of the quantised channels,
-/// of sum 1 (all 0 where there are no samples).
+/// Joint color histogram of each ellipse's samples: cell (b bins + g) bins + r of the quantized channels.
 ///
-/// @param samples N ellipses of n samples in 3 channels
-/// @param bins    a power of two from 1 to 64
-/// @returns       N x bins³
+/// @param samples uint8 (N, 3, n): N ellipses, channels B, G, R
+/// @param bins bins per channel, a power of two from 1 to 64
+/// @returns float32 (N, bins³), each of sum 1, or all 0 where n = 0
 /// @throws std::invalid_argument on another number of bins
 /// Source: the non-parametric skin model of Vezhnevets, Sazonov, Andreeva 2003, which the paper compares with.
 Floats joint_histogram(const SampleView& samples, int bins);

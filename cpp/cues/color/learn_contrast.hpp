@@ -6,20 +6,26 @@
 
 namespace tricue {
 
-/// Joint histograms of a target's colors and of those round it, each of sum 1 once it has been learnt, and what follows of them by
-/// Bayes' rule with equal priors: P(target | color). Cubes (B², B): rows (blue, green), columns red.
+/// The colors of a target and of its surround, and what follows of them.
 struct ColorContrast {
-    Floats target, surround, table;
+    Floats target;    ///< float32 (B, B, B): the target's histogram, of sum 1 once learned
+    Floats surround;  ///< float32 (B, B, B): the surround's histogram, of sum 1 once learned
+    Floats table;     ///< float32 (B, B, B): P(target | color)
 };
 
-/// Blends the colors seen now into both histograms, old + rate (new - old), and makes the table anew:
-/// target / (target + surround + rare). All in float32.
+/// Updates the color histograms of a target and of its surround, and the table P(target | color) that follows by Bayes' rule with
+/// equal priors:
+///     new = old + rate (seen - old),   table = target / (target + surround + rare)
 ///
-/// @param inside, around    samples of one ellipse each, as joint_histogram counts them
-/// @param target, surround  what was known; zeros at the start, with a rate of 1
-/// @param rate              in [0, 1]
-/// @param rare              above 0: a cell's share under which it says little about either side
-/// @throws std::invalid_argument on cubes of other or unlike sizes, not one ellipse, or a rate or rare out of range
+/// All in float32; in C++ a cube is B² rows (blue, green) of B reds.
+///
+/// @param inside uint8 (1, 3, n): samples in the target, channels B, G, R, counted as by joint_histogram
+/// @param around uint8 (1, 3, m): samples around the target
+/// @param target float32 (B, B, B), B a power of two up to 64: the target's histogram so far; zeros at first, with a rate of 1
+/// @param surround float32 (B, B, B): the surround's histogram so far
+/// @param rate learning rate, in [0, 1]
+/// @param rare above 0: the share of a cell below which it says little about either side
+/// @throws std::invalid_argument on other or unlike shapes, or a rate or rare out of range
 /// Source: ours; the histograms are those of Vezhnevets, Sazonov, Andreeva 2003, section 3.1.
 ColorContrast learn_contrast(const SampleView& inside, const SampleView& around, FloatsRef target,
                              FloatsRef surround, double rate, double rare);

@@ -6,20 +6,19 @@
 
 namespace tricue {
 
-/// How differently corresponding pixels are ordered: twice the mean absolute difference between the mid-ranks of an ellipse's
-/// samples (color_ranks) and those that each model expects at the same places.
+/// Distance between orders of corresponding pixels: twice the mean absolute difference between the mid-ranks of an ellipse's
+/// samples (color_ranks) and those that a model expects at the same places.
 ///
-/// 0: the same order; 2/3: unrelated orders; 1: the opposite order. Any strictly increasing change of a channel of the image
-/// leaves it as it is. What the paper argues for in words, the order of corresponding pixels (section III.B); its printed
-/// equations (19)-(29) are rank_sections and section_distance.
+/// 0 is the same order, 2/3 unrelated orders, 1 the opposite order. Any strictly increasing change of a channel of the image leaves
+/// it as it is. A model's ranks are rounded to the nearest multiple of 1/(2n), as those of samples are, so the distance is exact to
+/// its last rounding.
 ///
-/// A model's ranks are rounded to the nearest that samples can have, a multiple of 1/2n; then all sums are whole numbers, and
-/// the distance is exact to its last rounding.
-///
-/// @param samples N ellipses of n >= 1 samples in 3 channels
-/// @param models  M x 3n rank maps in [0, 1]: blue, green, red
-/// @returns       N x M, each in [0, 1]
-/// @throws std::invalid_argument where an ellipse has no samples, the models have another number of them, or ranks outside [0, 1]
+/// @param samples uint8 (N, 3, n): N ellipses, channels B, G, R, n at least 1
+/// @param models float32 (M, 3, n): rank maps in [0, 1]; in C++ M rows of 3 n
+/// @returns float64 (N, M) in [0, 1]
+/// @throws std::invalid_argument on n = 0, models of another n, or ranks outside [0, 1]
+/// Source: Sabeti, Parvizi, Wu 2008, the order of corresponding pixels that section III.B argues for; its printed equations
+/// (19)-(29) are rank_sections and section_distance.
 States rank_distance(const SampleView& samples, FloatsRef models);
 
 }  // namespace tricue

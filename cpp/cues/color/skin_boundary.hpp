@@ -9,14 +9,13 @@ namespace tricue {
 
 using Boundary = Eigen::Array<std::int16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The boundary value of every pixel in 255ths: 255 Δ = max(b, g, r) - max(|b - b0|, |g - g0|, |r - r0|).
+/// Boundary value of each pixel in 255ths: 255 Δ = max(b, g, r) - max(|b - b0|, |g - g0|, |r - r0|).
 ///
-/// A pixel is skin where Δ > threshold. On colors of 8 bits the value is a whole number in [-255, 255], so it
-/// is kept exactly; the paper writes it on colors in [0, 1].
+/// A pixel is skin where Δ > threshold. The paper writes Δ on colors in [0, 1]; on colors of 8 bits 255 Δ is exact.
 ///
-/// @param image     BGR pixels (H, W)
-/// @param reference the reference color c0
-/// @returns         (H, W) of 255 Δ
+/// @param image uint8 (H, W, 3) BGR
+/// @param reference uint8 (3,): the reference color c0, B, G, R
+/// @returns int16 (H, W): 255 Δ, in [-255, 255]
 /// Source: Sabeti, Parvizi, Wu 2008, equations (4)-(10).
 Boundary skin_boundary(const ImageView& image, const Bgr& reference);
 

@@ -6,26 +6,26 @@
 
 namespace tricue {
 
-/// What a target's depths are like: a histogram of depth relative to the target's own, L levels of [-reach, reach) metres.
+/// What a target's depths are like: a histogram of depth relative to the target's own.
 struct DepthModel {
     VectorRef histogram;
-    double reach;
+    double reach;  ///< the L levels of the histogram cover [-reach, reach), meters, finite, above 0
 };
 
-/// How far what each rectangle shows is from the model, how much of it is at the rectangle's depth, and how much before it.
+/// Distance of the depths in each rectangle from a model, and the shares of it at and before the rectangle's depth.
 ///
-/// The same n places of every rectangle are read: (floor(y + height / 2 v), floor(x + width / 2 u)) for each (u, v) of the
-/// pattern, in float64; pixel (0, 0) covers [0, 1) x [0, 1). A place outside the image, or without a measurement, is unseen. A
-/// depth counts where its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L). The histogram h of
-/// what counts is divided by its number; (38) on histograms of sum 1 reaches sqrt 2, by which it is divided.
+/// Of every rectangle the same n places are read: pixel (floor(y + height / 2 v), floor(x + width / 2 u)) for each (u, v) of the
+/// pattern, in float64; pixel (0, 0) covers [0, 1) x [0, 1). A depth counts where its level floor(((depth - z) + reach) (L / (2
+/// reach))), in float64, is in [0, L); a place outside the image or without a measurement does not. The histogram h of what counts,
+/// divided by its number, has the distance sqrt(Σ (h - m)²) / sqrt 2 from the model m: equation (38) over its maximum.
 ///
-/// @param depth      metres; may be empty
-/// @param rectangles (N, 5): centre x, y, width, height, pixels; depth z, metres; finite
-/// @param model      histogram (L,) of sum 1, or all 0, none negative; reach above 0, finite
-/// @param pattern    (n, 2): (u, v), 1 being the right and the lower edge; finite, n at least 1
-/// @param nearer     metres, finite, not negative
-/// @returns          (N, 3): sqrt(sum (h - m)²) / sqrt 2, in [0, 1], 1 where nothing counts; the share of the places that
-///                   count; the share of the places whose depth is below z - nearer
+/// @param depth float32 (H, W), meters; may be empty
+/// @param rectangles float64 (N, 5): center x, y, width, height, pixels; depth z, meters; finite
+/// @param model float64 (L,): histogram of depth relative to z, of sum 1, or all 0, none negative
+/// @param pattern float64 (n, 2), n at least 1: (u, v), 1 being the right and the lower edge; finite
+/// @param nearer meters, finite, at least 0
+/// @returns float64 (N, 3): the distance, in [0, 1], 1 where nothing counts; the share of the places that count; the share of the
+///     places whose depth is below z - nearer
 /// @throws std::invalid_argument on other shapes or values
 /// Source: Sabeti, Parvizi, Wu 2008, equation (38), section IV.B; depth relative to z, and what is nearer, are ours.
 States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthModel& model,

@@ -8,19 +8,20 @@
 namespace tricue {
 
 struct DepthLevels {
-    double near, far;  ///< metres, finite, near < far: depths in [near, far) are counted
-    int count;         ///< 1 to 65536
+    double near, far;  ///< depths in [near, far) are counted, meters, finite, near < far
+    int count;
 };
 
-/// How many pixels under the mask lie in every level of depth.
+/// Counts the pixels under a mask at each level of depth.
 ///
-/// level = floor((z - near) (levels / (far - near))), from 0 to levels - 1, in float32, to which near and the quotient are
-/// rounded; what is in [near, far) is decided exactly.
+/// The level is floor((z - near) (levels / (far - near))), at most levels - 1, in float32, to which near and the quotient are
+/// rounded; whether z is in [near, far) is decided exactly.
 ///
-/// @param depth metres; what wasn't measured isn't counted
-/// @param mask  of the same shape: pixels where it is 0 aren't counted
-/// @returns     (levels,) counts
-/// @throws std::invalid_argument on a mask of another shape, or levels that are none
+/// @param depth float32 (H, W), meters; what is not measured is not counted
+/// @param mask uint8 (H, W): pixels where it is 0 are not counted
+/// @param levels 1 to 65536
+/// @returns float64 (levels,)
+/// @throws std::invalid_argument on a mask of another shape, or invalid levels
 /// Source: Sabeti, Parvizi, Wu 2008, section IV.A: the histogram behind p(z), equation (32).
 Vector depth_histogram(const DepthView& depth, const ImageView& mask, const DepthLevels& levels);
 

@@ -8,32 +8,37 @@
 
 namespace tricue {
 
-/// Squares of `step` pixels, rows x columns of them, the first one's top left corner at (x, y); pixel (i, j) of an image covers
-/// [j, j + 1) x [i, i + 1).
+/// A grid of squares.
 struct SampleGrid {
-    double x, y, step;  ///< finite, step above 0
-    int rows, columns;  ///< at least 1
+    double x, y;  ///< its top left corner, pixels, finite
+    double step;  ///< width of a square, pixels, finite, above 0
+    int rows;     ///< rows of the grid, at least 1
+    int columns;  ///< columns of the grid, at least 1
 };
 
 /// The depth that a target should have.
 struct ExpectedDepth {
-    double expected, sigma;  ///< metres, finite, above 0
-    double near_margin;      ///< metres, finite, not negative: what is nearer by more is before the target
+    double expected;     ///< the target's expected depth, meters, finite, above 0
+    double sigma;        ///< its standard deviation, meters, finite, above 0
+    double near_margin;  ///< how much nearer something before the target is, meters, finite, at least 0
 };
 
 struct DepthPosterior {
-    Floats posterior;                                                                    ///< rows x columns
-    Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> nearer;  ///< rows x columns
+    /// float32 (rows, columns): P(target | z), within 1e-6 of the exact one; 1/2 without a measurement
+    Floats posterior;
+    /// uint8 (rows, columns): 1 where z < expected - near_margin, else 0
+    Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> nearer;
 };
 
-/// P(target | depth) on a grid of places, and what is before the target.
+/// P(target | depth) on a grid of places, and what is before the target: Bayes' rule with equal priors
+///     p / (p + c),  p = exp(-((z - expected) / sigma)² / 2),  c = 0.1
 ///
-/// Bayes' rule with equal priors: p / (p + c), p = exp(-((z - expected) / sigma)² / 2) the target's likelihood, 1 at the expected depth,
-/// c = 0.1 that of everything else, whatever its depth. Where nothing is measured, or outside the image, depth says nothing: 1/2.
-/// z is the depth of the pixel in which a square's centre lies: (x + (j + 1/2) step, y + (i + 1/2) step), in float64, rounded down.
-/// `nearer` is 1 where z < expected - near_margin, else 0. The posterior is within 1e-6 of the exact one.
+/// p is the target's likelihood, 1 at the expected depth, c that of everything else at any depth. z is the depth of the pixel under
+/// the center (x0 + (j + 1/2) step, y0 + (i + 1/2) step) of square (i, j), in float64; pixel (i, j) of an image covers [j, j + 1) x
+/// [i, i + 1).
 ///
-/// @param depth metres; may be empty
+/// @param depth float32 (H, W), meters; may be empty
+/// @param x0, y0 top left corner of the grid, pixels, finite
 /// @throws std::invalid_argument on numbers out of range
 /// Source: ours; a Gaussian and a constant as likelihoods, as Sabeti, Parvizi, Wu 2008 have a Gaussian of depth.
 DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, const ExpectedDepth& target);

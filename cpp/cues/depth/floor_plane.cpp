@@ -62,8 +62,8 @@ void require_level(const Level& level) {
     require_finite(level.up, "up");
     const double length = std::sqrt(dot(level.up.matrix(), level.up.matrix()));
     if (!(std::abs(length - 1.0) <= 1e-6)) refuse("up", "a vector of length 1", length);
-    if (!(level.least_cosine >= -1.0 && level.least_cosine <= 1.0))
-        refuse("least_cosine", "a number in [-1, 1]", level.least_cosine);
+    if (!(level.min_cosine >= -1.0 && level.min_cosine <= 1.0))
+        refuse("min_cosine", "a number in [-1, 1]", level.min_cosine);
 }
 
 void require_indices(TriplesRef triples, const DepthView& depth) {
@@ -106,7 +106,7 @@ std::optional<Plane> level_plane(const Vector3d& normal, const Vector3d& point, 
     Plane plane{normal, -dot(normal, point)};
     if (plane.d < 0.0) plane = {-plane.n, -plane.d};
     const bool seen = plane.d > kEdgeOn * std::sqrt(dot(point, point));
-    if (seen && dot(plane.n, level.up.matrix()) >= level.least_cosine) return plane;
+    if (seen && dot(plane.n, level.up.matrix()) >= level.min_cosine) return plane;
     return {};
 }
 

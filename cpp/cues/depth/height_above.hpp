@@ -6,17 +6,17 @@
 
 namespace tricue {
 
-/// Height above a plane of all that a depth image shows: n · X + d, NaN where nothing was measured.
+/// Height n · X + d above a plane of each pixel of a depth image.
 ///
-/// In float32, in this order: h = z (nx x + (ny y + nz)) + d, where (x, y, 1) is the ray of the pixel, (u - cx) / fx
-/// and (v - cy) / fy in float64, rounded to float32.
+/// In float32, in this order: h = z (nx x + (ny y + nz)) + d, with (x, y, 1) the ray ((u - cx) / fx, (v - cy) / fy, 1) in float64,
+/// rounded to float32.
 ///
-/// @param depth  metres
-/// @param camera (4,): fx, fy above 0, cx, cy, pixels
-/// @param plane  (4,): nx, ny, nz, d in metres, camera frame (x right, y down, z forward), as floor_plane gives it; finite.
-///               Where |n| isn't 1, heights are |n| times as large
-/// @returns      (H, W) metres
-/// @throws std::invalid_argument on a camera or plane that is none
+/// @param depth float32 (H, W), meters
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+/// @param plane float64 (4,): nx, ny, nz, d in meters, camera frame (x right, y down, z forward), as floor_plane gives it; finite.
+///     Where |n| is not 1, heights are |n| times as large
+/// @returns float32 (H, W), meters; NaN where nothing was measured
+/// @throws std::invalid_argument on an invalid camera or plane
 /// Source: ours.
 Floats height_above(const DepthView& depth, VectorRef camera, VectorRef plane);
 

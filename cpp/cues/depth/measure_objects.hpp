@@ -6,31 +6,34 @@
 
 namespace tricue {
 
-/// What depth_components tells of C objects, and cut_sides.
+/// What depth_components and cut_sides tell of C objects.
 struct ObjectTable {
-    StatesRef table;              ///< (C, 7): x, y, width, height, area, pixels; depth, metres; label
-    FloatsRef columns, rows;      ///< (C, bins) each: how its pixels are spread over its box
-    Eigen::Ref<const Flags> cut;  ///< (C, 4)
+    /// float64 (C, 7), as depth_components gives it: x, y, width, height, area, pixels; depth, meters; label; all finite, sizes and
+    /// depth above 0
+    StatesRef table;
+    FloatsRef columns, rows;  ///< float32 (C, bins): how an object's pixels are spread over its box, of sum 1
+    Eigen::Ref<const Flags> cut;  ///< bool (C, 4): whether it may go on at the left, right, top, bottom
 };
 
-/// Where objects stand: the plane (4,) of the floor, n, d, all 0 where none is known; what ends, uncut, less than `feet` metres
-/// above it stands on it, and a body's legs are `legs` as wide as its box.
+/// Where objects stand.
 struct Ground {
-    VectorRef plane;
-    double feet, legs;
+    VectorRef plane;  ///< float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
+    /// greatest height of the lower edge of what stands on the floor, meters, finite, at least 0
+    double feet;
+    double legs;  ///< share of the width of its box that a body's legs fill, finite, at least 0
 };
 
-/// Segmented objects in metres: boxes at their objects' depth, with the feet that were taken out with the floor.
+/// Segmented objects in meters: boxes at the depth of their objects, with the feet that were taken out with the floor.
 ///
-/// Pixel (u, v) at depth z is ((u - cx) z / fx, (v - cy) z / fy, z). The height of a box's lower edge is that of its middle,
-/// (n · X + d) / max(-ny, 0.1), along the camera's y axis. An object that stands on the floor gets a strip of that height
-/// added at its lower edge, and its centroid comes down by the strip's share, legs x strip / height, of the area.
+/// Pixel (u, v) at depth z is ((u - cx) z / fx, (v - cy) z / fy, z). The height of a box's lower edge above the floor is that of
+/// its middle, (n · X + d) / max(-ny, 0.1), along the camera's y axis. An object that ends uncut, less than `feet` above the floor,
+/// stands on it: a strip of that height is added at its lower edge, and its centroid comes down by the strip's share, legs x strip
+/// / height, of the area.
 ///
-/// @param objects all finite; widths, heights and depths above 0
-/// @param camera  (4,): fx, fy above 0, cx, cy, pixels, (0, 0) is the centre of the first
-/// @returns       (C, 8): X, Y, Z of the box's centre, Z being the object's mean depth, width, height; from that centre to the
-///                centroid, x and y; area: metres, camera frame, and square metres
-/// @throws std::invalid_argument on an argument that isn't what is said here
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0; (0, 0) is the center of the first pixel
+/// @returns float64 (C, 8): X, Y, Z of the box's center, Z being the object's mean depth, width, height; centroid less that center,
+///     x and y, all meters in the camera frame; area, m²
+/// @throws std::invalid_argument on other shapes or values
 /// Source: ours.
 States measure_objects(const ObjectTable& objects, VectorRef camera, const Ground& ground);
 

@@ -6,18 +6,18 @@
 
 namespace tricue {
 
-/// How much of a depth image lies on a plane that is known from before: is it still the floor?
+/// How much of a depth image lies on a known plane: is it still the floor?
 ///
-/// Every step-th pixel of every step-th row counts, as far as it was measured. Heights h are height_above's, in float32, and
-/// the tolerance t and -3 t are rounded to it.
+/// Every step-th pixel of every step-th row counts, where measured. Heights h are those of height_above, in float32, to which the
+/// tolerance t and -3 t are rounded.
 ///
-/// @param depth     metres
-/// @param camera    (4,): fx, fy above 0, cx, cy, pixels
-/// @param plane     (4,): nx, ny, nz, d in metres, finite
-/// @param tolerance t, metres, finite, above 0
-/// @param step      pixels, at least 1
-/// @returns         (2,): shares with |h| <= t, and with h < -3 t, as floor_plane's last two; 0 where nothing was measured
-/// @throws std::invalid_argument on an argument that isn't what is said here
+/// @param depth float32 (H, W), meters
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+/// @param plane float64 (4,): nx, ny, nz, d in meters, as floor_plane gives it; finite
+/// @param tolerance t, meters, finite, above 0
+/// @param step pixels, at least 1
+/// @returns float64 (2,): share of the measured pixels with |h| <= t, and with h < -3 t; 0 where nothing was measured
+/// @throws std::invalid_argument on other shapes or values
 /// Source: ours.
 Vector plane_support(const DepthView& depth, VectorRef camera, VectorRef plane, double tolerance, int step);
 

@@ -6,14 +6,14 @@
 
 namespace tricue {
 
-/// The histogram of the depths in one rectangle relative to its own depth, as depth_distance counts them: what a model learns.
+/// Histogram of the depths in one rectangle relative to its own depth, counted as by depth_distance: what its model learns.
 ///
-/// @param depth     metres; may be empty
-/// @param rectangle (5,): centre x, y, width, height, pixels; depth z, metres; finite
-/// @param levels    of [-reach, reach), 1 to 65536
-/// @param pattern   (n, 2): (u, v), 1 being the right and the lower edge; finite, n at least 1
-/// @param reach     metres, finite, above 0
-/// @returns         (levels,) of sum 1; all 0 where nothing counts
+/// @param depth float32 (H, W), meters; may be empty
+/// @param rectangle float64 (5,): center x, y, width, height, pixels; depth z, meters; finite
+/// @param levels of [-reach, reach), 1 to 65536
+/// @param pattern float64 (n, 2), n at least 1: (u, v), 1 being the right and the lower edge; finite
+/// @param reach meters, finite, above 0
+/// @returns float64 (levels,) of sum 1; all 0 where nothing counts
 /// @throws std::invalid_argument on other shapes or values
 /// Source: Sabeti, Parvizi, Wu 2008, H of equation (38), section IV.B; depth relative to z is ours.
 Vector rectangle_histogram(const DepthView& depth, VectorRef rectangle, int levels, StatesRef pattern,

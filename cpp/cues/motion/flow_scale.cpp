@@ -161,7 +161,7 @@ std::string shape(const PlaneView& plane) {
 FlowScale flow_scale(const PlaneView& u, const PlaneView& v, double outliers, int least) {
     if (u.rows != v.rows || u.cols != v.cols) refuse("v", "u's shape " + shape(u), shape(v));
     if (!(outliers > 0 && std::isfinite(outliers))) refuse("outliers", "a finite number above 0", outliers);
-    if (least < 1) refuse("least", "at least 1 pixel", least);
+    if (least < 1) refuse("min_pixels", "at least 1 pixel", least);
     Field field(u);
     copy(u, v, field);
     Line line;

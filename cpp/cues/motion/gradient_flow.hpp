@@ -11,24 +11,30 @@ namespace tricue {
 
 /// Optical flow by the generalized gradient method with two filters g, h, the derivatives of a Gaussian along x and y.
 ///
-/// Each pixel's u, v solve the two constraints (4), (g*f)_x u + (g*f)_y v = -(g*f)_t and the same for h (as printed (4) has lost
-/// the minus of (3)): spatial gradients are those of the mean of both frames, temporal ones the difference current - previous.
-/// So the flow is that of what is at this pixel halfway between the frames. It is best for motions up to half a sigma; of a wave
-/// w = 2 pi / length it gives 2 tan(w u / 2) / w, too much the longer the motion is. pyramid_flow finds long ones.
+/// The u, v of a pixel solve the constraints (4) of g and h (as printed, (4) lacks the minus of (3)):
+///     (g*f)_x u + (g*f)_y v = -(g*f)_t,   (h*f)_x u + (h*f)_y v = -(h*f)_t
 ///
-/// angle is (5), |sin| of the angle between the lines that the constraints are in the u-v plane, 0 where |G|^2 or |H|^2 is
-/// under 1e-6, which is rounding; contrast is (6). u and v are NaN where angle is 0, angle or contrast is under its minimum,
-/// or the flow is longer than pi / sqrt(2) sigma = 2.2 sigma: that is half of the wave that second derivatives of the Gaussian pass
-/// best, w = sqrt(2) / sigma, and of half a wave nobody can tell which way it went.
+/// Spatial gradients are those of the mean of both frames, temporal ones the difference current - previous: so the flow is that of
+/// what is at the pixel halfway between the frames. It is best for motions up to sigma / 2; on a wave of angular frequency w it
+/// reads 2 tan(w u / 2) / w, too much the longer the motion is. For longer motions see pyramid_flow.
 ///
-/// Filters are sampled and cut off at 3.5 sigma (gaussian_rows.hpp); beyond a frame's edge its pixels go on, so that flow nearer to
-/// it is less exact.
+/// u and v are NaN where angle is 0, angle or contrast is below its minimum, or the flow is longer than pi / sqrt(2) sigma = 2.2
+/// sigma: half of the wave that the filters' gradients pass best, beyond which the direction is ambiguous. Filters are cut off at
+/// 3.5 sigma; frames are extended by their edge pixels, so flow near the edge is less exact.
 ///
-/// @param previous, current gray frames of one size
-/// @param sigma             of the Gaussian, 0.5 to 16 pixels
-/// @param region            what is computed of it, in pixels of the frames; without it everything
-/// @throws std::invalid_argument on frames without pixels or of unlike sizes, and on numbers out of range
-/// Source: Okada, Shirai and Miura 1996, section 2.
+/// @param previous uint8 (H, W), gray, at least one pixel
+/// @param current uint8 (H, W), gray, of the same size
+/// @param sigma of the Gaussian, pixels, 0.5 to 16
+/// @param min_angle smallest angle of valid flow, in [0, 1]
+/// @param min_contrast smallest contrast of valid flow, finite, at least 0
+/// @param region (x0, y0, x1, y1), pixels, inside the frame: what is computed; None for everything
+/// @returns u float32 (h, w): flow along x, pixels per frame; NaN where not reliable
+/// @returns v float32 (h, w): flow along y
+/// @returns angle float32 (h, w): equation (5), |sin| of the angle between the two constraints' lines in the u-v plane, in
+///     [0, 1]; 0 where |G|² or |H|² is below 1e-6, which is rounding
+/// @returns contrast float32 (h, w): equation (6), (gray levels / pixel²)²
+/// @throws std::invalid_argument on frames without pixels or of unlike sizes, or numbers out of range
+/// Source: Okada, Shirai, Miura 1996, section 2.
 FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, double sigma,
                          const FlowMinima& minima, const std::optional<Region>& region = {});
 

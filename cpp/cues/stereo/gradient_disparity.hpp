@@ -8,40 +8,44 @@
 namespace tricue {
 
 struct GradientMatching {
-    int levels;    ///< of the pyramid, 1 to 6; 1 is the paper's
+    int levels;    ///< levels of the pyramid, 1 to 6
     double sigma;  ///< of the Gaussian, pixels of each level, 0.5 to 6
-    int radius;    ///< of the square window that an equation is solved over, 0 to 7; 0 is the paper's
-    double min_reliability;  ///< of (9), (gray levels / px²)²
-    double
-        max_residual;  ///< of a window's difference, as a share of both images' power in it; not with radius 0
-    double max_step;   ///< pixels that the finest level may find the disparity away from where it began
+    int radius;    ///< of the square window that an equation is solved over, pixels, 0 to 7
+    /// smallest reliability (9) of a valid disparity, (gray levels / pixel²)², at least 0
+    double min_reliability;
+    /// largest difference that d may leave in a window, as a share of both images' power in it, at least 0; not used with radius 0
+    double max_residual;
+    /// how far from its start the finest level may find the disparity, pixels, at least 0
+    double max_step;
 };
 
-/// Disparities round a predicted one, by the gradient method: x_right = x_left - d.
+/// Disparities around a predicted one, by the gradient method: x_right = x_left - d.
 ///
-/// Of images shifted by a disparity d0 that is known so far, each pixel gives one equation
+/// With the images shifted by the disparity d0 known so far, each pixel gives one equation
 ///     s (d - d0) = f_R(x - d0) - f_L(x),  s = (f_x^R(x - d0) + f_x^L(x)) / 2                     (7)
-/// (as printed it equates slopes with slopes; the difference of brightness is meant), and the d of a pixel is the one that leaves
-/// the least squares in its window. f is the x-derivative of the Gaussian, which light changes less than the brightness itself, and
-/// which errs a third as much; f_x its central difference. Between columns f is linear.
 ///
-/// d0 is the prediction at the coarsest level of a pyramid, then the d of the coarser level, of which each may lead 1.5 of its own
-/// pixels away: with three levels 9 px at most, and what is 6 px off is still read well; with one level 1 to 2 px. Little contrast in the
-/// window leaves d0 as it is.
+/// (as printed it equates slopes with slopes; the difference of brightness is meant), and the d of a pixel is the least-squares
+/// solution in its window. f is the x-derivative of the Gaussian, which lighting changes less than brightness; f_x its central
+/// difference. Between columns f is linear.
 ///
-/// NaN is a pixel outside the left picture, one whose x - d0 isn't in the right one, and one rejected: for its reliability
+/// d0 is the prediction at the coarsest level of a pyramid, then the d of the coarser level; each level may move by 1.5 of its own
+/// pixels. Three levels reach 9 pixels at most, and are accurate up to 6; one level 1 to 2. Little contrast in the window leaves d0
+/// as it is. levels = 1 with radius = 0 is the paper's method.
+///
+/// A pixel is NaN outside the left image, where x - d0 is not in the right one, and where it is rejected: by its last step, by the
+/// differences that d leaves in its window (occlusion, noise, what the levels do not reach), or by its reliability
 ///     R_d = (f_x^R)² + (f_x^L)²                                                                  (9)
-/// for the differences that d leaves in its window (occlusion, noise, what is farther than the levels reach), or its last step.
 ///
-/// @param left, right rectified gray images of one size
-/// @param predicted   disparity, pixels
-/// @param region      of the left image; it may reach over its edge: there is reliability 0. The result is that part of the result
-///                    of the whole image, to the last bit, whose other parts aren't computed.
-/// @returns           (2 height, width) of the region: disparities, pixels, and under them the reliabilities (9), means of the
-///                    windows, also where the disparity is rejected. In one array, since the system takes back the memory of two.
-/// @throws std::invalid_argument on images without pixels or of unlike sizes, and on numbers out of range
+/// @param left uint8 (H, W), gray, rectified, at least one pixel
+/// @param right uint8 (H, W), gray, rectified, of the same size
+/// @param disparity the predicted disparity, pixels, -16384 to 16384
+/// @param region (x0, y0, x1, y1), pixels of the left image, sides of 1 to 16384; None for all of it. It may reach over the edge,
+///     where reliability is 0. The result is, to the last bit, that part of the result for the whole image
+/// @returns disparity float32 (h, w), pixels
+/// @returns reliability float32 (h, w): (9), the mean over the window, also where the disparity is rejected
+/// @throws std::invalid_argument on images without pixels or of unlike sizes, or numbers out of range
 /// Source: Okada, Shirai, Miura 1996, section 3; levels, windows and the residual are ours.
-Floats gradient_disparity(const ImageView& left, const ImageView& right, double predicted,
+Floats gradient_disparity(const ImageView& left, const ImageView& right, double disparity,
                           const GradientMatching& matching, const Region& region);
 
 }  // namespace tricue

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The kernels in NumPy: slow and obvious, they read like the papers and say what the native kernels must
-compute.
+compute. Their help is how they compute, then the native kernel's contract.
 """
 
+from tricue import _core
 from tricue.reference.camera.back_project import back_project
 from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
@@ -142,3 +143,14 @@ __all__ = [
     "temporal_window",
     "weighted_histogram",
 ]
+
+
+def _add_contracts() -> None:
+    """Append the native kernels' contracts, without the line of their signature, to the twins' docstrings."""
+    for name in __all__:
+        _, _, contract = (getattr(_core, name).__doc__ or "").partition("\n\n")
+        twin = globals()[name]
+        twin.__doc__ = f"{twin.__doc__ or ''}\n\n{contract}"
+
+
+_add_contracts()

@@ -28,7 +28,7 @@ def case(seed: int, **changes: Any) -> dict[str, Any]:
     rng = np.random.default_rng(seed)
     place = np.append(rng.uniform(-15, 60, 2), rng.uniform(0.2, 20, 2))
     return {
-        "grey": rng.integers(0, 256, (rng.integers(1, 40), rng.integers(1, 60)), np.uint8),
+        "gray": rng.integers(0, 256, (rng.integers(1, 40), rng.integers(1, 60)), np.uint8),
         "ellipse": np.ceil(place * 64) / 64,
         "grid": (int(rng.integers(1, 6)), int(rng.integers(1, 20)), int(rng.integers(1, 4))),
         "pattern": outline(int(rng.integers(1, 80))),
@@ -53,24 +53,24 @@ def test_twin_measures_the_same(seed: int) -> None:
 
 def test_agrees_with_opencv(kernels: Kernels) -> None:
     """OpenCV's Sobel of size 1, read at the same pixels, gives the same."""
-    grey = np.random.default_rng(0).integers(0, 256, (50, 60), np.uint8)
+    gray = np.random.default_rng(0).integers(0, 256, (50, 60), np.uint8)
     x, y, minor, major = ellipse = np.array([30.2, 25.7, 14, 17])
     pattern = outline(64)
     normals = pattern / ellipse[2:]
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     pixels = (y + major * pattern[:, 1]).astype(int), (x + minor * pattern[:, 0]).astype(int)
-    right, down = (cv2.Sobel(grey, cv2.CV_64F, *order, ksize=1) / 2 for order in ((1, 0), (0, 1)))
+    right, down = (cv2.Sobel(gray, cv2.CV_64F, *order, ksize=1) / 2 for order in ((1, 0), (0, 1)))
     expected = np.abs(normals[:, 0] * right[pixels] + normals[:, 1] * down[pixels]).mean()
-    found = kernels.ellipse_gradient(grey, ellipse, (1, 1, 1), pattern)
+    found = kernels.ellipse_gradient(gray, ellipse, (1, 1, 1), pattern)
     assert_allclose(found, [[expected]], rtol=0, atol=68 * 255 * np.finfo(np.float32).eps)
 
 
 @pytest.mark.parametrize(("minor", "major"), [(20.0, 20.0), (12.0, 25.0)])
 def test_ramp(kernels: Kernels, minor: float, major: float) -> None:
     """On a ramp of s levels a pixel it's s times the mean |x| of the unit normals, on a circle 2 / pi."""
-    grey = np.tile(np.arange(80, dtype=np.uint8) * 3, (70, 1))
+    gray = np.tile(np.arange(80, dtype=np.uint8) * 3, (70, 1))
     pattern = outline(720)
-    found = kernels.ellipse_gradient(grey, np.array([40.0, 35, minor, major]), (3, 5, 1), pattern)
+    found = kernels.ellipse_gradient(gray, np.array([40.0, 35, minor, major]), (3, 5, 1), pattern)
     normals = pattern / [minor, major]
     across = np.mean(np.abs(normals[:, 0]) / np.linalg.norm(normals, axis=1))
     assert_allclose(found, np.full((3, 5), 3 * across), rtol=1e-4)
@@ -82,8 +82,8 @@ def test_finds_a_disk(kernels: Kernels) -> None:
     """The outline of a blurred disk has its greatest mean gradient where the disk is."""
     y, x = np.mgrid[:70, :90] + 0.5
     distance = np.hypot((x - 47.5) / 14, (y - 33.5) / 17)
-    grey = (200 / (1 + np.exp(20 * (distance - 1)))).astype(np.uint8)
-    found = kernels.ellipse_gradient(grey, np.array([43.5, 34.5, 14, 17]), (7, 15, 1), outline(96))
+    gray = (200 / (1 + np.exp(20 * (distance - 1)))).astype(np.uint8)
+    found = kernels.ellipse_gradient(gray, np.array([43.5, 34.5, 14, 17]), (7, 15, 1), outline(96))
     assert np.unravel_index(np.argmax(found), found.shape) == (2, 11)
 
 
@@ -104,22 +104,22 @@ def test_each_place_is_found_alone(seed: int) -> None:
 def test_negative_is_alike(seed: int) -> None:
     """Dark on light is as good as light on dark, and added light changes nothing."""
     arguments = case(seed)
-    half = arguments["grey"] // np.uint8(2)
-    found = _core.ellipse_gradient(**arguments | {"grey": half})
-    assert_array_equal(_core.ellipse_gradient(**arguments | {"grey": 255 - half}), found)
-    assert_array_equal(_core.ellipse_gradient(**arguments | {"grey": half + np.uint8(128)}), found)
+    half = arguments["gray"] // np.uint8(2)
+    found = _core.ellipse_gradient(**arguments | {"gray": half})
+    assert_array_equal(_core.ellipse_gradient(**arguments | {"gray": 255 - half}), found)
+    assert_array_equal(_core.ellipse_gradient(**arguments | {"gray": half + np.uint8(128)}), found)
 
 
 def test_outside_is_left_out(kernels: Kernels) -> None:
     """On a ramp an outline half outside has the mean of what is inside; wholly outside it is 0."""
-    grey = np.tile(np.arange(40, dtype=np.uint8) * 2, (60, 1))
+    gray = np.tile(np.arange(40, dtype=np.uint8) * 2, (60, 1))
     pattern = np.array([[1.0, 0], [-1, 0], [0, 1], [0, -1]])
     ellipse = np.array([2.5, 30.5, 10, 12])  # its left is outside, its right, top and bottom inside
-    assert_allclose(kernels.ellipse_gradient(grey, ellipse, (1, 1, 1), pattern), [[2 / 3]], rtol=1e-6)
+    assert_allclose(kernels.ellipse_gradient(gray, ellipse, (1, 1, 1), pattern), [[2 / 3]], rtol=1e-6)
     for x in (-20.0, 60.0, 1e300, -1e300):
         away = np.array([x, 30, 10, 12])
-        assert_array_equal(kernels.ellipse_gradient(grey, away, (2, 3, 1), pattern), np.zeros((2, 3)))
-    assert_array_equal(kernels.ellipse_gradient(grey[:0], ellipse, (2, 3, 1), pattern), np.zeros((2, 3)))
+        assert_array_equal(kernels.ellipse_gradient(gray, away, (2, 3, 1), pattern), np.zeros((2, 3)))
+    assert_array_equal(kernels.ellipse_gradient(gray[:0], ellipse, (2, 3, 1), pattern), np.zeros((2, 3)))
 
 
 BAD: list[tuple[dict[str, Any], str]] = [
@@ -143,7 +143,7 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 def test_native_refuses_other_types() -> None:
     """Another type or layout is named, not converted."""
-    with pytest.raises(TypeError, match=r"grey: expected a uint8 grey image \(H, W\), got float64"):
-        _core.ellipse_gradient(**case(0, grey=np.zeros((3, 3))))
-    with pytest.raises(ValueError, match="grey: expected a C-contiguous"):
-        _core.ellipse_gradient(**case(0, grey=np.zeros((3, 6), np.uint8)[:, ::2]))
+    with pytest.raises(TypeError, match=r"gray: expected a uint8 gray image \(H, W\), got float64"):
+        _core.ellipse_gradient(**case(0, gray=np.zeros((3, 3))))
+    with pytest.raises(ValueError, match="gray: expected a C-contiguous"):
+        _core.ellipse_gradient(**case(0, gray=np.zeros((3, 6), np.uint8)[:, ::2]))

@@ -230,8 +230,8 @@ def test_nothing_to_see(kernels: Kernels, depth: Depth) -> None:
         ({"up": UP[:2]}, r"up: expected shape \(3,\), got \(2,\)"),
         ({"up": UP + np.nan}, "up: expected finite numbers, got nan"),
         ({"up": 2 * UP}, "up: expected a vector of length 1, got 2"),
-        ({"least_cosine": 1.5}, r"least_cosine: expected a number in \[-1, 1\], got 1.5"),
-        ({"least_cosine": np.nan}, r"least_cosine: expected a number in \[-1, 1\], got nan"),
+        ({"min_cosine": 1.5}, r"min_cosine: expected a number in \[-1, 1\], got 1.5"),
+        ({"min_cosine": np.nan}, r"min_cosine: expected a number in \[-1, 1\], got nan"),
         ({"triples": np.array([[0, 1, 24]])}, r"triples: expected indices in \[0, 24\), got 24"),
         ({"triples": np.array([[0, -1, 24]])}, r"triples: expected indices in \[0, 24\), got -1"),
     ],
@@ -244,7 +244,7 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
         "triples": np.array([ON_FLOOR]),
         "tolerance": 0.1,
         "up": UP,
-        "least_cosine": 0.8,
+        "min_cosine": 0.8,
     }
     with pytest.raises(ValueError, match=message):
         kernels.floor_plane(**{**good, **changes})

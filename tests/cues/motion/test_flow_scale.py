@@ -135,7 +135,7 @@ def test_axes_and_signs_do_not_matter(kernels: Kernels) -> None:
 
 
 def test_too_few_pixels_tell_nothing(kernels: Kernels) -> None:
-    """`least` holds for both fits, and the count says how many there were."""
+    """`min_pixels` holds for both fits, and the count says how many there were."""
     u, v = stretched(1.02, (6, 5), 0.01)
     u[0, 0] = NAN
     v[0, 1] = NAN
@@ -175,7 +175,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"outliers": 0.0}, "outliers: expected a finite number above 0, got 0"),
     ({"outliers": float("nan")}, "outliers: expected a finite number above 0, got nan"),
     ({"outliers": float("inf")}, "outliers: expected a finite number above 0, got inf"),
-    ({"least": 0}, "least: expected at least 1 pixel, got 0"),
+    ({"min_pixels": 0}, "min_pixels: expected at least 1 pixel, got 0"),
 ]
 
 
@@ -184,7 +184,7 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
     """Wrong shapes and numbers are named, with what was expected."""
     u, v = np.zeros((2, 5, 4), np.float32)
     with pytest.raises(ValueError, match=message):
-        kernels.flow_scale(**{"u": u, "v": v, "outliers": 2.5, "least": 3} | changes)
+        kernels.flow_scale(**{"u": u, "v": v, "outliers": 2.5, "min_pixels": 3} | changes)
 
 
 def test_native_refuses_other_arrays() -> None:

@@ -12,10 +12,7 @@ Floats = NDArray[np.float64]
 def back_project(
     measurements: Floats, variances: Floats, camera: Floats, baseline: float
 ) -> tuple[Floats, Floats]:
-    """Points (N, 3), metres, and covariances (N, 3, 3) = J S J^T from u, v, d (N, 3), pixels.
-
-    variances (3,): those of u, v, d, or S (N, 3, 3). NaN where u, v, d aren't finite or d isn't above 0.
-    """
+    """Back-projects one measurement at a time, and multiplies J S J^T out."""
     count = len(measurements)
     require_shape("measurements", measurements, (count, 3))
     if variances.ndim == 1:

@@ -20,12 +20,7 @@ def rectify_verged(
     shift: float = 0.0,
     rows_only: bool = False,
 ) -> Image:
-    """The image of right's size, (H, W) or (H, W, 3), that a camera parallel to the left one would see.
-
-    angle: radians about y, positive where the right camera is turned inwards, to the left. focal: fx, pixels.
-    center: (cx, cy), pixels; the image's middle by default. shift: columns the picture is moved to the right.
-    rows_only: straighten the rows by (8), and leave the columns. Black where the right camera saw nothing.
-    """
+    """Maps the pixels of the parallel camera into the turned one, and reads them bilinearly."""
     rows, columns = right.shape[:2]
     cx, cy = ((columns - 1) / 2, (rows - 1) / 2) if center is None else center
     _require(right, angle, focal, (cx, cy), shift)

@@ -14,9 +14,7 @@ Floats = NDArray[np.float64]
 def block_counts(
     mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floats
 ) -> tuple[Counts, Counts, Counts, Floats]:
-    """(N,) each, of blocks (N, 4) x0, y0, x1, y1: how many pixels lie in the image, how many are set in the
-    mask (H, W), how many have a finite disparity (H, W), and the mean disparity of those, NaN without any.
-    """
+    """Counts the pixels of one block at a time."""
     if mask.shape != disparity.shape:
         refuse("mask", f"shape {disparity.shape}", mask.shape)
     require_shape("blocks", blocks, (len(blocks), 4))

@@ -9,7 +9,7 @@ from tricue.reference.fuse.detail.rectangle_pixels import rectangle_pixels
 
 
 def block_mask(blocks: NDArray[np.float64], height: int, width: int) -> NDArray[np.uint8]:
-    """(H, W) 1 in the pixels whose centres lie in one of the blocks (N, 4) x0, y0, x1, y1, else 0."""
+    """Sets the pixels of one block at a time."""
     for name, size in (("height", height), ("width", width)):
         if size < 0:
             refuse(name, "at least 0", size)

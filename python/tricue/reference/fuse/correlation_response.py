@@ -11,11 +11,7 @@ Complexes = NDArray[np.complex64]
 
 
 def correlation_response(cells: Floats, numerators: Complexes, denominators: Floats, ridge: float) -> Floats:
-    """(F, R, C), no shift at (R // 2, C // 2): how much the cells (K, R, C), shifted, look as those learnt.
-
-    Danelljan et al. 2014 (6), Bolme et al. 2010: F⁻¹{sum_k A_k Z_k / (B + λ)}, of each filter's numerators
-    (F, K, R, C // 2 + 1) and denominator (F, R, C // 2 + 1); λ is ridge times B's mean.
-    """
+    """Takes the transforms of numpy.fft, channel by channel: F⁻¹{sum_k A_k Z_k / (B + λ)}."""
     require_filters(cells, numerators, denominators)
     require_ridge(ridge)
     spectrum = np.fft.rfft2(cells.astype(np.float64))

@@ -16,13 +16,7 @@ def correlation_train(
     rate: float,
     background: float,
 ) -> tuple[Complexes, Floats]:
-    """Numerator (K, R, C // 2 + 1) and denominator (R, C // 2 + 1) with new cells (K, R, C), times the focus
-    (R, C), blended in at a rate in [0, 1]; 1 starts them.
-
-    Danelljan et al. 2014 (5): A_k = Y X̄_k and B = sum_k X_k X̄_k, the label Y (R, C // 2 + 1) being the
-    spectrum of the wanted answer, its peak at (0, 0). What the focus leaves out should be answered by 0: its
-    energy, times background, is in B.
-    """
+    """Takes the transforms of numpy.fft, channel by channel."""
     require_filter(cells, numerator, denominator)
     require_rate(rate)
     if not 0 <= background < np.inf:

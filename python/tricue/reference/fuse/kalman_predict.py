@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 def kalman_predict(
     mean: Floats, covariance: Floats, transition: Floats, noise: Floats
 ) -> tuple[Floats, Floats]:
-    """Mean (D,) and covariance (D, D) one step on: F x, F P F^T + Q."""
+    """Multiplies the matrices out."""
     require_belief(mean, covariance)
     require_shape("transition", transition, (mean.size, mean.size))
     require_finite("transition", transition)

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 def kalman_update(
     mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Mean (D,), covariance (D, D), innovation y (M,) and its covariance S (M, M) after a measurement."""
+    """Inverts S for the gain, and takes the covariance in Joseph's form."""
     require_belief(mean, covariance)
     if measurement.size < 1:
         refuse("measurement", "at least one number", "none")

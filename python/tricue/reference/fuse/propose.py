@@ -18,7 +18,7 @@ def propose(
     lower: NDArray[np.float64],
     upper: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Move particles (N, D) by (30); every 1/share-th starts with K numbers from N(mean, root root^T)."""
+    """Moves all particles, then puts those where floor(share i) steps up at the detection."""
     _check(particles, noise, lower, upper)
     checks.require_dynamics(drift, scale, particles.shape[1])
     checks.require_detection(mean, root, share, particles.shape[1])

@@ -10,23 +10,19 @@ Floats = NDArray[np.float64]
 
 
 def rectangle_prior(
-    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
+    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, max_cost: float
 ) -> Floats:
-    """(N,) log-likelihood of states (N, D), whose last two numbers are a width and a height.
-
-    log(width / size) has the standard deviation ``spread``, (2,) each; a measured ``state`` (D,) has
-    ``deviation`` (D,), infinite for what wasn't measured, and costs ``most`` at most.
-    """
-    _require(states, size, spread, state, deviation, most)
+    """Sums the squared deviations of the sizes and of the states."""
+    _require(states, size, spread, state, deviation, max_cost)
     off = np.log(states[:, -2:] / size) / spread
     with np.errstate(over="ignore"):
         away = (((states - state) / deviation) ** 2).sum(axis=1)
-    prior: Floats = -(off**2).sum(axis=1) / 2 - np.minimum(away / 2, most)
+    prior: Floats = -(off**2).sum(axis=1) / 2 - np.minimum(away / 2, max_cost)
     return prior
 
 
 def _require(
-    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, most: float
+    states: Floats, size: Floats, spread: Floats, state: Floats, deviation: Floats, max_cost: float
 ) -> None:
     dimensions = states.shape[1]
     if dimensions < 2:
@@ -41,8 +37,8 @@ def _require(
     require_finite("state", state)
     require_shape("deviation", deviation, (dimensions,))
     _require_positive("deviation", "numbers above 0", deviation)
-    if not most >= 0:
-        refuse("most", "a number of at least 0", float(most))
+    if not max_cost >= 0:
+        refuse("max_cost", "a number of at least 0", float(max_cost))
 
 
 def _require_positive(name: str, expected: str, values: Floats) -> None:

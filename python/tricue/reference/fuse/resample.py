@@ -8,7 +8,7 @@ from tricue.reference.base.checks import refuse, require_weights
 
 
 def resample(weights: NDArray[np.float64], offset: float) -> NDArray[np.int64]:
-    """Choose N particles by one comb of N equally spaced teeth, shifted by ``offset`` in [0, 1)."""
+    """Searches the cumulative weights for the comb's points."""
     if not 0.0 <= offset < 1.0:
         refuse("offset", "a number in [0, 1)", float(offset))
     require_weights(weights)

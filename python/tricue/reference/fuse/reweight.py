@@ -17,7 +17,7 @@ def reweight(
     root: NDArray[np.float64],
     share: float,
 ) -> tuple[NDArray[np.float64], float]:
-    """Weigh proposed particles: weights (N,) with sum 1, and the log of their mean before normalising."""
+    """Takes the densities in the log domain, and subtracts the greatest weight before the exponential."""
     _check(log_likelihood, proposed, previous)
     checks.require_dynamics(drift, scale, proposed.shape[1])
     checks.require_detection(mean, root, share, proposed.shape[1])

@@ -12,11 +12,7 @@ Complexes = NDArray[np.complex64]
 
 
 def scale_response(looks: Floats, numerator: Complexes, denominator: Floats, ridge: float) -> Floats:
-    """(S,): how much the looks (S, D) of a target at S steps of scale, shifted, are as those learnt.
-
-    Danelljan et al. 2014, section 3.2: one dimension along the scales, D channels; the middle one, S // 2, is
-    no change. numerator: (S // 2 + 1, D), denominator: (S // 2 + 1,); λ is ridge times its mean.
-    """
+    """Takes the transforms of numpy.fft along the scales."""
     require_scale_filter(looks, numerator, denominator)
     require_ridge(ridge)
     product = (numerator * np.fft.rfft(looks.astype(np.float64), axis=0)).sum(axis=1)

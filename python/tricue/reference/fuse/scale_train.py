@@ -11,11 +11,7 @@ from tricue.reference.fuse.scale_response import Complexes, Floats, require_scal
 def scale_train(
     looks: Floats, label: Complexes, numerator: Complexes, denominator: Floats, rate: float
 ) -> tuple[Complexes, Floats]:
-    """Numerator (S // 2 + 1, D) and denominator (S // 2 + 1,) with new looks (S, D) blended in.
-
-    As correlation_train along one dimension; a rate of 1 starts them. label (S // 2 + 1,) is the wanted
-    answer's spectrum, its peak at 0.
-    """
+    """Takes the transforms of numpy.fft along the scales."""
     require_scale_filter(looks, numerator, denominator)
     if label.shape != denominator.shape:
         refuse("label", f"shape {denominator.shape}", label.shape)

@@ -10,7 +10,7 @@ from tricue.reference.base.checks import require_finite, require_shape, require_
 def summarize(
     particles: NDArray[np.float64], weights: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Expected value (D,), covariance (D, D) and effective sample size of weighted particles (N, D)."""
+    """Takes the weighted sums as they are defined."""
     require_shape("weights", weights, (len(particles),))
     require_finite("particles", particles)
     require_weights(weights)

@@ -14,16 +14,7 @@ EQUAL = 1e-9  # of the peak: what differs less is the same height
 def target_distribution(
     histogram: Floats, smoothing: float, ripple: float = 0.05, expected: float = np.nan, spread: float = 1.0
 ) -> tuple[Floats, float]:
-    """(L,) the target's density, of sum 1, and its peak, in bins: bin 0 is [0, 1).
-
-    The histogram (L,) is smoothed by a Gaussian of ``smoothing`` bins. The peak is where that is highest; or,
-    as a target moves with nearly constant velocity (section 4.1), where it is highest times a Gaussian of
-    ``spread`` bins round the ``expected`` peak, unless that is NaN or the spread infinite. On either side of
-    the peak the smoothed histogram is cut at its local minimum: beyond, the line from the peak through the
-    minimum goes on down to 0. A minimum is the least value before the first rise by more than ``ripple`` of
-    the peak's height; where that is the peak itself, nothing is left beyond; without one the histogram stays.
-    A histogram of zeros is a density of zeros, with a peak of NaN.
-    """
+    """Smooths, finds the peak, then cuts either side at its minimum."""
     _require(histogram, smoothing, ripple, expected, spread)
     if not histogram.any():
         return np.zeros(len(histogram)), np.nan
@@ -63,7 +54,7 @@ def _beside(values: Floats, j: int) -> Floats:
 
 
 def _closeness(smooth: Floats, expected: float, spread: float) -> Floats:
-    """exp(-((centre - expected) / spread)² / 2) over its value in the nearest bin that isn't empty, at most
+    """exp(-((center - expected) / spread)² / 2) over its value in the nearest bin that isn't empty, at most
     1: so however far the expected peak is, some product with the histogram doesn't underflow to 0.
     """
     center = np.arange(len(smooth)) + 0.5
@@ -71,7 +62,7 @@ def _closeness(smooth: Floats, expected: float, spread: float) -> Floats:
         return np.ones(len(smooth))
     there = center[smooth > 0]
     nearest = there[np.abs(there - np.clip(expected, 0, len(smooth))).argmin()]
-    # ((centre - expected)² - (nearest - expected)²) / 2, without the squares, which would overflow.
+    # ((center - expected)² - (nearest - expected)²) / 2, without the squares, which would overflow.
     with np.errstate(over="ignore"):
         farther = (center - nearest) * ((center + nearest) / 2 - expected)
         return np.asarray(np.exp(-np.maximum(farther, 0) / spread / spread))

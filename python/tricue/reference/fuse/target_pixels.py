@@ -13,7 +13,7 @@ from tricue.reference.fuse.detail.value_bins import require_range, value_bins
 Plane = NDArray[np.float32]
 Floats = NDArray[np.float64]
 
-MOST_RATIO = 1e12  # three of them, multiplied, are a float32
+MAX_RATIO = 1e12  # three of them, multiplied, are a float32
 
 
 def target_pixels(
@@ -25,14 +25,7 @@ def target_pixels(
     threshold: float = 0.5,
     alternatives: Sequence[Floats] | None = None,
 ) -> tuple[NDArray[np.uint8], Plane]:
-    """(H, W) where the posterior is at least ``threshold``, 1 or 0; and the posterior (H, W), (10)-(12).
-
-    One to three planes (H, W) of u, v, d, NaN where there is no reading; of each its density (bins,), of sum
-    1, over its range (low, high). The prior is 1 in the window (x0, y0, x1, y1) and falls linearly to 0 at
-    the edge of the candidate region. The alternatives are the densities (bins,) of what isn't the target, of
-    a sum of at most 1, as some of it may lie outside the range; None if all readings in the ranges are as
-    likely. No target pixel lacks a reading, has one outside its range, or lies outside the candidate region.
-    """
+    """Looks each cue's ratio up, and multiplies them with the prior's odds."""
     _require(planes, densities, ranges, threshold)
     if alternatives is not None:
         _require_alternatives(alternatives, densities)
@@ -52,7 +45,7 @@ def _ratios(density: Floats, alternative: Floats | None) -> Plane:
     if alternative is None:
         return np.append(density * len(density), 0).astype(np.float32)
     with np.errstate(over="ignore"):
-        ratio = np.minimum(density / alternative, MOST_RATIO)
+        ratio = np.minimum(density / alternative, MAX_RATIO)
     return np.append(ratio, 0).astype(np.float32)
 
 

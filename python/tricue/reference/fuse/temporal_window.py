@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The rectangle round the target pixels of one frame (Okada, Shirai, Miura 1996, section 4, figure 4)."""
+"""The rectangle around the target pixels of one frame (Okada, Shirai, Miura 1996, section 4, figure 4)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,17 +11,11 @@ Pixels = NDArray[np.bool_]
 
 
 def temporal_window(
-    mask: Mask, neighbours: int, share: float, trim: float = 0.02
+    mask: Mask, neighbors: int, share: float, trim: float = 0.02
 ) -> tuple[tuple[int, int, int, int], int, Mask]:
-    """The box (x0, y0, x1, y1) of what is left of a mask (H, W), how many pixels that is, and which, (H, W)
-    of 1 and 0.
-
-    A pixel is left if at least ``neighbours`` of the 8 round it are set, and it is of a region (8-connected)
-    of at least ``share`` of the largest one's pixels. Of the pixels left, the box leaves out ``trim`` at each
-    of its four sides, rounded down. (0, 0, 0, 0) where nothing is left.
-    """
-    _require(neighbours, share, trim)
-    left = _large_regions(_cleaned(mask != 0, neighbours), share)
+    """Counts neighbors by a box sum, labels regions by flood fill, and sorts coordinates for the box."""
+    _require(neighbors, share, trim)
+    left = _large_regions(_cleaned(mask != 0, neighbors), share)
     count = int(np.count_nonzero(left))
     if count == 0:
         return (0, 0, 0, 0), 0, left.astype(np.uint8)
@@ -31,12 +25,12 @@ def temporal_window(
     return (int(x0), int(y0), int(x1), int(y1)), count, left.astype(np.uint8)
 
 
-def _cleaned(pixels: Pixels, neighbours: int) -> Pixels:
-    """The set pixels with enough neighbours; beyond the edge none is set."""
+def _cleaned(pixels: Pixels, neighbors: int) -> Pixels:
+    """The set pixels with enough neighbors; beyond the edge none is set."""
     height, width = pixels.shape
     padded = np.pad(pixels, 1).astype(int)
     square = sum(padded[i : i + height, j : j + width] for i in range(3) for j in range(3))
-    return np.asarray(pixels & (square - pixels >= neighbours))
+    return np.asarray(pixels & (square - pixels >= neighbors))
 
 
 def _large_regions(pixels: Pixels, share: float) -> Pixels:
@@ -64,9 +58,9 @@ def _regions(pixels: Pixels) -> list[list[tuple[int, int]]]:
     return regions
 
 
-def _require(neighbours: int, share: float, trim: float) -> None:
-    if not 0 <= neighbours <= 8:
-        refuse("neighbours", "0 to 8", neighbours)
+def _require(neighbors: int, share: float, trim: float) -> None:
+    if not 0 <= neighbors <= 8:
+        refuse("neighbors", "0 to 8", neighbors)
     if not 0 <= share <= 1:
         refuse("share", "a number in [0, 1]", float(share))
     if not 0 <= trim < 0.5:

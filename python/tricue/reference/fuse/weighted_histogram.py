@@ -20,11 +20,7 @@ def weighted_histogram(
     bins: int,
     mask: NDArray[np.uint8] | None = None,
 ) -> NDArray[np.float64]:
-    """(bins,): the sum of the weights of the values in each bin of [low, high), over the pixels of a region
-    (x0, y0, x1, y1) whose mask isn't 0.
-
-    NaN, and what is outside the range, isn't counted; nor is a weight that isn't above 0 and finite.
-    """
+    """Sums the weights of each bin with bincount."""
     for name, plane in (("weights", weights), ("mask", mask)):
         if plane is not None and plane.shape != values.shape:
             refuse(name, f"shape {values.shape}", plane.shape)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How much more of a map lies in a box than round it, for every place of the box."""
+"""How much more of a map lies in a box than around it, for every place of the box."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +11,7 @@ Plane = NDArray[np.float32]
 
 
 def box_contrast(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
-    """(R, C) of a map (2R, 2C): its mean in a box minus ``around`` times that in the frame round it.
-
-    The box of ``width`` by ``height`` pixels has its centre at (C + 2 (j - C // 2), R + 2 (i - R // 2)) for
-    the value in row i, column j; the frame reaches to ``outer`` times its size. Outside the map lies 0.
-    Pixels count by the part that is covered, as an integral image gives it.
-    """
+    """Multiplies the map by the parts of its rows and columns that each box covers."""
     _require_arguments(plane, width, height, outer, around)
     rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
     y, x = (count + 2.0 * (np.arange(count) - count // 2) for count in (rows, columns))

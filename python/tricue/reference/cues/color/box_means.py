@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a map has in boxes round a place, and so along their edges: where a target ends."""
+"""What a map has in boxes around a place, and so along their edges: where a target ends."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def box_means(plane: NDArray[np.float32], x: float, y: float, widths: Floats, heights: Floats) -> Floats:
-    """(N,) means of a map (H, W) in boxes of the given sizes round (x, y), pixels; 0 lies outside.
-
-    Two of them give what lies between two boxes.
-    """
+    """Multiplies the map by the parts of its rows and columns that each box covers."""
     if plane.size < 1:
         refuse("plane", "at least one pixel", "none")
     for name, place in (("x", x), ("y", y)):
@@ -30,7 +27,7 @@ def box_means(plane: NDArray[np.float32], x: float, y: float, widths: Floats, he
 
 
 def covered(size: int, centers: Floats | float, lengths: Floats | float) -> Floats:
-    """(N, size): how much of each pixel lengths round N centers cover."""
+    """(N, size): how much of each pixel lengths around N centers cover."""
     low, high = np.atleast_1d(centers - lengths / 2), np.atleast_1d(centers + lengths / 2)
     pixel = np.arange(size)
     overlap: Floats = np.minimum(high[:, None], pixel + 1) - np.maximum(low[:, None], pixel)

@@ -17,7 +17,7 @@ def color_bins(
     chroma: int,
     step: int,
 ) -> NDArray[np.uint16]:
-    """(H, W): the bin of every step-th pixel of the region (x0, y0, x1, y1), NO_BIN outside the image."""
+    """Reads every step-th pixel inside the image, and bins each axis in whole numbers."""
     require_space(bins, chroma)
     if not 1 <= step <= 1024:
         refuse("step", "1 to 1024", step)

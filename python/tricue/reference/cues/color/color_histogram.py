@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def color_histogram(samples: NDArray[np.uint8], bins: int) -> NDArray[np.float32]:
-    """(N, 3 bins): for every ellipse the bins of blue, of green, of red, each channel's of sum 1."""
+    """Counts each channel of each ellipse with bincount."""
     if not 1 <= bins <= 256 or 256 % bins:
         raise ValueError(f"bins: expected a divisor of 256, got {bins}")
     ellipses, channels, n = samples.shape

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def color_lookup(samples: NDArray[np.uint8], table: NDArray[np.float32]) -> NDArray[np.float32]:
-    """(N, n): table[b B/256, g B/256, r B/256] of every sample, B a power of two up to 64."""
+    """Indexes the table by the samples' quantized channels."""
     side = table.shape[0]
     if table.shape != (side, side, side) or side not in (1, 2, 4, 8, 16, 32, 64):
         raise ValueError(f"table: expected shape (B, B, B), B a power of two up to 64, got {table.shape}")

@@ -8,9 +8,7 @@ from tricue.reference.base.checks import refuse
 
 
 def color_ranks(samples: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """(N, 3, n) ranks in (0, 1): (samples below + half of those equal) / n, within each ellipse and
-    channel.
-    """
+    """Averages the cumulative histogram below and up to each level, channel by channel."""
     n = samples.shape[2]
     if n < 1:
         refuse("samples", "at least one an ellipse", "none")

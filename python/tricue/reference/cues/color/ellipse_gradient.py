@@ -9,18 +9,15 @@ from tricue.reference.cues.color.detail.ellipse_shape import require_ellipses
 from tricue.reference.cues.color.detail.search_grid import Grid, places, require_grid
 
 
-def ellipse_gradient(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:
-    """(rows, cols): mean |n . grad I| at the places (x + minor u, y + major v) that are inside the image.
-
-    Measured from the pixel that the centre lies in, as an ellipse moved by whole pixels keeps its outline.
-    """
+def ellipse_gradient(gray: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:
+    """Averages |n . grad I| over the outline's points inside the image, place by place."""
     require_shape("ellipse", ellipse, (4,))
     require_ellipses("ellipse", ellipse[None], 1.0)
     require_grid(grid)
     _require_pattern(pattern)
 
-    height, width = grey.shape
-    padded = np.pad(grey.astype(np.float64), 1, "edge") if grey.size else np.zeros((2, 2))
+    height, width = gray.shape
+    padded = np.pad(gray.astype(np.float64), 1, "edge") if gray.size else np.zeros((2, 2))
     right = (padded[1:-1, 2:] - padded[1:-1, :-2]) / 2
     down = (padded[2:, 1:-1] - padded[:-2, 1:-1]) / 2
     normals = pattern / ellipse[2:]

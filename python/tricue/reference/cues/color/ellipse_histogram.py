@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Histograms of the pixels inside ellipses and in the rings round them (Moreno et al. 2002, equation (1))."""
+"""Histograms of pixels inside ellipses and in the rings around them (Moreno et al. 2002, equation (1))."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,7 @@ Counts = NDArray[np.int32]
 def ellipse_histogram(
     bins: NDArray[np.uint16], ellipses: NDArray[np.float64], size: int, margin: float
 ) -> tuple[Counts, Counts]:
-    """(N, size) twice: for each (x, y, minor, major) the bins inside, and those in the ring, an ellipse
-    ``margin`` times as large less the ellipse.
-    """
+    """Counts the bins under the mask of each ellipse and of each ring."""
     require_ellipses("ellipses", ellipses, margin)
     require_bins(bins, size)
     inside = np.zeros((len(ellipses), size), np.int32)

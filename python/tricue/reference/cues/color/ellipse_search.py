@@ -25,10 +25,7 @@ def ellipse_search(
     margin: float,
     mask: NDArray[np.uint8] | None,
 ) -> Floats:
-    """(rows, cols, 4): (1) of the ellipse and of its ring, and the shares of both that the mask marks.
-
-    Every place is counted from scratch. Pixels outside the image are left out, and nothing is 0.
-    """
+    """Counts every place from scratch, and intersects the counts with the model."""
     require_shape("ellipse", ellipse, (4,))
     require_ellipses("ellipse", ellipse[None], margin)
     require_grid(grid)

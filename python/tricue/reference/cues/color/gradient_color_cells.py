@@ -11,16 +11,11 @@ Planes = NDArray[np.float32]
 FAINT = np.float32(
     32
 )  # levels: gradients of a block under it are noise, and aren't blown up to full contrast
-MOST = np.float32(0.4)  # of a block's contrast in one orientation of one cell
+MAX_SHARE = np.float32(0.4)  # of a block's contrast in one orientation of one cell
 
 
 def gradient_color_cells(patch: NDArray[np.uint8], taper: Planes) -> Planes:
-    """(11, R, C) of a BGR patch (2R, 2C, 3), times taper (R, C).
-
-    Eight signed orientations (Dalal and Triggs 2005, section 6: of the channel with the strongest gradient,
-    the first of equals, shared out between the two nearest, over the contrast of the 3x3 cells around, cut
-    off), then B, G, R in [0, 1] without their mean over the patch.
-    """
+    """Spreads the gradients over the orientations, sums them over cells, and normalizes the sums."""
     rows, columns = taper.shape
     if taper.size < 1:
         refuse("taper", "at least one cell", "none")
@@ -68,7 +63,7 @@ def _normalized(cells: Planes) -> Planes:
     block = energy[:-2] + energy[1:-1] + energy[2:]
     block = block[:, :-2] + block[:, 1:-1] + block[:, 2:]
     scale = 1 / np.sqrt(block + FAINT * FAINT)
-    normal: Planes = np.minimum(cells * scale, MOST)
+    normal: Planes = np.minimum(cells * scale, MAX_SHARE)
     return normal
 
 

@@ -10,6 +10,6 @@ from tricue.reference.cues.color.detail.color_space import mean_color, require_h
 def histogram_mean(
     histogram: NDArray[np.float64], bins: tuple[int, int, int], chroma: int
 ) -> NDArray[np.float64]:
-    """(3,) B - G, G - R, B + G + R: every bin counted at the mean of the levels in it."""
+    """Averages the middles of all bins by their masses."""
     require_histogram(histogram, bins, chroma)
     return mean_color(histogram, bins, chroma)

@@ -14,7 +14,7 @@ Cube = NDArray[np.float32]
 def learn_contrast(
     inside: Samples, around: Samples, target: Cube, surround: Cube, rate: float, rare: float
 ) -> tuple[Cube, Cube, Cube]:
-    """Histograms (B, B, B) of target and surround with new samples blended in, and P(target | color)."""
+    """Blends the samples' joint histograms into both cubes, and divides them."""
     for name, samples in (("inside", inside), ("around", around)):
         if len(samples) != 1:
             refuse(name, "the samples of one ellipse", len(samples))
@@ -29,10 +29,10 @@ def learn_contrast(
     if not rare > 0:
         refuse("rare", "a number above 0", float(rare))
 
-    def learnt(samples: Samples, old: Cube) -> Cube:
+    def learned(samples: Samples, old: Cube) -> Cube:
         seen = joint_histogram(samples, len(old))[0].reshape(old.shape)
         blended: Cube = old + np.float32(rate) * (seen - old)
         return blended
 
-    own, other = learnt(inside, target), learnt(around, surround)
+    own, other = learned(inside, target), learned(around, surround)
     return own, other, own / (own + other + np.float32(rare))

@@ -20,7 +20,7 @@ def rank_contrast(
     models: NDArray[np.float32],
     table: NDArray[np.float32],
 ) -> tuple[Floats, Floats]:
-    """(N, M) rank distances of the samples inside, and (N,) the table's mean inside minus that around."""
+    """Joins sample_ellipses, rank_distance and color_lookup."""
     for name, pattern in (("inside", inside), ("around", around)):
         if len(pattern) < 1:
             refuse(name, "at least one place", "none")

@@ -9,10 +9,7 @@ from tricue.reference.cues.color.color_ranks import color_ranks
 
 
 def rank_distance(samples: NDArray[np.uint8], models: NDArray[np.float32]) -> NDArray[np.float64]:
-    """(N, M): twice the mean absolute difference between the ranks of each ellipse and each model (M, 3, n).
-
-    In units of 1/2n a mid-rank is a whole number; the models' ranks are rounded to it.
-    """
+    """Compares in units of 1/(2n), in which mid-ranks are whole numbers."""
     n = samples.shape[2]
     ranks = np.rint(color_ranks(samples) * (2 * n)).astype(int)
     if models.shape[1:] != ranks.shape[1:]:

@@ -6,11 +6,7 @@ from numpy.typing import NDArray
 
 
 def rank_sections(samples: NDArray[np.uint8], sections: int) -> NDArray[np.float32]:
-    """(N, 3, S): a^k(n) as printed, a sum over levels, then divided by its sum over n.
-
-    The paper defines q(n) for n < S; q(S), which (27) needs, is the rank closest to 1. Ranks are kept as
-    whole counts, n times r(l), so that ties and borders of the closed intervals are exact; the sum cancels n.
-    """
+    """Keeps ranks as whole counts, n times r(l), so that ties and borders are exact."""
     if not 1 <= sections <= 256:
         raise ValueError(f"sections: expected 1 to 256, got {sections}")
     ellipses, channels, n = samples.shape

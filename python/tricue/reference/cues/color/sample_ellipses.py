@@ -10,9 +10,7 @@ from tricue.reference.base.checks import refuse, require_finite, require_shape
 def sample_ellipses(
     image: NDArray[np.uint8], ellipses: NDArray[np.float64], pattern: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """(N, 3, n): for each ellipse (x, y, minor, major) the pixels at (x + minor u, y + major v), clamped to
-    the image.
-    """
+    """Gathers all places of all ellipses from the image by one index."""
     require_shape("ellipses", ellipses, (len(ellipses), 4))
     require_shape("pattern", pattern, (len(pattern), 2))
     height, width = image.shape[:2]

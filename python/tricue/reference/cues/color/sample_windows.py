@@ -7,18 +7,13 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import refuse, require_finite, require_shape
 
 UNIT = 64  # parts of a pixel that places are rounded to: sums of integers have the same bits in any order
-MOST_READINGS = 4  # of a sample along each axis; beyond that it skips pixels, so that its cost is bounded
+MAX_READINGS = 4  # of a sample along each axis; beyond that it skips pixels, so that its cost is bounded
 
 
 def sample_windows(
     image: NDArray[np.uint8], windows: NDArray[np.float64], rows: int, columns: int
 ) -> NDArray[np.uint8]:
-    """(N, rows, columns, 3): windows (N, 4), left, top, width, height in pixels, of an image whose edge is
-    repeated.
-
-    A sample is the mean of up to MOST_READINGS x MOST_READINGS evenly spaced bilinear readings of the pixels
-    that it covers, one a pixel, rounded half up.
-    """
+    """Multiplies each window by the weights of its bilinear readings, rows first."""
     _require_arguments(image, windows, rows, columns)
     height, width = image.shape[:2]
     samples = np.empty((len(windows), rows, columns, 3), np.uint8)
@@ -38,7 +33,7 @@ def _weights(start: float, length: float, count: int, size: int) -> tuple[int, N
     pixels from there on, in parts of UNIT.
     """
     step = length / count
-    readings = int(min(max(np.ceil(step), 1), MOST_READINGS))
+    readings = int(min(max(np.ceil(step), 1), MAX_READINGS))
     places = start + (np.arange(count * readings) + 0.5) * (step / readings) - 0.5
     fixed = np.floor(np.clip(places, 0, size - 1) * UNIT + 0.5).astype(np.intp)
     low, share = fixed // UNIT, fixed % UNIT

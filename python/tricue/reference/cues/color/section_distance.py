@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def section_distance(sections: NDArray[np.float32], model: NDArray[np.float32]) -> NDArray[np.float64]:
-    """(N,): (29) over 3 sqrt 2, its largest value on sections that sum to 1, so it lies in [0, 1]."""
+    """Takes (29) as it is printed, divided by its maximum."""
     if sections.shape[2] != model.shape[1]:
         raise ValueError(
             f"model: expected {sections.shape[2]} sections, as in sections, got {model.shape[1]}"

@@ -11,7 +11,7 @@ Floats = NDArray[np.float64]
 
 
 def shift_histogram(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Floats) -> Floats:
-    """(L,): each bin's mass split between the eight that it comes to lie between, clamped to the axes."""
+    """Splits the mass of one bin at a time between the eight that it comes to lie between."""
     require_histogram(histogram, bins, chroma)
     require_shape("mean", mean, (3,))
     require_finite("mean", mean)

@@ -12,10 +12,7 @@ from tricue.reference.cues.color.skin_boundary import skin_boundary
 def skin_blobs(
     image: NDArray[np.uint8], reference: NDArray[np.uint8], threshold: float, min_area: int
 ) -> NDArray[np.float64]:
-    """(M, 7): x, y, width, height, area, cx, cy of every 8-connected region of at least ``min_area`` pixels.
-
-    Largest area first, then by y and x of the box, then by the first pixel in reading order.
-    """
+    """Labels the skin mask by flood fill, and sorts the regions."""
     if min_area < 1:
         raise ValueError(f"min_area: expected at least 1, got {min_area}")
     if not -1.0 <= threshold <= 1.0:

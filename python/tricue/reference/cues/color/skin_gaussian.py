@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 def skin_gaussian(
     samples: NDArray[np.uint8], mean: NDArray[np.float64], precision: NDArray[np.float64]
 ) -> NDArray[np.float32]:
-    """(N, n): exp(-d^2 / 2), d the Mahalanobis distance of (Cb, Cr), BT.601 full range, to the mean."""
+    """Converts the samples to (Cb, Cr), and takes the Gaussian of their Mahalanobis distance."""
     if mean.shape != (2,) or not np.all(np.isfinite(mean)):
         raise ValueError("mean: expected two finite numbers (2,), got others")
     if precision.shape != (2, 2) or not np.all(np.isfinite(precision)):

@@ -13,10 +13,7 @@ def skin_moments(
     threshold: float,
     region: tuple[int, int, int, int],
 ) -> NDArray[np.float64]:
-    """(6,): count, mean x, y, variance xx, yy, xy of the skin in [x0, x1) x [y0, y1), clipped.
-
-    (14)-(16) are divided by the count, which the paper leaves out. Zeros where nothing is skin.
-    """
+    """Takes mean and covariance of the coordinates of the skin pixels."""
     if not -1.0 <= threshold <= 1.0:
         raise ValueError(f"threshold: expected a number in [-1, 1], got {threshold:g}")
     x0, y0 = max(region[0], 0), max(region[1], 0)

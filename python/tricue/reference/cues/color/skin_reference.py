@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 
 def skin_reference(patch: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """(3,) B, G, R: mean of the pixels in the fullest cell of 32 levels a channel, rounded, halves up."""
+    """Averages the pixels in the fullest cell of the joint histogram."""
     if patch.size == 0:
         raise ValueError("patch: expected at least one pixel, got none")
     pixels = patch.reshape(-1, 3).astype(np.int64)

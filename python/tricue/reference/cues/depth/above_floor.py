@@ -16,9 +16,7 @@ def above_floor(
     far: float,
     clear: float,
 ) -> NDArray[np.float32]:
-    """(H, W) the depths in [near, far) that are more than ``clear`` metres above the plane (4,), NaN
-    elsewhere; a plane of zeros is none.
-    """
+    """Masks the depths by their range and by height_above."""
     height = height_above(depth, camera, plane)
     if not 0 <= near < np.inf:
         refuse("near", "a finite number, not negative", float(near))

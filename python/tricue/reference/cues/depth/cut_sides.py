@@ -22,10 +22,7 @@ def cut_sides(
     nearer: float,
     share: float,
 ) -> NDArray[np.bool_]:
-    """(C, 4) whether objects (C, 7) may go on at their left, right, top, bottom: within ``border`` pixels of
-    the image's, or where on more than a ``share`` of it, ``beside`` metres away, something is ``nearer``
-    metres nearer.
-    """
+    """Reads the places beside each side of one box at a time."""
     _require(table, camera, border, beside, nearer, share)
     height, width = depth.shape
     sides = np.zeros((len(table), 4), np.bool_)

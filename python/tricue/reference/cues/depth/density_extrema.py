@@ -11,10 +11,7 @@ Levels = NDArray[np.int64]
 
 
 def density_extrema(density: Floats, prominence: float) -> tuple[Levels, Levels]:
-    """(M,) levels of the maxima of at least this prominence, and (M - 1,) of the least density between them.
-
-    Outside the levels the density is 0. A plateau's maximum is its middle; of equal minima the first counts.
-    """
+    """Walks over plateaus, and measures the prominence of each from the levels around it."""
     strange = density[~(np.isfinite(density) & (density >= 0))]
     if strange.size:
         refuse("density", "finite numbers, none negative", float(strange[0]))

@@ -25,14 +25,7 @@ def depth_components(
     min_area: int,
     image: bool,
 ) -> tuple[NDArray[np.float64], Shares, Shares, Shares, NDArray[np.int32]]:
-    """Of every 8-connected region of one label with at least ``min_area`` pixels: (C, 7) x, y, width, height,
-    area, mean depth, label; (C, levels) its depth histogram; (C, bins) and (C, bins) how its pixels are
-    spread over its columns and its rows; and (H, W) which region has a pixel, from 1, or (0, 0) if no
-    ``image`` is wanted.
-
-    Largest area first, then by the first pixel in reading order. Pixels without a measurement don't count
-    for mean and histogram.
-    """
+    """Labels the regions by flood fill, and counts the pixels of each."""
     _require(labels, depth, near, far)
     for name, value, least in (("levels", levels, 0), ("bins", bins, 1), ("min_area", min_area, 1)):
         if value < least:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The depths in and round rectangles in metres (Sabeti, Parvizi, Wu 2008, equation (38))."""
+"""The depths in and around rectangles in meters (Sabeti, Parvizi, Wu 2008, equation (38))."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,7 @@ from tricue.reference.cues.depth.depth_distance import depth_distance
 
 Floats = NDArray[np.float64]
 
-MOST = 64
+MAX_PLACES = 64
 OUTSIDE = np.array([-1.0, -1.0, 0.0, 0.0])  # a rectangle of no pixels
 
 
@@ -24,10 +24,7 @@ def depth_contrast(
     reach: float,
     nearer: float,
 ) -> Floats:
-    """(N, 4): what depth_distance measures of the rectangles of states (N, 5) X, Y, Z, width, height, metres,
-    read in the middles of ``grid`` rows x columns equal parts; and the share at their depth round them:
-    ``ring`` is a margin, in half sizes, and how many places a side has there.
-    """
+    """Joins depth_distance in the projected rectangles, and in the rings around them."""
     _require(camera, states, grid, ring)
     with np.errstate(over="ignore", invalid="ignore"):
         rectangles = _seen_by(camera, states)
@@ -37,7 +34,7 @@ def depth_contrast(
 
 
 def _seen_by(camera: Floats, states: Floats) -> Floats:
-    """(N, 5): centre x, y, width, height, pixels, and Z."""
+    """(N, 5): center x, y, width, height, pixels, and Z."""
     fx, fy, cx, cy = camera
     x, y, z, width, height = states.T
     per_x, per_y = fx / z, fy / z
@@ -69,7 +66,7 @@ def _require(camera: Floats, states: Floats, grid: tuple[int, int], ring: tuple[
     if (states[:, 2] <= 0).any():
         refuse("states", "Z above 0", float(states[states[:, 2] <= 0, 2][0]))
     for name, number in (("rows", grid[0]), ("columns", grid[1]), ("along", ring[1])):
-        if not 1 <= number <= MOST:
-            refuse(name, f"1 to {MOST}", number)
+        if not 1 <= number <= MAX_PLACES:
+            refuse(name, f"1 to {MAX_PLACES}", number)
     if not 1 <= ring[0] < np.inf:
         refuse("margin", "a finite number of at least 1", float(ring[0]))

@@ -10,10 +10,7 @@ Floats = NDArray[np.float64]
 
 
 def depth_density(histogram: Floats, bandwidth: float) -> Floats:
-    """(L,) of sum 1: the histogram smoothed by a Gaussian of ``bandwidth`` levels, mirrored at both ends.
-
-    The kernel is cut at ceil(4 bandwidth) levels. A histogram of zeros stays one.
-    """
+    """Convolves the histogram, mirrored at both ends, with the Gaussian."""
     total = _require_histogram(histogram)
     levels = len(histogram)
     if not 0 < bandwidth <= levels:

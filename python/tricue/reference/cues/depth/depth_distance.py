@@ -14,13 +14,7 @@ Floats = NDArray[np.float64]
 def depth_distance(
     depth: Depth, rectangles: Floats, model: Floats, pattern: Floats, reach: float, nearer: float
 ) -> Floats:
-    """(N, 3): for each rectangle (x, y, width, height, z) the distance (38), over sqrt 2, of its depths less
-    z from the model, 1 where none counts; the share of the places that count; the share nearer than z -
-    ``nearer``.
-
-    The places (u, v) of the pattern are in halves of width and height from the centre. What is measured, and
-    within ``reach`` of z, counts.
-    """
+    """Compares the histogram of one rectangle at a time with the model."""
     _require(rectangles, pattern, model, reach, nearer)
     measured = np.empty((len(rectangles), 3))
     levels = len(model)

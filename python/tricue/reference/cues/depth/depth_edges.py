@@ -7,14 +7,11 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.depth_pixels import has_depth
 
-NEIGHBOURS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
+NEIGHBORS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
 
 
 def depth_edges(depth: NDArray[np.float32], gap: float, slope: float) -> NDArray[np.uint8]:
-    """(H, W): 1 where z - z' > gap + slope (z' z') for one of the 8 neighbours z', in float32.
-
-    What wasn't measured is no edge, and makes none.
-    """
+    """Compares the image with itself shifted to each of the 8 neighbors."""
     for name, value in (("gap", gap), ("slope", slope)):
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))
@@ -23,7 +20,7 @@ def depth_edges(depth: NDArray[np.float32], gap: float, slope: float) -> NDArray
     padded = np.pad(np.where(measured, depth, np.float32(np.inf)), 1, constant_values=np.inf)
     edges = np.zeros(depth.shape, np.bool_)
     with np.errstate(over="ignore", invalid="ignore"):
-        for y, x in NEIGHBOURS:
-            neighbour = padded[y : y + height, x : x + width]
-            edges |= depth - neighbour > np.float32(gap) + np.float32(slope) * (neighbour * neighbour)
+        for y, x in NEIGHBORS:
+            neighbor = padded[y : y + height, x : x + width]
+            edges |= depth - neighbor > np.float32(gap) + np.float32(slope) * (neighbor * neighbor)
     return (edges & measured).astype(np.uint8)

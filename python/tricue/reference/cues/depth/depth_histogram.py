@@ -11,9 +11,7 @@ from tricue.reference.base.depth_pixels import has_depth, require_mask
 def depth_histogram(
     depth: NDArray[np.float32], mask: NDArray[np.uint8], near: float, far: float, levels: int
 ) -> NDArray[np.float64]:
-    """(levels,): how many pixels under the mask have near <= z < far, by level
-    floor((z - near) (levels / (far - near))), at most levels - 1, in float32.
-    """
+    """Counts the levels of the pixels under the mask with bincount."""
     require_mask(mask, depth)
     if not np.isfinite(near):
         refuse("near", "a finite number", float(near))
@@ -23,7 +21,7 @@ def depth_histogram(
         refuse("levels", "1 to 65536", levels)
     z = depth[has_depth(depth) & (mask != 0)]
     z = z[(near <= z.astype(np.float64)) & (z.astype(np.float64) < far)]
-    with np.errstate(over="ignore", invalid="ignore"):  # where far and near are neighbours
+    with np.errstate(over="ignore", invalid="ignore"):  # where far and near are neighbors
         place = (z - np.float32(near)) * np.float32(np.divide(levels, far - near))
     level = np.where(place < levels - 1, place, levels - 1).astype(np.intp)
     return np.bincount(level, minlength=levels).astype(np.float64)

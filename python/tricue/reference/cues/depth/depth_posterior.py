@@ -21,13 +21,7 @@ def depth_posterior(
     sigma: float,
     near_margin: float,
 ) -> tuple[Depth, NDArray[np.uint8]]:
-    """(rows, columns) P(target | z), and (rows, columns) 1 where z is less than expected - near_margin.
-
-    z is the depth of the pixel under the centre of each square, ``step`` pixels wide, of a grid whose top
-    left corner is (x0, y0); pixel (i, j) covers [j, j + 1) x [i, i + 1). Bayes' rule with equal priors:
-    p / (p + c), p = exp(-((z - expected) / sigma)² / 2), c = 0.1. Where nothing is measured, or outside the
-    image, it is 1/2. All in metres but the grid.
-    """
+    """Applies Bayes' rule to the depth under the center of one square at a time."""
     _require_arguments(x0, y0, step, rows, columns, expected, sigma, near_margin)
     posterior, nearer = np.full((rows, columns), 0.5), np.zeros((rows, columns), np.uint8)
     for i, j in np.ndindex(rows, columns):

@@ -11,7 +11,7 @@ from tricue.reference.base.depth_pixels import has_depth, require_mask
 def divide_depth(
     depth: NDArray[np.float32], mask: NDArray[np.uint8], dividers: NDArray[np.float64]
 ) -> NDArray[np.uint8]:
-    """(H, W): the label l in 1..M where S(l) <= z < S(l + 1) under the mask, else 0."""
+    """Masks one division at a time."""
     require_mask(mask, depth)
     if not 2 <= dividers.size <= 256:
         refuse("dividers", "2 to 256 numbers", dividers.size)

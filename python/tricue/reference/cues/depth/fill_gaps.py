@@ -7,19 +7,15 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import refuse
 from tricue.reference.base.depth_pixels import has_depth
 
-NEIGHBOURS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
+NEIGHBORS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
 SMALL = 3  # pixels
-VOTES = 2  # neighbours on the nearest surface, at least
+VOTES = 2  # neighbors on the nearest surface, at least
 
 
 def fill_gaps(
     depth: NDArray[np.float32], gap: float, slope: float, ragged: float, passes: int
 ) -> NDArray[np.float32]:
-    """(H, W): where there are more small gaps than the share ``ragged`` of the measured pixels, then until
-    there are at most half as many, and at most ``passes`` times, gaps get the mean of their neighbours on the
-    nearest surface, z' <= z + gap + slope (z z) with z the nearest. In float32; NaN where nothing was
-    measured nor filled.
-    """
+    """Repeats the pass over the 8 shifted images while the image is ragged."""
     for name, value in (("gap", gap), ("slope", slope)):
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))
@@ -46,18 +42,18 @@ def _small_gaps(measured: NDArray[np.bool_]) -> int:
 
 
 def _surfaces(image: NDArray[np.float32], gap: float, slope: float) -> NDArray[np.float32]:
-    """(H, W) the mean of the neighbours on the nearest surface round each pixel; NaN where they are few."""
+    """(H, W) the mean of the neighbors on the nearest surface around each pixel; NaN where they are few."""
     height, width = image.shape
     padded = np.pad(image, 1, constant_values=np.nan)
-    around = [padded[y : y + height, x : x + width] for y, x in NEIGHBOURS]
+    around = [padded[y : y + height, x : x + width] for y, x in NEIGHBORS]
     nearest = np.fmin.reduce(around)
     total, votes = np.zeros((2, height, width), np.float32)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         reach = nearest + (np.float32(gap) + np.float32(slope) * (nearest * nearest))
         reach = np.fmin(reach, np.finfo(np.float32).max)  # where the square overflows
-        for neighbour in around:
-            on_it = neighbour <= reach
-            total += np.where(on_it, neighbour, np.float32(0))
+        for neighbor in around:
+            on_it = neighbor <= reach
+            total += np.where(on_it, neighbor, np.float32(0))
             votes += on_it
         mean = total / votes
     return np.where((votes >= VOTES) & np.isfinite(mean), mean, np.float32(np.nan))

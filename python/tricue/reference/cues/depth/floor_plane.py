@@ -22,13 +22,11 @@ def floor_plane(
     triples: NDArray[np.int64],
     tolerance: float,
     up: Floats,
-    least_cosine: float,
+    min_cosine: float,
 ) -> Floats:
-    """(6,): nx, ny, nz, d of the plane n · X + d = 0 with the camera above it, d > 0, the share of the
-    measured pixels within tolerance of it, and the share below it; zeros where there is none.
-    """
+    """Scores the plane of every triple, then fits the best one by least squares."""
     x, y = rays(camera, depth)
-    _check(depth, triples, tolerance, up, least_cosine)
+    _check(depth, triples, tolerance, up, min_cosine)
     with np.errstate(over="ignore", invalid="ignore"):
         everywhere = np.stack([x * depth, y[:, None] * depth, depth], axis=-1)
         everywhere[~has_depth(depth)] = np.nan
@@ -36,7 +34,7 @@ def floor_plane(
         points = everywhere[np.isfinite(everywhere[:, 2])]
         best, score = None, 0
         for p, q, r in everywhere[triples].astype(np.float64):
-            plane = _plane_through(p, q, r, up, least_cosine)
+            plane = _plane_through(p, q, r, up, min_cosine)
             if plane is not None:
                 within, below = _relations(points, plane, tolerance)
                 its = np.count_nonzero(within) - 3 * np.count_nonzero(below)
@@ -45,13 +43,13 @@ def floor_plane(
         if best is None:
             return np.zeros(6)
         for _ in range(ROUNDS):
-            best = _fit(points[_relations(points, best, tolerance)[0]], up, least_cosine) or best
+            best = _fit(points[_relations(points, best, tolerance)[0]], up, min_cosine) or best
         within, below = _relations(points, best, tolerance)
         return np.array([*best[0], best[1], within.mean(), below.mean()])
 
 
 def _check(
-    depth: NDArray[np.float32], triples: NDArray[np.int64], tolerance: float, up: Floats, least_cosine: float
+    depth: NDArray[np.float32], triples: NDArray[np.int64], tolerance: float, up: Floats, min_cosine: float
 ) -> None:
     if not 0 < tolerance < np.inf:
         refuse("tolerance", "a finite number above 0", float(tolerance))
@@ -60,8 +58,8 @@ def _check(
     length = np.sqrt(_dot(up, up))
     if not abs(length - 1) <= 1e-6:
         refuse("up", "a vector of length 1", float(length))
-    if not -1 <= least_cosine <= 1:
-        refuse("least_cosine", "a number in [-1, 1]", float(least_cosine))
+    if not -1 <= min_cosine <= 1:
+        refuse("min_cosine", "a number in [-1, 1]", float(min_cosine))
     outside = triples[(triples < 0) | (triples >= depth.size)]
     if outside.size:
         refuse("triples", f"indices in [0, {depth.size})", outside[0])
@@ -76,27 +74,27 @@ def _relations(points: Points, plane: Plane, tolerance: float) -> tuple[NDArray[
     return abs(height) <= near, height < np.float32(-3) * near
 
 
-def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, least_cosine: float) -> Plane | None:
+def _plane_through(p: Floats, q: Floats, r: Floats, up: Floats, min_cosine: float) -> Plane | None:
     """The plane through three points, unless they are on a line or weren't measured."""
     a, b = q - p, r - p
     normal = np.cross(a, b)
     square = _dot(normal, normal)
     if not square > LINE_SQUARED * _dot(a, a) * _dot(b, b):
         return None
-    return _level_plane(normal / np.sqrt(square), p, up, least_cosine)
+    return _level_plane(normal / np.sqrt(square), p, up, min_cosine)
 
 
-def _fit(points: Points, up: Floats, least_cosine: float) -> Plane | None:
+def _fit(points: Points, up: Floats, min_cosine: float) -> Plane | None:
     """Least squares: the plane through the mean, across the direction in which the points spread least."""
     if len(points) < 3:
         return None
     mean = points.mean(axis=0, dtype=np.float64)
     spread = points - mean
     _, vectors = np.linalg.eigh(spread.T @ spread)
-    return _level_plane(vectors[:, 0], mean, up, least_cosine)
+    return _level_plane(vectors[:, 0], mean, up, min_cosine)
 
 
-def _level_plane(normal: Floats, point: Floats, up: Floats, least_cosine: float) -> Plane | None:
+def _level_plane(normal: Floats, point: Floats, up: Floats, min_cosine: float) -> Plane | None:
     """The plane through a point, turned so that the camera is above it; nothing where that isn't level, or
     seen edge-on.
     """
@@ -104,7 +102,7 @@ def _level_plane(normal: Floats, point: Floats, up: Floats, least_cosine: float)
     if d < 0:
         normal, d = -normal, -d
     seen = d > EDGE_ON * np.sqrt(_dot(point, point))
-    return (normal, d) if seen and _dot(normal, up) >= least_cosine else None
+    return (normal, d) if seen and _dot(normal, up) >= min_cosine else None
 
 
 def _dot(a: Floats, b: Floats) -> float:

@@ -11,7 +11,7 @@ from tricue.reference.base.depth_pixels import has_depth, rays
 def height_above(
     depth: NDArray[np.float32], camera: NDArray[np.float64], plane: NDArray[np.float64]
 ) -> NDArray[np.float32]:
-    """(H, W) n · X + d in metres, in float32 throughout; NaN where nothing was measured."""
+    """Takes n · X + d of all pixels in float32."""
     x, y = rays(camera, depth)
     require_shape("plane", plane, (4,))
     require_finite("plane", plane)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Segmented objects in metres, standing on the floor."""
+"""Segmented objects in meters, standing on the floor."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +21,7 @@ def measure_objects(
     feet: float,
     legs: float,
 ) -> Floats:
-    """(C, 8) X, Y, Z of the boxes' centres, width, height, centroid less centre (x, y): metres; area, m².
-
-    What ends uncut, and less than ``feet`` metres above the plane (4,), stands on it: its box goes down to
-    it, and its centroid by the share of the strip that is added, of which ``legs`` is filled.
-    """
+    """Back-projects the boxes, and lengthens those that stand on the floor."""
     _require(table, columns, rows, cut, camera, plane, feet, legs)
     fx, fy, cx, cy = camera
     x, y, w, h, pixels, z, _ = table.T
@@ -37,7 +33,7 @@ def measure_objects(
     above /= max(-plane[1], 0.1)
     strip = np.where((above > 0) & (above < feet) & ~cut[:, 3] & plane.any(), above, 0.0)
     share = legs * strip / (height + strip)
-    down = shift_y - strip / 2  # from the new centre
+    down = shift_y - strip / 2  # from the new center
     shift_y = down + share * (height / 2 - down)
     return np.column_stack(
         [center_x, center_y + strip / 2, z, width, height + strip, shift_x, shift_y, pixels * z * z / fx / fy]

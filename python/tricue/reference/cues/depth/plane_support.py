@@ -13,9 +13,7 @@ Floats = NDArray[np.float64]
 def plane_support(
     depth: NDArray[np.float32], camera: Floats, plane: Floats, tolerance: float, step: int
 ) -> Floats:
-    """(2,) shares of the measured pixels, every step-th across and down, within tolerance of a plane (4,),
-    and below it by more than 3 times that; 0 where nothing was measured.
-    """
+    """Compares height_above of every step-th pixel with the tolerance."""
     height = height_above(depth, camera, plane)
     if not 0 < tolerance < np.inf:
         refuse("tolerance", "a finite number above 0", float(tolerance))

@@ -13,7 +13,7 @@ Floats = NDArray[np.float64]
 def rectangle_histogram(
     depth: NDArray[np.float32], rectangle: Floats, levels: int, pattern: Floats, reach: float
 ) -> Floats:
-    """(levels,) of sum 1: the depths at the places of the pattern in (x, y, width, height, z), less z."""
+    """Counts the levels at the places of the pattern."""
     require_shape("rectangle", rectangle, (5,))
     require_finite("rectangle", rectangle)
     if not 1 <= levels <= 65536:

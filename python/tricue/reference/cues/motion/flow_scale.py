@@ -12,26 +12,24 @@ Floats = NDArray[np.float64]
 LANES = 4
 
 
-def flow_scale(u: Plane, v: Plane, outliers: float, least: int) -> tuple[float, float, int]:
-    """a of x - u = a x + b, y - v = a y + c by least squares over finite pixels (h, w), and once more without
-    those whose squared residual is above outliers² times the mean; its mean squared residual; its pixels.
-    """
-    _require(u, v, outliers, least)
+def flow_scale(u: Plane, v: Plane, outliers: float, min_pixels: int) -> tuple[float, float, int]:
+    """Fits the similarity to the finite pixels, twice."""
+    _require(u, v, outliers, min_pixels)
     known = np.isfinite(u) & np.isfinite(v)
     flow = np.where(known, np.stack([u, v]).astype(np.float64), 0)
-    first = fit(flow, known, least)
+    first = fit(flow, known, min_pixels)
     if first is None:
         return np.nan, np.nan, int(known.sum())
     _, spread, squares = first
     known &= squares <= outliers * (outliers * spread)
-    second = fit(flow, known, least)
+    second = fit(flow, known, min_pixels)
     if second is None:
         return np.nan, np.nan, int(known.sum())
     a, spread, _ = second
     return a, spread, int(known.sum())
 
 
-def fit(flow: Floats, known: NDArray[np.bool_], least: int) -> tuple[float, float, Floats] | None:
+def fit(flow: Floats, known: NDArray[np.bool_], min_pixels: int) -> tuple[float, float, Floats] | None:
     """a, its mean squared residual, and the squared residuals (h, w) of a flow (2, h, w), fitted to the known
     pixels; None where there are too few, or just one.
     """
@@ -39,7 +37,7 @@ def fit(flow: Floats, known: NDArray[np.bool_], least: int) -> tuple[float, floa
     x, y = np.meshgrid(np.arange(width) - (width - 1) / 2, np.arange(height) - (height - 1) / 2)
     u, v = flow
     n = int(known.sum())
-    if n < least:
+    if n < min_pixels:
         return None
     sum_x, sum_y, sum_u, sum_v, places, products = (
         added(np.where(known, each, 0)) for each in (x, y, u, v, x * x + y * y, x * u + y * v)
@@ -62,10 +60,10 @@ def added(values: Floats) -> float:
     return float((a + b) + (c + d))
 
 
-def _require(u: Plane, v: Plane, outliers: float, least: int) -> None:
+def _require(u: Plane, v: Plane, outliers: float, min_pixels: int) -> None:
     if v.shape != u.shape:
         refuse("v", f"u's shape {u.shape}", v.shape)
     if not 0 < outliers < np.inf:
         refuse("outliers", "a finite number above 0", float(outliers))
-    if least < 1:
-        refuse("least", "at least 1 pixel", least)
+    if min_pixels < 1:
+        refuse("min_pixels", "at least 1 pixel", min_pixels)

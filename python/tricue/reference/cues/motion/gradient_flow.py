@@ -24,9 +24,7 @@ def gradient_flow(
     min_contrast: float,
     region: Rectangle | None = None,
 ) -> tuple[Plane, Plane, Plane, Plane]:
-    """u, v, angle, contrast (h, w) of the region: equations (1)-(6), the filters
-    the derivatives of a Gaussian.
-    """
+    """Filters both frames, and solves the two constraints in each pixel."""
     require_frames(previous, current, region)
     require_sigma(sigma)
     require_reliabilities(min_angle, min_contrast)

@@ -34,7 +34,7 @@ def pyramid_flow(
     pool: int = 3,
     max_step: float = 0.4,
 ) -> tuple[Plane, Plane, Plane, Plane]:
-    """u, v, angle, contrast (h, w) of the region: equation (4) over a window, at each level anew."""
+    """Warps, pools the constraints over a window and solves them, level by level."""
     require_frames(previous, current, region)
     require_sigma(sigma)
     _require(levels, pool, max_step)

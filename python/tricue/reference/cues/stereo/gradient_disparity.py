@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Disparity by the gradient method round a predicted one (Okada, Shirai, Miura 1996, section 3)."""
+"""Disparity by the gradient method around a predicted one (Okada, Shirai, Miura 1996, section 3)."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,9 +29,7 @@ def gradient_disparity(
     max_step: float = 1.0,
     region: Rectangle | None = None,
 ) -> tuple[Singles, Singles]:
-    """Disparities d, px, x_right = x_left - d, and reliabilities (9), both (h, w), of the region (x0, y0,
-    x1, y1) of the left picture; measured round the predicted ``disparity``, coarse to fine.
-    """
+    """Solves (7) over the windows, level by level."""
     rows, columns = left.shape
     x0, y0, x1, y1 = (0, 0, columns, rows) if region is None else region
     _require(left, right, levels, radius, (x0, y0, x1, y1))
@@ -72,7 +70,7 @@ def brightness(image: Floats, sigma: float) -> Floats:
 
 
 def correlate(image: Floats, weights: Floats, axis: int) -> Floats:
-    """Sums of an odd number of neighbours along an axis; beyond the edge its pixels go on."""
+    """Sums of an odd number of neighbors along an axis; beyond the edge its pixels go on."""
     reach = len(weights) // 2
     padded = np.pad(image, [(reach, reach) if k == axis else (0, 0) for k in range(2)], mode="edge")
     size = image.shape[axis]
@@ -99,7 +97,7 @@ def doubled(disparity: Floats, shape: tuple[int, int]) -> Floats:
 
 
 def slope(image: Floats) -> Floats:
-    """Half the difference of both neighbours along x; at the edge they are the pixel itself and one."""
+    """Half the difference of both neighbors along x; at the edge they are the pixel itself and one."""
     return correlate(image, np.array([-0.5, 0, 0.5]), 1)
 
 
@@ -113,7 +111,7 @@ def warped(image: Floats, x: Floats) -> Floats:
 
 
 def pooled(values: Floats, radius: int) -> Floats:
-    """The mean of the square window round each pixel; beyond the picture stands 0."""
+    """The mean of the square window around each pixel; beyond the picture stands 0."""
     side = 2 * radius + 1
     padded, (rows, columns) = np.pad(values, radius), values.shape
     shifts = [padded[k : k + rows, i : i + columns] for k in range(side) for i in range(side)]

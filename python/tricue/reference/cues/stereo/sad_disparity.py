@@ -27,7 +27,7 @@ def sad_disparity(
     prefilter: bool = True,
     tolerance: int = -1,
 ) -> Disparity:
-    """(h, w) of the region (x0, y0, x1, y1): the best d of each pixel, equations (3), (4)."""
+    """Sums the cost of every candidate over the windows, then picks and checks the best."""
     _require(left, right, region, first, last, window, uniqueness, prefilter)
     if prefilter:
         left_gray, right_gray = x_sobel(left), x_sobel(right)
@@ -100,7 +100,7 @@ def ambiguous(costs: Ints, found: Ints, best: Ints, uniqueness: int) -> NDArray[
 
 
 def inscribed(width: int, height: int) -> NDArray[np.bool_]:
-    """(height, width): the pixels whose centres lie in the ellipse."""
+    """(height, width): the pixels whose centers lie in the ellipse."""
     across, down = 2 * np.arange(width) + 1 - width, 2 * np.arange(height)[:, None] + 1 - height
     inside: NDArray[np.bool_] = (across * height) ** 2 + (down * width) ** 2 <= (width * height) ** 2
     return inside

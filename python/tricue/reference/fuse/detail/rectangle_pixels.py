@@ -9,7 +9,7 @@ Rectangle = tuple[float, float, float, float]
 
 
 def rectangle_pixels(rectangle: Rectangle, shape: tuple[int, ...], name: str) -> tuple[slice, slice]:
-    """Rows and columns of the pixels whose centres lie in [x0, x1) x [y0, y1); pixel 0 is [0, 1).
+    """Rows and columns of the pixels whose centers lie in [x0, x1) x [y0, y1); pixel 0 is [0, 1).
 
     Clipped to the image, and empty where x1 <= x0 or y1 <= y0.
     """

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse
 
-MOST = 65536
+MAX_BINS = 65536
 
 
 def value_bins(values: NDArray[np.float32], low: float, high: float, bins: int) -> NDArray[np.intp]:
@@ -15,7 +15,7 @@ def value_bins(values: NDArray[np.float32], low: float, high: float, bins: int) 
     """
     exact = values.astype(np.float64)
     inside = (exact >= low) & (exact < high)
-    with np.errstate(over="ignore", invalid="ignore"):  # where high and low are neighbours
+    with np.errstate(over="ignore", invalid="ignore"):  # where high and low are neighbors
         place = (values - np.float32(low)) * np.float32(np.divide(bins, high - low))
     return np.where(inside, np.where(place < bins - 1, place, bins - 1), bins).astype(np.intp)
 
@@ -26,5 +26,5 @@ def require_range(low: float, high: float, bins: int) -> None:
         refuse("low", "a finite number", float(low))
     if not (np.isfinite(high) and high > low):
         refuse("high", "a finite number above low", float(high))
-    if not 1 <= bins <= MOST:
-        refuse("bins", f"1 to {MOST}", bins)
+    if not 1 <= bins <= MAX_BINS:
+        refuse("bins", f"1 to {MAX_BINS}", bins)

@@ -35,7 +35,7 @@ def axes(bins: Bins, chroma: int) -> list[tuple[int, int, int]]:
     return [(bins[0], -chroma, 2 * chroma), (bins[1], -chroma, 2 * chroma), (bins[2], 0, 766)]
 
 
-def centres(bins: Bins, chroma: int) -> list[Floats]:
+def centers(bins: Bins, chroma: int) -> list[Floats]:
     """For each axis the mean of the whole levels in each of its bins, color units."""
     return [lowest + (np.arange(n) + 0.5) * levels / n - 0.5 for n, lowest, levels in axes(bins, chroma)]
 
@@ -43,7 +43,7 @@ def centres(bins: Bins, chroma: int) -> list[Floats]:
 def mean_color(histogram: Floats, bins: Bins, chroma: int) -> Floats:
     """(3,): every bin counted at the mean of its levels."""
     weights = histogram.reshape(bins)
-    grids = np.meshgrid(*centres(bins, chroma), indexing="ij")
+    grids = np.meshgrid(*centers(bins, chroma), indexing="ij")
     sums = np.array([np.sum(weights * grid) for grid in grids], np.float64)
     return np.asarray(sums / weights.sum())
 

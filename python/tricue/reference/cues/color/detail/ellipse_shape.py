@@ -36,9 +36,9 @@ def require_bins(bins: Bins, size: int) -> None:
 
 
 def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
-    """(H, W): the pixels whose centres are inside (x, y, minor, major).
+    """(H, W): the pixels whose centers are inside (x, y, minor, major).
 
-    Measured from the pixel that the centre lies in, as an ellipse moved by whole pixels keeps its shape.
+    Measured from the pixel that the center lies in, as an ellipse moved by whole pixels keeps its shape.
     """
     x, y, minor, major = ellipse
     columns = np.arange(shape[1]) - np.floor(x)
@@ -53,7 +53,7 @@ def mask_of(ellipse: Floats, shape: tuple[int, ...]) -> Mask:
 
 
 def masks_of(ellipse: Floats, margin: float, shape: tuple[int, ...]) -> tuple[Mask, Mask]:
-    """Which pixels are inside an ellipse, and which in the ring round it."""
+    """Which pixels are inside an ellipse, and which in the ring around it."""
     inside = mask_of(ellipse, shape)
     larger = ellipse * np.array([1, 1, margin, margin])
     return inside, mask_of(larger, shape) & ~inside

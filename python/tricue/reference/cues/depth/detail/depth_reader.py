@@ -12,7 +12,7 @@ Floats = NDArray[np.float64]
 
 
 def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
-    """The depths at the places (u, v) of the pattern, in halves of width and height from the centre, that are
+    """The depths at the places (u, v) of the pattern, in halves of width and height from the center, that are
     seen: inside the image, and measured.
     """
     x, y, width, height, _ = rectangle
@@ -24,7 +24,7 @@ def read(depth: Depth, rectangle: Floats, pattern: Floats) -> Floats:
 
 
 def count(seen: Floats, z: float, levels: int, reach: float) -> NDArray[np.intp]:
-    """(levels,) how many depths are in each level of [-reach, reach) round z."""
+    """(levels,) how many depths are in each level of [-reach, reach) around z."""
     level = np.floor(((seen - z) + reach) * (levels / (2 * reach)))
     level = level[(level >= 0) & (level < levels)]
     return np.bincount(level.astype(np.intp), minlength=levels)
