@@ -9,6 +9,7 @@
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
 #include "base/image_view.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 
@@ -16,7 +17,7 @@ namespace tricue {
 using Labels = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Whether a pixel was measured. `&`, not `&&`: loops without a branch are vectorised.
-[[gnu::always_inline]] inline bool has_depth(float z) {
+TRICUE_INLINE bool has_depth(float z) {
     return (z > 0.0f) & (z <= std::numeric_limits<float>::max());
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/simd.hpp"
+
 namespace tricue {
 
 /// Calls body(i) for every i in [0, n), in blocks of 64 or so; the last ends at n and may overlap the one before.
@@ -11,7 +13,7 @@ namespace tricue {
 /// The compiler vectorises loops over bytes 64 at a time and does what is left over one by one: in a row of
 /// 251 samples that took as long as all the rest. `body` has to bear being called twice: out[i] = f(in[i]).
 template <std::ptrdiff_t kBlock = 64, typename Body>
-[[gnu::always_inline]] inline void in_blocks(std::ptrdiff_t n, Body body) {
+TRICUE_INLINE void in_blocks(std::ptrdiff_t n, Body body) {
     if (n < kBlock) {
         for (std::ptrdiff_t i = 0; i < n; ++i) body(i);
         return;

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/check.hpp"
-#include "base/lanes.hpp"
 #include "base/simd.hpp"
 #include "fuse/detail/rectangle_pixels.hpp"
 
@@ -16,9 +15,9 @@ namespace tricue {
 namespace {
 
 constexpr int kLanes = 4;  // floats in one register, everywhere
-using Floats4 [[gnu::vector_size(4 * kLanes)]] = float;
-using Ints4 [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
-using Doubles4 [[gnu::vector_size(8 * kLanes)]] = double;
+using Floats4 = Pack<float, kLanes>;
+using Ints4 = Pack<std::int32_t, kLanes>;
+using Doubles4 = Pack<double, kLanes>;
 
 constexpr float kMost = std::numeric_limits<float>::max();
 constexpr std::uint32_t kOnes = 0x01010101;  // in each byte
@@ -38,7 +37,7 @@ struct Totals {
 };
 
 /// 0xff in the first bytes of four, 0 in others, whatever the order of bytes in a word.
-[[gnu::always_inline]] inline std::uint32_t first_bytes(int count) {
+TRICUE_INLINE std::uint32_t first_bytes(int count) {
     std::uint8_t bytes[kLanes] = {};
     std::memset(bytes, 0xff, static_cast<std::size_t>(count));
     std::uint32_t word;
@@ -47,7 +46,7 @@ struct Totals {
 }
 
 /// How many bytes of four aren't 0, but for those left out (0xff, else 0).
-[[gnu::always_inline]] inline std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t left_out) {
+TRICUE_INLINE std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t left_out) {
     std::uint32_t bytes;
     std::memcpy(&bytes, mask, sizeof bytes);
     bytes &= ~left_out;
@@ -56,7 +55,7 @@ struct Totals {
 }
 
 /// Adds four columns but the first `skipped`, side by side, down the rows.
-[[gnu::always_inline]] inline void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
+TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
     Doubles4 sums = {};
     Ints4 readings = {};
     const Ints4 wanted = skipped <= Ints4{0, 1, 2, 3};
@@ -65,19 +64,21 @@ struct Totals {
     const std::uint8_t* mask = pixels.mask + x;
     for (int y = 0; y < pixels.rows; ++y) {
         Floats4 values;
-        read(disparity, values);
+        load(disparity, values);
         const Ints4 finite = (values >= -kMost) & (values <= kMost) & wanted;
         readings -= finite;
         Ints4 bits;
-        read(&values, bits);
+        load(&values, bits);
         bits &= finite;
-        read(&bits, values);
-        sums += __builtin_convertvector(values, Doubles4);
+        load(&bits, values);
+        Doubles4 wide;
+        convert(values, wide);
+        sums += wide;
         totals.targets += count_set(mask, left_out);
         disparity += pixels.disparity_stride;
         mask += pixels.mask_stride;
     }
-    totals.sum += (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    totals.sum += sum(sums);
     totals.readings += readings[0] + readings[1] + readings[2] + readings[3];
 }
 

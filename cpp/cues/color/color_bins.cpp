@@ -24,7 +24,7 @@ struct Axis {
           inverse(1.0F / static_cast<float>(space.levels(axis))) {}
 };
 
-[[gnu::always_inline]] inline int index(int level, const Axis& axis) {
+TRICUE_INLINE int index(int level, const Axis& axis) {
     return static_cast<int>((static_cast<float>(level) * axis.bins + 0.5F) * axis.inverse);
 }
 

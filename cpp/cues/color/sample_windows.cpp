@@ -17,8 +17,7 @@ constexpr int kMostPixels = 2 * kMostReadings;
 constexpr int kBlock = 64;  // numbers of a row that are blended at once
 constexpr int kLanes = 8;   // numbers of two neighbouring pixels, and two that are thrown away
 
-using Eight [[gnu::vector_size(4 * kLanes)]] = float;
-using Order [[gnu::vector_size(4 * kLanes)]] = int;
+using Eight = Pack<float, kLanes>;
 
 /// A place along one axis, between a pixel and the next, in parts of kUnit from the first.
 struct Reading {
@@ -107,13 +106,14 @@ inline void add_all(const Column* columns, int count, const float* blend, float*
         Eight sum = {};
         for (int j = 0; j < kEach; ++j) {
             Eight colors, weights;
-            __builtin_memcpy(&colors, blend + columns[j].at, sizeof colors);
-            __builtin_memcpy(&weights, columns[j].weights, sizeof weights);
+            load(blend + columns[j].at, colors);
+            load(columns[j].weights, weights);
             sum += colors * weights;
         }
-        const Eight next = __builtin_shuffle(sum, Order{3, 4, 5, 3, 3, 3, 3, 3});
+        Eight next;
+        permute<3, 4, 5, 3, 3, 3, 3, 3>(sum, next);
         sum += next;
-        __builtin_memcpy(sums, &sum, sizeof sum);
+        store(sum, sums);
     }
 }
 

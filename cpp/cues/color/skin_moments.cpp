@@ -47,10 +47,8 @@ RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t lea
 }
 
 /// A new frame isn't in the cache yet, and a region's rows lie too far apart for the processor to foresee the next.
-void prefetch(const std::uint8_t* bytes, int n) {
-#ifdef __GNUC__
-    for (int k = 0; k < n; k += 64) __builtin_prefetch(bytes + k);
-#endif
+void prefetch_row(const std::uint8_t* bytes, int n) {
+    for (int k = 0; k < n; k += 64) prefetch(bytes + k);
 }
 
 void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region,
@@ -60,7 +58,7 @@ void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, 
     Lanes boundary, columns{};
     for (int row = tile.y0; row < tile.y1; ++row) {
         if (row + kAhead < tile.y1)
-            prefetch(image.row(row + kAhead) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
+            prefetch_row(image.row(row + kAhead) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
         skin_boundary_row(image.row(row) + 3 * std::ptrdiff_t{tile.x0}, width, reference, boundary.data());
         const RowSums skin = sum_row(boundary.data(), width, least, columns.data());
         const std::int64_t y = row - region.y0, x = skin.x + left * skin.count;

@@ -9,14 +9,13 @@
 
 #include "base/arrays.hpp"
 #include "base/check.hpp"
-#include "base/lanes.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
 constexpr int kLanes = 4;  // sums side by side, so that an addition needn't wait for the one before
-using Doubles4 [[gnu::vector_size(8 * kLanes)]] = double;
+using Doubles4 = Pack<double, kLanes>;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr float kMost = std::numeric_limits<float>::max();
@@ -70,10 +69,6 @@ void copy(const PlaneView& u, const PlaneView& v, Field& field) {
     }
 }
 
-[[gnu::always_inline]] inline double total(const Doubles4& lanes) {
-    return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-}
-
 TRICUE_MULTIVERSION
 void sum_up(Field& field, Sums& sums) {
     const int rows = field.rows, cols = field.cols;
@@ -84,9 +79,9 @@ void sum_up(Field& field, Sums& sums) {
         Doubles4 x = Doubles4{0, 1, 2, 3} - field.middle_x;
         for (int i = 0; i < cols; i += kLanes, x += kLanes) {
             Doubles4 one, u, v;
-            read(ones + i, one);
-            read(us + i, u);
-            read(vs + i, v);
+            load(ones + i, one);
+            load(us + i, u);
+            load(vs + i, v);
             count += one;
             across += one * x;
             down += one * y;
@@ -96,8 +91,7 @@ void sum_up(Field& field, Sums& sums) {
             products += x * u + y * v;
         }
     }
-    sums = {total(count), total(across), total(down),    total(right),
-            total(low),   total(places), total(products)};
+    sums = {sum(count), sum(across), sum(down), sum(right), sum(low), sum(places), sum(products)};
 }
 
 /// Sets the squares, and gives the sum of those that count.
@@ -107,23 +101,23 @@ double sum_squares(Field& field, const Line& line) {
     const auto [s, u0, v0] = line;
     const double *ones = field.counts(), *us = field.u(), *vs = field.v();
     double* squares = field.squares();
-    Doubles4 sum = {};
+    Doubles4 total = {};
     for (int row = 0; row < rows; ++row, ones += cols, us += cols, vs += cols, squares += cols) {
         const double y = row - field.middle_y;
         Doubles4 x = Doubles4{0, 1, 2, 3} - field.middle_x;
         for (int i = 0; i < cols; i += kLanes, x += kLanes) {
             Doubles4 one, u, v;
-            read(ones + i, one);
-            read(us + i, u);
-            read(vs + i, v);
+            load(ones + i, one);
+            load(us + i, u);
+            load(vs + i, v);
             u = u - s * x - u0;
             v = v - s * y - v0;
             const Doubles4 square = u * u + v * v;
-            sum += one * square;
-            write(square, squares + i);
+            total += one * square;
+            store(square, squares + i);
         }
     }
-    return total(sum);
+    return sum(total);
 }
 
 /// Pixels whose square is above the limit count no longer.

@@ -21,7 +21,8 @@ void solve_row(const Constraints& row, float min_angle, float min_contrast, floa
     const float *g_ts = row.g_t, *h_ts = row.h_t;
     float *us = out.u, *vs = out.v;
     float *angles = out.angle, *contrasts = out.contrast;
-#pragma GCC ivdep  // rows of eight arrays: more than the compiler would compare before the loop
+    // rows of eight arrays: more than the compiler would compare before the loop
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float g_x = g_xs[x], g_y = g_ys[x], h_x = g_y, h_y = h_ys[x];
         const float g_t = g_ts[x], h_t = h_ts[x];

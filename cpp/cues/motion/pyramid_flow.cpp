@@ -43,8 +43,7 @@ struct Step {
     float u, v, determinant;  ///< the determinant without damping
 };
 
-[[gnu::always_inline]] inline void solve(float xx, float xy, float yy, float xt, float yt, float damping,
-                                         Step& step) {
+TRICUE_INLINE void solve(float xx, float xy, float yy, float xt, float yt, float damping, Step& step) {
     const float product = xx * yy - xy * xy, determinant = product > 0 ? product : 0.0F;
     const float share = 1 / (determinant + damping * (xx + yy + damping));
     step.u = (xy * yt - (yy + damping) * xt) * share;
@@ -55,7 +54,8 @@ struct Step {
 TRICUE_MULTIVERSION
 void add_steps(const Products& sums, float damping, int n, float* us, float* vs) {
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
-#pragma GCC ivdep  // no row is another
+    // no row is another
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         Step step;
         solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
@@ -72,7 +72,8 @@ void finish_row(const Products& sums, float damping, const Limits& limits, int n
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
     float *us = out.u, *vs = out.v, *angles = out.angle, *contrasts = out.contrast;
     const Limits least = limits;
-#pragma GCC ivdep  // no row is another
+    // no row is another
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         Step step;
         solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);

@@ -5,7 +5,6 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "cues/color/detail/byte_lookup.hpp"
 #include "cues/color/detail/rank_table.hpp"
 
 namespace tricue {
@@ -28,7 +27,7 @@ inline std::int64_t difference(const Count* __restrict a, const Count* __restric
 
 inline void rank_all(const RankTable<std::uint8_t>& table, const std::uint8_t* levels, std::size_t n,
                      std::uint8_t* ranks) {
-    look_up(table, levels, n, ranks);
+    look_up_bytes(table.data(), levels, n, ranks);
 }
 
 template <typename Count>

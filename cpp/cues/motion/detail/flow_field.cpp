@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-[[gnu::always_inline]] inline void sort(float& a, float& b) {
+TRICUE_INLINE void sort(float& a, float& b) {
     const float less = a < b ? a : b, more = a < b ? b : a;
     a = less;
     b = more;

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kReach = 3.5;  // sigmas on each side, up to the outer edge of the last pixel
 
-[[gnu::always_inline]] inline void sum_and_difference(const float* before, const float* after, RowBlock& sum,
-                                                      RowBlock& difference) {
+TRICUE_INLINE void sum_and_difference(const float* before, const float* after, RowBlock& sum,
+                                      RowBlock& difference) {
     RowBlock left, right;
     load(before, left);
     load(after, right);
@@ -24,9 +24,8 @@ constexpr double kReach = 3.5;  // sigmas on each side, up to the outer edge of 
 }
 
 template <bool kCurved>
-[[gnu::always_inline]] inline void across(const float* row, int radius, const float* bells,
-                                          const float* slopes, const float* curves, int n, float* bell,
-                                          float* slope, float* curve) {
+TRICUE_INLINE void across(const float* row, int radius, const float* bells, const float* slopes,
+                          const float* curves, int n, float* bell, float* slope, float* curve) {
     for (int x = 0; x < n; x += kRowBlock) {
         RowBlock middle, smooth{}, rise{}, bend{}, sum, difference;
         load(row + x, middle);
@@ -45,8 +44,7 @@ template <bool kCurved>
 }
 
 template <bool kOdd>
-[[gnu::always_inline]] inline void down(const float* const* rows, int radius, const float* weights, int n,
-                                        float* out) {
+TRICUE_INLINE void down(const float* const* rows, int radius, const float* weights, int n, float* out) {
     for (int x = 0; x < n; x += kRowBlock) {
         RowBlock middle, total{}, sum, difference;
         load(rows[radius] + x, middle);

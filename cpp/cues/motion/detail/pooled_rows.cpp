@@ -10,7 +10,8 @@ TRICUE_MULTIVERSION
 void multiply(const Constraints& row, int n, const Products& out) {
     const float *g_xs = row.g_x, *g_ys = row.g_y, *h_ys = row.h_y, *g_ts = row.g_t, *h_ts = row.h_t;
     float *xx = out.xx, *xy = out.xy, *yy = out.yy, *xt = out.xt, *yt = out.yt;
-#pragma GCC ivdep  // no row is another: more than the compiler would compare before the loop
+    // no row is another: more than the compiler would compare before the loop
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float g_x = g_xs[x], g_y = g_ys[x], h_x = g_y, h_y = h_ys[x], g_t = g_ts[x], h_t = h_ts[x];
         xx[x] = g_x * g_x + h_x * h_x;

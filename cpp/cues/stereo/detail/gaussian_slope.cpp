@@ -11,8 +11,8 @@ namespace {
 
 /// What a register after the other sums, the compiler unrolls: the number of weights is known.
 template <int Reach, typename Pixel>
-[[gnu::always_inline]] inline void sum_even(const Pixel* const* rows, const float* __restrict weights, int n,
-                                            float* __restrict out) {
+TRICUE_INLINE void sum_even(const Pixel* const* rows, const float* __restrict weights, int n,
+                            float* __restrict out) {
     for (int x = 0; x < n; ++x) {
         float sum = weights[0] * static_cast<float>(rows[0][x]);
         for (int k = 1; k <= Reach; ++k) sum += weights[k] * static_cast<float>(rows[-k][x] + rows[k][x]);
@@ -22,8 +22,8 @@ template <int Reach, typename Pixel>
 
 /// `rows` points at the middle one of 2 reach + 1. The same order of sums for any reach.
 template <typename Pixel>
-[[gnu::always_inline]] inline void smooth(const Pixel* const* rows, const float* __restrict weights,
-                                          int reach, int n, float* __restrict out) {
+TRICUE_INLINE void smooth(const Pixel* const* rows, const float* __restrict weights, int reach, int n,
+                          float* __restrict out) {
     if (reach == 2) return sum_even<2>(rows, weights, n, out);
     if (reach == 3) return sum_even<3>(rows, weights, n, out);
     if (reach == 4) return sum_even<4>(rows, weights, n, out);
@@ -34,8 +34,8 @@ template <typename Pixel>
 }
 
 template <int Reach>
-[[gnu::always_inline]] inline void sum_odd(const float* __restrict in, const float* __restrict weights, int n,
-                                           float* __restrict out) {
+TRICUE_INLINE void sum_odd(const float* __restrict in, const float* __restrict weights, int n,
+                           float* __restrict out) {
     for (int x = 0; x < n; ++x) {
         float sum = weights[1] * (in[x + 1] - in[x - 1]);
         for (int k = 2; k <= Reach; ++k) sum += weights[k] * (in[x + k] - in[x - k]);

@@ -13,8 +13,7 @@ namespace {
 
 /// 8 times the mean of four rows, weighed 1, 3, 3, 1.
 template <typename Pixel>
-[[gnu::always_inline]] inline void smooth(const std::array<const Pixel*, 4>& rows, int n,
-                                          float* __restrict out) {
+TRICUE_INLINE void smooth(const std::array<const Pixel*, 4>& rows, int n, float* __restrict out) {
     const Pixel* __restrict above = rows[0];
     const Pixel* __restrict upper = rows[1];
     const Pixel* __restrict lower = rows[2];

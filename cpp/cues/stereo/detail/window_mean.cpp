@@ -7,7 +7,7 @@ namespace tricue {
 namespace {
 
 template <int Count>
-[[gnu::always_inline]] inline void sum_down(const float* const* rows, int n, float* __restrict out) {
+TRICUE_INLINE void sum_down(const float* const* rows, int n, float* __restrict out) {
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         float sum = rows[0][x];
@@ -17,8 +17,7 @@ template <int Count>
 }
 
 template <int Count>
-[[gnu::always_inline]] inline void sum_across(const float* __restrict in, float share, int n,
-                                              float* __restrict out) {
+TRICUE_INLINE void sum_across(const float* __restrict in, float share, int n, float* __restrict out) {
     for (int x = 0; x < n; ++x) {
         float sum = in[x];
         for (int k = 1; k < Count; ++k) sum += in[x + k];
@@ -27,8 +26,8 @@ template <int Count>
 }
 
 template <int Count>
-[[gnu::always_inline]] inline void mean_of(const float* const* rows, int n, float* __restrict column,
-                                           float* __restrict mean) {
+TRICUE_INLINE void mean_of(const float* const* rows, int n, float* __restrict column,
+                           float* __restrict mean) {
     sum_down<Count>(rows, n + Count - 1, column);
     sum_across<Count>(column, 1.0F / static_cast<float>(Count * Count), n, mean);
 }
