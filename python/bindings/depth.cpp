@@ -9,7 +9,6 @@
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
-#include "cues/depth/height_above.hpp"
 #include "cues/depth/plane_support.hpp"
 
 namespace tricue::bindings {
@@ -76,14 +75,6 @@ Array<double> floor_plane_arrays(const Array<float>& depth, const Array<double>&
                          [&] { return floor_plane(view, lens, draws, tolerance, {upward, least_cosine}); }));
 }
 
-Array<float> height_above_arrays(const Array<float>& depth, const Array<double>& camera,
-                                 const Array<double>& plane) {
-    const auto view = depth_image(depth, "depth");
-    const auto lens = vector(camera, "camera");
-    const auto floor = vector(plane, "plane");
-    return give(unlocked(pixels(view), [&] { return height_above(view, lens, floor); }));
-}
-
 Array<float> above_floor_arrays(const Array<float>& depth, const Array<double>& camera,
                                 const Array<double>& plane, double near, double far, double clear) {
     const auto view = depth_image(depth, "depth");
@@ -139,9 +130,6 @@ void define_depth(py::module_& m) {
         "it, and of those below it; zeros where there is none. Each of the triples (K, 3) names three "
         "pixels, "
         "row * cols + col.");
-    m.def("height_above", height_above_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
-          "Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where "
-          "nothing was measured. camera (4,): fx, fy, cx, cy.");
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("tolerance"), py::arg("step"),
           "(2,) shares of the measured pixels, every step-th, that are within tolerance of a plane (4,): nx, "
