@@ -9,7 +9,7 @@ namespace tricue {
 namespace {
 
 #ifdef TRICUE_BYTE_PERMUTATIONS
-/// A permutation takes 7 bits of an index; the eighth chooses between the halves of the table.
+/// A permutation uses 7 bits of an index; the eighth selects the half of the table.
 __attribute__((target("avx512bw,avx512vl,avx512vbmi"))) void permute_bytes(const std::uint8_t* table,
                                                                            const std::uint8_t* indices,
                                                                            std::size_t n, std::uint8_t* out) {

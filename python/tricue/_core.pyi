@@ -344,15 +344,6 @@ def gradient_flow(
     Flow u, v, pixels a frame, NaN where a reliability is under its minimum, and the reliabilities angle, 0 to 1, and contrast, (h, w) each, of the region (x0, y0, x1, y1) of two gray frames (H, W), or of all: equations (1) to (6) with the derivatives of a Gaussian of sigma pixels, 0.5 to 16, along x and y. The flow of what is at the pixel halfway between the frames; for motions up to sigma.
     """
 
-def height_above(
-    depth: numpy.typing.NDArray[numpy.float32],
-    camera: numpy.typing.NDArray[numpy.float64],
-    plane: numpy.typing.NDArray[numpy.float64],
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    Height n . X + d (H, W), metres, of every pixel above the plane (4,): nx, ny, nz, d; NaN where nothing was measured. camera (4,): fx, fy, cx, cy.
-    """
-
 def histogram_mean(
     histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -965,12 +956,6 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
-    def height_above(
-        self,
-        depth: numpy.typing.NDArray[numpy.float32],
-        camera: numpy.typing.NDArray[numpy.float64],
-        plane: numpy.typing.NDArray[numpy.float64],
-    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def histogram_mean(
         self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
     ) -> numpy.typing.NDArray[numpy.float64]: ...

@@ -12,8 +12,8 @@ struct Factors {
     std::ptrdiff_t left_pitch, right_pitch, product_pitch;  ///< numbers from a row to the next
 };
 
-/// kRows rows of the product, a register of each at a time: no sum waits for the one before, and what is on the right is read
-/// once for all.
+/// kRows rows of the product, one register of each at a time: no sum waits for the one before, and the right factor is read once
+/// for all rows.
 template <int kLanes, int kRows>
 TRICUE_INLINE void multiply_rows(const Factors& factors, int y, float* product) {
     using Register = Pack<float, kLanes>;
@@ -30,7 +30,7 @@ TRICUE_INLINE void multiply_rows(const Factors& factors, int y, float* product) 
     }
 }
 
-/// All rows from y on: kRows at a time, those that are left fewer at a time.
+/// All rows from y on: kRows at a time, then the remaining ones fewer at a time.
 template <int kLanes, int kRows>
 TRICUE_INLINE void multiply_from(const Factors& factors, int y, float* product) {
     for (; y + kRows <= factors.rows; y += kRows) multiply_rows<kLanes, kRows>(factors, y, product);
@@ -47,7 +47,7 @@ TRICUE_MULTIWIDTH(multiply_all, multiply_by, (const Factors& factors, float* pro
 
 }  // namespace
 
-void multiply(const LeftFactor& left, const PaddedRows& right, int cols, PaddedRows& product) {
+void multiply(const LeftFactor& left, const AlignedMatrix& right, int cols, AlignedMatrix& product) {
     multiply_all({left.numbers, right.row(0), left.rows, right.rows(), cols, left.pitch, right.pitch(),
                   product.pitch()},
                  product.row(0));

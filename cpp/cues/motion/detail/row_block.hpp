@@ -12,7 +12,8 @@ constexpr int whole_blocks(int n) {
     return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
 }
 
-/// A block is two registers of AVX-512 or four of AVX2, so that no sum waits for the one before. Sums have one order, whatever the machine.
+/// A block is two registers of AVX-512 or four of AVX2, so that no sum waits for the one before. The order of sums is the same on every
+/// machine.
 constexpr int kHalfBlock = kRowBlock / 2;
 using HalfBlock = Pack<float, kHalfBlock>;
 

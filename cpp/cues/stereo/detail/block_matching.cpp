@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One register holds as many neighbouring pixels as it can, and the candidates are gone through one after the other: so
-// a search range of any length is done at full width, and a pixel's best, second best and so on stay in registers.
+// A register holds neighboring pixels, and the loop runs over the candidates: a search range of any length uses the full width, and a
+// pixel's best and second best costs stay in registers.
 #include "cues/stereo/detail/block_matching.hpp"
 
 #include <type_traits>
@@ -10,7 +10,7 @@
 namespace tricue {
 namespace {
 
-/// What is left after whole registers is done with half as many lanes, down to the fewest.
+/// Whole registers first, then the remainder with half as many lanes, down to the fewest.
 template <int N, typename Body>
 TRICUE_INLINE void in_lanes(int x, int n, const Body& body) {
     constexpr bool kFewest = N == 8;  // a register of 16 bytes
@@ -32,7 +32,7 @@ TRICUE_INLINE void read_cost(const std::uint8_t* from, const std::uint8_t* other
 template <int kBytes>
 TRICUE_INLINE void move_by(const RowPair& in, const RowPair& out, int n, std::uint8_t limit,
                            const ColumnSums& sums) {
-    const std::uint8_t *left = in.left, *old_left = out.left;  // nothing that is written may be one of these
+    const std::uint8_t *left = in.left, *old_left = out.left;  // locals, so that stores don't force reloading
     for (int k = 0; k < sums.candidates; ++k) {
         const std::uint8_t *right = in.right - k, *old_right = out.right - k;
         std::uint16_t* row = sums.data + k * sums.stride;
@@ -50,7 +50,7 @@ TRICUE_INLINE void move_by(const RowPair& in, const RowPair& out, int n, std::ui
     }
 }
 
-/// What find_block is compiled for. kWindow 0: known only at run time.
+/// What find_block is compiled for. kWindow 0: the window is known only at run time.
 template <int kWindow_, bool kOutside_, bool kSecond_>
 struct Case {
     static constexpr int kWindow = kWindow_;
@@ -64,7 +64,7 @@ TRICUE_INLINE void find_block(const ColumnSums& sums, const Search& search, cons
     const std::uint16_t *row = sums.data + x, *outside = search.outside + x;
     const Words none = Words{} + kNoCost;
     Words best = none, below = none, above = none, second = none, at = {}, k = {};
-    Words before = none, last = none;  // the cost of the candidate before, and its number
+    Words before = none, last = none;  // the previous candidate's cost and number
     Words earlier = none;              // the least cost of all before that one
     for (int candidate = 0; candidate < sums.candidates; ++candidate, row += sums.stride) {
         Words cost, term;
