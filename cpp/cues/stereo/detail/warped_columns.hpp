@@ -30,7 +30,9 @@ public:
         return column_.data() + skip_;
     }  ///< x - d rounded down, clamped to [first, last]
     const float* share() const { return share_.data() + skip_; }  ///< weight of the next column
-    const float* visible() const { return visible_.data() + skip_; }  ///< 1 where x - d lies in the picture, else 0
+    const float* visible() const {
+        return visible_.data() + skip_;
+    }  ///< 1 where x - d lies in the picture, else 0
 
 private:
     void update_columns();
