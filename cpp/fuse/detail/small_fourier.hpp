@@ -23,8 +23,8 @@ private:
     void multiply_down(int cols);
 
     int rows_, cols_, half_;
-    AlignedMatrix
-        row_basis_;  ///< (C, C): for each frequency along x cosines, behind them minus sines, but for those that are 0
+    /// (C, C): for each frequency along x cosines, behind them minus sines, but for those that are 0.
+    AlignedMatrix row_basis_;
     AlignedMatrix inverse_row_basis_;  ///< the transpose
     AlignedMatrix cosines_, sines_;    ///< of frequencies along y
     AlignedMatrix plane_;

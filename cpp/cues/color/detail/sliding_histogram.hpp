@@ -25,9 +25,8 @@ public:
 
     const std::int32_t* counts() const { return counts_.data(); }  ///< units of each index
     int masked_count() const { return masked_count_; }             ///< pixels inside the mask
-    int visible() const {
-        return area_ - counts_[CompactBins::kOutside] / unit_;
-    }  ///< pixels inside the image
+    /// Pixels inside the image.
+    int visible() const { return area_ - counts_[CompactBins::kOutside] / unit_; }
 
 private:
     using Offsets = std::vector<std::int32_t>;

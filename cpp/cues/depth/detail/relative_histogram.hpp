@@ -20,9 +20,8 @@ public:
     void count(const float* depths, double z);
 
     const std::int32_t* counts() const { return counts_.data(); }  ///< of each level
-    double total() const {
-        return samples() - counts_[static_cast<std::size_t>(levels_)];
-    }  ///< how many samples count
+    /// How many samples count.
+    double total() const { return samples() - counts_[static_cast<std::size_t>(levels_)]; }
     double samples() const { return static_cast<double>(level_.size()); }
 
     /// The distance of equation (38) between the normalized histogram and a model, over sqrt 2; 1 where nothing counts.
@@ -32,8 +31,8 @@ private:
     double reach_;
     int levels_;
     std::vector<std::int32_t> level_;
-    std::vector<std::int32_t>
-        counts_;  ///< of each level and of samples that don't count; then kLanes - 1 more such tables
+    /// Of each level and of samples that don't count; then kLanes - 1 more such tables.
+    std::vector<std::int32_t> counts_;
 };
 
 /// How many of n depths were measured and are below a limit.

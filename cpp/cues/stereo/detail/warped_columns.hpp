@@ -26,13 +26,11 @@ public:
     void move_to(int y);
 
     const float* offset() const { return offset_.data() + skip_; }  ///< d - base, from x0 on
-    const int* column() const {
-        return column_.data() + skip_;
-    }  ///< x - d rounded down, clamped to [first, last]
+    /// x - d rounded down, clamped to [first, last].
+    const int* column() const { return column_.data() + skip_; }
     const float* share() const { return share_.data() + skip_; }  ///< weight of the next column
-    const float* visible() const {
-        return visible_.data() + skip_;
-    }  ///< 1 where x - d lies in the picture, else 0
+    /// 1 where x - d lies in the picture, else 0.
+    const float* visible() const { return visible_.data() + skip_; }
 
 private:
     void update_columns();
