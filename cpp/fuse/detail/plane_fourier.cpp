@@ -52,6 +52,12 @@ void deinterleave(const float* __restrict pairs, float whole, std::size_t n, flo
     }
 }
 
+/// One part of every pair: the real parts of `pairs`, or the imaginary parts from the second number on.
+TRICUE_MULTIVERSION
+void take_part(const float* __restrict pairs, float whole, std::size_t n, float* __restrict plane) {
+    for (std::size_t i = 0; i < n; ++i) plane[i] = whole * pairs[2 * i];
+}
+
 /// A row of A + i B, and of the mirrored row conj(A) + i conj(B).
 TRICUE_MULTIVERSION
 void combine_spectra(const float* __restrict one_re, const float* __restrict one_im,
@@ -135,7 +141,12 @@ void PlaneFourier::invert(const float* one_re, const float* one_im, const float*
         if (middle > mirrored) row(u)[middle] = 0.5F * (row(u)[middle] + other[static_cast<std::size_t>(u)]);
     }
     transform_plane(spectrum_, rows_, cols_, cv::DFT_INVERSE, pairs_);
-    deinterleave(as_floats(pairs_.data()), 1.0F / static_cast<float>(pairs_.size()), pairs_.size(), one, two);
+    const float* pairs = as_floats(pairs_.data());
+    const float whole = 1.0F / static_cast<float>(pairs_.size());
+    if (two == one)
+        take_part(pairs + 1, whole, pairs_.size(), two);
+    else
+        deinterleave(pairs, whole, pairs_.size(), one, two);
 }
 
 }  // namespace tricue
