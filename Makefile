@@ -5,12 +5,13 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 SANITIZED := build/sanitized
+LEVELS := build/levels
 VOT := build/vot
 # A process a core; a file's tests stay together, for they share what is slow to make.
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test setup bench lint format stubs kernel-docs sanitize vot clean
+.PHONY: demo test setup bench lint format stubs kernel-docs sanitize levels vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -54,6 +55,19 @@ sanitize: $(VENV)/dev
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
 	    $(BIN)/python -m pytest --capture=sys $(PARALLEL) tests/camera tests/cues tests/fuse \
 	    tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+
+# The tests of native kernels on builds for each level of x86-64 (simd.hpp): all must return the same bits. A processor without a level
+# runs the highest that it has.
+levels: $(VENV)/dev
+	rm -rf $(LEVELS)
+	for level in 1 2 3 4; do \
+	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
+	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . && \
+	    TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/$$level.json PYTHONPATH=$(LEVELS)/$$level:tools \
+	        $(BIN)/python -m pytest -q -p kernel_hashes --hypothesis-seed=0 --benchmark-disable tests/camera tests/cues tests/fuse \
+	        || exit 1; \
+	done
+	$(BIN)/python tools/kernel_hashes.py $(LEVELS)/*.json
 
 # The VOT toolkit, beside which our trackers and numbers are tested, in an environment of its own: it brings another OpenCV.
 vot: $(VOT)/bin/vot

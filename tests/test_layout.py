@@ -97,6 +97,16 @@ def test_helpers_stand_beside_their_users() -> None:
             assert Path(included) == home, f"{file.relative_to(ROOT)} includes a detail of {included}"
 
 
+COMPILER_ONLY = r"__attribute__|gnu::|vector_size|__builtin|__AVX|immintrin|_mm\d|_Pragma|#pragma (?!once)"
+
+
+def test_only_simd_hpp_knows_the_processor() -> None:
+    """Attributes, vector types and intrinsics are named in base/simd.hpp and its source alone."""
+    sources = [file for file in (ROOT / "cpp").rglob("*.?pp") if file.stem != "simd"]
+    wrong = {file.relative_to(ROOT) for file in sources if re.search(COMPILER_ONLY, file.read_text())}
+    assert not wrong, sorted(wrong)
+
+
 @pytest.mark.parametrize("twin", sorted(TWINS.rglob("*.py")), ids=lambda file: file.stem)
 def test_twin_does_without_opencv(twin: Path) -> None:
     """A twin computes by itself what it is the reference of: no cv2, no native kernel."""

@@ -5,14 +5,14 @@
 
 namespace tricue {
 
-/// Particles, one a row: the ellipse (x, y, minor, major) or any other state of D numbers. Rows are contiguous.
+/// Particles, one per row: the ellipse (x, y, minor, major) or another state of D numbers. Rows are contiguous.
 using States = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using StatesRef = Eigen::Ref<const States>;
 using Vector = Eigen::Array<double, Eigen::Dynamic, 1>;
 using VectorRef = Eigen::Ref<const Vector>;
 using Indices = Eigen::Array<std::int64_t, Eigen::Dynamic, 1>;
 
-/// Measurements of N ellipses, one a row, contiguous.
+/// Measurements of N ellipses, one per row, contiguous.
 using Floats = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using FloatsRef = Eigen::Ref<const Floats>;
 

@@ -12,10 +12,10 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION bool all_finite(const double* values, Eigen::Index count) {
-    long long strange = 0;
+    long long invalid = 0;
     for (Eigen::Index i = 0; i < count; ++i)
-        strange += !(std::abs(values[i]) <= std::numeric_limits<double>::max());
-    return strange == 0;
+        invalid += !(std::abs(values[i]) <= std::numeric_limits<double>::max());
+    return invalid == 0;
 }
 
 void require_finite(const double* values, Eigen::Index count, const char* name) {

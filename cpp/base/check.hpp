@@ -7,17 +7,17 @@
 
 namespace tricue {
 
-/// Each throws std::invalid_argument that names the argument, what was expected and what came.
+/// Each throws std::invalid_argument that names the argument, what was expected and what was given.
 void require_share(double share);
 void require_size(VectorRef values, Eigen::Index size, const char* name);
 void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name);
 void require_finite(VectorRef values, const char* name);
 void require_finite(StatesRef values, const char* name);
 
-/// Square, finite, without a negative variance, and symmetric but for rounding: to 1e-9 of its greatest variance.
+/// Square, finite, without a negative variance, and symmetric to 1e-9 of its greatest variance.
 void require_covariance(StatesRef values, Eigen::Index size, const char* name);
 
-/// Weights are finite, not negative, and have a finite sum above 0, which is returned.
+/// Returns the sum of weights that are finite, not negative, and have a finite sum above 0.
 double require_weights(VectorRef weights);
 
 [[noreturn]] void refuse(const char* name, const std::string& expected, const std::string& got);

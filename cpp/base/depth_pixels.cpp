@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-std::vector<float> slopes(int n, double focal_length, double center) {
+std::vector<float> find_slopes(int n, double focal_length, double center) {
     std::vector<float> slopes(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i)
         slopes[static_cast<std::size_t>(i)] = static_cast<float>((i - center) / focal_length);
@@ -22,7 +22,7 @@ std::string shape(int rows, int cols) {
 
 }  // namespace
 
-float float_at_least(double s) {
+float round_up_to_float(double s) {
     const auto nearest = static_cast<float>(s);
     return nearest < s ? std::nextafter(nearest, std::numeric_limits<float>::infinity()) : nearest;
 }
@@ -34,7 +34,7 @@ void require_camera(VectorRef camera) {
         if (!(camera[i] > 0.0)) refuse("camera", "focal lengths above 0", camera[i]);
 }
 
-void require_table(StatesRef table) {
+void require_object_table(StatesRef table) {
     require_shape(table, table.rows(), 7, "table");
     require_finite(table, "table");
     for (Eigen::Index i = 0; i < table.rows(); ++i) {
@@ -44,9 +44,9 @@ void require_table(StatesRef table) {
     }
 }
 
-Rays rays(VectorRef camera, const DepthView& depth) {
+Rays find_rays(VectorRef camera, const DepthView& depth) {
     require_camera(camera);
-    return {slopes(depth.cols, camera[0], camera[2]), slopes(depth.rows, camera[1], camera[3])};
+    return {find_slopes(depth.cols, camera[0], camera[2]), find_slopes(depth.rows, camera[1], camera[3])};
 }
 
 void require_mask(const ImageView& mask, const DepthView& depth) {

@@ -10,7 +10,7 @@ namespace tricue {
 /// One color: blue, green, red.
 using Bgr = std::array<std::uint8_t, 3>;
 
-/// A read-only 8-bit image that somebody else owns: pixels are packed, rows may be padded (`stride` bytes apart).
+/// A non-owning, read-only view of an 8-bit image. Pixels are packed; rows may be padded (`stride` bytes apart).
 struct ImageView {
     const std::uint8_t* data;
     int rows;

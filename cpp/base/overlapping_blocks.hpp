@@ -4,14 +4,17 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "base/simd.hpp"
+
 namespace tricue {
 
-/// Calls body(i) for every i in [0, n), in blocks of 64 or so; the last ends at n and may overlap the one before.
+/// Calls body(i) for every i in [0, n) in blocks of kBlock. The last block ends at n and may overlap the one before, so body may be
+/// called twice for an i: it has to be like out[i] = f(in[i]).
 ///
-/// The compiler vectorises loops over bytes 64 at a time and does what is left over one by one: in a row of
-/// 251 samples that took as long as all the rest. `body` has to bear being called twice: out[i] = f(in[i]).
+/// The compiler vectorizes loops over bytes 64 at a time and does the remainder one by one: in a row of 251 samples the remainder took
+/// as long as all the rest.
 template <std::ptrdiff_t kBlock = 64, typename Body>
-[[gnu::always_inline]] inline void in_blocks(std::ptrdiff_t n, Body body) {
+TRICUE_INLINE void for_overlapping_blocks(std::ptrdiff_t n, Body body) {
     if (n < kBlock) {
         for (std::ptrdiff_t i = 0; i < n; ++i) body(i);
         return;

@@ -9,11 +9,11 @@
 namespace tricue {
 namespace {
 
-constexpr std::size_t kUsual = 2048;  // runs, room for which is made at once
-constexpr std::size_t kWord = sizeof(std::uint64_t);
+constexpr std::size_t kReservedRuns = 2048;  // runs for which memory is reserved at once
+constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
 
 std::size_t whole_words(int bytes) {
-    return (static_cast<std::size_t>(bytes) + kWord - 1) / kWord * kWord;
+    return (static_cast<std::size_t>(bytes) + kWordBytes - 1) / kWordBytes * kWordBytes;
 }
 
 TRICUE_MULTIVERSION
@@ -23,20 +23,20 @@ void mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __
 
 }  // namespace
 
-Runs::Runs(int cols) : cols_(cols), changes_(whole_words(cols)), edges_(changes_.size() + 1) {
-    runs_.reserve(kUsual);
+PixelRuns::PixelRuns(int cols) : cols_(cols), changes_(whole_words(cols)), edges_(changes_.size() + 1) {
+    runs_.reserve(kReservedRuns);
 }
 
-/// Where one run ends and the next begins. Eight pixels without a change are passed at once; of others each is written down and
-/// those without a change overwritten, as the processor can't foresee them.
-std::size_t Runs::find_edges(const std::uint8_t* labels) {
+/// Where one run ends and the next begins. Eight pixels without a change are skipped at once. Of other pixels each is written, and
+/// overwritten by the next unless a run ends there: a branch would be mispredicted.
+std::size_t PixelRuns::find_edges(const std::uint8_t* labels) {
     mark_changes(labels, cols_, changes_.data());
     std::size_t count = 0;
-    for (std::size_t first = 0; first < changes_.size(); first += kWord) {
+    for (std::size_t first = 0; first < changes_.size(); first += kWordBytes) {
         std::uint64_t any;
-        std::memcpy(&any, changes_.data() + first, kWord);
+        std::memcpy(&any, changes_.data() + first, kWordBytes);
         if (any == 0) continue;
-        for (std::size_t x = first; x < first + kWord; ++x) {
+        for (std::size_t x = first; x < first + kWordBytes; ++x) {
             edges_[count] = static_cast<int>(x);
             count += changes_[x];
         }
@@ -45,20 +45,20 @@ std::size_t Runs::find_edges(const std::uint8_t* labels) {
     return count + 1;
 }
 
-void Runs::add_row(const std::uint8_t* labels) {
+void PixelRuns::add_row(const std::uint8_t* labels) {
     const std::size_t current = runs_.size();
     const std::size_t edges = find_edges(labels);
     int begin = 0;
     for (std::size_t i = 0; i < edges; begin = edges_[i++])
         if (begin < edges_[i] && labels[begin])
             runs_.push_back({row_, begin, edges_[i], labels[begin], runs_.size()});
-    join(current);
-    above_ = current;
+    join_with_previous_row(current);
+    previous_row_ = current;
     ++row_;
 }
 
-void Runs::join(std::size_t current) {
-    std::size_t above = above_;
+void PixelRuns::join_with_previous_row(std::size_t current) {
+    std::size_t above = previous_row_;
     for (std::size_t c = current; c < runs_.size(); ++c) {
         while (above < current && runs_[above].end < runs_[c].begin) ++above;
         for (std::size_t a = above; a < current && runs_[a].begin <= runs_[c].end; ++a) {
@@ -69,7 +69,7 @@ void Runs::join(std::size_t current) {
     }
 }
 
-std::size_t Runs::root(std::size_t i) {
+std::size_t PixelRuns::root(std::size_t i) {
     while (runs_[i].parent != i) i = runs_[i].parent = runs_[runs_[i].parent].parent;
     return i;
 }

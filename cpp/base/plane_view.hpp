@@ -5,8 +5,8 @@
 
 namespace tricue {
 
-/// A read-only plane of one number a pixel that somebody else owns, flow, disparity or how reliable they are: pixels are packed, rows
-/// may be padded (`stride` floats apart). NaN is no reading.
+/// A non-owning, read-only view of a plane with one number per pixel: depth, flow, disparity or a reliability. Pixels are packed; rows
+/// may be padded (`stride` floats apart). NaN is no measurement.
 struct PlaneView {
     const float* data;
     int rows;

@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// The pixels [x0, x1) x [y0, y1); it may reach over the edge, and is empty where x1 <= x0 or y1 <= y0.
+/// The pixels [x0, x1) x [y0, y1). It may extend beyond the image, and is empty where x1 <= x0 or y1 <= y0.
 struct Region {
     int x0, y0, x1, y1;
 

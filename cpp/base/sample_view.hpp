@@ -6,8 +6,8 @@
 
 namespace tricue {
 
-/// The pixels read under each ellipse, (N, 3, n) uint8 that somebody else owns: for every ellipse a plane of
-/// n samples of blue, one of green and one of red, all contiguous. A whole image is one such "ellipse".
+/// A non-owning, read-only view of the pixels sampled under N ellipses, (N, 3, n) uint8, contiguous: for every ellipse a plane of n
+/// samples of blue, one of green and one of red. A whole image counts as one ellipse.
 struct SampleView {
     const std::uint8_t* data;
     std::ptrdiff_t ellipses;

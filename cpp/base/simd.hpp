@@ -1,42 +1,146 @@
 // SPDX-License-Identifier: MIT
+// The one place that knows what compilers and processors offer beyond C++: function versions, vector registers, intrinsics.
+// Kernels use only the names below (tests/test_layout.py).
 #pragma once
 
 #include <cstddef>  // any header of the C library defines __GLIBC__
+#include <cstdint>
+#include <cstring>
 
-/// Put before the definition of a free function whose loops the compiler vectorises: the compiler then makes the function
-/// four times, for the baseline of x86-64 (SSE2), for v2 (SSE4.2), v3 (AVX2) and v4 (AVX-512), and the loader picks one when the
-/// library is loaded. So one wheel serves old and new machines, and `-march=native` is never needed.
+/// The highest level of x86-64 that functions are compiled for: 1 (SSE2), 2 (SSE4.2), 3 (AVX2), 4 (AVX-512). All levels give the
+/// same bits, which `make levels` proves. CMake's TRICUE_SIMD_LEVEL lowers it.
+///
+/// Versions need GCC 12 (the names of the levels) and glibc (indirect functions). The sanitizers can't run when the loader picks a
+/// version, before they are set up. Elsewhere there is one version only; ARM's baseline has NEON anyway.
+#ifndef TRICUE_SIMD_LEVEL
+#define TRICUE_SIMD_LEVEL 4
+#endif
+#if defined(__GNUC__) && defined(__x86_64__) && TRICUE_SIMD_LEVEL >= 4
+#define TRICUE_BYTE_PERMUTATIONS  // chosen at run time, without the loader
+#endif
+#if !defined(__GNUC__) || defined(__clang__) || __GNUC__ < 12 || !defined(__x86_64__) || \
+    !defined(__linux__) || !defined(__GLIBC__) || defined(TRICUE_SANITIZE)
+#undef TRICUE_SIMD_LEVEL
+#define TRICUE_SIMD_LEVEL 1
+#endif
+
+/// Put before the definition of a free function whose loops the compiler vectorizes: the compiler then makes the function once for
+/// each level, and the loader picks one when the library is loaded. So one wheel serves old and new machines, and
+/// `-march=native` is never needed.
 ///
 /// - Only what is inlined into the function is compiled for the new instructions: mark helpers `inline` and keep them in
 ///   the same file. Eigen's own packets stay at the baseline: write plain loops over pointers.
-/// - All four give the same bits: -ffp-contract=off forbids fused multiply-adds, and without -ffast-math the compiler
-///   may not change the order of a floating-point sum (which is why such a sum isn't vectorised; integer sums are).
+/// - All versions give the same bits: -ffp-contract=off forbids fused multiply-adds, and without -ffast-math the compiler
+///   may not change the order of a floating-point sum (which is why such a sum isn't vectorized; integer sums are).
 /// - The function may not throw: GCC takes the dispatched call for one that can't, and the program ends.
-/// - It needs GCC 12 (the names of the levels), and glibc (indirect functions). The sanitizers can't run when the
-///   loader picks, before they are set up. Elsewhere it is empty; ARM's baseline has NEON anyway.
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && \
-    defined(__linux__) && defined(__GLIBC__) && !defined(TRICUE_SANITIZE)
+#if TRICUE_SIMD_LEVEL >= 4
 #define TRICUE_MULTIVERSION \
     __attribute__((target_clones("default", "arch=x86-64-v2", "arch=x86-64-v3", "arch=x86-64-v4")))
+#elif TRICUE_SIMD_LEVEL == 3
+#define TRICUE_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v2", "arch=x86-64-v3")))
+#elif TRICUE_SIMD_LEVEL == 2
+#define TRICUE_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v2")))
 #else
 #define TRICUE_MULTIVERSION
 #endif
 
-/// Put before one of several definitions of the same function, one for each of "default", "arch=x86-64-v3" (AVX2) and
-/// "arch=x86-64-v4" (AVX-512), where each has to be written for the width of its registers (lanes.hpp); the loader picks one, and
-/// what is said above holds. Where TRICUE_VERSIONS isn't defined only "default" may be there.
-#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && defined(__x86_64__) && \
-    defined(__linux__) && defined(__GLIBC__) && !defined(TRICUE_SANITIZE)
-#define TRICUE_VERSIONS
-#define TRICUE_VERSION(target_) __attribute__((target(target_)))
+/// Defines `void name parameters`, once for each width of registers, as `body<bytes> arguments`, bytes being 16 (SSE2, NEON),
+/// 32 (AVX2) or 64 (AVX-512). For functions on Pack, whose number of lanes has to fit the instructions; what is said of
+/// TRICUE_MULTIVERSION holds. Parameters and arguments stand in parentheses: TRICUE_MULTIWIDTH(add, add_by, (int n), (n))
+#define TRICUE_FOR_TARGET(target_, bytes, name, body, parameters, arguments) \
+    __attribute__((target(target_))) void name parameters {                  \
+        body<bytes> arguments;                                               \
+    }
+#if TRICUE_SIMD_LEVEL >= 4
+#define TRICUE_MULTIWIDTH(name, body, parameters, arguments)                   \
+    TRICUE_FOR_TARGET("default", 16, name, body, parameters, arguments)        \
+    TRICUE_FOR_TARGET("arch=x86-64-v3", 32, name, body, parameters, arguments) \
+    TRICUE_FOR_TARGET("arch=x86-64-v4", 64, name, body, parameters, arguments)
+#elif TRICUE_SIMD_LEVEL == 3
+#define TRICUE_MULTIWIDTH(name, body, parameters, arguments)            \
+    TRICUE_FOR_TARGET("default", 16, name, body, parameters, arguments) \
+    TRICUE_FOR_TARGET("arch=x86-64-v3", 32, name, body, parameters, arguments)
 #else
-#define TRICUE_VERSION(target_)
+#define TRICUE_MULTIWIDTH(name, body, parameters, arguments) \
+    void name parameters {                                   \
+        body<16> arguments;                                  \
+    }
 #endif
 
 /// Put before a loop that writes to nothing that it reads elsewhere in it: GCC, which doesn't believe __restrict of pointers that
-/// come in a struct or an array, then vectorises it.
+/// come in a struct or an array, then vectorizes it.
 #if defined(__GNUC__) && !defined(__clang__)
 #define TRICUE_INDEPENDENT _Pragma("GCC ivdep")
 #else
 #define TRICUE_INDEPENDENT
 #endif
+
+/// Put before a helper that has to be compiled for the instructions of the function that calls it.
+#if defined(__GNUC__)
+#define TRICUE_INLINE [[gnu::always_inline]] inline
+#else
+#define TRICUE_INLINE inline
+#endif
+
+namespace tricue {
+namespace simd_detail {
+
+template <typename Scalar, int kLanes>
+struct Packed {
+    using type [[gnu::vector_size(kLanes * sizeof(Scalar))]] = Scalar;
+};
+
+}  // namespace simd_detail
+
+/// A few numbers that the compiler keeps in one vector register, or in as few as the machine has: the vector extensions of GCC and
+/// Clang, with operators lane by lane. For loops that carry a state from step to step, which the compiler would write to memory at
+/// each. Comparisons of a Pack that is wider than the registers are done one by one (TRICUE_MULTIWIDTH).
+///
+/// Packs go from function to function by reference: how they are passed by value depends on the instructions.
+template <typename Scalar, int kLanes>
+using Pack = typename simd_detail::Packed<Scalar, kLanes>::type;
+
+/// `from` and `to` need no alignment.
+template <typename Lanes>
+TRICUE_INLINE void load(const void* from, Lanes& to) {
+    std::memcpy(&to, from, sizeof to);
+}
+
+template <typename Lanes>
+TRICUE_INLINE void store(const Lanes& from, void* to) {
+    std::memcpy(to, &from, sizeof from);
+}
+
+/// Each lane's number as another type; both have as many lanes.
+template <typename From, typename To>
+TRICUE_INLINE void convert(const From& from, To& to) {
+    to = __builtin_convertvector(from, To);
+}
+
+/// Lane i of `to` is lane kFrom[i] of `from`.
+template <int... kFrom, typename Lanes>
+TRICUE_INLINE void permute(const Lanes& from, Lanes& to) {
+#if defined(__GNUC__) && !defined(__clang__)
+    to = __builtin_shuffle(from, decltype(from == from){kFrom...});
+#else
+    to = Lanes{from[kFrom]...};
+#endif
+}
+
+/// In one order, whatever the machine.
+TRICUE_INLINE double sum(const Pack<double, 4>& lanes) {
+    return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
+/// Begins to load the cache line of an address that is read soon.
+TRICUE_INLINE void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#endif
+}
+
+/// out[k] = table[indices[k]] for n indices and a table of 256 bytes. Processors with byte permutations (AVX-512 VBMI) do 64 at a
+/// time; `out` must not overlap the others.
+void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out);
+
+}  // namespace tricue

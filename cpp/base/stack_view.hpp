@@ -7,7 +7,7 @@
 
 namespace tricue {
 
-/// Read-only planes of one size, one behind the other, that somebody else owns: C-contiguous (planes, rows, cols).
+/// A non-owning, read-only view of planes of one size, C-contiguous (planes, rows, cols).
 template <typename Scalar>
 struct StackView {
     const Scalar* data;
@@ -21,7 +21,7 @@ struct StackView {
 using FloatStack = StackView<float>;
 using ComplexStack = StackView<std::complex<float>>;
 
-/// Read-only spectra of several filters with as many planes each: C-contiguous (filters, planes, rows, cols).
+/// A non-owning, read-only view of the spectra of several filters, C-contiguous (filters, planes, rows, cols).
 struct FilterStack {
     const std::complex<float>* data;
     int filters, planes, rows, cols;
@@ -31,7 +31,7 @@ struct FilterStack {
     }
 };
 
-/// Spectra, a frequency along y a row, contiguous.
+/// Spectra, contiguous; a row holds one frequency along y.
 using Complexes = Eigen::Array<std::complex<float>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using ComplexesRef = Eigen::Ref<const Complexes>;
 

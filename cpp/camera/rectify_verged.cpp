@@ -12,13 +12,12 @@
 namespace tricue {
 namespace {
 
-constexpr int kUnit = 2048;  // parts of a pixel that places are rounded to
-constexpr double kHalfTurn = 3.14159265358979323846;
+constexpr int kSubpixels = 2048;  // positions are rounded to 1 / kSubpixels of a pixel
+constexpr double kPi = 3.14159265358979323846;
 
 void require_arguments(const ImageView& right, const VergedCamera& camera, double shift) {
     if (right.rows < 1 || right.cols < 1) refuse("right", "at least one pixel", "none");
-    if (!(std::abs(camera.angle) < kHalfTurn / 2))
-        refuse("angle", "radians between -pi/2 and pi/2", camera.angle);
+    if (!(std::abs(camera.angle) < kPi / 2)) refuse("angle", "radians between -pi/2 and pi/2", camera.angle);
     if (!(camera.focal > 0.0 && std::isfinite(camera.focal)))
         refuse("focal", "a finite number above 0", camera.focal);
     if (!std::isfinite(camera.cx)) refuse("center", "finite numbers", camera.cx);
@@ -44,13 +43,13 @@ Columns find_columns(const ImageView& right, const VergedCamera& camera, double 
         if (!rows_only && !(ahead > 0.0)) continue;
         const double stretch = rows_only ? turn_cos + x * turn_sin / f : f / ahead;
         const double at = camera.cx + (rows_only ? x : (x * turn_cos + f * turn_sin) * stretch);
-        const double fixed = at * kUnit + 0.5;
-        if (!(fixed >= 0.0 && fixed < (right.cols - 1.0) * kUnit + 1.0)) continue;
-        const int place = static_cast<int>(fixed), whole = place / kUnit;
+        const double fixed = at * kSubpixels + 0.5;
+        if (!(fixed >= 0.0 && fixed < (right.cols - 1.0) * kSubpixels + 1.0)) continue;
+        const int place = static_cast<int>(fixed), whole = place / kSubpixels;
         columns.stretch[i] = stretch;
         columns.first[i] = whole * right.channels;
         columns.next[i] = whole + 1 < right.cols ? right.channels : 0;
-        columns.across[i] = place % kUnit;
+        columns.across[i] = place % kSubpixels;
     }
     return columns;
 }
@@ -59,20 +58,20 @@ Columns find_columns(const ImageView& right, const VergedCamera& camera, double 
 TRICUE_MULTIVERSION
 void find_rows(const double* __restrict stretch, double y, double cy, int rows, int n, int* __restrict row,
                int* __restrict down) {
-    const double end = (rows - 1.0) * kUnit + 1.0;
+    const double end = (rows - 1.0) * kSubpixels + 1.0;
     for (int i = 0; i < n; ++i) {
-        const double fixed = (cy + y * stretch[i]) * kUnit + 0.5;
+        const double fixed = (cy + y * stretch[i]) * kSubpixels + 0.5;
         const bool inside = (fixed >= 0.0) & (fixed < end);
         const int place = static_cast<int>(inside ? fixed : 0.0);
-        row[i] = inside ? place / kUnit : -1;
-        down[i] = place % kUnit;
+        row[i] = inside ? place / kSubpixels : -1;
+        down[i] = place % kSubpixels;
     }
 }
 
 template <int Channels>
 void blend_row(const ImageView& image, const Columns& columns, const int* row, const int* down,
                std::uint8_t* out) {
-    constexpr unsigned kWhole = kUnit;
+    constexpr unsigned kWhole = kSubpixels;
     for (std::size_t i = 0; i < columns.first.size(); ++i, out += Channels) {
         if (row[i] < 0) continue;
         const auto across = static_cast<unsigned>(columns.across[i]);

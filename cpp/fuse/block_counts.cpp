@@ -8,7 +8,6 @@
 #include <string>
 
 #include "base/check.hpp"
-#include "base/lanes.hpp"
 #include "base/simd.hpp"
 #include "fuse/detail/rectangle_pixels.hpp"
 
@@ -16,14 +15,14 @@ namespace tricue {
 namespace {
 
 constexpr int kLanes = 4;  // floats in one register, everywhere
-using Floats4 [[gnu::vector_size(4 * kLanes)]] = float;
-using Ints4 [[gnu::vector_size(4 * kLanes)]] = std::int32_t;
-using Doubles4 [[gnu::vector_size(8 * kLanes)]] = double;
+using Floats4 = Pack<float, kLanes>;
+using Ints4 = Pack<std::int32_t, kLanes>;
+using Doubles4 = Pack<double, kLanes>;
 
-constexpr float kMost = std::numeric_limits<float>::max();
-constexpr std::uint32_t kOnes = 0x01010101;  // in each byte
+constexpr float kMaxFloat = std::numeric_limits<float>::max();
+constexpr std::uint32_t kByteOnes = 0x01010101;  // in each byte
 
-/// What a block's pixels are, rows `stride` apart.
+/// The pixels of a block.
 struct Pixels {
     const float* disparity;
     std::ptrdiff_t disparity_stride;
@@ -37,8 +36,8 @@ struct Totals {
     std::int64_t readings = 0, targets = 0;
 };
 
-/// 0xff in the first bytes of four, 0 in others, whatever the order of bytes in a word.
-[[gnu::always_inline]] inline std::uint32_t first_bytes(int count) {
+/// 0xff in the first bytes of four, 0 in others, for any byte order.
+TRICUE_INLINE std::uint32_t first_bytes(int count) {
     std::uint8_t bytes[kLanes] = {};
     std::memset(bytes, 0xff, static_cast<std::size_t>(count));
     std::uint32_t word;
@@ -46,38 +45,40 @@ struct Totals {
     return word;
 }
 
-/// How many bytes of four aren't 0, but for those left out (0xff, else 0).
-[[gnu::always_inline]] inline std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t left_out) {
+/// How many bytes of four aren't 0, without those that are skipped (0xff, else 0).
+TRICUE_INLINE std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t skipped_bytes) {
     std::uint32_t bytes;
     std::memcpy(&bytes, mask, sizeof bytes);
-    bytes &= ~left_out;
-    const std::uint32_t set = (((bytes & ~(kOnes << 7)) + ~(kOnes << 7)) | bytes) >> 7 & kOnes;
-    return set * kOnes >> 24;
+    bytes &= ~skipped_bytes;
+    const std::uint32_t set = (((bytes & ~(kByteOnes << 7)) + ~(kByteOnes << 7)) | bytes) >> 7 & kByteOnes;
+    return set * kByteOnes >> 24;
 }
 
-/// Adds four columns but the first `skipped`, side by side, down the rows.
-[[gnu::always_inline]] inline void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
+/// Adds four columns side by side, down the rows, without the first `skipped` of them.
+TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
     Doubles4 sums = {};
     Ints4 readings = {};
-    const Ints4 wanted = skipped <= Ints4{0, 1, 2, 3};
-    const std::uint32_t left_out = first_bytes(skipped);
+    const Ints4 counted = skipped <= Ints4{0, 1, 2, 3};
+    const std::uint32_t skipped_bytes = first_bytes(skipped);
     const float* disparity = pixels.disparity + x;
     const std::uint8_t* mask = pixels.mask + x;
     for (int y = 0; y < pixels.rows; ++y) {
         Floats4 values;
-        read(disparity, values);
-        const Ints4 finite = (values >= -kMost) & (values <= kMost) & wanted;
+        load(disparity, values);
+        const Ints4 finite = (values >= -kMaxFloat) & (values <= kMaxFloat) & counted;
         readings -= finite;
         Ints4 bits;
-        read(&values, bits);
+        load(&values, bits);
         bits &= finite;
-        read(&bits, values);
-        sums += __builtin_convertvector(values, Doubles4);
-        totals.targets += count_set(mask, left_out);
+        load(&bits, values);
+        Doubles4 wide;
+        convert(values, wide);
+        sums += wide;
+        totals.targets += count_set(mask, skipped_bytes);
         disparity += pixels.disparity_stride;
         mask += pixels.mask_stride;
     }
-    totals.sum += (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    totals.sum += sum(sums);
     totals.readings += readings[0] + readings[1] + readings[2] + readings[3];
 }
 
@@ -85,14 +86,14 @@ struct Totals {
 inline void add_column(const Pixels& pixels, int x, Totals& totals) {
     for (int y = 0; y < pixels.rows; ++y) {
         const float value = pixels.disparity[y * pixels.disparity_stride + x];
-        const bool finite = std::abs(value) <= kMost;
+        const bool finite = std::abs(value) <= kMaxFloat;
         totals.sum += static_cast<double>(finite ? value : 0.0f);
         totals.readings += finite;
         totals.targets += pixels.mask[y * pixels.mask_stride + x] != 0;
     }
 }
 
-/// Of what is left over by fours, the last four are read again, and count as far as they haven't.
+/// The remainder is read as the last four columns, of which those count that haven't yet.
 TRICUE_MULTIVERSION
 void add_block(const Pixels& pixels, int cols, Totals& totals) {
     int x = 0;
@@ -113,7 +114,7 @@ BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, Stat
         refuse("mask", "shape " + shape(disparity.rows, disparity.cols), shape(mask.rows, mask.cols));
     require_shape(blocks, blocks.rows(), 4, "blocks");
     const Eigen::Index count = blocks.rows();
-    BlockCounts seen{Indices(count), Indices(count), Indices(count), Vector(count)};
+    BlockCounts counts{Indices(count), Indices(count), Indices(count), Vector(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const auto block = blocks.row(i);
         const Region part = rectangle_pixels({block[0], block[1], block[2], block[3]}, disparity.rows,
@@ -125,12 +126,12 @@ BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, Stat
                        mask.stride, rows},
                       cols, totals);
         const auto readings = static_cast<double>(totals.readings);
-        seen.pixels[i] = std::int64_t{rows} * cols;
-        seen.targets[i] = totals.targets;
-        seen.readings[i] = totals.readings;
-        seen.mean[i] = readings > 0.0 ? totals.sum / readings : std::numeric_limits<double>::quiet_NaN();
+        counts.pixels[i] = std::int64_t{rows} * cols;
+        counts.targets[i] = totals.targets;
+        counts.readings[i] = totals.readings;
+        counts.mean[i] = readings > 0.0 ? totals.sum / readings : std::numeric_limits<double>::quiet_NaN();
     }
-    return seen;
+    return counts;
 }
 
 }  // namespace tricue

@@ -10,7 +10,7 @@
 namespace tricue {
 namespace {
 
-/// A_k Z_k more; `numerator` holds pairs of a real and an imaginary part.
+/// Adds A_k Z_k; `numerator` holds pairs of a real and an imaginary part.
 TRICUE_MULTIVERSION
 void add_product(const float* __restrict numerator, const float* __restrict re, const float* __restrict im,
                  std::size_t n, float* __restrict sum_re, float* __restrict sum_im) {
@@ -31,12 +31,12 @@ void divide(const float* __restrict denominator, float lambda, std::size_t n, fl
     }
 }
 
-/// Of each filter a row of real and one of imaginary parts.
+/// One row of real and one of imaginary parts for each filter.
 struct Spectra {
     Floats re, im;
 };
 
-Spectra sum_products(const FloatStack& cells, const FilterStack& numerators, PlanePair& planes) {
+Spectra sum_products(const FloatStack& cells, const FilterStack& numerators, PlaneFourier& planes) {
     const auto n = static_cast<Eigen::Index>(planes.count());
     Spectra sums{Floats::Zero(numerators.filters, n), Floats::Zero(numerators.filters, n)};
     Floats re(2, n), im(2, n);
@@ -63,7 +63,7 @@ void divide_all(const FloatStack& denominators, double ridge, Spectra& sums) {
     }
 }
 
-/// The plane with no shift in the middle.
+/// Writes the plane with zero shift in the middle.
 void write_shifted(const Floats& plane, float* response) {
     const Eigen::Index rows = plane.rows(), cols = plane.cols(),
                        right = cols / 2;  // where the first column goes
@@ -82,7 +82,7 @@ Floats correlation_response(const FloatStack& cells, const FilterStack& numerato
     require_filters(numerators, denominators, cells);
     require_ridge(ridge);
     const int rows = cells.rows, cols = cells.cols, filters = numerators.filters;
-    PlanePair planes(rows, cols);
+    PlaneFourier planes(rows, cols);
     Spectra sums = sum_products(cells, numerators, planes);
     divide_all(denominators, ridge, sums);
     Floats responses(filters * rows, cols), first(rows, cols), second(rows, cols);

@@ -13,15 +13,15 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void split(const float* __restrict cells, const float* __restrict focus, std::size_t n, float* __restrict own,
-           float* __restrict rest) {
+void split_by_focus(const float* __restrict cells, const float* __restrict focus, std::size_t n,
+                    float* __restrict own, float* __restrict rest) {
     for (std::size_t i = 0; i < n; ++i) {
         own[i] = cells[i] * focus[i];
         rest[i] = cells[i] * (1.0F - focus[i]);
     }
 }
 
-/// |X|² of what is in the focus, and `background` times that of the rest, more.
+/// Adds |X|² of the focus, and `background` times that of the rest.
 TRICUE_MULTIVERSION
 void add_energy(const float* __restrict re, const float* __restrict im, const float* __restrict rest_re,
                 const float* __restrict rest_im, float background, std::size_t n, float* __restrict energy) {
@@ -30,7 +30,7 @@ void add_energy(const float* __restrict re, const float* __restrict im, const fl
                      background * (rest_re[i] * rest_re[i] + rest_im[i] * rest_im[i]);
 }
 
-/// Y conj(X) blended into a numerator; of complex numbers these are pairs of a real and an imaginary part.
+/// Y conj(X) blended into a numerator; complex numbers are pairs of a real and an imaginary part.
 TRICUE_MULTIVERSION
 void blend_product(const float* __restrict label, const float* __restrict re, const float* __restrict im,
                    const float* __restrict old, float rate, std::size_t n, float* __restrict numerator) {
@@ -42,27 +42,27 @@ void blend_product(const float* __restrict label, const float* __restrict re, co
     }
 }
 
-const float* parts(const std::complex<float>* numbers) {
+const float* as_floats(const std::complex<float>* numbers) {
     return reinterpret_cast<const float*>(numbers);
 }
 
-float* parts(std::complex<float>* numbers) {
+float* as_floats(std::complex<float>* numbers) {
     return reinterpret_cast<float*>(numbers);
 }
 
-/// A's blend; B's new part goes into the filter's denominator. What is in the focus and the rest are transformed as one.
+/// Blends the numerator A, and sums the new part of the denominator B. The focus and the rest are transformed together.
 void add_channels(const FloatStack& cells, FloatsRef focus, ComplexesRef label, const ComplexStack& numerator,
                   float rate, float background, CorrelationFilter& filter) {
-    PlanePair planes(cells.rows, cells.cols);
+    PlaneFourier planes(cells.rows, cells.cols);
     const std::size_t n = planes.count(), whole = static_cast<std::size_t>(focus.size());
     std::vector<float> own(whole), rest(whole), re(n), im(n), rest_re(n), rest_im(n);
     for (int k = 0; k < cells.planes; ++k) {
-        split(cells.row(k, 0), focus.data(), whole, own.data(), rest.data());
+        split_by_focus(cells.row(k, 0), focus.data(), whole, own.data(), rest.data());
         planes.transform(own.data(), rest.data(), re.data(), im.data(), rest_re.data(), rest_im.data());
         add_energy(re.data(), im.data(), rest_re.data(), rest_im.data(), background, n,
                    filter.denominator.data());
-        blend_product(parts(label.data()), re.data(), im.data(), parts(numerator.row(k, 0)), rate, n,
-                      parts(&filter.numerator(k * cells.rows, 0)));
+        blend_product(as_floats(label.data()), re.data(), im.data(), as_floats(numerator.row(k, 0)), rate, n,
+                      as_floats(&filter.numerator(k * cells.rows, 0)));
     }
 }
 

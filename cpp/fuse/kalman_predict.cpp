@@ -7,14 +7,14 @@
 namespace tricue {
 
 Belief kalman_predict(VectorRef mean, StatesRef covariance, StatesRef transition, StatesRef noise) {
-    require_belief(mean, covariance);
+    require_gaussian_state(mean, covariance);
     require_shape(transition, mean.size(), mean.size(), "transition");
     require_finite(transition, "transition");
     require_covariance(noise, mean.size(), "noise");
 
     const Matrix f = transition.matrix();
     const Matrix p = covariance.matrix();
-    return {(f * mean.matrix()).array(), symmetric(f * p * f.transpose() + noise.matrix())};
+    return {(f * mean.matrix()).array(), symmetrized(f * p * f.transpose() + noise.matrix())};
 }
 
 }  // namespace tricue

@@ -10,7 +10,7 @@
 namespace tricue {
 namespace {
 
-/// A pivot that is no more than rounding, measured by its own variance whatever the unit, is 0.
+/// A pivot no larger than the rounding error of its own variance counts as 0, whatever the unit.
 Eigen::LLT<Matrix> positive_root(const States& s) {
     Eigen::LLT<Matrix> root(s.matrix());
     const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(s.rows());
@@ -26,7 +26,7 @@ Eigen::LLT<Matrix> positive_root(const States& s) {
 Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
                          StatesRef noise) {
     const Eigen::Index size = mean.size(), measured = measurement.size();
-    require_belief(mean, covariance);
+    require_gaussian_state(mean, covariance);
     if (measured < 1) refuse("measurement", "at least one number", "none");
     require_finite(measurement, "measurement");
     require_shape(observation, measured, size, "observation");
@@ -35,12 +35,12 @@ Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measure
 
     const Matrix p = covariance.matrix(), h = observation.matrix(), r = noise.matrix();
     const Matrix hp = h * p;
-    States s = symmetric(hp * h.transpose() + r);
+    States s = symmetrized(hp * h.transpose() + r);
     const Matrix gain = positive_root(s).solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
     const Matrix rest = Matrix::Identity(size, size) - gain * h;
     Vector innovation = (measurement.matrix() - h * mean.matrix()).array();
     return {mean + (gain * innovation.matrix()).array(),
-            symmetric(rest * p * rest.transpose() + gain * r * gain.transpose()), std::move(innovation),
+            symmetrized(rest * p * rest.transpose() + gain * r * gain.transpose()), std::move(innovation),
             std::move(s)};
 }
 

@@ -35,7 +35,7 @@ void require_positive(VectorRef values, const char* name) {
         if (!(value > 0.0)) refuse(name, "numbers above 0", value);
 }
 
-void require(StatesRef states, const UsualSize& usual, const MeasuredState& measured) {
+void require_arguments(StatesRef states, const UsualSize& usual, const MeasuredState& measured) {
     const Index D = states.cols();
     if (D < 2) refuse("states", "2 columns or more", std::to_string(D));
     require_finite(states, "states");
@@ -57,7 +57,7 @@ void require(StatesRef states, const UsualSize& usual, const MeasuredState& meas
 }  // namespace
 
 Vector rectangle_prior(StatesRef states, const UsualSize& usual, const MeasuredState& measured) {
-    require(states, usual, measured);
+    require_arguments(states, usual, measured);
     Vector log_likelihood(states.rows());
     for (Index i = 0; i < states.rows(); ++i) {
         const double* state = states.row(i).data();

@@ -11,7 +11,7 @@ Indices resample(VectorRef weights, double offset) {
     const Eigen::Index n = weights.size();
     const double step = total / static_cast<double>(n);
 
-    // Whatever rounding leaves above the total goes to the last particle that has any weight.
+    // Positions that rounding puts beyond the total select the last particle with a weight.
     Eigen::Index last = n - 1;
     while (weights[last] == 0.0) --last;
 

@@ -12,26 +12,26 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// At 1e150 deviations a density is zero all the same, and the square is still finite.
-double bounded(double z) {
+/// At 1e150 deviations the density is zero anyway, and the square is still finite.
+double clamped(double z) {
     return std::min(std::max(z, -1e150), 1e150);
 }
 
-/// log(share e^ratio + 1 - share), ratio = log(detection / dynamics): what the mixture divides a likelihood by. The greater
-/// of both terms is taken out of the logarithm.
+/// log(share e^ratio + 1 - share), ratio = log(detection / dynamics): the divisor of a likelihood. The larger term
+/// is factored out of the logarithm.
 double log_mixture(double ratio, double share) {
     const double greater = ratio > 0.0 ? share : 1.0 - share;
     const double smaller = ratio > 0.0 ? 1.0 - share : share;
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
-/// Log density of N(0, root rootᵀ) at the offset by forward substitution, but for its constants; z is room for K numbers.
+/// Log density of N(0, root rootᵀ) at the offset by forward substitution, without its constants; z holds K numbers.
 double log_density(const double* offset, StatesRef root, double* z) {
     double squares = 0.0;
     for (Eigen::Index d = 0; d < root.rows(); ++d) {
-        double rest = bounded(offset[d]);
-        for (Eigen::Index e = 0; e < d; ++e) rest -= bounded(root(d, e) * z[e]);
-        z[d] = bounded(rest / root(d, d));
+        double rest = clamped(offset[d]);
+        for (Eigen::Index e = 0; e < d; ++e) rest -= clamped(root(d, e) * z[e]);
+        z[d] = clamped(rest / root(d, d));
         squares += z[d] * z[d];
     }
     return -0.5 * squares;
@@ -41,7 +41,7 @@ double log_density(const double* offset, StatesRef root, double* z) {
 double log_density(const double* offset, VectorRef scale) {
     double squares = 0.0;
     for (Eigen::Index d = 0; d < scale.size(); ++d) {
-        const double z = bounded(bounded(offset[d]) / scale[d]);
+        const double z = clamped(clamped(offset[d]) / scale[d]);
         squares += z * z;
     }
     return -0.5 * squares;
@@ -53,14 +53,14 @@ void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& d
     const Eigen::Index size = mean.size();
     const Vector drift = dynamics.drift.head(size), scale = dynamics.scale.head(size);
     const double constants = scale.log().sum() - root.matrix().diagonal().array().log().sum();
-    Vector seen(size), moved(size), z(size);
+    Vector from_detection(size), from_dynamics(size), z(size);
     for (Eigen::Index i = 0; i < log_weights.size(); ++i) {
         for (Eigen::Index d = 0; d < size; ++d) {
-            seen[d] = proposed(i, d) - mean[d];
-            moved[d] = proposed(i, d) - previous(i, d) - drift[d];
+            from_detection[d] = proposed(i, d) - mean[d];
+            from_dynamics[d] = proposed(i, d) - previous(i, d) - drift[d];
         }
-        const double ratio =
-            log_density(seen.data(), root, z.data()) - log_density(moved.data(), scale) + constants;
+        const double ratio = log_density(from_detection.data(), root, z.data()) -
+                             log_density(from_dynamics.data(), scale) + constants;
         log_weights[i] -= log_mixture(ratio, share);
     }
 }

@@ -10,16 +10,16 @@
 namespace tricue {
 namespace {
 
-constexpr int kParts = 16;
+constexpr int kPartialSums = 16;
 
 /// sum of A Z; `a` holds pairs of a real and an imaginary part.
 TRICUE_MULTIVERSION
 void sum_products(const float* a, const float* re, const float* im, int n, float* sum_re, float* sum_im) {
-    float part_re[kParts] = {}, part_im[kParts] = {};
+    float part_re[kPartialSums] = {}, part_im[kPartialSums] = {};
     int d = 0;
-    for (; d + kParts <= n; d += kParts) {
+    for (; d + kPartialSums <= n; d += kPartialSums) {
         TRICUE_INDEPENDENT
-        for (int j = 0; j < kParts; ++j) {
+        for (int j = 0; j < kPartialSums; ++j) {
             const float x = a[2 * (d + j)], y = a[2 * (d + j) + 1];
             part_re[j] += x * re[d + j] - y * im[d + j];
             part_im[j] += x * im[d + j] + y * re[d + j];
@@ -30,7 +30,7 @@ void sum_products(const float* a, const float* re, const float* im, int n, float
         part_im[j] += a[2 * d] * im[d] + a[2 * d + 1] * re[d];
     }
     *sum_re = *sum_im = 0;
-    for (int j = 0; j < kParts; ++j) {
+    for (int j = 0; j < kPartialSums; ++j) {
         *sum_re += part_re[j];
         *sum_im += part_im[j];
     }
@@ -51,7 +51,7 @@ Eigen::ArrayXf scale_response(FloatsRef looks, ComplexesRef numerator, FloatsRef
         sum_products(a, spectra.re(u), spectra.im(u), channels, &re[u], &im[u]);
     }
     const Eigen::ArrayXf shares = 1.0F / (denominator.row(0).transpose() + lambda);
-    const Eigen::ArrayXf signal = scale_signal(re * shares, im * shares, scales);
+    const Eigen::ArrayXf signal = invert_scale_spectrum(re * shares, im * shares, scales);
     Eigen::ArrayXf response(scales);
     response << signal.tail(scales / 2), signal.head(scales - scales / 2);
     return response;

@@ -8,20 +8,20 @@
 namespace tricue {
 namespace {
 
-constexpr int kParts = 16;
+constexpr int kPartialSums = 16;
 
 TRICUE_MULTIVERSION
 void sum_energy(const float* re, const float* im, int n, float* energy) {
-    float parts[kParts] = {};
+    float parts[kPartialSums] = {};
     int d = 0;
-    for (; d + kParts <= n; d += kParts)
-        for (int j = 0; j < kParts; ++j) parts[j] += re[d + j] * re[d + j] + im[d + j] * im[d + j];
+    for (; d + kPartialSums <= n; d += kPartialSums)
+        for (int j = 0; j < kPartialSums; ++j) parts[j] += re[d + j] * re[d + j] + im[d + j] * im[d + j];
     for (int j = 0; d < n; ++d, ++j) parts[j] += re[d] * re[d] + im[d] * im[d];
     *energy = 0;
-    for (int j = 0; j < kParts; ++j) *energy += parts[j];
+    for (int j = 0; j < kPartialSums; ++j) *energy += parts[j];
 }
 
-/// Y conj(X) blended into a numerator; of complex numbers these are pairs of a real and an imaginary part.
+/// Y conj(X) blended into a numerator; complex numbers are pairs of a real and an imaginary part.
 TRICUE_MULTIVERSION
 void blend_products(float a, float b, const float* __restrict re, const float* __restrict im,
                     const float* __restrict old, float rate, int n, float* __restrict numerator) {

@@ -13,7 +13,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double kEqual = 1e-9;  // of the peak: what differs less is the same height
+constexpr double kRelativeTolerance = 1e-9;  // of the peak: what differs less is the same height
 constexpr Index kNone = -1;
 
 struct Peak {
@@ -21,7 +21,7 @@ struct Peak {
     Index bin;  ///< that it lies in
 };
 
-void require(VectorRef histogram, double smoothing, double ripple, double expected, double spread) {
+void require_arguments(VectorRef histogram, double smoothing, double ripple, double expected, double spread) {
     if (histogram.size() < 1) refuse("histogram", "at least one bin", "none");
     for (const double value : histogram)
         if (!(value >= 0.0 && std::isfinite(value)))
@@ -33,8 +33,8 @@ void require(VectorRef histogram, double smoothing, double ripple, double expect
     if (!(spread > 0.0)) refuse("spread", "a number above 0", spread);
 }
 
-/// Either side is added to the other first, so that a mirrored histogram is smoothed to a mirrored one, to the last bit.
-void add_beside(const Vector& values, Index j, double weight, Vector& total, Vector& weights) {
+/// Both sides are added to each other first, so that a mirrored histogram gives the mirrored result, bit for bit.
+void add_symmetric_tap(const Vector& values, Index j, double weight, Vector& total, Vector& weights) {
     const Index count = values.size();
     for (Index i = 0; i < count; ++i) {
         const bool left = i >= j, right = i < count - j;
@@ -48,7 +48,7 @@ Vector smoothed(const Vector& histogram, double smoothing) {
     const auto radius = static_cast<Index>(std::ceil(4.0 * smoothing));
     for (Index j = 1; j <= std::min(radius, histogram.size() - 1); ++j) {
         const double step = static_cast<double>(j) / smoothing;
-        add_beside(histogram, j, std::exp(-0.5 * (step * step)), total, weights);
+        add_symmetric_tap(histogram, j, std::exp(-0.5 * (step * step)), total, weights);
     }
     return total / weights;
 }
@@ -57,7 +57,7 @@ double center_of(Index bin) {
     return static_cast<double>(bin) + 0.5;
 }
 
-/// The nearest bin's centre that isn't empty. An expected peak that is off the range is as near as the end.
+/// The center of the nearest bin that isn't empty. An expected peak outside the range counts as at its end.
 double nearest_center(const Vector& smooth, double expected) {
     const double within = std::clamp(expected, 0.0, static_cast<double>(smooth.size()));
     double nearest = std::numeric_limits<double>::infinity();
@@ -68,7 +68,7 @@ double nearest_center(const Vector& smooth, double expected) {
     return nearest;
 }
 
-/// Times the Gaussian round the expected peak, as that is in relation to its value at the nearest centre.
+/// The values times the Gaussian around the expected peak, relative to its value at the nearest center.
 Vector weighted(const Vector& smooth, double expected, double spread) {
     const double nearest = nearest_center(smooth, expected);
     Vector values = smooth;
@@ -81,9 +81,9 @@ Vector weighted(const Vector& smooth, double expected, double spread) {
     return values;
 }
 
-/// Where the first highest stretch is.
+/// The first maximum, in the middle of a plateau.
 Peak find_peak(const Vector& values) {
-    const double top = values.maxCoeff(), high = top - kEqual * top;
+    const double top = values.maxCoeff(), high = top - kRelativeTolerance * top;
     Index begin = 0;
     while (values[begin] < high) ++begin;
     Index end = begin;
@@ -106,7 +106,7 @@ Index find_minimum(const Vector& smooth, Index first, Index step, double equal, 
     return kNone;
 }
 
-/// Beyond the minimum the line through the peak and it; nothing where the minimum is the peak.
+/// Replaces the density beyond the minimum by the line through the peak and the minimum, or by 0 if the minimum is the peak.
 void extend_line(const Vector& smooth, const Peak& peak, Index minimum, Index step, Vector& density) {
     const double height = smooth[peak.bin];
     const bool shoulder = minimum == peak.bin;
@@ -122,14 +122,14 @@ void extend_line(const Vector& smooth, const Peak& peak, Index minimum, Index st
 
 TargetDistribution target_distribution(VectorRef histogram, double smoothing, double ripple, double expected,
                                        double spread) {
-    require(histogram, smoothing, ripple, expected, spread);
+    require_arguments(histogram, smoothing, ripple, expected, spread);
     const double most = histogram.maxCoeff();
     if (most == 0.0) return {Vector::Zero(histogram.size()), std::numeric_limits<double>::quiet_NaN()};
     const Vector smooth = smoothed(histogram / most, smoothing);
     const bool anywhere = std::isnan(expected) || std::isinf(spread);
     const Peak peak = find_peak(anywhere ? smooth : weighted(smooth, expected, spread));
     const double height = smooth[peak.bin];
-    const double equal = kEqual * height, rise = std::max(ripple, kEqual) * height;
+    const double equal = kRelativeTolerance * height, rise = std::max(ripple, kRelativeTolerance) * height;
     Vector density = smooth;
     for (const Index step : {Index{-1}, Index{1}}) {
         const Index minimum = find_minimum(smooth, peak.bin, step, equal, rise);

@@ -21,8 +21,8 @@ std::string shape(const PlaneView& plane) {
     return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
 }
 
-constexpr double kRounding = 1e-6;   // of a sum
-constexpr double kMostRatio = 1e12;  // three of them, multiplied, are a float
+constexpr double kSumTolerance = 1e-6;  // of densities' sums
+constexpr double kMaxRatio = 1e12;      // the product of three fits a float
 
 void require_density(VectorRef density) {
     double sum = 0.0;
@@ -31,7 +31,8 @@ void require_density(VectorRef density) {
             refuse("densities", "finite numbers, none negative", share);
         sum += share;
     }
-    if (sum != 0.0 && !(std::abs(sum - 1.0) <= kRounding)) refuse("densities", "a sum of 1, or of 0", sum);
+    if (sum != 0.0 && !(std::abs(sum - 1.0) <= kSumTolerance))
+        refuse("densities", "a sum of 1, or of 0", sum);
 }
 
 void require_alternative(VectorRef alternative, Eigen::Index bins) {
@@ -41,14 +42,14 @@ void require_alternative(VectorRef alternative, Eigen::Index bins) {
         if (!(share > 0.0 && std::isfinite(share))) refuse("alternatives", "finite numbers above 0", share);
         sum += share;
     }
-    if (!(sum <= 1.0 + kRounding)) refuse("alternatives", "a sum of at most 1", sum);
+    if (!(sum <= 1.0 + kSumTolerance)) refuse("alternatives", "a sum of at most 1", sum);
 }
 
 ValueRange range_of(const Cue& cue) {
     return {cue.low, cue.high, static_cast<int>(cue.density.size())};
 }
 
-void require(const std::vector<Cue>& cues, double threshold) {
+void require_arguments(const std::vector<Cue>& cues, double threshold) {
     if (cues.empty() || cues.size() > 3) refuse("planes", "1 to 3", std::to_string(cues.size()));
     for (const Cue& cue : cues) {
         if (shape(cue.readings) != shape(cues[0].readings))
@@ -62,8 +63,8 @@ void require(const std::vector<Cue>& cues, double threshold) {
     if (!(threshold > 0.0 && threshold <= 1.0)) refuse("threshold", "a number in (0, 1]", threshold);
 }
 
-/// How much likelier than by the alternative each bin is; 0 without a reading.
-Table ratios(const Cue& cue) {
+/// Likelihood ratios of each bin, target to alternative; 0 without a measurement.
+Table likelihood_ratios(const Cue& cue) {
     const Eigen::Index count = cue.density.size();
     const auto bins = static_cast<double>(count);
     Table table;
@@ -71,7 +72,7 @@ Table ratios(const Cue& cue) {
     for (Eigen::Index i = 0; i < count; ++i) {
         const double share = cue.density[i];
         const double ratio =
-            cue.alternative ? std::min(share / (*cue.alternative)[i], kMostRatio) : share * bins;
+            cue.alternative ? std::min(share / (*cue.alternative)[i], kMaxRatio) : share * bins;
         table.push_back(static_cast<float>(ratio));
     }
     table.push_back(0.0f);
@@ -79,7 +80,8 @@ Table ratios(const Cue& cue) {
 }
 
 /// The prior of the columns (or rows) [first, last).
-std::vector<float> ramp(double inner, double inner_end, double outer, double outer_end, int first, int last) {
+std::vector<float> linear_prior(double inner, double inner_end, double outer, double outer_end, int first,
+                                int last) {
     std::vector<float> prior;
     prior.reserve(static_cast<std::size_t>(last - first));
     for (int i = first; i < last; ++i) {
@@ -93,15 +95,15 @@ std::vector<float> ramp(double inner, double inner_end, double outer, double out
 }
 
 TRICUE_MULTIVERSION
-void look_up(const std::int32_t* __restrict bin, int n, const float* __restrict table,
-             float* __restrict ratio) {
+void multiply_ratios(const std::int32_t* __restrict bin, int n, const float* __restrict table,
+                     float* __restrict ratio) {
     for (int x = 0; x < n; ++x) ratio[x] *= table[bin[x]];
 }
 
 TRICUE_MULTIVERSION
 void apply_bayes(const float* __restrict ratio, const float* __restrict columns, float row, int n,
                  float threshold, float* __restrict posterior, std::uint8_t* __restrict mask) {
-    in_blocks<16>(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
         const float odds = std::min(columns[x], row) * ratio[x];
         const float share = odds / (odds + 1.0f);
         posterior[x] = share;
@@ -112,29 +114,30 @@ void apply_bayes(const float* __restrict ratio, const float* __restrict columns,
 }  // namespace
 
 TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& place, double threshold) {
-    require(cues, threshold);
+    require_arguments(cues, threshold);
     const auto& [window, candidate] = place;
     require_corners(window, "window");
     const PlaneView& first = cues[0].readings;
-    const Region seen = rectangle_pixels(candidate, first.rows, first.cols, "candidate");
-    const auto columns = ramp(window.x0, window.x1, candidate.x0, candidate.x1, seen.x0, seen.x1);
-    const auto rows = ramp(window.y0, window.y1, candidate.y0, candidate.y1, seen.y0, seen.y1);
+    const Region visible = rectangle_pixels(candidate, first.rows, first.cols, "candidate");
+    const auto columns =
+        linear_prior(window.x0, window.x1, candidate.x0, candidate.x1, visible.x0, visible.x1);
+    const auto rows = linear_prior(window.y0, window.y1, candidate.y0, candidate.y1, visible.y0, visible.y1);
     std::vector<Table> tables;
-    for (const Cue& cue : cues) tables.push_back(ratios(cue));
+    for (const Cue& cue : cues) tables.push_back(likelihood_ratios(cue));
 
     TargetPixels target{Labels::Zero(first.rows, first.cols), Floats::Zero(first.rows, first.cols)};
-    const int n = seen.x1 - seen.x0;
+    const int n = visible.x1 - visible.x0;
     std::vector<std::int32_t> bin(columns.size());
     std::vector<float> ratio(columns.size());
-    for (int y = seen.y0; y < seen.y1; ++y) {
+    for (int y = visible.y0; y < visible.y1; ++y) {
         std::fill(ratio.begin(), ratio.end(), 1.0f);
         for (std::size_t k = 0; k < cues.size(); ++k) {
-            value_bins(cues[k].readings.row(y) + seen.x0, n, range_of(cues[k]), bin.data());
-            look_up(bin.data(), n, tables[k].data(), ratio.data());
+            find_value_bins(cues[k].readings.row(y) + visible.x0, n, range_of(cues[k]), bin.data());
+            multiply_ratios(bin.data(), n, tables[k].data(), ratio.data());
         }
-        apply_bayes(ratio.data(), columns.data(), rows[static_cast<std::size_t>(y - seen.y0)], n,
-                    float_at_least(threshold), target.posterior.row(y).data() + seen.x0,
-                    target.mask.row(y).data() + seen.x0);
+        apply_bayes(ratio.data(), columns.data(), rows[static_cast<std::size_t>(y - visible.y0)], n,
+                    round_up_to_float(threshold), target.posterior.row(y).data() + visible.x0,
+                    target.mask.row(y).data() + visible.x0);
     }
     return target;
 }

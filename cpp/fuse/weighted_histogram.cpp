@@ -13,24 +13,24 @@
 namespace tricue {
 namespace {
 
-// Neighbours mostly share a bin, and a sum that was just written takes its time to be read again: so
-// neighbours are summed in different tables.
+// Neighbors mostly share a bin, and reading a sum that was just written is slow: so neighbors are summed in
+// different tables.
 constexpr std::size_t kTables = 4;
 
-/// The weights that count, 0 for others; without a mask it is null.
+/// Sets weights that do not count to 0. Without a mask, `mask` is null.
 TRICUE_MULTIVERSION
 void keep_weights(const float* __restrict weights, const std::uint8_t* __restrict mask, int n,
                   float* __restrict kept) {
-    constexpr float kMost = std::numeric_limits<float>::max();
+    constexpr float kMaxFloat = std::numeric_limits<float>::max();
     if (mask == nullptr)
-        in_blocks<16>(n, [=](std::ptrdiff_t x) {
+        for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
             const float weight = weights[x];
-            kept[x] = (weight > 0.0f) & (weight <= kMost) ? weight : 0.0f;
+            kept[x] = (weight > 0.0f) & (weight <= kMaxFloat) ? weight : 0.0f;
         });
     else
-        in_blocks<16>(n, [=](std::ptrdiff_t x) {
+        for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
             const float weight = weights[x];
-            kept[x] = (weight > 0.0f) & (weight <= kMost) & (mask[x] != 0) ? weight : 0.0f;
+            kept[x] = (weight > 0.0f) & (weight <= kMaxFloat) & (mask[x] != 0) ? weight : 0.0f;
         });
 }
 
@@ -57,17 +57,17 @@ Vector weighted_histogram(const PlaneView& values, const PlaneView& weights, con
     require_shape(weights.rows, weights.cols, values, "weights");
     if (mask.data != nullptr) require_shape(mask.rows, mask.cols, values, "mask");
     require_range(range);
-    const Region seen = rectangle_pixels(region, values.rows, values.cols, "region");
-    const int cols = seen.x1 - seen.x0;
+    const Region visible = rectangle_pixels(region, values.rows, values.cols, "region");
+    const int cols = visible.x1 - visible.x0;
     const std::size_t size = static_cast<std::size_t>(range.bins) + 1;
     const auto padded = (static_cast<std::size_t>(cols) + kTables - 1) / kTables * kTables;
     std::vector<std::int32_t> bin(padded, range.bins);
     std::vector<float> weight(padded);
     std::vector<double> sums(kTables * size);
-    for (int y = seen.y0; y < seen.y1; ++y) {
-        value_bins(values.row(y) + seen.x0, cols, range, bin.data());
-        keep_weights(weights.row(y) + seen.x0, mask.data == nullptr ? nullptr : mask.row(y) + seen.x0, cols,
-                     weight.data());
+    for (int y = visible.y0; y < visible.y1; ++y) {
+        find_value_bins(values.row(y) + visible.x0, cols, range, bin.data());
+        keep_weights(weights.row(y) + visible.x0, mask.data == nullptr ? nullptr : mask.row(y) + visible.x0,
+                     cols, weight.data());
         add_row(bin, weight, size, sums.data());
     }
     Vector histogram(range.bins);

@@ -9,7 +9,6 @@
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
-#include "cues/depth/height_above.hpp"
 #include "cues/depth/plane_support.hpp"
 #include "kernel_docs.hpp"
 
@@ -77,14 +76,6 @@ Array<double> floor_plane_arrays(const Array<float>& depth, const Array<double>&
                          [&] { return floor_plane(view, lens, draws, tolerance, {upward, min_cosine}); }));
 }
 
-Array<float> height_above_arrays(const Array<float>& depth, const Array<double>& camera,
-                                 const Array<double>& plane) {
-    const auto view = depth_image(depth, "depth");
-    const auto lens = vector(camera, "camera");
-    const auto floor = vector(plane, "plane");
-    return give(unlocked(pixels(view), [&] { return height_above(view, lens, floor); }));
-}
-
 Array<float> above_floor_arrays(const Array<float>& depth, const Array<double>& camera,
                                 const Array<double>& plane, double near, double far, double clear) {
     const auto view = depth_image(depth, "depth");
@@ -120,8 +111,6 @@ void define_depth(py::module_& m) {
           py::arg("ragged"), py::arg("passes"), docs::fill_gaps);
     m.def("floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
           py::arg("tolerance"), py::arg("up"), py::arg("min_cosine"), docs::floor_plane);
-    m.def("height_above", height_above_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
-          docs::height_above);
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("tolerance"), py::arg("step"), docs::plane_support);
 }

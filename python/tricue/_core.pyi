@@ -19,7 +19,7 @@ def above_floor(
     The part of a depth image in which a target can be: the depth z where near <= z < far and the pixel
     is higher than `clear` above the floor.
 
-    Heights are those of height_above, in float32, to which near, far and clear are rounded.
+    Heights n · X + d are in float32, to which near, far and clear are rounded.
 
     Args:
         depth: float32 (H, W), meters
@@ -1049,32 +1049,6 @@ def gradient_flow(
     Source: Okada, Shirai, Miura 1996, section 2.
     """
 
-def height_above(
-    depth: numpy.typing.NDArray[numpy.float32],
-    camera: numpy.typing.NDArray[numpy.float64],
-    plane: numpy.typing.NDArray[numpy.float64],
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    Height n · X + d above a plane of each pixel of a depth image.
-
-    In float32, in this order: h = z (nx x + (ny y + nz)) + d, with (x, y, 1) the ray ((u - cx) / fx,
-    (v - cy) / fy, 1) in float64, rounded to float32.
-
-    Args:
-        depth: float32 (H, W), meters
-        camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
-        plane: float64 (4,): nx, ny, nz, d in meters, camera frame (x right, y down, z forward), as
-            floor_plane gives it; finite. Where |n| is not 1, heights are |n| times as large
-
-    Returns:
-        float32 (H, W), meters; NaN where nothing was measured
-
-    Raises:
-        ValueError: on an invalid camera or plane
-
-    Source: ours.
-    """
-
 def histogram_mean(
     histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -1278,8 +1252,8 @@ def plane_support(
     """
     How much of a depth image lies on a known plane: is it still the floor?
 
-    Every step-th pixel of every step-th row counts, where measured. Heights h are those of
-    height_above, in float32, to which the tolerance t and -3 t are rounded.
+    Every step-th pixel of every step-th row counts, where measured. Heights h = n · X + d are in
+    float32, to which the tolerance t and -3 t are rounded.
 
     Args:
         depth: float32 (H, W), meters
@@ -2435,12 +2409,6 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
-    def height_above(
-        self,
-        depth: numpy.typing.NDArray[numpy.float32],
-        camera: numpy.typing.NDArray[numpy.float64],
-        plane: numpy.typing.NDArray[numpy.float64],
-    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def histogram_mean(
         self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
     ) -> numpy.typing.NDArray[numpy.float64]: ...

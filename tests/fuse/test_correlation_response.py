@@ -206,3 +206,12 @@ def test_native_refuses_other_arrays() -> None:
         _core.correlation_response(cells, numerators[0], denominators, 0.01)
     with pytest.raises(ValueError, match="denominators: expected a C-contiguous"):
         _core.correlation_response(cells, numerators, np.asfortranarray(denominators), 0.01)
+
+
+@pytest.mark.parametrize("shape", [(3, 65, 10), (2, 12, 75)], ids=str)
+def test_one_filter_answers_as_the_second_of_two(shape: tuple[int, int, int]) -> None:
+    """The last of an odd count of filters, transformed alone, has the same bits as in a pair."""
+    cells, (numerators, denominators) = cells_of(shape), filters_of(shape)
+    twice = [np.repeat(filters, 2, axis=0) for filters in (numerators, denominators)]
+    alone = _core.correlation_response(cells, numerators, denominators, 0.01)
+    assert alone.tobytes() == _core.correlation_response(cells, *twice, 0.01)[1:].tobytes()

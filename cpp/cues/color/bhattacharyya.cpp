@@ -13,18 +13,19 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-bool all_shares(const float* values, Eigen::Index n) {
-    int strange = 0;
+bool all_nonnegative(const float* values, Eigen::Index n) {
+    int invalid = 0;
     for (Eigen::Index i = 0; i < n; ++i)
-        strange += !(values[i] >= 0.0F && values[i] <= std::numeric_limits<float>::max());
-    return strange == 0;
+        invalid += !(values[i] >= 0.0F && values[i] <= std::numeric_limits<float>::max());
+    return invalid == 0;
 }
 
 void require_shares(FloatsRef values, const char* name) {
-    if (!all_shares(values.data(), values.size())) refuse(name, "finite numbers, none negative", "others");
+    if (!all_nonnegative(values.data(), values.size()))
+        refuse(name, "finite numbers, none negative", "others");
 }
 
-void check(FloatsRef histograms, FloatsRef model, int groups) {
+void require_arguments(FloatsRef histograms, FloatsRef model, int groups) {
     const auto width = model.cols();
     if (histograms.cols() != width)
         refuse("model", std::to_string(histograms.cols()) + " bins, as in histograms",
@@ -34,7 +35,7 @@ void check(FloatsRef histograms, FloatsRef model, int groups) {
     require_shares(model, "model");
 }
 
-/// sum_k sqrt(p_k q_k) in eight partial sums: a fixed order that vectorises.
+/// sum_k sqrt(p_k q_k) in eight partial sums: a fixed order that vectorizes.
 TRICUE_MULTIVERSION
 double affinity(const float* __restrict p, const float* __restrict q, Eigen::Index n) {
     double partial[8] = {};
@@ -51,7 +52,7 @@ double affinity(const float* __restrict p, const float* __restrict q, Eigen::Ind
 }  // namespace
 
 Vector bhattacharyya(FloatsRef histograms, FloatsRef model, int groups) {
-    check(histograms, model, groups);
+    require_arguments(histograms, model, groups);
     Vector distances(histograms.rows());
     for (Eigen::Index i = 0; i < distances.size(); ++i) {
         const double similarity = affinity(histograms.row(i).data(), model.data(), model.cols()) / groups;

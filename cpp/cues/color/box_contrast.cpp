@@ -6,39 +6,39 @@
 #include <vector>
 
 #include "base/check.hpp"
-#include "cues/color/detail/covered_sums.hpp"
+#include "cues/color/detail/integral_image.hpp"
 
 namespace tricue {
 namespace {
 
-/// Of the i-th of `count` boxes along an axis.
+/// The center of the i-th of `count` boxes along an axis.
 double center(int i, int count) {
     return count + 2.0 * (i - count / 2);
 }
 
-/// What boxes of one size add up.
-class Boxes {
+/// Sums of a plane over boxes of one size.
+class BoxSums {
 public:
-    Boxes(CoveredSums& sums, int cols, double width, double height)
-        : sums_(sums), height_(height), found_(cols) {
-        across_.reserve(static_cast<std::size_t>(cols));
+    BoxSums(IntegralImage& sums, int cols, double width, double height)
+        : sums_(sums), height_(height), row_(cols) {
+        spans_.reserve(static_cast<std::size_t>(cols));
         for (int j = 0; j < cols; ++j)
-            across_.push_back(sums.across(center(j, cols) - width / 2, center(j, cols) + width / 2));
+            spans_.push_back(sums.column_span(center(j, cols) - width / 2, center(j, cols) + width / 2));
     }
 
-    /// Of a row of boxes with their centres at `y`.
+    /// The sums of a row of boxes with their centers at `y`.
     const Eigen::ArrayXd& row(double y) {
-        sums_.take_rows(y - height_ / 2, y + height_ / 2);
-        double* found = found_.data();
-        for (const CoveredSpan& span : across_) *found++ = sums_.columns(span);
-        return found_;
+        sums_.select_rows(y - height_ / 2, y + height_ / 2);
+        double* sum = row_.data();
+        for (const ColumnSpan& span : spans_) *sum++ = sums_.sum(span);
+        return row_;
     }
 
 private:
-    CoveredSums& sums_;
+    IntegralImage& sums_;
     double height_;
-    std::vector<CoveredSpan> across_;
-    Eigen::ArrayXd found_;
+    std::vector<ColumnSpan> spans_;
+    Eigen::ArrayXd row_;
 };
 
 void require_arguments(const PlaneView& plane, const FramedBox& box, double around) {
@@ -56,9 +56,9 @@ void require_arguments(const PlaneView& plane, const FramedBox& box, double arou
 
 Floats box_contrast(const PlaneView& plane, const FramedBox& box, double around) {
     require_arguments(plane, box, around);
-    CoveredSums sums(plane);
+    IntegralImage sums(plane);
     const int rows = plane.rows / 2, cols = plane.cols / 2;
-    Boxes inner(sums, cols, box.width, box.height),
+    BoxSums inner(sums, cols, box.width, box.height),
         whole(sums, cols, box.width * box.outer, box.height * box.outer);
     const double area = box.width * box.height, frame = area * (box.outer * box.outer - 1);
     const double in_box = 1 / area + around / frame, in_whole = around / frame;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/check.hpp"
-#include "cues/color/detail/covered_sums.hpp"
+#include "cues/color/detail/integral_image.hpp"
 
 namespace tricue {
 namespace {
@@ -28,12 +28,12 @@ Vector box_means(const PlaneView& plane, double x, double y, VectorRef widths, V
     require_lengths(widths, "widths");
     require_size(heights, widths.size(), "heights");
     require_lengths(heights, "heights");
-    CoveredSums sums(plane);
+    IntegralImage sums(plane);
     Vector means(widths.size());
     for (Eigen::Index i = 0; i < widths.size(); ++i) {
         const double width = widths[i], height = heights[i];
-        sums.take_rows(y - height / 2, y + height / 2);
-        means[i] = sums.columns(sums.across(x - width / 2, x + width / 2)) / (width * height);
+        sums.select_rows(y - height / 2, y + height / 2);
+        means[i] = sums.sum(sums.column_span(x - width / 2, x + width / 2)) / (width * height);
     }
     return means;
 }

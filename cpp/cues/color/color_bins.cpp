@@ -12,10 +12,10 @@
 namespace tricue {
 namespace {
 
-constexpr std::int64_t kLongest = 32768;
+constexpr std::int64_t kMaxSide = 32768;
 
-/// An axis as factors: floor(v bins / levels) is the whole part of (v bins + 1/2) (1 / levels), which is 1 / (2 levels) or more
-/// from a whole number: a hundred times what rounding to float32 moves it.
+/// An axis as factors: floor(v bins / levels) is the integer part of (v bins + 1/2) (1 / levels). That is at least 1 / (2 levels) away
+/// from an integer, a hundred times the rounding error of float32.
 struct Axis {
     float bins, inverse;
 
@@ -24,7 +24,7 @@ struct Axis {
           inverse(1.0F / static_cast<float>(space.levels(axis))) {}
 };
 
-[[gnu::always_inline]] inline int index(int level, const Axis& axis) {
+TRICUE_INLINE int find_bin(int level, const Axis& axis) {
     return static_cast<int>((static_cast<float>(level) * axis.bins + 0.5F) * axis.inverse);
 }
 
@@ -34,15 +34,15 @@ void bin_row(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, const Colo
     const Axis first(space, 0), second(space, 1), third(space, 2);
     const int chroma = space.chroma, last = 2 * space.chroma - 1;
     const int stride0 = space.bins[1] * space.bins[2], stride1 = space.bins[2];
-    in_blocks<32>(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
         const int b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
-        const int i = index(std::min(std::max(b - g + chroma, 0), last), first);
-        const int j = index(std::min(std::max(g - r + chroma, 0), last), second);
-        bins[x] = static_cast<std::uint16_t>(i * stride0 + j * stride1 + index(b + g + r, third));
+        const int i = find_bin(std::min(std::max(b - g + chroma, 0), last), first);
+        const int j = find_bin(std::min(std::max(g - r + chroma, 0), last), second);
+        bins[x] = static_cast<std::uint16_t>(i * stride0 + j * stride1 + find_bin(b + g + r, third));
     });
 }
 
-/// The pixels that are read, as a range of rows or columns of the bins: those of [begin, begin + step count) inside [0, size).
+/// The rows or columns of bins whose pixels lie in the image: those of [begin, begin + step count) inside [0, size).
 struct Span {
     Eigen::Index begin, end;
 
@@ -55,13 +55,13 @@ struct Span {
     }
 };
 
-/// Every step-th pixel, side by side.
-void thin_out(const std::uint8_t* pixels, Eigen::Index n, int step, std::uint8_t* packed) {
+/// Copies every step-th pixel.
+void subsample(const std::uint8_t* pixels, Eigen::Index n, int step, std::uint8_t* packed) {
     for (Eigen::Index k = 0; k < n; ++k, pixels += 3 * step, packed += 3) std::copy_n(pixels, 3, packed);
 }
 
 std::int64_t require_side(std::int64_t begin, std::int64_t end) {
-    if (end - begin > kLongest)
+    if (end - begin > kMaxSide)
         refuse("region", "sides of at most 32768 pixels", std::to_string(end - begin));
     return std::max<std::int64_t>(end - begin, 0);
 }
@@ -85,7 +85,7 @@ Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& 
         }
         const auto y = region.y0 + step * i + step / 2, x = region.x0 + step * cols.begin + step / 2;
         const std::uint8_t* pixels = image.row(static_cast<int>(y)) + 3 * x;
-        if (step > 1) thin_out(pixels, inside, step, packed.data());
+        if (step > 1) subsample(pixels, inside, step, packed.data());
         std::fill_n(out, cols.begin, kNoBin);
         bin_row(step > 1 ? packed.data() : pixels, inside, space, out + cols.begin);
         std::fill(out + cols.end, out + bins.cols(), kNoBin);

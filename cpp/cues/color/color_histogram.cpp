@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-/// Counts levels >> shift. Four tables, so that equal neighbours needn't wait for each other's store.
+/// Counts levels >> shift. Four tables, so that equal neighbors don't wait for each other's store.
 void count(const std::uint8_t* levels, std::ptrdiff_t n, int shift,
            std::array<std::array<std::uint32_t, 256>, 4>& tables) {
     std::ptrdiff_t i = 0;

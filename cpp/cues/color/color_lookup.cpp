@@ -14,7 +14,7 @@ Floats color_lookup(const SampleView& samples, FloatsRef table) {
     for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i) {
         color_cells(samples, i, bits, cells.data());
         float* out = values.data() + i * samples.n;
-        // Not multiversioned: one load after the other is quicker than the gathers of processors that had to be mended.
+        // Not multiversioned: single loads are faster than gathers on processors with the Downfall mitigation.
         for (const std::int32_t cell : cells) *out++ = table.data()[cell];
     }
     return values;

@@ -26,7 +26,7 @@ TRICUE_MULTIVERSION void rank_ellipse(const SampleView& samples, std::ptrdiff_t 
 Floats color_ranks(const SampleView& samples) {
     if (samples.n < 1) refuse("samples", "at least one an ellipse", "none");
     Floats ranks(samples.ellipses, 3 * samples.n);
-    with_count_for(static_cast<std::size_t>(samples.n), [&](auto count) {
+    with_count_type(static_cast<std::size_t>(samples.n), [&](auto count) {
         for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
             rank_ellipse<decltype(count)>(samples, i, ranks.data() + 3 * i * samples.n);
     });

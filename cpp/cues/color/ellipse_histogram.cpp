@@ -26,7 +26,7 @@ private:
 
 void count(const BinsView& bins, const double* ellipse, double margin, std::int32_t* inside,
            std::int32_t* around) {
-    const Place place(ellipse);
+    const CenterPixel place(ellipse);
     const EllipseShape inner(ellipse, 1.0), outer(ellipse, margin);
     const int last = std::min(outer.bottom(), bins.rows - place.y);
     for (int y = std::max(outer.top, -place.y); y < last; ++y) {

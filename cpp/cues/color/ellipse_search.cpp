@@ -9,14 +9,14 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "cues/color/detail/ellipse_walker.hpp"
+#include "cues/color/detail/sliding_histogram.hpp"
 
 namespace tricue {
 namespace {
 
 using Counts = std::vector<std::int32_t>;
 
-/// Rounds n M_i to whole units.
+/// Rounds n M_i to integers.
 TRICUE_MULTIVERSION
 void set_targets(const double* __restrict shares, std::size_t n, double units,
                  std::int32_t* __restrict targets) {
@@ -27,7 +27,7 @@ struct Sums {
     std::int32_t inside, around;
 };
 
-/// Σ min(C_i, n M_i) of ellipse and ring; the larger ellipse less the ellipse is the ring.
+/// Σ min(C_i, n M_i) of ellipse and ring; the ring is the larger ellipse minus the ellipse.
 TRICUE_MULTIVERSION
 Sums intersect(const std::int32_t* __restrict inner, const std::int32_t* __restrict outer, std::size_t n,
                const std::int32_t* __restrict inside, const std::int32_t* __restrict around) {
@@ -39,30 +39,30 @@ Sums intersect(const std::int32_t* __restrict inner, const std::int32_t* __restr
     return {first, second};
 }
 
-/// (1) and the share of marks, of the ellipse and of the ring.
+/// Equation (1) and the share of masked pixels, of the ellipse and of the ring.
 class Scorer {
 public:
-    Scorer(const SlotImage& image, std::int32_t unit)
+    Scorer(const CompactBins& image, std::int32_t unit)
         : shares_(image.shares), unit_(unit), inside_(shares_.size()), around_(shares_.size()) {}
 
-    void score(const EllipseWalker& inner, const EllipseWalker& outer, double* out) {
-        retarget(inner.seen(), pixels_inside_, inside_);
-        retarget(outer.seen() - inner.seen(), pixels_around_, around_);
+    void score(const SlidingHistogram& inner, const SlidingHistogram& outer, double* out) {
+        update_targets(inner.visible(), pixels_inside_, inside_);
+        update_targets(outer.visible() - inner.visible(), pixels_around_, around_);
         const Sums sums =
             intersect(inner.counts(), outer.counts(), inside_.size(), inside_.data(), around_.data());
         const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
         out[0] = share(sums.inside, static_cast<double>(pixels_inside_) * unit_);
         out[1] = share(sums.around, static_cast<double>(pixels_around_) * unit_);
-        out[2] = share(inner.marked(), pixels_inside_);
-        out[3] = share(outer.marked() - inner.marked(), pixels_around_);
+        out[2] = share(inner.masked_count(), pixels_inside_);
+        out[3] = share(outer.masked_count() - inner.masked_count(), pixels_around_);
     }
 
 private:
-    /// Only at the edge of the image the number of pixels changes from place to place.
-    void retarget(std::int32_t seen, std::int32_t& pixels, Counts& targets) {
-        if (seen == pixels) return;
-        pixels = seen;
-        set_targets(shares_.data(), targets.size(), static_cast<double>(seen) * unit_, targets.data());
+    /// The number of pixels changes only at the border of the image.
+    void update_targets(std::int32_t visible, std::int32_t& pixels, Counts& targets) {
+        if (visible == pixels) return;
+        pixels = visible;
+        set_targets(shares_.data(), targets.size(), static_cast<double>(visible) * unit_, targets.data());
     }
 
     const std::vector<double>& shares_;
@@ -75,39 +75,40 @@ struct Total {
     bool valid;
 };
 
-/// In eight sums, as the order of one can't be changed.
+/// In eight sums, so that it vectorizes in a fixed order.
 TRICUE_MULTIVERSION
-Total sum_up(const double* model, Eigen::Index n) {
-    constexpr Eigen::Index kLanes = 8;
-    double sums[kLanes] = {};
-    int strange = 0;
-    for (Eigen::Index i = 0; i + kLanes <= n; i += kLanes)
-        for (Eigen::Index k = 0; k < kLanes; ++k) {
+Total sum_model(const double* model, Eigen::Index n) {
+    constexpr Eigen::Index kSums = 8;
+    double sums[kSums] = {};
+    int invalid = 0;
+    for (Eigen::Index i = 0; i + kSums <= n; i += kSums)
+        for (Eigen::Index k = 0; k < kSums; ++k) {
             sums[k] += model[i + k];
-            strange += !(model[i + k] >= 0.0);
+            invalid += !(model[i + k] >= 0.0);
         }
-    for (Eigen::Index i = n / kLanes * kLanes; i < n; ++i) {
+    for (Eigen::Index i = n / kSums * kSums; i < n; ++i) {
         sums[0] += model[i];
-        strange += !(model[i] >= 0.0);
+        invalid += !(model[i] >= 0.0);
     }
     double sum = 0.0;
     for (const double part : sums) sum += part;
-    return {sum, strange == 0};
+    return {sum, invalid == 0};
 }
 
 double require_model(VectorRef model) {
     if (model.size() == 0) refuse("model", "at least one bin", "none");
-    const Total total = sum_up(model.data(), model.size());
+    const Total total = sum_model(model.data(), model.size());
     if (total.valid && total.sum > 0.0 && std::isfinite(total.sum)) return total.sum;
     require_finite(model, "model");
     if (!total.valid) refuse("model", "no negative number", model.minCoeff());
     refuse("model", "a finite sum above 0", total.sum);
 }
 
-/// All pixels that a shape covers on its way, relative to the image.
-Region area_of(const EllipseShape& shape, const Place& place, const SearchGrid& grid) {
-    const auto [begin, end] = shape.widest();
-    return swept({place.x + begin, place.y + shape.top, place.x + end, place.y + shape.bottom()}, grid);
+/// All pixels that a shape covers at the positions of the grid, relative to the image.
+Region covered_area(const EllipseShape& shape, const CenterPixel& place, const SearchGrid& grid) {
+    const auto [begin, end] = shape.column_range();
+    return swept_region({place.x + begin, place.y + shape.top, place.x + end, place.y + shape.bottom()},
+                        grid);
 }
 
 void require_mask(const ImageView& mask, const BinsView& bins) {
@@ -118,24 +119,24 @@ void require_mask(const ImageView& mask, const BinsView& bins) {
         refuse("mask", "shape " + shape(bins.rows, bins.cols), shape(mask.rows, mask.cols));
 }
 
-/// The power of two of which 31 bits hold as many as a shape has pixels.
-std::int32_t unit_for(const EllipseShape& shape) {
+/// The largest power of two that fits 31 bits when multiplied by the number of pixels of a shape.
+std::int32_t find_unit(const EllipseShape& shape) {
     std::int32_t unit = 1;
     while (unit <= std::numeric_limits<std::int32_t>::max() / 2 / std::max(shape.area, 1)) unit *= 2;
     return unit;
 }
 
-/// Visits every place, to the right in even rows and to the left in odd ones, and moves a pixel at a time in between.
+/// Visits every position, rightwards in even rows and leftwards in odd ones, and moves one pixel at a time in between.
 template <typename Visit, typename Move>
 void walk(const SearchGrid& grid, Visit visit, Move move) {
-    const auto times = [&](auto direction) {
+    const auto repeat = [&](auto direction) {
         for (int pixel = 0; pixel < grid.step; ++pixel) move(direction);
     };
     for (int row = 0; row < grid.rows; ++row) {
-        if (row > 0) times(&EllipseWalker::down);
+        if (row > 0) repeat(&SlidingHistogram::move_down);
         const bool rightward = row % 2 == 0;
         for (int k = 0; k < grid.cols; ++k) {
-            if (k > 0) times(rightward ? &EllipseWalker::right : &EllipseWalker::left);
+            if (k > 0) repeat(rightward ? &SlidingHistogram::move_right : &SlidingHistogram::move_left);
             visit(row, rightward ? k : grid.cols - 1 - k);
         }
     }
@@ -155,18 +156,18 @@ States ellipse_search(const BinsView& bins, VectorRef ellipse, const SearchGrid&
 
     States found = States::Zero(Eigen::Index{grid.rows} * grid.cols, 4);
     const EllipseShape shape(ellipse.data(), 1.0), larger(ellipse.data(), model.margin);
-    const Region area = area_of(larger, Place(ellipse.data()), grid);
-    const Region seen = area.clipped({nullptr, bins.rows, bins.cols, 1, 0});
-    if (seen.x0 >= seen.x1 || seen.y0 >= seen.y1) return found;
+    const Region area = covered_area(larger, CenterPixel(ellipse.data()), grid);
+    const Region visible = area.clipped({nullptr, bins.rows, bins.cols, 1, 0});
+    if (visible.x0 >= visible.x1 || visible.y0 >= visible.y1) return found;
 
-    const SlotImage image(bins, model.histogram, total, mask, area);
-    const std::ptrdiff_t corner = -larger.top * std::ptrdiff_t{image.cols} - larger.widest().begin;
-    const std::int32_t unit = unit_for(larger);
-    EllipseWalker inner(shape, image, corner, unit), outer(larger, image, corner, unit);
+    const CompactBins image(bins, model.histogram, total, mask, area);
+    const std::ptrdiff_t corner = -larger.top * std::ptrdiff_t{image.cols} - larger.column_range().begin;
+    const std::int32_t unit = find_unit(larger);
+    SlidingHistogram inner(shape, image, corner, unit), outer(larger, image, corner, unit);
     Scorer scorer(image, unit);
     walk(
         grid, [&](int row, int col) { scorer.score(inner, outer, found.row(row * grid.cols + col).data()); },
-        [&](void (EllipseWalker::*move)()) {
+        [&](void (SlidingHistogram::*move)()) {
             (inner.*move)();
             (outer.*move)();
         });

@@ -19,13 +19,13 @@ void blend(const float* __restrict old, float rate, std::ptrdiff_t n, float* __r
 }
 
 TRICUE_MULTIVERSION
-void divide(const float* __restrict target, const float* __restrict surround, float rare, std::ptrdiff_t n,
-            float* __restrict table) {
+void compute_table(const float* __restrict target, const float* __restrict surround, float rare,
+                   std::ptrdiff_t n, float* __restrict table) {
     for (std::ptrdiff_t k = 0; k < n; ++k) table[k] = target[k] / (target[k] + surround[k] + rare);
 }
 
 /// The samples' histogram, as a cube, blended into the old one.
-Floats learnt(const SampleView& samples, FloatsRef old, double rate) {
+Floats updated_histogram(const SampleView& samples, FloatsRef old, double rate) {
     Floats seen = joint_histogram(samples, static_cast<int>(old.cols()));
     seen.resize(old.rows(), old.cols());
     blend(old.data(), static_cast<float>(rate), seen.size(), seen.data());
@@ -43,9 +43,10 @@ ColorContrast learn_contrast(const SampleView& inside, const SampleView& around,
     if (!(rate >= 0.0 && rate <= 1.0)) refuse("rate", "a number in [0, 1]", rate);
     if (!(rare > 0.0)) refuse("rare", "a number above 0", rare);
 
-    Floats within = learnt(inside, target, rate), without = learnt(around, surround, rate);
+    Floats within = updated_histogram(inside, target, rate),
+           without = updated_histogram(around, surround, rate);
     Floats table(within.rows(), within.cols());
-    divide(within.data(), without.data(), static_cast<float>(rare), table.size(), table.data());
+    compute_table(within.data(), without.data(), static_cast<float>(rare), table.size(), table.data());
     return {std::move(within), std::move(without), std::move(table)};
 }
 

@@ -26,8 +26,8 @@ public:
         return {planes_.data(), count, sampler_.size()};
     }
 
-    /// The table's mean over the samples of one ellipse. Not multiversioned: one load after the other is quicker than the gathers
-    /// of processors that had to be mended.
+    /// The table's mean over the samples of one ellipse. Not multiversioned: single loads are faster than gathers on processors with
+    /// the Downfall mitigation.
     double mean(const SampleView& samples, std::ptrdiff_t ellipse, int bits, const float* table) {
         color_cells(samples, ellipse, bits, cells_.data());
         double sums[4] = {};  // so that an addition needn't wait for the one before

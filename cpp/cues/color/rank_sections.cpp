@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ranks are kept as whole counts, n r(l): ties and borders of intervals are then exact, and n cancels.
+// Ranks are integer counts, n r(l): ties and borders of intervals are then exact, and n cancels.
 #include "cues/color/rank_sections.hpp"
 
 #include <algorithm>
@@ -29,13 +29,13 @@ Counts cumulative_counts(const std::uint8_t* levels, std::ptrdiff_t n) {
 }
 
 /// (21): the first level whose rank is closest to n/S, searched from `level`, where the one for n-1 is.
-std::size_t closest(const Counts& ranks, std::int64_t n, std::int64_t sections, std::size_t level) {
-    const auto miss = [&](std::size_t l) { return std::llabs(ranks[l] * sections - n * ranks.back()); };
-    // Ranks ascend, so the distance falls, then rises; levels that nobody has are a plain step in between.
+std::size_t closest_level(const Counts& ranks, std::int64_t n, std::int64_t sections, std::size_t level) {
+    const auto distance = [&](std::size_t l) { return std::llabs(ranks[l] * sections - n * ranks.back()); };
+    // Ranks ascend, so the distance falls, then rises; levels without a pixel leave it unchanged.
     std::size_t best = level;
-    std::int64_t least = miss(level);
+    std::int64_t least = distance(level);
     for (++level; level < kLevels; ++level) {
-        const std::int64_t here = miss(level);
+        const std::int64_t here = distance(level);
         if (here > least) break;
         if (here < least) best = level, least = here;
     }
@@ -49,16 +49,16 @@ std::int64_t sum_between(const Counts& ranks, const Counts& sums, std::size_t fi
     return sums[last] - (first ? sums[first - 1] : 0);
 }
 
-void describe(const Counts& ranks, std::int64_t sections, float* out) {
+void write_sections(const Counts& ranks, std::int64_t sections, float* out) {
     Counts sums;
     std::int64_t sum = 0;
     for (std::size_t l = 0; l < kLevels; ++l) sums[l] = sum += ranks[l];
 
     std::array<std::int64_t, kLevels> a;
     std::int64_t total = 0;
-    std::size_t border = closest(ranks, 0, sections, 0);
+    std::size_t border = closest_level(ranks, 0, sections, 0);
     for (std::int64_t n = 0; n < sections; ++n) {
-        const std::size_t next = closest(ranks, n + 1, sections, border);
+        const std::size_t next = closest_level(ranks, n + 1, sections, border);
         total += a[static_cast<std::size_t>(n)] = sum_between(ranks, sums, border, next);
         border = next;
     }
@@ -75,8 +75,8 @@ Floats rank_sections(const SampleView& samples, int sections) {
     Floats result(3 * samples.ellipses, sections);
     for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
         for (int channel = 0; channel < 3; ++channel)
-            describe(cumulative_counts(samples.plane(i, channel), samples.n), sections,
-                     result.row(3 * i + channel).data());
+            write_sections(cumulative_counts(samples.plane(i, channel), samples.n), sections,
+                           result.row(3 * i + channel).data());
     return result;
 }
 

@@ -11,18 +11,17 @@
 namespace tricue {
 namespace {
 
-constexpr int kUnit = 64;         // parts of a pixel that places are rounded to
-constexpr int kMostReadings = 4;  // of a sample along one axis
-constexpr int kMostPixels = 2 * kMostReadings;
+constexpr int kSubpixels = 64;   // positions are rounded to 1 / kSubpixels of a pixel
+constexpr int kMaxReadings = 4;  // of a sample along one axis
+constexpr int kMaxRows = 2 * kMaxReadings;
 constexpr int kBlock = 64;  // numbers of a row that are blended at once
-constexpr int kLanes = 8;   // numbers of two neighbouring pixels, and two that are thrown away
+constexpr int kLanes = 8;   // numbers of two neighboring pixels, and two unused ones
 
-using Eight [[gnu::vector_size(4 * kLanes)]] = float;
-using Order [[gnu::vector_size(4 * kLanes)]] = int;
+using TwoPixels = Pack<float, kLanes>;
 
-/// A place along one axis, between a pixel and the next, in parts of kUnit from the first.
+/// A position along one axis, fraction / kSubpixels of the way from a pixel to the next.
 struct Reading {
-    int pixel, past;
+    int pixel, fraction;
 };
 
 /// `count` samples with as many readings each.
@@ -36,22 +35,22 @@ struct Axis {
 
 Axis find_readings(double start, double length, int count, int size) {
     const double step = length / count;
-    const int each = static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMostReadings}));
+    const int each = static_cast<int>(std::min(std::max(std::ceil(step), 1.0), double{kMaxReadings}));
     Axis axis{count, each, std::vector<Reading>(static_cast<std::size_t>(count * each))};
     const double apart = step / each, most = size - 1.0;
     for (int i = 0; i < count * each; ++i) {
         const double place = start + (i + 0.5) * apart - 0.5;
         const double inside = std::min(std::max(place, 0.0), most);
-        const int fixed = static_cast<int>(inside * kUnit + 0.5);
-        axis.readings[static_cast<std::size_t>(i)] = {fixed / kUnit, fixed % kUnit};
+        const int fixed = static_cast<int>(inside * kSubpixels + 0.5);
+        axis.readings[static_cast<std::size_t>(i)] = {fixed / kSubpixels, fixed % kSubpixels};
     }
     return axis;
 }
 
-/// Rows of bytes and how much of each is in a blend of them, none beyond `count`.
+/// Rows of bytes and their weights in a blend, 0 beyond `count`.
 struct Rows {
-    const std::uint8_t* bytes[kMostPixels];
-    std::uint16_t shares[kMostPixels] = {};
+    const std::uint8_t* bytes[kMaxRows];
+    std::uint16_t shares[kMaxRows] = {};
     int count = 0;
 
     void add(const std::uint8_t* row, int share) {
@@ -61,15 +60,15 @@ struct Rows {
     }
 };
 
-/// Where in a row of numbers a reading's two pixels begin, and how much of each number is in it.
+/// Where in a row of numbers a reading's two pixels begin, and the weight of each number.
 struct Column {
     int at;
     float weights[kLanes];
 };
 
-/// Numbers from `begin` to `end`. A sum is at most 255 times that of the shares, 4 kUnit, so 16 bits hold it.
+/// Numbers from `begin` to `end`. A sum is at most 255 times that of the shares, 4 kSubpixels, so 16 bits hold it.
 template <int kRows>
-inline void blend_part(const Rows& rows, int begin, int end, float* blend) {
+inline void blend_range(const Rows& rows, int begin, int end, float* blend) {
     const Rows own = rows;
     TRICUE_INDEPENDENT
     for (int x = begin; x < end; ++x) {
@@ -80,12 +79,12 @@ inline void blend_part(const Rows& rows, int begin, int end, float* blend) {
     }
 }
 
-/// What whole registers leave over would be done one by one: it is done by a last block that reaches back.
+/// The remainder is done by a last block that overlaps the one before, not one by one.
 template <int kRows>
 inline void blend_all(const Rows& rows, int n, float* blend) {
     const int whole = n / kBlock * kBlock;
-    blend_part<kRows>(rows, 0, whole, blend);
-    if (whole < n) blend_part<kRows>(rows, std::max(n - kBlock, 0), n, blend);
+    blend_range<kRows>(rows, 0, whole, blend);
+    if (whole < n) blend_range<kRows>(rows, std::max(n - kBlock, 0), n, blend);
 }
 
 TRICUE_MULTIVERSION
@@ -97,62 +96,63 @@ void blend_rows(const Rows& rows, int n, float* blend) {
     else if (rows.count <= 6)
         blend_all<6>(rows, n, blend);
     else
-        blend_all<kMostPixels>(rows, n, blend);
+        blend_all<kMaxRows>(rows, n, blend);
 }
 
 /// Samples of kEach columns. `sums` has kLanes - 3 numbers more than 3 a sample.
 template <int kEach>
-inline void add_all(const Column* columns, int count, const float* blend, float* sums) {
+inline void sum_samples(const Column* columns, int count, const float* blend, float* sums) {
     for (int i = 0; i < count; ++i, columns += kEach, sums += 3) {
-        Eight sum = {};
+        TwoPixels sum = {};
         for (int j = 0; j < kEach; ++j) {
-            Eight colors, weights;
-            __builtin_memcpy(&colors, blend + columns[j].at, sizeof colors);
-            __builtin_memcpy(&weights, columns[j].weights, sizeof weights);
+            TwoPixels colors, weights;
+            load(blend + columns[j].at, colors);
+            load(columns[j].weights, weights);
             sum += colors * weights;
         }
-        const Eight next = __builtin_shuffle(sum, Order{3, 4, 5, 3, 3, 3, 3, 3});
+        TwoPixels next;
+        permute<3, 4, 5, 3, 3, 3, 3, 3>(sum, next);
         sum += next;
-        __builtin_memcpy(sums, &sum, sizeof sum);
+        store(sum, sums);
     }
 }
 
 TRICUE_MULTIVERSION
-void add_columns(const Column* columns, int count, int each, const float* blend, float* sums) {
+void sum_columns(const Column* columns, int count, int each, const float* blend, float* sums) {
     if (each == 1)
-        add_all<1>(columns, count, blend, sums);
+        sum_samples<1>(columns, count, blend, sums);
     else if (each == 2)
-        add_all<2>(columns, count, blend, sums);
+        sum_samples<2>(columns, count, blend, sums);
     else if (each == 3)
-        add_all<3>(columns, count, blend, sums);
+        sum_samples<3>(columns, count, blend, sums);
     else
-        add_all<kMostReadings>(columns, count, blend, sums);
+        sum_samples<kMaxReadings>(columns, count, blend, sums);
 }
 
-/// Quotients are no nearer than 1 / (12 kUnit²) to a half that they aren't, further than both roundings go.
+/// A quotient is a half or at least 1 / (12 kSubpixels²) away from one, which is more than both rounding errors.
 TRICUE_MULTIVERSION
 void divide(const float* __restrict sums, float whole, int n, std::uint8_t* __restrict bytes) {
     for (int x = 0; x < n; ++x)
         bytes[x] = static_cast<std::uint8_t>(static_cast<int>(sums[x] / whole + 0.5F));
 }
 
-Rows rows_of(const ImageView& image, const Axis& down, int sample, int left) {
+Rows find_rows(const ImageView& image, const Axis& down, int sample, int left) {
     Rows rows;
     const Reading* reading = down.readings.data() + std::ptrdiff_t{sample} * down.each;
     for (int j = 0; j < down.each; ++j) {
-        const auto [pixel, past] = reading[j];
-        rows.add(image.row(pixel) + 3 * left, kUnit - past);
-        rows.add(image.row(std::min(pixel + 1, image.rows - 1)) + 3 * left, past);
+        const auto [pixel, fraction] = reading[j];
+        rows.add(image.row(pixel) + 3 * left, kSubpixels - fraction);
+        rows.add(image.row(std::min(pixel + 1, image.rows - 1)) + 3 * left, fraction);
     }
-    std::fill(rows.bytes + rows.count, rows.bytes + kMostPixels, rows.bytes[0]);
+    std::fill(rows.bytes + rows.count, rows.bytes + kMaxRows, rows.bytes[0]);
     return rows;
 }
 
-std::vector<Column> columns_of(const Axis& across) {
+std::vector<Column> find_columns(const Axis& across) {
     std::vector<Column> columns;
     columns.reserve(across.readings.size());
-    for (const auto [pixel, past] : across.readings) {
-        const auto next = static_cast<float>(past), own = static_cast<float>(kUnit - past);
+    for (const auto [pixel, fraction] : across.readings) {
+        const auto next = static_cast<float>(fraction), own = static_cast<float>(kSubpixels - fraction);
         columns.push_back({3 * (pixel - across.first()), {own, own, own, next, next, next, 0, 0}});
     }
     return columns;
@@ -161,13 +161,13 @@ std::vector<Column> columns_of(const Axis& across) {
 void sample_window(const ImageView& image, const Axis& down, const Axis& across, std::uint8_t* bytes) {
     const int left = across.first(), numbers = 3 * across.count;
     const int width = 3 * (std::min(across.last() + 2, image.cols) - left);
-    const std::vector<Column> columns = columns_of(across);
+    const std::vector<Column> columns = find_columns(across);
     std::vector<float> blend(static_cast<std::size_t>(width + kLanes)),
         sums(static_cast<std::size_t>(numbers + kLanes));
-    const auto whole = static_cast<float>(down.each * across.each * kUnit * kUnit);
+    const auto whole = static_cast<float>(down.each * across.each * kSubpixels * kSubpixels);
     for (int y = 0; y < down.count; ++y, bytes += numbers) {
-        blend_rows(rows_of(image, down, y, left), width, blend.data());
-        add_columns(columns.data(), across.count, across.each, blend.data(), sums.data());
+        blend_rows(find_rows(image, down, y, left), width, blend.data());
+        sum_columns(columns.data(), across.count, across.each, blend.data(), sums.data());
         divide(sums.data(), whole, numbers, bytes);
     }
 }

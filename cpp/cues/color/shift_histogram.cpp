@@ -11,7 +11,7 @@ namespace {
 
 /// Moves by `offset` bins along the middle one of three axes, of `outer`, `bins` and `inner` cells.
 Vector shift_axis(const Vector& from, Eigen::Index outer, int bins, Eigen::Index inner, double offset) {
-    // Twice an axis' length holds everything in its end bin already.
+    // A shift by twice the axis' length already moves everything to its end bin.
     const double bounded = std::clamp(offset, -2.0 * bins, 2.0 * bins), whole = std::floor(bounded);
     const double rest = bounded - whole;
     Vector to = Vector::Zero(from.size());

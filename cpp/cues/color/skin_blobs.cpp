@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs of skin, not pixels, are joined. OpenCV's connectedComponentsWithStats is slower, and no choice in a
-// kernel: with 32-bit labels it starts threads, and 16-bit labels are too few for a frame of 640x480.
+// OpenCV's connectedComponentsWithStats is slower than joining runs, and no choice in a kernel: with 32-bit labels it starts
+// threads, and 16-bit labels are too few for a frame of 640x480.
 #include "cues/color/skin_blobs.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Blob {
     int x0, y0, x1, y1;
     std::int64_t area, twice_x, twice_y;
 
-    void add(const Run& run) {
+    void add(const PixelRun& run) {
         const std::int64_t length = run.length();
         x0 = std::min(x0, run.begin);
         x1 = std::max(x1, run.end);
@@ -36,10 +36,10 @@ void mark_skin(const std::int16_t* __restrict boundary, int n, std::int16_t leas
     for (int x = 0; x < n; ++x) skin[x] = boundary[x] >= least;
 }
 
-Runs skin_runs(const ImageView& image, const Bgr& reference, std::int16_t least) {
+PixelRuns skin_runs(const ImageView& image, const Bgr& reference, std::int16_t least) {
     std::vector<std::int16_t> boundary(static_cast<std::size_t>(image.cols));
     std::vector<std::uint8_t> skin(boundary.size());
-    Runs runs(image.cols);
+    PixelRuns runs(image.cols);
     for (int row = 0; row < image.rows; ++row) {
         skin_boundary_row(image.row(row), image.cols, reference, boundary.data());
         mark_skin(boundary.data(), image.cols, least, skin.data());
@@ -48,12 +48,12 @@ Runs skin_runs(const ImageView& image, const Bgr& reference, std::int16_t least)
     return runs;
 }
 
-std::vector<Blob> gather(Runs& runs, int min_area) {
+std::vector<Blob> collect_blobs(PixelRuns& runs, int min_area) {
     std::vector<Blob> blobs;
     std::vector<std::size_t> blob_of(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::size_t first = runs.root(i);
-        const Run& run = runs[i];
+        const PixelRun& run = runs[i];
         if (first == i) {
             blob_of[i] = blobs.size();
             blobs.push_back({run.begin, run.row, run.end, run.row, 0, 0, 0});
@@ -73,7 +73,7 @@ std::vector<Blob> gather(Runs& runs, int min_area) {
 States skin_blobs(const ImageView& image, const Bgr& reference, double threshold, int min_area) {
     if (min_area < 1) refuse("min_area", "at least 1", min_area);
     auto runs = skin_runs(image, reference, static_cast<std::int16_t>(least_skin(threshold)));
-    const auto blobs = gather(runs, min_area);
+    const auto blobs = collect_blobs(runs, min_area);
     States rows(static_cast<Eigen::Index>(blobs.size()), 7);
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
         const Blob& blob = blobs[static_cast<std::size_t>(i)];

@@ -11,7 +11,7 @@
 namespace tricue {
 namespace {
 
-// In bytes as long as possible: |a - b| of unsigned bytes is max - min, which needs no wider lanes.
+// Bytes as long as possible: |a - b| as max - min needs no wider lanes.
 inline std::uint8_t distance(std::uint8_t a, std::uint8_t b) {
     return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
 }
@@ -22,7 +22,7 @@ TRICUE_MULTIVERSION
 void skin_boundary_row(const std::uint8_t* __restrict pixels, int n, const Bgr& reference,
                        std::int16_t* __restrict boundary) {
     const std::uint8_t b0 = reference[0], g0 = reference[1], r0 = reference[2];
-    in_blocks(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
         const std::uint8_t b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
         const std::uint8_t delta =
             std::max(distance(b, b0), std::max(distance(g, g0), distance(r, r0)));  // (8)

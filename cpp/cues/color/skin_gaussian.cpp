@@ -13,11 +13,11 @@ namespace tricue {
 namespace {
 
 struct Chrominance {
-    float mean_b, mean_r;  // less the 128 that both chroma channels are shifted by
+    float mean_b, mean_r;  // minus the offset 128 of both chroma channels
     float bb, br, rr;      // d^2 = bb b^2 + br b r + rr r^2
 };
 
-void check(VectorRef mean, StatesRef p) {
+void require_arguments(VectorRef mean, StatesRef p) {
     if (mean.size() != 2 || !mean.isFinite().all()) refuse("mean", "two finite numbers (2,)", "others");
     if (p.rows() != 2 || p.cols() != 2 || !p.isFinite().all())
         refuse("precision", "finite numbers (2, 2)", "others");
@@ -25,11 +25,11 @@ void check(VectorRef mean, StatesRef p) {
         refuse("precision", "a symmetric, positive definite matrix", "another");
 }
 
-/// exp(x) for x <= 0 in what every instruction set vectorises: 2^k times a polynomial of the rest, at most
+/// exp(x) for x <= 0, vectorizable with every instruction set: 2^k times a polynomial of the remainder, at most
 /// ln(2)/2. Relative error below 1e-6; 0 where exp(x) is below the normal floats.
 inline float exp_negative(float x) {
     const float clamped = std::max(x, -87.0F);
-    // 1.5 * 2^23: after adding it only the nearest whole number is left.
+    // 1.5 * 2^23: after adding it only the nearest integer is left.
     constexpr float kRounder = 12582912.0F;
     const float shifted = clamped * 1.44269504F + kRounder;
     const float k = shifted - kRounder;
@@ -48,7 +48,7 @@ void evaluate(const std::uint8_t* __restrict blue, const std::uint8_t* __restric
               const std::uint8_t* __restrict red, std::ptrdiff_t n, const Chrominance& model,
               float* __restrict out) {
     const Chrominance m = model;
-    in_blocks(n, [=](std::ptrdiff_t i) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t i) {
         const float b = blue[i], g = green[i], r = red[i];
         const float luma = 0.299F * r + 0.587F * g + 0.114F * b;
         const float cb = (b - luma) * (1 / 1.772F) - m.mean_b, cr = (r - luma) * (1 / 1.402F) - m.mean_r;
@@ -59,7 +59,7 @@ void evaluate(const std::uint8_t* __restrict blue, const std::uint8_t* __restric
 }  // namespace
 
 Floats skin_gaussian(const SampleView& samples, VectorRef mean, StatesRef precision) {
-    check(mean, precision);
+    require_arguments(mean, precision);
     const auto single = [](double value) { return static_cast<float>(value); };
     const Chrominance model{single(mean[0] - 128.0), single(mean[1] - 128.0), single(precision(0, 0)),
                             single(2.0 * precision(0, 1)), single(precision(1, 1))};

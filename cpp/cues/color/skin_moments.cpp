@@ -11,23 +11,23 @@
 namespace tricue {
 namespace {
 
-// Tiles this wide and high keep every inner sum within 16-bit factors and 32-bit totals.
+// In tiles of this size every inner sum has 16-bit factors and a 32-bit total.
 constexpr int kTile = 1024;
-constexpr int kAhead = 4;
-using Lanes = std::array<std::int16_t, kTile>;
+constexpr int kPrefetchRows = 4;
+using TileRow = std::array<std::int16_t, kTile>;
 
-constexpr Lanes ascending() {
-    Lanes lanes{};
-    for (int x = 0; x < kTile; ++x) lanes[static_cast<std::size_t>(x)] = static_cast<std::int16_t>(x);
-    return lanes;
+constexpr TileRow ascending() {
+    TileRow row{};
+    for (int x = 0; x < kTile; ++x) row[static_cast<std::size_t>(x)] = static_cast<std::int16_t>(x);
+    return row;
 }
-constexpr Lanes kColumn = ascending();
+constexpr TileRow kColumn = ascending();
 
 struct RowSums {
     int count, x;
 };
 
-/// Raw moments of whole pixel indices, relative to the region's corner; exact.
+/// Raw moments of integer pixel indices, relative to the region's corner; exact.
 struct Sums {
     std::int64_t count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 };
@@ -46,21 +46,19 @@ RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t lea
     return {count, sum};
 }
 
-/// A new frame isn't in the cache yet, and a region's rows lie too far apart for the processor to foresee the next.
-void prefetch(const std::uint8_t* bytes, int n) {
-#ifdef __GNUC__
-    for (int k = 0; k < n; k += 64) __builtin_prefetch(bytes + k);
-#endif
+/// A new frame isn't in the cache yet, and the rows of a region are too far apart for the hardware prefetcher.
+void prefetch_row(const std::uint8_t* bytes, int n) {
+    for (int k = 0; k < n; k += 64) prefetch(bytes + k);
 }
 
 void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region,
               const Region& tile, Sums& sums) {
     const int width = tile.x1 - tile.x0;
     const std::int64_t left = tile.x0 - region.x0;
-    Lanes boundary, columns{};
+    TileRow boundary, columns{};
     for (int row = tile.y0; row < tile.y1; ++row) {
-        if (row + kAhead < tile.y1)
-            prefetch(image.row(row + kAhead) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
+        if (row + kPrefetchRows < tile.y1)
+            prefetch_row(image.row(row + kPrefetchRows) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
         skin_boundary_row(image.row(row) + 3 * std::ptrdiff_t{tile.x0}, width, reference, boundary.data());
         const RowSums skin = sum_row(boundary.data(), width, least, columns.data());
         const std::int64_t y = row - region.y0, x = skin.x + left * skin.count;
@@ -80,12 +78,12 @@ void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, 
 
 Vector skin_moments(const ImageView& image, const Bgr& reference, double threshold, const Region& region) {
     const auto least = static_cast<std::int16_t>(least_skin(threshold));
-    const Region seen = region.clipped(image);
+    const Region visible = region.clipped(image);
     Sums sums;
-    for (int y = seen.y0; y < seen.y1; y += kTile)
-        for (int x = seen.x0; x < seen.x1; x += kTile) {
-            const Region tile{x, y, std::min(x + kTile, seen.x1), std::min(y + kTile, seen.y1)};
-            add_tile(image, reference, least, seen, tile, sums);
+    for (int y = visible.y0; y < visible.y1; y += kTile)
+        for (int x = visible.x0; x < visible.x1; x += kTile) {
+            const Region tile{x, y, std::min(x + kTile, visible.x1), std::min(y + kTile, visible.y1)};
+            add_tile(image, reference, least, visible, tile, sums);
         }
 
     Vector moments = Vector::Zero(6);
@@ -93,7 +91,7 @@ Vector skin_moments(const ImageView& image, const Bgr& reference, double thresho
     const auto count = static_cast<double>(sums.count);
     const auto average = [count](std::int64_t sum) { return static_cast<double>(sum) / count; };
     const double x = average(sums.x), y = average(sums.y);
-    moments << count, seen.x0 + x + 0.5, seen.y0 + y + 0.5, average(sums.xx) - x * x,
+    moments << count, visible.x0 + x + 0.5, visible.y0 + y + 0.5, average(sums.xx) - x * x,
         average(sums.yy) - y * y, average(sums.xy) - x * y;
     return moments;
 }

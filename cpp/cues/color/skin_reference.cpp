@@ -30,7 +30,7 @@ Bgr skin_reference(const ImageView& patch) {
     std::vector<std::uint32_t> histogram(1 << 15);
     each_pixel(patch,
                [&](const std::uint8_t* pixel) { ++histogram[static_cast<std::size_t>(cell_of(pixel))]; });
-    // The fullest cell is one that the patch has, which are far fewer than the histogram has.
+    // The fullest cell is searched among the pixels of the patch, which are far fewer than the cells of the histogram.
     int mode = 0;
     std::uint64_t count = 0;
     each_pixel(patch, [&](const std::uint8_t* pixel) {

@@ -21,7 +21,7 @@ TRICUE_MULTIVERSION
 void keep_row(const float* __restrict depth, const float* __restrict across, int n, float down, float offset,
               const Limits& limits, float* __restrict kept) {
     const auto [near, far, clear] = limits;
-    in_blocks(n, [=](std::ptrdiff_t u) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
         const float z = depth[u], h = z * (across[u] + down) + offset;
         const bool inside = has_depth(z) & (z >= near) & (z < far) & (h > clear);
         kept[u] = inside ? z : std::numeric_limits<float>::quiet_NaN();
@@ -39,7 +39,7 @@ void require_space(const Space& space) {
 }  // namespace
 
 Floats above_floor(const DepthView& depth, VectorRef camera, VectorRef plane, const Space& space) {
-    auto [across, down] = rays(camera, depth);
+    auto [across, down] = find_rays(camera, depth);
     require_size(plane, 4, "plane");
     require_finite(plane, "plane");
     require_space(space);

@@ -15,7 +15,7 @@ struct Space {
 /// The part of a depth image in which a target can be: the depth z where near <= z < far and the pixel is higher than `clear` above
 /// the floor.
 ///
-/// Heights are those of height_above, in float32, to which near, far and clear are rounded.
+/// Heights n · X + d are in float32, to which near, far and clear are rounded.
 ///
 /// @param depth float32 (H, W), meters
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0

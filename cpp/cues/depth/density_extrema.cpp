@@ -12,8 +12,8 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// The least density on the way from a peak to anything higher; 0 if the way goes over the end.
-double base(VectorRef density, Index peak, Index step) {
+/// The minimum between a peak and the next higher density in one direction; 0 if there is none higher.
+double find_base(VectorRef density, Index peak, Index step) {
     double least = density[peak];
     for (Index i = peak; i >= 0 && i < density.size(); i += step) {
         if (density[i] > density[peak]) return least;
@@ -23,7 +23,7 @@ double base(VectorRef density, Index peak, Index step) {
 }
 
 double prominence_of(VectorRef density, Index peak) {
-    return density[peak] - std::max(base(density, peak, -1), base(density, peak, 1));
+    return density[peak] - std::max(find_base(density, peak, -1), find_base(density, peak, 1));
 }
 
 std::vector<Index> find_maxima(VectorRef density, double prominence) {

@@ -18,25 +18,25 @@ namespace {
 
 using Counts = std::vector<std::int32_t>;
 
-/// Neighbours in a row, mostly of one level, have counters and sums of their own: they needn't wait for each other.
+/// Neighbors in a row are mostly of one level: they count in different tables, so that they don't wait for each other.
 constexpr std::size_t kLanes = 4;
 
 /// Levels of a row's pixels, `levels` where nothing was measured, and their depths, 0 there.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, int n, double near, double scale, int levels,
-                 std::int32_t* __restrict level, double* __restrict metres) {
+                 std::int32_t* __restrict level, double* __restrict meters) {
     const double last = levels - 1;
     for (int x = 0; x < n; ++x) {
         const bool measured = has_depth(depth[x]);
         const double z = measured ? static_cast<double>(depth[x]) : 0.0;
         const auto clamped = static_cast<std::int32_t>(std::min(std::max((z - near) * scale, 0.0), last));
         level[x] = measured ? clamped : levels;
-        metres[x] = z;
+        meters[x] = z;
     }
 }
 
-Runs label_runs(const ImageView& labels) {
-    Runs runs(labels.cols);
+PixelRuns label_runs(const ImageView& labels) {
+    PixelRuns runs(labels.cols);
     for (int row = 0; row < labels.rows; ++row) runs.add_row(labels.row(row));
     return runs;
 }
@@ -46,7 +46,7 @@ struct Component {
     std::int64_t area;
     std::uint8_t label;
 
-    void add(const Run& run) {
+    void add(const PixelRun& run) {
         x0 = std::min(x0, run.begin);
         x1 = std::max(x1, run.end);
         y1 = run.row + 1;
@@ -54,61 +54,61 @@ struct Component {
     }
 };
 
-/// The components that are large enough, in order, and for every run the place of its own among them; -1 if it has none.
+/// The components that are large enough, in order, and for every run the index of its component among them, -1 without.
 struct Grouping {
     std::vector<Component> components;
-    std::vector<std::int32_t> place;
+    std::vector<std::int32_t> component;
 };
 
-/// All components; `place` becomes theirs.
-std::vector<Component> gather(Runs& runs, std::vector<std::int32_t>& place) {
+/// All components; sets for every run the index of its component.
+std::vector<Component> collect_components(PixelRuns& runs, std::vector<std::int32_t>& component) {
     std::vector<Component> components;
-    place.resize(runs.size());
+    component.resize(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::size_t first = runs.root(i);
-        const Run& run = runs[i];
+        const PixelRun& run = runs[i];
         if (first == i) {
-            place[i] = static_cast<std::int32_t>(components.size());
+            component[i] = static_cast<std::int32_t>(components.size());
             components.push_back({run.begin, run.row, run.end, run.row, 0, run.label});
         }
-        place[i] = place[first];
-        components[static_cast<std::size_t>(place[i])].add(run);
+        component[i] = component[first];
+        components[static_cast<std::size_t>(component[i])].add(run);
     }
     return components;
 }
 
-Grouping group(Runs& runs, int min_area) {
+Grouping group(PixelRuns& runs, int min_area) {
     Grouping groups;
-    const auto all = gather(runs, groups.place);
+    const auto all = collect_components(runs, groups.component);
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].area >= min_area) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
                      [&all](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
 
-    std::vector<std::int32_t> place(all.size(), -1);
+    std::vector<std::int32_t> component(all.size(), -1);
     for (const std::size_t i : order) {
-        place[i] = static_cast<std::int32_t>(groups.components.size());
+        component[i] = static_cast<std::int32_t>(groups.components.size());
         groups.components.push_back(all[i]);
     }
-    for (auto& each : groups.place) each = place[static_cast<std::size_t>(each)];
+    for (auto& each : groups.component) each = component[static_cast<std::size_t>(each)];
     return groups;
 }
 
-/// What is counted of one component. A run adds 1 to the columns from where it begins, and takes it back where it ends.
-struct Tally {
+/// The counts of one component. A run adds 1 to `columns` where it begins and subtracts 1 where it ends; finish() adds them up.
+struct ComponentCounts {
     Component box;
     Counts levels, columns, rows;
-    std::array<double, kLanes> metres{};
-    std::int64_t measured = 0;  ///< of what isn't counted by level
+    std::array<double, kLanes> meters{};
+    std::int64_t measured = 0;  ///< pixels; by level only after finish()
 
-    Tally(const Component& component, int level_count)
+    ComponentCounts(const Component& component, int level_count)
         : box(component),
           levels(kLanes * (static_cast<std::size_t>(level_count) + 1)),
           columns(static_cast<std::size_t>(box.x1 - box.x0) + 1),
           rows(static_cast<std::size_t>(box.y1 - box.y0)) {}
 
-    void add_box(const Run& run) {
+    void add_box(const PixelRun& run) {
         ++columns[static_cast<std::size_t>(run.begin - box.x0)];
         --columns[static_cast<std::size_t>(run.end - box.x0)];
         rows[static_cast<std::size_t>(run.row - box.y0)] += run.length();
@@ -116,7 +116,7 @@ struct Tally {
 
     void add_depth(const std::int32_t* level, const double* depth, std::size_t n) {
         std::int32_t* counts = levels.data();
-        auto sums = metres;
+        auto sums = meters;
         std::size_t x = 0;
         for (; x + kLanes <= n; x += kLanes)
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -127,19 +127,19 @@ struct Tally {
             ++counts[kLanes * static_cast<std::size_t>(level[x]) + lane];
             sums[lane] += depth[x];
         }
-        metres = sums;
+        meters = sums;
     }
 
-    /// Without levels.
+    /// Adds depths without counting levels.
     void add_depth(const float* depth, std::size_t n) {
         for (std::size_t x = 0; x < n; ++x) {
             const bool counts = has_depth(depth[x]);
-            metres[x % kLanes] += counts ? static_cast<double>(depth[x]) : 0.0;
+            meters[x % kLanes] += counts ? static_cast<double>(depth[x]) : 0.0;
             measured += counts;
         }
     }
 
-    /// Afterwards columns and levels are what their names say. Returns how many pixels were measured.
+    /// Completes the counts of columns and levels. Returns how many pixels were measured.
     std::int64_t finish() {
         std::partial_sum(columns.begin(), columns.end(), columns.begin());
         columns.pop_back();
@@ -159,36 +159,36 @@ void write_shares(const Counts& counts, std::int64_t total, float* shares) {
 }
 
 /// Counts of the columns (or rows) of a box, summed in `bins` equal parts of it.
-Counts spread(const Counts& counts, int bins) {
+Counts rebin(const Counts& counts, int bins) {
     Counts parts(static_cast<std::size_t>(bins));
     for (std::size_t i = 0; i < counts.size(); ++i)
         parts[(2 * i + 1) * parts.size() / (2 * counts.size())] += counts[i];
     return parts;
 }
 
-/// The image of components.
-LabelImage paint(const Runs& runs, const Grouping& groups, const DepthView& depth) {
+/// The label image: 1 + the index of each component.
+LabelImage label_pixels(const PixelRuns& runs, const Grouping& groups, const DepthView& depth) {
     LabelImage image = LabelImage::Zero(depth.rows, depth.cols);
     for (std::size_t i = 0; i < runs.size(); ++i)
-        std::fill_n(image.row(runs[i].row).data() + runs[i].begin, runs[i].length(), groups.place[i] + 1);
+        std::fill_n(image.row(runs[i].row).data() + runs[i].begin, runs[i].length(), groups.component[i] + 1);
     return image;
 }
 
-/// Goes through the runs once more, in reading order.
-std::vector<Tally> count(const Runs& runs, const Grouping& groups, const DepthView& depth,
-                         const Signature& signature) {
+/// Counts all components in a second pass over the runs, in reading order.
+std::vector<ComponentCounts> count_components(const PixelRuns& runs, const Grouping& groups,
+                                              const DepthView& depth, const Signature& signature) {
     const double scale = signature.levels / (signature.far - signature.near);
     std::vector<std::int32_t> level(static_cast<std::size_t>(depth.cols));
-    std::vector<double> metres(level.size());
-    std::vector<Tally> tallies;
+    std::vector<double> meters(level.size());
+    std::vector<ComponentCounts> tallies;
     for (const Component& each : groups.components) tallies.emplace_back(each, signature.levels);
     int row = -1;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const std::int32_t place = groups.place[i];
-        if (place < 0) continue;
-        const Run& run = runs[i];
+        const std::int32_t component = groups.component[i];
+        if (component < 0) continue;
+        const PixelRun& run = runs[i];
         const auto length = static_cast<std::size_t>(run.length());
-        Tally& tally = tallies[static_cast<std::size_t>(place)];
+        ComponentCounts& tally = tallies[static_cast<std::size_t>(component)];
         tally.add_box(run);
         if (signature.levels == 0) {
             tally.add_depth(depth.row(run.row) + run.begin, length);
@@ -197,9 +197,9 @@ std::vector<Tally> count(const Runs& runs, const Grouping& groups, const DepthVi
         if (run.row != row) {
             row = run.row;
             find_levels(depth.row(row), depth.cols, signature.near, scale, signature.levels, level.data(),
-                        metres.data());
+                        meters.data());
         }
-        tally.add_depth(level.data() + run.begin, metres.data() + run.begin, length);
+        tally.add_depth(level.data() + run.begin, meters.data() + run.begin, length);
     }
     return tallies;
 }
@@ -208,7 +208,8 @@ std::string shape(int rows, int cols) {
     return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
 }
 
-void require(const ImageView& labels, const DepthView& depth, const Signature& signature, int min_area) {
+void require_arguments(const ImageView& labels, const DepthView& depth, const Signature& signature,
+                       int min_area) {
     if (labels.rows != depth.rows || labels.cols != depth.cols)
         refuse("labels", "shape " + shape(depth.rows, depth.cols), shape(labels.rows, labels.cols));
     if (!(signature.near >= 0.0 && std::isfinite(signature.near)))
@@ -224,24 +225,24 @@ void require(const ImageView& labels, const DepthView& depth, const Signature& s
 
 DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
                                  int min_area, bool image) {
-    require(labels, depth, signature, min_area);
-    Runs runs = label_runs(labels);
+    require_arguments(labels, depth, signature, min_area);
+    PixelRuns runs = label_runs(labels);
     const Grouping groups = group(runs, min_area);
     const auto C = static_cast<Eigen::Index>(groups.components.size());
     DepthComponents result{States(C, 7), Floats::Zero(C, signature.levels), Floats::Zero(C, signature.bins),
                            Floats::Zero(C, signature.bins),
-                           image ? paint(runs, groups, depth) : LabelImage()};
-    auto tallies = count(runs, groups, depth, signature);
+                           image ? label_pixels(runs, groups, depth) : LabelImage()};
+    auto tallies = count_components(runs, groups, depth, signature);
     for (Eigen::Index i = 0; i < C; ++i) {
-        Tally& tally = tallies[static_cast<std::size_t>(i)];
+        ComponentCounts& tally = tallies[static_cast<std::size_t>(i)];
         const Component& box = tally.box;
         const std::int64_t measured = tally.finish();
-        const double sum = std::accumulate(tally.metres.begin(), tally.metres.end(), 0.0);
+        const double sum = std::accumulate(tally.meters.begin(), tally.meters.end(), 0.0);
         result.table.row(i) << box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0,
             static_cast<double>(box.area), sum / static_cast<double>(measured), box.label;
         write_shares(tally.levels, measured, result.histograms.row(i).data());
-        write_shares(spread(tally.columns, signature.bins), box.area, result.columns.row(i).data());
-        write_shares(spread(tally.rows, signature.bins), box.area, result.rows.row(i).data());
+        write_shares(rebin(tally.columns, signature.bins), box.area, result.columns.row(i).data());
+        write_shares(rebin(tally.rows, signature.bins), box.area, result.rows.row(i).data());
     }
     return result;
 }

@@ -32,7 +32,7 @@ Vector gaussian(double bandwidth) {
     return kernel / kernel.sum();
 }
 
-/// The levels with `radius` more at each end, mirrored as often as it takes.
+/// The levels with `radius` more at each end, mirrored as often as needed.
 Vector mirrored(const Vector& levels, Eigen::Index radius) {
     const Eigen::Index count = levels.size(), period = 2 * count;
     Vector longer(count + 2 * radius);

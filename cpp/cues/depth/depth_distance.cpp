@@ -3,7 +3,7 @@
 
 #include "base/check.hpp"
 #include "cues/depth/detail/depth_reader.hpp"
-#include "cues/depth/detail/level_counter.hpp"
+#include "cues/depth/detail/relative_histogram.hpp"
 
 namespace tricue {
 
@@ -12,17 +12,17 @@ States depth_distance(const DepthView& depth, StatesRef rectangles, const DepthM
     require_shape(rectangles, rectangles.rows(), 5, "rectangles");
     require_finite(rectangles, "rectangles");
     DepthReader reader(depth, pattern);
-    LevelCounter counter(model.histogram.size(), model.reach, reader.places());
+    RelativeHistogram histogram(model.histogram.size(), model.reach, reader.places());
     require_model(model.histogram);
     require_nearer(nearer);
 
     States measured(rectangles.rows(), 3);
     for (Eigen::Index i = 0; i < rectangles.rows(); ++i) {
-        const float* seen = reader.read(rectangles.row(i).data());
+        const float* depths = reader.read(rectangles.row(i).data());
         const double z = rectangles(i, 4);
-        counter.count(seen, z);
-        measured.row(i) << counter.distance(model.histogram), counter.counted() / counter.places(),
-            count_below(seen, reader.places(), z - nearer) / counter.places();
+        histogram.count(depths, z);
+        measured.row(i) << histogram.distance(model.histogram), histogram.total() / histogram.samples(),
+            count_below(depths, reader.places(), z - nearer) / histogram.samples();
     }
     return measured;
 }

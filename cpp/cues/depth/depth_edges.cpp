@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a depth has to exceed grows with the neighbour's, rounding included: so the nearest of the neighbours decides, and
-// the pixel itself may stand among them, as it never exceeds its own.
+// The threshold grows with the neighbor's depth, rounding included, so the nearest neighbor decides. The pixel itself may be among
+// them, as it never exceeds its own threshold.
 #include "cues/depth/depth_edges.hpp"
 
 #include <algorithm>
@@ -16,31 +16,32 @@
 namespace tricue {
 namespace {
 
-constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
 void require_step(double value, const char* name) {
     if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
 }
 
-inline float least(float a, float b) {
+inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-/// The nearest of each pixel and its neighbours left and right. `padded` has one more float at either end.
+/// The nearest of each pixel and its neighbors left and right. `padded` has one more float at either end.
 TRICUE_MULTIVERSION
 void nearest_in_row(const float* __restrict depth, int n, float* __restrict padded,
                     float* __restrict nearest) {
-    in_blocks(n, [=](std::ptrdiff_t x) { padded[x + 1] = has_depth(depth[x]) ? depth[x] : kFar; });
-    in_blocks(n,
-              [=](std::ptrdiff_t x) { nearest[x] = least(least(padded[x], padded[x + 1]), padded[x + 2]); });
+    for_overlapping_blocks(
+        n, [=](std::ptrdiff_t x) { padded[x + 1] = has_depth(depth[x]) ? depth[x] : kUnmeasured; });
+    for_overlapping_blocks(
+        n, [=](std::ptrdiff_t x) { nearest[x] = smaller(smaller(padded[x], padded[x + 1]), padded[x + 2]); });
 }
 
 TRICUE_MULTIVERSION
 void edges_of_row(const float* __restrict depth, const float* __restrict above, const float* __restrict here,
                   const float* __restrict below, int n, float gap, float slope,
                   std::uint8_t* __restrict edges) {
-    in_blocks(n, [=](std::ptrdiff_t x) {
-        const float z = depth[x], nearest = least(least(above[x], here[x]), below[x]);
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
+        const float z = depth[x], nearest = smaller(smaller(above[x], here[x]), below[x]);
         edges[x] = has_depth(z) & (z - nearest > gap + slope * (nearest * nearest));
     });
 }
@@ -52,20 +53,20 @@ Labels depth_edges(const DepthView& depth, double gap, double slope) {
     require_step(slope, "slope");
     Labels edges(depth.rows, depth.cols);
     const auto n = static_cast<std::size_t>(depth.cols);
-    std::vector<float> padded(n + 2, kFar);
+    std::vector<float> padded(n + 2, kUnmeasured);
     std::array<std::vector<float>, 3> nearest;  // of three rows, in turn
-    nearest.fill(std::vector<float>(n, kFar));
-    const auto read = [&](int y) {
+    nearest.fill(std::vector<float>(n, kUnmeasured));
+    const auto read_row = [&](int y) {
         auto& row = nearest[static_cast<std::size_t>(y) % 3];
         if (y < depth.rows)
             nearest_in_row(depth.row(y), depth.cols, padded.data(), row.data());
         else
-            std::fill(row.begin(), row.end(), kFar);
+            std::fill(row.begin(), row.end(), kUnmeasured);
         return row.data();
     };
-    const float *above = nearest[2].data(), *here = depth.rows > 0 ? read(0) : above;
+    const float *above = nearest[2].data(), *here = depth.rows > 0 ? read_row(0) : above;
     for (int y = 0; y < depth.rows; ++y) {
-        const float* below = read(y + 1);
+        const float* below = read_row(y + 1);
         edges_of_row(depth.row(y), above, here, below, depth.cols, static_cast<float>(gap),
                      static_cast<float>(slope), edges.data() + std::ptrdiff_t{y} * depth.cols);
         above = here;

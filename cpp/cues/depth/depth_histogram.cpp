@@ -12,8 +12,8 @@
 namespace tricue {
 namespace {
 
-// Neighbours mostly share a level, and a count that was just written takes its time to be read again: so
-// neighbours count in different tables.
+// Neighbors mostly share a level, and reading a count that was just written is slow: so neighbors count in
+// different tables.
 constexpr std::size_t kTables = 4;
 
 void require_levels(const DepthLevels& levels) {
@@ -26,14 +26,14 @@ void require_levels(const DepthLevels& levels) {
 
 /// The level of every pixel of a row; `levels.count` for what isn't counted.
 TRICUE_MULTIVERSION
-void levels_of_row(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
-                   const DepthLevels& levels, std::int32_t* __restrict level) {
-    const float least = float_at_least(levels.near), end = float_at_least(levels.far);
+void find_levels(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
+                 const DepthLevels& levels, std::int32_t* __restrict level) {
+    const float least = round_up_to_float(levels.near), end = round_up_to_float(levels.far);
     const auto near = static_cast<float>(levels.near);
     const auto scale = static_cast<float>(levels.count / (levels.far - levels.near));
     const auto top = static_cast<float>(levels.count - 1);
     const std::int32_t none = levels.count;
-    in_blocks(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
         const float z = depth[x], place = (z - near) * scale;
         const bool counts = has_depth(z) & (mask[x] != 0) & (z >= least) & (z < end);
         const float within = counts & (place < top) ? place : top;
@@ -51,7 +51,7 @@ Vector depth_histogram(const DepthView& depth, const ImageView& mask, const Dept
     std::vector<std::int64_t> counts(kTables * bins);
     std::vector<std::int32_t> level((cols + kTables - 1) / kTables * kTables, levels.count);
     for (int y = 0; y < depth.rows; ++y) {
-        levels_of_row(depth.row(y), mask.row(y), depth.cols, levels, level.data());
+        find_levels(depth.row(y), mask.row(y), depth.cols, levels, level.data());
         for (std::size_t x = 0; x < level.size(); x += kTables)
             for (std::size_t t = 0; t < kTables; ++t)
                 ++counts[t * bins + static_cast<std::size_t>(level[x + t])];

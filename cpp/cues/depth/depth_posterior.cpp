@@ -12,9 +12,9 @@ namespace tricue {
 namespace {
 
 constexpr float kClutter = 0.1F;
-constexpr float kMostExponent = 80.0F;  // of a posterior below 1e-33; more would overflow
+constexpr float kMaxExponent = 80.0F;  // of a posterior below 1e-33; more would overflow
 
-/// Squares along one axis whose centres lie in the image, one after the other, and the pixels in which they do.
+/// The samples along one axis that lie in the image: the first one, and the pixel of each.
 struct Axis {
     std::size_t first = 0;
     std::vector<int> pixels;
@@ -33,7 +33,7 @@ Axis find_pixels(double start, double step, int count, int size) {
     return axis;
 }
 
-/// Depths as they are, 0 outside the image.
+/// Depths at the samples, 0 outside the image.
 Floats read_depths(const DepthView& depth, const SampleGrid& grid) {
     const Axis across = find_pixels(grid.x, grid.step, grid.columns, depth.cols),
                down = find_pixels(grid.y, grid.step, grid.rows, depth.rows);
@@ -52,40 +52,40 @@ inline bool is_measured(float z) {
 
 /// ((z - expected) / sigma)² / 2 of what is measured, else 0; and whether it is nearer than `near`.
 TRICUE_MULTIVERSION
-void compare(const float* __restrict depths, double expected, double per_sigma, double near, Eigen::Index n,
-             float* __restrict exponents, std::uint8_t* __restrict nearer) {
+void measure_deviations(const float* __restrict depths, double expected, double per_sigma, double near,
+                        Eigen::Index n, float* __restrict exponents, std::uint8_t* __restrict nearer) {
     for (Eigen::Index i = 0; i < n; ++i) {
         const bool measured = is_measured(depths[i]);
         const double z = measured ? static_cast<double>(depths[i]) : expected;
         const double deviation = (z - expected) * per_sigma;
         const auto exponent = static_cast<float>(0.5 * deviation * deviation);
-        exponents[i] = exponent < kMostExponent ? exponent : kMostExponent;
+        exponents[i] = exponent < kMaxExponent ? exponent : kMaxExponent;
         nearer[i] = z < near;
     }
 }
 
 /// 1 / (1 + c / p), `inverse` being 1 / p; 1/2 where nothing is measured.
 TRICUE_MULTIVERSION
-void judge(const float* __restrict depths, const float* __restrict inverse, Eigen::Index n,
-           float* __restrict posterior) {
+void write_posterior(const float* __restrict depths, const float* __restrict inverse, Eigen::Index n,
+                     float* __restrict posterior) {
     for (Eigen::Index i = 0; i < n; ++i) {
         const float share = 1.0F / (1.0F + kClutter * inverse[i]);
         posterior[i] = is_measured(depths[i]) ? share : 0.5F;
     }
 }
 
-void require_above_0(double number, const char* name) {
+void require_positive(double number, const char* name) {
     if (!(number > 0.0 && std::isfinite(number))) refuse(name, "a finite number above 0", number);
 }
 
 void require_arguments(const SampleGrid& grid, const ExpectedDepth& target) {
     if (!std::isfinite(grid.x)) refuse("x0", "a finite number", grid.x);
     if (!std::isfinite(grid.y)) refuse("y0", "a finite number", grid.y);
-    require_above_0(grid.step, "step");
+    require_positive(grid.step, "step");
     if (grid.rows < 1) refuse("rows", "at least 1", grid.rows);
     if (grid.columns < 1) refuse("columns", "at least 1", grid.columns);
-    require_above_0(target.expected, "expected");
-    require_above_0(target.sigma, "sigma");
+    require_positive(target.expected, "expected");
+    require_positive(target.sigma, "sigma");
     if (!(target.near_margin >= 0.0 && std::isfinite(target.near_margin)))
         refuse("near_margin", "a finite number, not negative", target.near_margin);
 }
@@ -98,10 +98,11 @@ DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, c
     Floats exponents(grid.rows, grid.columns);
     DepthPosterior result{Floats(grid.rows, grid.columns), {}};
     result.nearer.resize(grid.rows, grid.columns);
-    compare(depths.data(), target.expected, 1.0 / target.sigma, target.expected - target.near_margin,
-            depths.size(), exponents.data(), result.nearer.data());
+    measure_deviations(depths.data(), target.expected, 1.0 / target.sigma,
+                       target.expected - target.near_margin, depths.size(), exponents.data(),
+                       result.nearer.data());
     exponents = exponents.exp();
-    judge(depths.data(), exponents.data(), depths.size(), result.posterior.data());
+    write_posterior(depths.data(), exponents.data(), depths.size(), result.posterior.data());
     return result;
 }
 

@@ -24,13 +24,14 @@ TRICUE_MULTIVERSION
 void divide_row(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
                 const float* __restrict dividers, int divisions, std::uint8_t* __restrict labels) {
     const float first = dividers[0], end = dividers[divisions];
-    in_blocks(n, [=](std::ptrdiff_t x) { labels[x] = depth[x] >= first; });
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) { labels[x] = depth[x] >= first; });
     for (int k = 1; k < divisions; ++k) {
         const float least = dividers[k];
         const auto label = static_cast<std::uint8_t>(k + 1);
-        in_blocks(n, [=](std::ptrdiff_t x) { labels[x] = depth[x] >= least ? label : labels[x]; });
+        for_overlapping_blocks(n,
+                               [=](std::ptrdiff_t x) { labels[x] = depth[x] >= least ? label : labels[x]; });
     }
-    in_blocks(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
         const bool inside = has_depth(depth[x]) & (mask[x] != 0) & (depth[x] < end);
         labels[x] = inside ? labels[x] : std::uint8_t{0};
     });
@@ -42,7 +43,7 @@ Labels divide_depth(const DepthView& depth, const ImageView& mask, VectorRef div
     require_mask(mask, depth);
     require_dividers(dividers);
     std::vector<float> floats;
-    for (const double s : dividers) floats.push_back(float_at_least(s));
+    for (const double s : dividers) floats.push_back(round_up_to_float(s));
     const int divisions = static_cast<int>(floats.size()) - 1;
     Labels labels(depth.rows, depth.cols);
     for (int y = 0; y < depth.rows; ++y)

@@ -16,42 +16,42 @@
 namespace tricue {
 namespace {
 
-constexpr float kFar = std::numeric_limits<float>::infinity();
-constexpr float kLargest = std::numeric_limits<float>::max();
+constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
+constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 TRICUE_MULTIVERSION
 void copy_row(const float* __restrict depth, int n, float missing, float* __restrict copy) {
-    in_blocks(n, [=](std::ptrdiff_t x) { copy[x] = has_depth(depth[x]) ? depth[x] : missing; });
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) { copy[x] = has_depth(depth[x]) ? depth[x] : missing; });
 }
 
-/// A depth image with a rim of one pixel, infinite there and where nothing was measured: so that is never the nearest.
-struct Padded {
+/// A depth image with a border of one pixel, infinite there and where nothing was measured: those are never the nearest.
+struct PaddedDepth {
     int rows, cols;
     std::vector<float> pixels;
 
-    explicit Padded(const DepthView& depth)
+    explicit PaddedDepth(const DepthView& depth)
         : rows(depth.rows),
           cols(depth.cols),
-          pixels((static_cast<std::size_t>(rows) + 2) * (static_cast<std::size_t>(cols) + 2), kFar) {
-        for (int y = 0; y < rows; ++y) copy_row(depth.row(y), cols, kFar, row(y));
+          pixels((static_cast<std::size_t>(rows) + 2) * (static_cast<std::size_t>(cols) + 2), kUnmeasured) {
+        for (int y = 0; y < rows; ++y) copy_row(depth.row(y), cols, kUnmeasured, row(y));
     }
 
-    /// From the first pixel of row y on, which is between -1 and `rows`; the rim's pixels are beside it.
+    /// The first pixel of row y, -1 to `rows`; the border is beside it.
     float* row(int y) { return pixels.data() + (std::ptrdiff_t{y} + 1) * (std::ptrdiff_t{cols} + 2) + 1; }
     DepthView view() { return {row(0), rows, cols, std::ptrdiff_t{cols} + 2}; }
 };
 
-/// `known` has four more bytes, all 0: what is beyond the row's end isn't known to be measured.
+/// `known` has four more bytes, all 0: pixels beyond the end of a row count as not measured.
 TRICUE_MULTIVERSION
-void count_row(const float* __restrict depth, int n, std::uint8_t* __restrict known, std::int32_t* measured,
-               std::int32_t* gaps) {
-    in_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
-    std::int32_t all = 0, small = 0;
+void count_gaps(const float* __restrict depth, int n, std::uint8_t* __restrict known, std::int32_t* measured,
+                std::int32_t* gaps) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
+    std::int32_t all = 0, short_gaps = 0;
     for (int x = 0; x < n; ++x) all += known[x];
     for (int x = 0; x < n; ++x)
-        small += known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
+        short_gaps += known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
     *measured = all;
-    *gaps = small;
+    *gaps = short_gaps;
 }
 
 bool is_ragged(const DepthView& depth, double share) {
@@ -59,7 +59,7 @@ bool is_ragged(const DepthView& depth, double share) {
     std::int64_t measured = 0, gaps = 0;
     for (int y = 0; y < depth.rows; ++y) {
         std::int32_t measured_here = 0, gaps_here = 0;
-        count_row(depth.row(y), depth.cols, known.data(), &measured_here, &gaps_here);
+        count_gaps(depth.row(y), depth.cols, known.data(), &measured_here, &gaps_here);
         measured += measured_here;
         gaps += gaps_here;
     }
@@ -67,7 +67,7 @@ bool is_ragged(const DepthView& depth, double share) {
 }
 
 /// A copy, NaN where nothing was measured.
-Floats cleaned(const DepthView& depth) {
+Floats copy_measured(const DepthView& depth) {
     Floats copy(depth.rows, depth.cols);
     for (int y = 0; y < depth.rows; ++y)
         copy_row(depth.row(y), depth.cols, std::numeric_limits<float>::quiet_NaN(),
@@ -75,34 +75,35 @@ Floats cleaned(const DepthView& depth) {
     return copy;
 }
 
-inline float least(float a, float b) {
+inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-/// Written out: compilers don't vectorise a loop over the neighbours inside the one over the pixels.
+/// Unrolled by hand: compilers don't vectorize a loop over the neighbors inside the one over the pixels.
 TRICUE_MULTIVERSION
 void fill_row(const float* __restrict above, const float* __restrict here, const float* __restrict below,
               int n, float gap, float slope, float* __restrict filled) {
-    in_blocks(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
         const float a = above[x - 1], b = above[x], c = above[x + 1], d = here[x - 1], e = here[x + 1],
                     f = below[x - 1], g = below[x], h = below[x + 1];
-        const float nearest = least(least(least(a, b), least(c, d)), least(least(e, f), least(g, h)));
-        // Where the square overflows, what wasn't measured still isn't on the surface.
-        const float reach = least(nearest + (gap + slope * (nearest * nearest)), kLargest);
+        const float nearest =
+            smaller(smaller(smaller(a, b), smaller(c, d)), smaller(smaller(e, f), smaller(g, h)));
+        // Finite even if the square overflows: pixels without a measurement are never on the surface.
+        const float reach = smaller(nearest + (gap + slope * (nearest * nearest)), kMaxFloat);
         const auto value = [reach](float z) { return z <= reach ? z : 0.0f; };
         const auto vote = [reach](float z) { return z <= reach ? 1.0f : 0.0f; };
         const float sum =
             value(a) + value(b) + value(c) + value(d) + value(e) + value(f) + value(g) + value(h);
         const float votes = vote(a) + vote(b) + vote(c) + vote(d) + vote(e) + vote(f) + vote(g) + vote(h);
         const float mean = sum / votes, old = here[x];
-        filled[x] = old <= kLargest ? old : votes >= 2.0f ? mean : kFar;
+        filled[x] = old <= kMaxFloat ? old : votes >= 2.0f ? mean : kUnmeasured;
     });
 }
 
-/// One pass, in place: the rows that it still reads are kept as they were.
-void fill_once(Padded& image, float gap, float slope) {
+/// One pass, in place; rows that are still read are copied first.
+void fill_pass(PaddedDepth& image, float gap, float slope) {
     const auto width = static_cast<std::size_t>(image.cols) + 2;
-    std::vector<float> above(width, kFar), here(width);
+    std::vector<float> above(width, kUnmeasured), here(width);
     for (int y = 0; y < image.rows; ++y) {
         float* row = image.row(y);
         std::copy_n(row - 1, width, here.begin());
@@ -122,11 +123,11 @@ Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged
     require_step(slope, "slope");
     if (!(ragged >= 0.0 && ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", ragged);
     if (passes < 0) refuse("passes", "at least 0", passes);
-    if (passes == 0 || !is_ragged(depth, ragged)) return cleaned(depth);
-    Padded image(depth);
+    if (passes == 0 || !is_ragged(depth, ragged)) return copy_measured(depth);
+    PaddedDepth image(depth);
     for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged / 2)); ++pass)
-        fill_once(image, static_cast<float>(gap), static_cast<float>(slope));
-    return cleaned(image.view());
+        fill_pass(image, static_cast<float>(gap), static_cast<float>(slope));
+    return copy_measured(image.view());
 }
 
 }  // namespace tricue

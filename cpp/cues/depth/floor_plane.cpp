@@ -18,9 +18,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kRounds = 3;
-constexpr double kLine2 = 1e-4;  // square of the least sine between two edges of a triple
-constexpr double kEdgeOn = 1e-3;
+constexpr int kRefits = 3;
+constexpr double kMinSineSquared = 1e-4;  // square of the least sine between two edges of a triple
+constexpr double kMinViewSine = 1e-3;
 constexpr std::ptrdiff_t kBlock = 512;
 
 struct Plane {
@@ -28,7 +28,7 @@ struct Plane {
     double d;
 };
 
-/// What the counting loops are given, in their own precision.
+/// The plane and tolerance in float32, for the loops that count.
 struct Slab {
     float nx, ny, nz, d, tolerance;
 
@@ -40,7 +40,7 @@ struct Slab {
           tolerance(static_cast<float>(t)) {}
 };
 
-/// The measured pixels back-projected, an array a coordinate.
+/// The measured pixels back-projected, one array per coordinate.
 struct Points {
     std::vector<float> x, y, z;
 
@@ -82,7 +82,8 @@ Points measured_points(const DepthView& depth, const Rays& rays) {
     std::size_t count = 0;
     for (std::size_t v = 0; v < rays.y.size(); ++v) {
         const float* row = depth.row(static_cast<int>(v));
-        for (std::size_t u = 0; u < rays.x.size(); ++u) {  // without a branch: the next one overwrites a hole
+        for (std::size_t u = 0; u < rays.x.size();
+             ++u) {  // without a branch: the next pixel overwrites an unmeasured one
             points.x[count] = rays.x[u] * row[u];
             points.y[count] = rays.y[v] * row[u];
             points.z[count] = row[u];
@@ -101,12 +102,12 @@ Vector3d point_at(const DepthView& depth, const Rays& rays, std::int64_t index) 
     return {rays.x[static_cast<std::size_t>(u)] * z, rays.y[static_cast<std::size_t>(v)] * z, z};
 }
 
-/// The plane through a point, turned so that the camera is above it; nothing where that isn't level, or seen edge-on.
+/// The plane through a point, oriented so that the camera is above it; nothing if it isn't level, or is visible edge-on.
 std::optional<Plane> level_plane(const Vector3d& normal, const Vector3d& point, const Level& level) {
     Plane plane{normal, -dot(normal, point)};
     if (plane.d < 0.0) plane = {-plane.n, -plane.d};
-    const bool seen = plane.d > kEdgeOn * std::sqrt(dot(point, point));
-    if (seen && dot(plane.n, level.up.matrix()) >= level.min_cosine) return plane;
+    const bool visible = plane.d > kMinViewSine * std::sqrt(dot(point, point));
+    if (visible && dot(plane.n, level.up.matrix()) >= level.min_cosine) return plane;
     return {};
 }
 
@@ -114,7 +115,7 @@ std::optional<Plane> plane_through(const Vector3d& p, const Vector3d& q, const V
                                    const Level& level) {
     const Vector3d a = q - p, b = r - p, normal = a.cross(b);
     const double square = dot(normal, normal);
-    if (!(square > kLine2 * dot(a, a) * dot(b, b))) return {};  // NaN too
+    if (!(square > kMinSineSquared * dot(a, a) * dot(b, b))) return {};  // NaN too
     return level_plane(normal / std::sqrt(square), p, level);
 }
 
@@ -132,7 +133,7 @@ Count count_block(const float* __restrict x, const float* __restrict y, const fl
     return {within, below};
 }
 
-/// Stops early where the score can't exceed `beat` any more.
+/// Stops early when the score can't exceed `beat` any more.
 Count count_points(const Points& points, const Slab& slab, int beat) {
     Count count;
     for (std::ptrdiff_t i = 0; i < points.size(); i += kBlock) {
@@ -154,8 +155,8 @@ void mark_within(const float* __restrict x, const float* __restrict y, const flo
         within[i] = std::abs(((nx * x[i] + ny * y[i]) + nz * z[i]) + d) <= tolerance;
 }
 
-/// One pass: sums relative to the first of the pixels chosen, so that little is lost when the mean is subtracted.
-std::optional<Plane> fit(const Points& points, const Slab& slab, const Level& level) {
+/// Least squares in one pass. Sums are relative to the first point, so that subtracting the mean loses little precision.
+std::optional<Plane> fit_plane(const Points& points, const Slab& slab, const Level& level) {
     std::vector<std::uint8_t> within(points.z.size());
     mark_within(points.x.data(), points.y.data(), points.z.data(), points.size(), slab, within.data());
     const auto first =
@@ -182,7 +183,7 @@ std::optional<Plane> fit(const Points& points, const Slab& slab, const Level& le
 
 Vector floor_plane(const DepthView& depth, VectorRef camera, TriplesRef triples, double tolerance,
                    const Level& level) {
-    const Rays lens = rays(camera, depth);
+    const Rays lens = find_rays(camera, depth);
     if (!(tolerance > 0.0 && std::isfinite(tolerance)))
         refuse("tolerance", "a finite number above 0", tolerance);
     require_level(level);
@@ -194,15 +195,15 @@ Vector floor_plane(const DepthView& depth, VectorRef camera, TriplesRef triples,
         const auto plane =
             plane_through(point_at(depth, lens, triples(k, 0)), point_at(depth, lens, triples(k, 1)),
                           point_at(depth, lens, triples(k, 2)), level);
-        const int its = plane ? count_points(points, {*plane, tolerance}, score).score() : 0;
-        if (its > score) {
+        const int plane_score = plane ? count_points(points, {*plane, tolerance}, score).score() : 0;
+        if (plane_score > score) {
             best = plane;
-            score = its;
+            score = plane_score;
         }
     }
     if (!best) return Vector::Zero(6);
-    for (int round = 0; round < kRounds; ++round)
-        best = fit(points, {*best, tolerance}, level).value_or(*best);
+    for (int round = 0; round < kRefits; ++round)
+        best = fit_plane(points, {*best, tolerance}, level).value_or(*best);
     const Count count = count_points(points, {*best, tolerance}, std::numeric_limits<int>::min());
     const auto all = static_cast<double>(points.size());
     Vector result(6);

@@ -18,7 +18,7 @@ struct Object {
     double x, y, z, width, height, shift_x, shift_y, area;
 };
 
-/// The mean of shares over the middles of equal parts of [-1/2, 1/2].
+/// The mean of a histogram over equal parts of [-1/2, 1/2].
 double mean_place(FloatsRef shares, Index row) {
     const auto bins = static_cast<double>(shares.cols());
     double mean = 0.0;
@@ -27,7 +27,7 @@ double mean_place(FloatsRef shares, Index row) {
     return mean;
 }
 
-Object in_metres(const ObjectTable& objects, Index i, VectorRef camera) {
+Object to_metric(const ObjectTable& objects, Index i, VectorRef camera) {
     const auto box = objects.table.row(i);
     const double z = box[5], per_x = z / camera[0], per_y = z / camera[1];
     const double width = box[2] * per_x, height = box[3] * per_y;
@@ -48,7 +48,7 @@ double height_of_feet(const Object& object, VectorRef plane) {
     return above / std::max(-plane[1], 0.1);
 }
 
-void stand(Object& object, double strip, double legs) {
+void extend_to_floor(Object& object, double strip, double legs) {
     object.y += strip / 2;
     object.height += strip;
     object.shift_y -= strip / 2;
@@ -65,9 +65,9 @@ void require_rows(Index rows, Index count, const char* name) {
     if (rows != count) refuse(name, std::to_string(count) + " rows", std::to_string(rows));
 }
 
-void require(const ObjectTable& objects, const Ground& ground) {
+void require_arguments(const ObjectTable& objects, const Ground& ground) {
     const Index count = objects.table.rows();
-    require_table(objects.table);
+    require_object_table(objects.table);
     require_rows(objects.columns.rows(), count, "columns");
     require_rows(objects.rows.rows(), count, "rows");
     require_rows(objects.cut.rows(), count, "cut");
@@ -83,13 +83,13 @@ void require(const ObjectTable& objects, const Ground& ground) {
 
 States measure_objects(const ObjectTable& objects, VectorRef camera, const Ground& ground) {
     require_camera(camera);
-    require(objects, ground);
+    require_arguments(objects, ground);
     const bool floor = (ground.plane != 0.0).any();
     States measured(objects.table.rows(), 8);
     for (Index i = 0; i < measured.rows(); ++i) {
-        Object object = in_metres(objects, i, camera);
+        Object object = to_metric(objects, i, camera);
         const double above = floor && !objects.cut(i, 3) ? height_of_feet(object, ground.plane) : 0.0;
-        if (above > 0.0 && above < ground.feet) stand(object, above, ground.legs);
+        if (above > 0.0 && above < ground.feet) extend_to_floor(object, above, ground.legs);
         measured.row(i) << object.x, object.y, object.z, object.width, object.height, object.shift_x,
             object.shift_y, object.area;
     }

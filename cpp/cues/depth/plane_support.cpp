@@ -36,7 +36,7 @@ Count count_row(const float* __restrict depth, const float* __restrict across, i
 }  // namespace
 
 Vector plane_support(const DepthView& depth, VectorRef camera, VectorRef plane, double tolerance, int step) {
-    const Rays lens = rays(camera, depth);
+    const Rays lens = find_rays(camera, depth);
     require_size(plane, 4, "plane");
     require_finite(plane, "plane");
     if (!(tolerance > 0.0 && std::isfinite(tolerance)))

@@ -3,7 +3,7 @@
 
 #include "base/check.hpp"
 #include "cues/depth/detail/depth_reader.hpp"
-#include "cues/depth/detail/level_counter.hpp"
+#include "cues/depth/detail/relative_histogram.hpp"
 
 namespace tricue {
 
@@ -13,13 +13,13 @@ Vector rectangle_histogram(const DepthView& depth, VectorRef rectangle, int leve
     require_finite(rectangle, "rectangle");
     if (levels < 1 || levels > 65536) refuse("levels", "1 to 65536", levels);
     DepthReader reader(depth, pattern);
-    LevelCounter counter(levels, reach, reader.places());
+    RelativeHistogram histogram(levels, reach, reader.places());
 
-    counter.count(reader.read(rectangle.data()), rectangle[4]);
-    if (counter.counted() == 0.0) return Vector::Zero(levels);
-    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(counter.counts(), levels)
+    histogram.count(reader.read(rectangle.data()), rectangle[4]);
+    if (histogram.total() == 0.0) return Vector::Zero(levels);
+    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(histogram.counts(), levels)
                .cast<double>() /
-           counter.counted();
+           histogram.total();
 }
 
 }  // namespace tricue

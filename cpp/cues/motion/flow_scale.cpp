@@ -9,17 +9,16 @@
 
 #include "base/arrays.hpp"
 #include "base/check.hpp"
-#include "base/lanes.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
 constexpr int kLanes = 4;  // sums side by side, so that an addition needn't wait for the one before
-using Doubles4 [[gnu::vector_size(8 * kLanes)]] = double;
+using Doubles4 = Pack<double, kLanes>;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr float kMost = std::numeric_limits<float>::max();
+constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 /// The flow in rows that are filled up to whole fours. `counts` is 1 where a pixel counts; elsewhere it, u and v are 0.
 struct Field {
@@ -41,7 +40,7 @@ struct Field {
 };
 
 /// Flow that stretches: u = s x + u0, v = s y + v0.
-struct Line {
+struct Expansion {
     double s, u0, v0;
 };
 
@@ -54,7 +53,7 @@ TRICUE_MULTIVERSION
 void copy_row(const float* __restrict u, const float* __restrict v, int n, double* __restrict counts,
               double* __restrict us, double* __restrict vs) {
     for (int x = 0; x < n; ++x) {
-        const bool known = (std::abs(u[x]) <= kMost) & (std::abs(v[x]) <= kMost);
+        const bool known = (std::abs(u[x]) <= kMaxFloat) & (std::abs(v[x]) <= kMaxFloat);
         counts[x] = known ? 1.0 : 0.0;
         us[x] = static_cast<double>(known ? u[x] : 0.0F);
         vs[x] = static_cast<double>(known ? v[x] : 0.0F);
@@ -70,12 +69,8 @@ void copy(const PlaneView& u, const PlaneView& v, Field& field) {
     }
 }
 
-[[gnu::always_inline]] inline double total(const Doubles4& lanes) {
-    return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-}
-
 TRICUE_MULTIVERSION
-void sum_up(Field& field, Sums& sums) {
+void accumulate(Field& field, Sums& sums) {
     const int rows = field.rows, cols = field.cols;
     const double *ones = field.counts(), *us = field.u(), *vs = field.v();
     Doubles4 count = {}, across = {}, down = {}, right = {}, low = {}, places = {}, products = {};
@@ -84,9 +79,9 @@ void sum_up(Field& field, Sums& sums) {
         Doubles4 x = Doubles4{0, 1, 2, 3} - field.middle_x;
         for (int i = 0; i < cols; i += kLanes, x += kLanes) {
             Doubles4 one, u, v;
-            read(ones + i, one);
-            read(us + i, u);
-            read(vs + i, v);
+            load(ones + i, one);
+            load(us + i, u);
+            load(vs + i, v);
             count += one;
             across += one * x;
             down += one * y;
@@ -96,40 +91,39 @@ void sum_up(Field& field, Sums& sums) {
             products += x * u + y * v;
         }
     }
-    sums = {total(count), total(across), total(down),    total(right),
-            total(low),   total(places), total(products)};
+    sums = {sum(count), sum(across), sum(down), sum(right), sum(low), sum(places), sum(products)};
 }
 
 /// Sets the squares, and gives the sum of those that count.
 TRICUE_MULTIVERSION
-double sum_squares(Field& field, const Line& line) {
+double sum_squares(Field& field, const Expansion& expansion) {
     const int rows = field.rows, cols = field.cols;
-    const auto [s, u0, v0] = line;
+    const auto [s, u0, v0] = expansion;
     const double *ones = field.counts(), *us = field.u(), *vs = field.v();
     double* squares = field.squares();
-    Doubles4 sum = {};
+    Doubles4 total = {};
     for (int row = 0; row < rows; ++row, ones += cols, us += cols, vs += cols, squares += cols) {
         const double y = row - field.middle_y;
         Doubles4 x = Doubles4{0, 1, 2, 3} - field.middle_x;
         for (int i = 0; i < cols; i += kLanes, x += kLanes) {
             Doubles4 one, u, v;
-            read(ones + i, one);
-            read(us + i, u);
-            read(vs + i, v);
+            load(ones + i, one);
+            load(us + i, u);
+            load(vs + i, v);
             u = u - s * x - u0;
             v = v - s * y - v0;
             const Doubles4 square = u * u + v * v;
-            sum += one * square;
-            write(square, squares + i);
+            total += one * square;
+            store(square, squares + i);
         }
     }
-    return total(sum);
+    return sum(total);
 }
 
 /// Pixels whose square is above the limit count no longer.
 TRICUE_MULTIVERSION
-void drop(const double* __restrict squares, std::ptrdiff_t n, double limit, double* __restrict counts,
-          double* __restrict u, double* __restrict v) {
+void drop_outliers(const double* __restrict squares, std::ptrdiff_t n, double limit,
+                   double* __restrict counts, double* __restrict u, double* __restrict v) {
     for (std::ptrdiff_t i = 0; i < n; ++i) {
         const bool kept = squares[i] <= limit;
         counts[i] = kept ? counts[i] : 0.0;
@@ -138,18 +132,18 @@ void drop(const double* __restrict squares, std::ptrdiff_t n, double limit, doub
     }
 }
 
-/// The line, and what there is to tell of it; a is NaN where there is none.
-FlowScale fit(Field& field, int least, Line& line) {
+/// The expansion, and what there is to tell of it; a is NaN where there is none.
+FlowScale fit_expansion(Field& field, int least, Expansion& expansion) {
     Sums sums;
-    sum_up(field, sums);
+    accumulate(field, sums);
     const double n = sums.count;
     const auto count = static_cast<std::int64_t>(n);
     if (count < least) return {kUnknown, kUnknown, count};
     const double places = sums.places - (sums.x * sums.x + sums.y * sums.y) / n;
     if (!(places > 0)) return {kUnknown, kUnknown, count};
     const double s = (sums.products - (sums.x * sums.u + sums.y * sums.v) / n) / places;
-    line = {s, (sums.u - s * sums.x) / n, (sums.v - s * sums.y) / n};
-    return {1 - s, sum_squares(field, line) / n, count};
+    expansion = {s, (sums.u - s * sums.x) / n, (sums.v - s * sums.y) / n};
+    return {1 - s, sum_squares(field, expansion) / n, count};
 }
 
 std::string shape(const PlaneView& plane) {
@@ -164,12 +158,12 @@ FlowScale flow_scale(const PlaneView& u, const PlaneView& v, double outliers, in
     if (least < 1) refuse("min_pixels", "at least 1 pixel", least);
     Field field(u);
     copy(u, v, field);
-    Line line;
-    const FlowScale first = fit(field, least, line);
+    Expansion expansion;
+    const FlowScale first = fit_expansion(field, least, expansion);
     if (std::isnan(first.a)) return first;
     const double limit = outliers * (outliers * first.spread);  // in this order never infinity times 0
-    drop(field.squares(), field.planes.cols(), limit, field.counts(), field.u(), field.v());
-    return fit(field, least, line);
+    drop_outliers(field.squares(), field.planes.cols(), limit, field.counts(), field.u(), field.v());
+    return fit_expansion(field, least, expansion);
 }
 
 }  // namespace tricue

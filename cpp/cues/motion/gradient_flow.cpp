@@ -11,17 +11,18 @@
 namespace tricue {
 namespace {
 
-constexpr double kLongest = 2.221441469079183;  // pi / sqrt(2) sigmas: see the header
+constexpr double kMaxFlowSigmas = 2.221441469079183;  // pi / sqrt(2) sigmas: see the header
 
 /// Cramer's rule on (4).
 TRICUE_MULTIVERSION
-void solve_row(const Constraints& row, float min_angle, float min_contrast, float longest, int n,
+void solve_row(const Constraints& row, float min_angle, float min_contrast, float max_flow, int n,
                const FlowRow& out) {
     const float *g_xs = row.g_x, *g_ys = row.g_y, *h_ys = row.h_y;
     const float *g_ts = row.g_t, *h_ts = row.h_t;
     float *us = out.u, *vs = out.v;
     float *angles = out.angle, *contrasts = out.contrast;
-#pragma GCC ivdep  // rows of eight arrays: more than the compiler would compare before the loop
+    // rows of eight arrays: more than the compiler would compare before the loop
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float g_x = g_xs[x], g_y = g_ys[x], h_x = g_y, h_y = h_ys[x];
         const float g_t = g_ts[x], h_t = h_ts[x];
@@ -35,7 +36,7 @@ void solve_row(const Constraints& row, float min_angle, float min_contrast, floa
         const float contrast = g + h;
         const float u = (g_y * h_t - h_y * g_t) / cross, v = (h_x * g_t - g_x * h_t) / cross;
         const bool kept = (angle > 0) & (angle >= min_angle) & (contrast >= min_contrast) &
-                          (u * u + v * v <= longest * longest);
+                          (u * u + v * v <= max_flow * max_flow);
         us[x] = kept ? u : kNoFlow;
         vs[x] = kept ? v : kNoFlow;
         angles[x] = angle;
@@ -57,17 +58,17 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
 
     const auto min_angle = static_cast<float>(minima.angle);
     const auto min_contrast = static_cast<float>(minima.contrast);
-    const auto longest = static_cast<float>(kLongest * sigma);
+    const auto max_flow = static_cast<float>(kMaxFlowSigmas * sigma);
     ConstraintRows constraints(sigma, width);
     const int radius = constraints.radius(), length = width + 2 * radius;
     std::vector<float> before(static_cast<std::size_t>(length)), now(before.size());
     for (int y = -radius; y < y1 - y0 + radius; ++y) {
-        frame_row(previous, y0 + y, x0 - radius, length, before.data());
-        frame_row(current, y0 + y, x0 - radius, length, now.data());
+        read_frame_row(previous, y0 + y, x0 - radius, length, before.data());
+        read_frame_row(current, y0 + y, x0 - radius, length, now.data());
         constraints.push(y, before.data(), now.data());
         const int done = y - radius;
         if (done < 0) continue;
-        solve_row(constraints.row(done), min_angle, min_contrast, longest, width, flow.row(done));
+        solve_row(constraints.row(done), min_angle, min_contrast, max_flow, width, flow.row(done));
     }
     return flow;
 }

@@ -12,14 +12,14 @@
 #include "cues/motion/detail/flow_field.hpp"
 #include "cues/motion/detail/frame_rows.hpp"
 #include "cues/motion/detail/gray_pyramid.hpp"
-#include "cues/motion/detail/pooled_rows.hpp"
+#include "cues/motion/detail/normal_equations.hpp"
 #include "cues/motion/detail/row_block.hpp"
 
 namespace tricue {
 namespace {
 
-constexpr float kLongestStep = 2;  // pixels along x and y, at a level that isn't the last
-constexpr float kSmallest = std::numeric_limits<float>::min();
+constexpr float kMaxStep = 2;  // pixels along x and y, at a level that isn't the last
+constexpr float kMinDivisor = std::numeric_limits<float>::min();
 
 /// What is kept at the last level.
 struct Limits {
@@ -43,8 +43,7 @@ struct Step {
     float u, v, determinant;  ///< the determinant without damping
 };
 
-[[gnu::always_inline]] inline void solve(float xx, float xy, float yy, float xt, float yt, float damping,
-                                         Step& step) {
+TRICUE_INLINE void solve(float xx, float xy, float yy, float xt, float yt, float damping, Step& step) {
     const float product = xx * yy - xy * xy, determinant = product > 0 ? product : 0.0F;
     const float share = 1 / (determinant + damping * (xx + yy + damping));
     step.u = (xy * yt - (yy + damping) * xt) * share;
@@ -53,30 +52,32 @@ struct Step {
 }
 
 TRICUE_MULTIVERSION
-void add_steps(const Products& sums, float damping, int n, float* us, float* vs) {
+void add_steps(const NormalEquations& sums, float damping, int n, float* us, float* vs) {
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
-#pragma GCC ivdep  // no row is another
+    // no row is another
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         Step step;
         solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
-        const float u = step.u < kLongestStep ? step.u : kLongestStep;
-        const float v = step.v < kLongestStep ? step.v : kLongestStep;
-        us[x] += u > -kLongestStep ? u : -kLongestStep;
-        vs[x] += v > -kLongestStep ? v : -kLongestStep;
+        const float u = step.u < kMaxStep ? step.u : kMaxStep;
+        const float v = step.v < kMaxStep ? step.v : kMaxStep;
+        us[x] += u > -kMaxStep ? u : -kMaxStep;
+        vs[x] += v > -kMaxStep ? v : -kMaxStep;
     }
 }
 
 /// u and v hold the flow that the step is from.
 TRICUE_MULTIVERSION
-void finish_row(const Products& sums, float damping, const Limits& limits, int n, const FlowRow& out) {
+void finish_row(const NormalEquations& sums, float damping, const Limits& limits, int n, const FlowRow& out) {
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
     float *us = out.u, *vs = out.v, *angles = out.angle, *contrasts = out.contrast;
     const Limits least = limits;
-#pragma GCC ivdep  // no row is another
+    // no row is another
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         Step step;
         solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
-        const float contrast = xx[x] + yy[x], size = contrast > kSmallest ? contrast : kSmallest;
+        const float contrast = xx[x] + yy[x], size = contrast > kMinDivisor ? contrast : kMinDivisor;
         const float sine = 2 * std::sqrt(step.determinant) / size, angle = sine < 1 ? sine : 1.0F;
         const float square = step.u * step.u + step.v * step.v;
         const bool kept =
@@ -106,7 +107,7 @@ void measure(const QuadImage& before, const ImageView& now, double sigma, int po
     const auto [x0, y0, x1, y1] = guess.area();
     const int width = x1 - x0;
     ConstraintRows constraints(sigma, width + 2 * pool);
-    PooledRows pooled(pool, width);
+    NormalEquationRows equations(pool, width);
     const int radius = constraints.radius(), margin = radius + pool, length = width + 2 * margin;
     const int whole =
         (length + kHalfBlock - 1) / kHalfBlock * kHalfBlock;  // pixels beyond cost less than a loop's rest
@@ -114,28 +115,28 @@ void measure(const QuadImage& before, const ImageView& now, double sigma, int po
     for (int y = -margin; y < y1 - y0 + margin; ++y) {
         guess_row(guess, y, margin, u.data(), v.data());
         before.warped_row(y0 + y, x0 - margin, u.data(), v.data(), whole, warped.data());
-        frame_row(now, y0 + y, x0 - margin, length, here.data());
+        read_frame_row(now, y0 + y, x0 - margin, length, here.data());
         constraints.push(y + pool, warped.data(), here.data());
         if (y < radius - pool) continue;
-        pooled.push(y - radius, constraints.row(y - radius + pool));
-        if (y >= margin) done(y - margin, pooled.row(y - margin));
+        equations.push(y - radius, constraints.row(y - radius + pool));
+        if (y >= margin) done(y - margin, equations.row(y - margin));
     }
 }
 
 /// The guess at the first level, from the coarser ones.
 FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, double sigma,
                        const FlowPyramid& pyramid, const Region& area) {
-    const auto before = smaller_levels(previous, pyramid.levels),
-               now = smaller_levels(current, pyramid.levels);
+    const auto before = coarser_levels(previous, pyramid.levels),
+               now = coarser_levels(current, pyramid.levels);
     std::vector<Region> areas{area};
-    for (const auto& image : now) areas.push_back(halved(areas.back(), image.rows, image.cols));
+    for (const auto& image : now) areas.push_back(coarser_region(areas.back(), image.rows, image.cols));
     const float damping = rounding_noise(sigma);
     FlowGuess guess(areas.back());
     for (std::size_t i = now.size(); i > 0; --i) {
         const Eigen::Index rows = areas[i].y1 - areas[i].y0, cols = areas[i].x1 - areas[i].x0;
         FlowField flow{areas[i], Floats(rows, cols), Floats(rows, cols)};
         measure(QuadImage(before[i - 1].view()), now[i - 1].view(), sigma, pyramid.pool, guess,
-                [&](int y, const Products& sums) {
+                [&](int y, const NormalEquations& sums) {
                     guess.row(y, &flow.u(y, 0), &flow.v(y, 0));
                     add_steps(sums, damping, static_cast<int>(cols), &flow.u(y, 0), &flow.v(y, 0));
                 });
@@ -161,11 +162,12 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
                         static_cast<float>(pyramid.max_step)};
     const float damping = rounding_noise(sigma);
     FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, area);
-    measure(QuadImage(previous), current, sigma, pyramid.pool, guess, [&](int y, const Products& sums) {
-        const FlowRow row = result.row(y);
-        guess.row(y, row.u, row.v);
-        finish_row(sums, damping, limits, area.x1 - area.x0, row);
-    });
+    measure(QuadImage(previous), current, sigma, pyramid.pool, guess,
+            [&](int y, const NormalEquations& sums) {
+                const FlowRow row = result.row(y);
+                guess.row(y, row.u, row.v);
+                finish_row(sums, damping, limits, area.x1 - area.x0, row);
+            });
     return result;
 }
 

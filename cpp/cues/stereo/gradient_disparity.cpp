@@ -15,11 +15,11 @@ namespace tricue {
 namespace {
 
 constexpr int kMaxSide = 16384;
-constexpr double kStep = 1.5;    // the most that a coarse level adds, in its own pixels
-constexpr float kRidge = 0.01F;  // (gray levels / px²)²: with less contrast d0 stays
-constexpr float kTiny = 1e-6F;   // (gray levels / px)²: no power at all leaves no residual
-/// Pixels that are measured at once: what the coarser levels keep of them fits in the cache.
-constexpr int kBand = 65536;
+constexpr double kMaxCoarseStep = 1.5;  // the most that a coarse level changes, in its own pixels
+constexpr float kRidge = 0.01F;         // (gray levels / px²)²: with less contrast d0 stays
+constexpr float kMinPower = 1e-6F;      // (gray levels / px)²: no power at all leaves no residual
+/// Pixels that are measured at once, so that the coarser levels stay in the cache.
+constexpr int kBandPixels = 65536;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 void require_between(double value, double least, double most, const char* name, const char* range) {
@@ -44,22 +44,22 @@ void require_arguments(const ImageView& left, const ImageView& right, double pre
                    std::to_string(region.x1) + ", " + std::to_string(region.y1) + ")");
     require_between(predicted, -kMaxSide, kMaxSide, "disparity", "-16384 to 16384");
     require_between(matching.sigma, 0.5, 6.0, "sigma", "0.5 to 6");
-    constexpr double kAny = std::numeric_limits<double>::infinity();
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const char* positive = "a number that isn't negative";
-    require_between(matching.min_reliability, 0.0, kAny, "min_reliability", positive);
-    require_between(matching.max_residual, 0.0, kAny, "max_residual", positive);
-    require_between(matching.max_step, 0.0, kAny, "max_step", positive);
+    require_between(matching.min_reliability, 0.0, kInfinity, "min_reliability", positive);
+    require_between(matching.max_residual, 0.0, kInfinity, "max_residual", positive);
+    require_between(matching.max_step, 0.0, kInfinity, "max_step", positive);
 }
 
-/// The steps of a coarse level's pixels, added.
+/// Adds the step of each pixel to its offset, at a coarse level.
 TRICUE_MULTIVERSION
-void step_on(const WindowMeans& means, const float* __restrict offset, int n, float* __restrict next) {
-    constexpr auto kMost = static_cast<float>(kStep);
+void refine(const WindowMeans& means, const float* __restrict offset, int n, float* __restrict next) {
+    constexpr auto kMaxStep = static_cast<float>(kMaxCoarseStep);
     const float* __restrict ss = means.ss;
     const float* __restrict st = means.st;
     for (int x = 0; x < n; ++x) {
         const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge);
-        next[x] = offset[x] + std::min(std::max(step, -kMost), kMost);
+        next[x] = offset[x] + std::min(std::max(step, -kMaxStep), kMaxStep);
     }
 }
 
@@ -68,8 +68,8 @@ struct Limits {
 };
 
 TRICUE_MULTIVERSION
-void settle(const WindowMeans& means, const float* __restrict offset, const float* __restrict seen,
-            const Limits& limits, int n, float* __restrict disparity) {
+void finalize(const WindowMeans& means, const float* __restrict offset, const float* __restrict visible,
+              const Limits& limits, int n, float* __restrict disparity) {
     const float* __restrict ss = means.ss;
     const float* __restrict st = means.st;
     const float* __restrict tt = means.tt;
@@ -79,42 +79,42 @@ void settle(const WindowMeans& means, const float* __restrict offset, const floa
     for (int x = 0; x < n; ++x) {
         const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge), d = offset[x] + step;
         const float left_over = tt[x] - 2.0F * d * st[x] + d * d * ss[x];
-        const bool kept = (seen[x] != 0.0F) & (reliability[x] >= most.min_reliability) &
-                          (left_over <= most.max_residual * (power[x] + kTiny)) &
+        const bool kept = (visible[x] != 0.0F) & (reliability[x] >= most.min_reliability) &
+                          (left_over <= most.max_residual * (power[x] + kMinPower)) &
                           (std::abs(step) <= most.max_step);
         disparity[x] = kept ? most.base + d : kNone;
     }
 }
 
 struct Level {
-    LevelParts parts;
+    LevelRegions parts;
     int base;
     double predicted;
     GrayPlane left, right;  ///< not of the finest, which reads the images
 };
 
-Region joined(const Region& one, const Region& other) {
+Region bounding_region(const Region& one, const Region& other) {
     return {std::min(one.x0, other.x0), std::min(one.y0, other.y0), std::max(one.x1, other.x1),
             std::max(one.y1, other.y1)};
 }
 
 /// What each level has to measure, the finest first.
-std::vector<Level> plan(const Region& seen, int rows, int cols, double predicted, int reach,
-                        const GradientMatching& matching) {
+std::vector<Level> plan_levels(const Region& visible, int rows, int cols, double predicted, int reach,
+                               const GradientMatching& matching) {
     std::vector<Level> levels;
-    Region wanted = seen;
+    Region wanted = visible;
     double uncertainty = 0.0;  // what all coarser levels add, in pixels of this one
-    for (int k = 1; k < matching.levels; ++k) uncertainty += std::ldexp(kStep, k);
+    for (int k = 1; k < matching.levels; ++k) uncertainty += std::ldexp(kMaxCoarseStep, k);
     for (int k = 0; k < matching.levels; ++k) {
-        const LevelParts parts =
-            level_parts(wanted, rows, cols, matching.radius, reach, predicted, uncertainty);
+        const LevelRegions parts =
+            find_level_regions(wanted, rows, cols, matching.radius, reach, predicted, uncertainty);
         levels.push_back({parts, static_cast<int>(std::floor(predicted + 0.5)), predicted, {}, {}});
         const Region& under = parts.pooled;
         wanted = {under.x0 / 2, under.y0 / 2, (under.x1 + 1) / 2, (under.y1 + 1) / 2};
         rows = (rows + 1) / 2;
         cols = (cols + 1) / 2;
         predicted /= 2.0;
-        uncertainty = std::max(uncertainty / 2.0 - kStep, 0.0);
+        uncertainty = std::max(uncertainty / 2.0 - kMaxCoarseStep, 0.0);
     }
     return levels;
 }
@@ -124,19 +124,19 @@ GrayLevel level_of(const ImageView& image, std::size_t k, const GrayPlane& plane
 }
 
 /// One image's pyramid; the parts that filters read grow by what the next coarser level is made of.
-void build(const ImageView& image, std::vector<Level>& levels, Region LevelParts::* part,
-           GrayPlane Level::* plane) {
+void build_pyramid(const ImageView& image, std::vector<Level>& levels, Region LevelRegions::* part,
+                   GrayPlane Level::* plane) {
     std::vector<Region> parts;
     for (const Level& level : levels) parts.push_back(level.parts.*part);
     const auto size = [](int full, std::size_t k) { return ((full - 1) >> k) + 1; };
     for (std::size_t k = levels.size() - 1; k > 0; --k)
-        parts[k - 1] =
-            joined(parts[k - 1], halved_from(parts[k], size(image.rows, k - 1), size(image.cols, k - 1)));
+        parts[k - 1] = bounding_region(
+            parts[k - 1], downsample_source(parts[k], size(image.rows, k - 1), size(image.cols, k - 1)));
     for (std::size_t k = 1; k < levels.size(); ++k)
-        levels[k].*plane = halved(level_of(image, k - 1, levels[k - 1].*plane), parts[k]);
+        levels[k].*plane = downsampled(level_of(image, k - 1, levels[k - 1].*plane), parts[k]);
 }
 
-KnownDisparity known_of(const Level& level, const Level* coarser, const GrayPlane& found) {
+DisparityPrior prior_for(const Level& level, const Level* coarser, const GrayPlane& found) {
     if (coarser == nullptr) return {level.base, static_cast<float>(level.predicted - level.base), nullptr};
     return {level.base, static_cast<float>(2 * coarser->base - level.base), &found};
 }
@@ -148,15 +148,15 @@ Limits limits_of(const GradientMatching& matching, int base) {
             static_cast<float>(matching.max_step)};
 }
 
-/// Measures `seen`, a part of the left image, not empty; disparity(y) and reliability(y) are where its rows go.
+/// Measures `visible`, a part of the left image, not empty; disparity(y) and reliability(y) are where its rows go.
 template <typename Disparity, typename Reliability>
 void measure(const ImageView& left, const ImageView& right, double predicted,
-             const GradientMatching& matching, const Region& seen, const Disparity& disparity,
+             const GradientMatching& matching, const Region& visible, const Disparity& disparity,
              const Reliability& reliability) {
-    const GaussianSlope filter(matching.sigma);
-    auto levels = plan(seen, left.rows, left.cols, predicted, filter.reach, matching);
-    build(left, levels, &LevelParts::left, &Level::left);
-    build(right, levels, &LevelParts::right, &Level::right);
+    const GaussianDerivative filter(matching.sigma);
+    auto levels = plan_levels(visible, left.rows, left.cols, predicted, filter.reach, matching);
+    build_pyramid(left, levels, &LevelRegions::left, &Level::left);
+    build_pyramid(right, levels, &LevelRegions::right, &Level::right);
     GrayPlane found;
     for (std::size_t k = levels.size(); k-- > 0;) {
         const Level& level = levels[k];
@@ -164,19 +164,19 @@ void measure(const ImageView& left, const ImageView& right, double predicted,
         const int n = wanted.x1 - wanted.x0;
         const Level* coarser = k + 1 < levels.size() ? &levels[k + 1] : nullptr;
         GradientLevel rows(level_of(left, k, level.left), level_of(right, k, level.right), level.parts,
-                           filter, matching.radius, known_of(level, coarser, found), k == 0);
+                           filter, matching.radius, prior_for(level, coarser, found), k == 0);
         if (k > 0) {
             GrayPlane next(wanted, level.left.rows(), level.left.cols());
             rows.run([](int) -> float* { return nullptr; },
-                     [&](int y, const WindowMeans& means, const ShiftRow& known) {
-                         step_on(means, known.offset(), n, next.row(y) + wanted.x0);
+                     [&](int y, const WindowMeans& means, const WarpedColumns& known) {
+                         refine(means, known.offset(), n, next.row(y) + wanted.x0);
                      });
             found = std::move(next);
             continue;
         }
         const Limits limits = limits_of(matching, level.base);
-        rows.run(reliability, [&](int y, const WindowMeans& means, const ShiftRow& known) {
-            settle(means, known.offset(), known.seen(), limits, n, disparity(y));
+        rows.run(reliability, [&](int y, const WindowMeans& means, const WarpedColumns& known) {
+            finalize(means, known.offset(), known.visible(), limits, n, disparity(y));
         });
     }
 }
@@ -188,18 +188,18 @@ Floats gradient_disparity(const ImageView& left, const ImageView& right, double 
     require_arguments(left, right, predicted, matching, region);
     const int height = region.y1 - region.y0, width = region.x1 - region.x0;
     Floats result(2 * height, width);
-    const Region seen = region.clipped(left);
-    if (seen.x1 - seen.x0 < width || seen.y1 - seen.y0 < height) {
+    const Region visible = region.clipped(left);
+    if (visible.x1 - visible.x0 < width || visible.y1 - visible.y0 < height) {
         result.topRows(height) = kNone;
         result.bottomRows(height) = 0.0F;
     }
-    if (seen.x0 >= seen.x1 || seen.y0 >= seen.y1) return result;
-    const int j = seen.x0 - region.x0;
+    if (visible.x0 >= visible.x1 || visible.y0 >= visible.y1) return result;
+    const int j = visible.x0 - region.x0;
     const auto disparity = [&](int y) { return &result(y - region.y0, j); };
     const auto reliability = [&](int y) { return &result(height + y - region.y0, j); };
-    const int band = std::max(kBand / width, 32);
-    for (int y = seen.y0; y < seen.y1; y += band)
-        measure(left, right, predicted, matching, {seen.x0, y, seen.x1, std::min(y + band, seen.y1)},
+    const int band = std::max(kBandPixels / width, 32);
+    for (int y = visible.y0; y < visible.y1; y += band)
+        measure(left, right, predicted, matching, {visible.x0, y, visible.x1, std::min(y + band, visible.y1)},
                 disparity, reliability);
     return result;
 }

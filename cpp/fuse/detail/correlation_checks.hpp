@@ -6,9 +6,8 @@
 
 namespace tricue {
 
-/// Each throws std::invalid_argument that names the argument, what was expected and what came.
+/// Each throws std::invalid_argument that names the argument, what was expected and what was given.
 void require_cells(const FloatStack& cells);
-/// Of the spectra (planes, rows, cols / 2 + 1) of such cells.
 /// Of filters for such cells, at least one: numerators (filters, planes, rows, cols / 2 + 1), denominators without the planes.
 void require_filters(const FilterStack& numerators, const FloatStack& denominators, const FloatStack& cells);
 void require_numerator(const ComplexStack& numerator, const FloatStack& cells);

@@ -8,15 +8,15 @@ namespace tricue {
 
 using Matrix = Eigen::MatrixXd;
 
-/// What the Kalman filter's steps ask of a state.
-inline void require_belief(VectorRef mean, StatesRef covariance) {
+/// Throws std::invalid_argument unless the mean (N,) is finite, N at least 1, and the covariance (N, N) is one.
+inline void require_gaussian_state(VectorRef mean, StatesRef covariance) {
     if (mean.size() < 1) refuse("mean", "at least one number", "none");
     require_finite(mean, "mean");
     require_covariance(covariance, mean.size(), "covariance");
 }
 
-/// The mean of a product and its transpose: rounding leaves them slightly unlike, and filters make that grow.
-inline States symmetric(const Matrix& product) {
+/// The mean of a matrix and its transpose: rounding makes them differ slightly, and a filter would amplify that.
+inline States symmetrized(const Matrix& product) {
     return (0.5 * (product + product.transpose())).array();
 }
 

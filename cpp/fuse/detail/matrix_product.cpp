@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/detail/matrix_product.hpp"
 
-#include "base/lanes.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -13,53 +12,42 @@ struct Factors {
     std::ptrdiff_t left_pitch, right_pitch, product_pitch;  ///< numbers from a row to the next
 };
 
-/// kRows rows of the product, a register of each at a time: no sum waits for the one before, and what is on the right is read
-/// once for all.
+/// kRows rows of the product, one register of each at a time: no sum waits for the one before, and the right factor is read once
+/// for all rows.
 template <int kLanes, int kRows>
-[[gnu::always_inline]] inline void multiply_rows(const Factors& factors, int y, float* product) {
-    using Register = typename Lanes<kLanes>::Floats;
+TRICUE_INLINE void multiply_rows(const Factors& factors, int y, float* product) {
+    using Register = Pack<float, kLanes>;
     const float* left = factors.left + factors.left_pitch * y;
-    for (int x = 0; x < factors.cols; x += kLanes / 2) {
+    for (int x = 0; x < factors.cols; x += kLanes) {
         Register sums[std::size_t{kRows}] = {};
         for (int i = 0; i < factors.inner; ++i) {
             Register right;
-            read(factors.right + factors.right_pitch * i + x, right);
+            load(factors.right + factors.right_pitch * i + x, right);
             for (int row = 0; row < kRows; ++row) sums[row] += left[factors.left_pitch * row + i] * right;
         }
         for (int row = 0; row < kRows; ++row)
-            write(sums[row], product + factors.product_pitch * (y + row) + x);
+            store(sums[row], product + factors.product_pitch * (y + row) + x);
     }
 }
 
-/// All rows from y on: kRows at a time, those that are left fewer at a time.
+/// All rows from y on: kRows at a time, then the remaining ones fewer at a time.
 template <int kLanes, int kRows>
-[[gnu::always_inline]] inline void multiply_from(const Factors& factors, int y, float* product) {
+TRICUE_INLINE void multiply_from(const Factors& factors, int y, float* product) {
     for (; y + kRows <= factors.rows; y += kRows) multiply_rows<kLanes, kRows>(factors, y, product);
     if constexpr (kRows > 1) multiply_from<kLanes, kRows / 2>(factors, y, product);
 }
 
-constexpr int kRows = 8;
-
-TRICUE_VERSION("default")
-void multiply_all(const Factors& factors, float* product) {
-    multiply_from<kLanes128, kRows>(factors, 0, product);
+template <int kBytes>
+TRICUE_INLINE void multiply_by(const Factors& factors, float* product) {
+    constexpr int kRows = 8;
+    multiply_from<kBytes / int{sizeof(float)}, kRows>(factors, 0, product);
 }
 
-#ifdef TRICUE_VERSIONS
-TRICUE_VERSION("arch=x86-64-v3")
-void multiply_all(const Factors& factors, float* product) {
-    multiply_from<kLanes256, kRows>(factors, 0, product);
-}
-
-TRICUE_VERSION("arch=x86-64-v4")
-void multiply_all(const Factors& factors, float* product) {
-    multiply_from<kLanes512, kRows>(factors, 0, product);
-}
-#endif
+TRICUE_MULTIWIDTH(multiply_all, multiply_by, (const Factors& factors, float* product), (factors, product))
 
 }  // namespace
 
-void multiply(const LeftFactor& left, const PaddedRows& right, int cols, PaddedRows& product) {
+void multiply(const LeftFactor& left, const AlignedMatrix& right, int cols, AlignedMatrix& product) {
     multiply_all({left.numbers, right.row(0), left.rows, right.rows(), cols, left.pitch, right.pitch(),
                   product.pitch()},
                  product.row(0));

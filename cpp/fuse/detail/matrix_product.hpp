@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "fuse/detail/padded_rows.hpp"
+#include "fuse/detail/aligned_matrix.hpp"
 
 namespace tricue {
 
-/// A matrix (rows, any number of columns) as somebody else has it.
+/// A non-owning view of a matrix with any number of columns.
 struct LeftFactor {
-    LeftFactor(const PaddedRows& matrix)
+    LeftFactor(const AlignedMatrix& matrix)
         : numbers(matrix.row(0)), pitch(matrix.pitch()), rows(matrix.rows()) {}
     LeftFactor(const float* first, std::ptrdiff_t apart, int count)
         : numbers(first), pitch(apart), rows(count) {}
@@ -17,10 +17,10 @@ struct LeftFactor {
     int rows;
 };
 
-/// left (m, k or more) times the first `cols` columns of right (k, n), into those of the first m rows of `product`. Sums go along k in order,
-/// whatever the machine.
+/// left (m, k or more) times the first `cols` columns of right (k, n), into those of the first m rows of `product`. Sums go along k
+/// in order on every machine.
 ///
-/// For small matrices; Eigen's products stay at the registers that every machine has.
-void multiply(const LeftFactor& left, const PaddedRows& right, int cols, PaddedRows& product);
+/// For small matrices: Eigen's products use only the registers that every machine has.
+void multiply(const LeftFactor& left, const AlignedMatrix& right, int cols, AlignedMatrix& product);
 
 }  // namespace tricue

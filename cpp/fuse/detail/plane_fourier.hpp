@@ -11,13 +11,13 @@
 namespace tricue {
 
 /// Two-dimensional spectra of two real planes (rows, cols): small ones by SmallFourier, others by one complex transform, OpenCV's,
-/// where one plane is the real part, the other the imaginary part, and symmetry tells their spectra apart again. These have
+/// with one plane as the real part and the other as the imaginary part, whose spectra symmetry separates again. Spectra have
 /// `half` = cols / 2 + 1 columns, as numpy.fft.rfft2's. In float32; nothing here starts a thread.
 ///
-/// Spectra stand with real and imaginary parts apart, which compilers vectorise: rows x half numbers each, contiguous.
-class PlanePair {
+/// Real and imaginary parts of a spectrum are separate, which compilers vectorize: rows x half numbers each, contiguous.
+class PlaneFourier {
 public:
-    PlanePair(int rows, int cols);
+    PlaneFourier(int rows, int cols);
 
     int half() const { return cols_ / 2 + 1; }
     /// How many numbers a spectrum's real or imaginary part has.
@@ -27,8 +27,8 @@ public:
     void transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
                    float* two_im);
 
-    /// The planes of two spectra, contiguous. As numpy.fft.irfft2 it ignores what has to be real in a spectrum of a real plane and
-    /// isn't. To invert one alone give it as the second too, and the same plane.
+    /// The planes of two spectra, contiguous. Like numpy.fft.irfft2 it ignores imaginary parts that have to be 0 in the spectrum of a
+    /// real plane. To invert one alone give it as the second too, and the same plane.
     void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
                 float* one, float* two);
 

@@ -9,8 +9,8 @@
 namespace tricue {
 namespace {
 
-/// The least pixel of [0, size) whose centre isn't below an edge; size if none is.
-int pixel_at(double edge, int size) {
+/// The first pixel of [0, size) whose center isn't below an edge; size if there is none.
+int first_pixel_from(double edge, int size) {
     return static_cast<int>(std::clamp(std::ceil(edge - 0.5), 0.0, static_cast<double>(size)));
 }
 
@@ -23,8 +23,9 @@ void require_corners(const Rectangle& rectangle, const char* name) {
 
 Region rectangle_pixels(const Rectangle& rectangle, int rows, int cols, const char* name) {
     require_corners(rectangle, name);
-    const int x0 = pixel_at(rectangle.x0, cols), y0 = pixel_at(rectangle.y0, rows);
-    return {x0, y0, std::max(x0, pixel_at(rectangle.x1, cols)), std::max(y0, pixel_at(rectangle.y1, rows))};
+    const int x0 = first_pixel_from(rectangle.x0, cols), y0 = first_pixel_from(rectangle.y0, rows);
+    return {x0, y0, std::max(x0, first_pixel_from(rectangle.x1, cols)),
+            std::max(y0, first_pixel_from(rectangle.y1, rows))};
 }
 
 }  // namespace tricue

@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// The pixels of an image whose centres lie in a rectangle; never x1 < x0 nor y1 < y0.
+/// The pixels of an image whose centers lie in a rectangle; never x1 < x0 nor y1 < y0.
 ///
 /// @throws std::invalid_argument on corners that aren't finite; `name` is the argument's
 Region rectangle_pixels(const Rectangle& rectangle, int rows, int cols, const char* name);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/arrays.hpp"
-#include "fuse/detail/padded_rows.hpp"
+#include "fuse/detail/aligned_matrix.hpp"
 
 namespace tricue {
 
@@ -20,11 +20,11 @@ public:
 
 private:
     int half_;
-    PaddedRows numbers_;  ///< all real parts above all imaginary ones
+    AlignedMatrix numbers_;  ///< all real parts above all imaginary ones
 };
 
-/// The way back, of one spectrum: as numpy.fft.irfft it ignores what has to be real and isn't.
-Eigen::Array<float, Eigen::Dynamic, 1> scale_signal(const Eigen::ArrayXf& re, const Eigen::ArrayXf& im,
-                                                    int scales);
+/// The inverse for one spectrum: like numpy.fft.irfft it ignores imaginary parts that have to be 0.
+Eigen::Array<float, Eigen::Dynamic, 1> invert_scale_spectrum(const Eigen::ArrayXf& re,
+                                                             const Eigen::ArrayXf& im, int scales);
 
 }  // namespace tricue

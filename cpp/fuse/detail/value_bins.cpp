@@ -12,14 +12,14 @@
 namespace tricue {
 
 TRICUE_MULTIVERSION
-void value_bins(const float* __restrict values, int n, const ValueRange& range,
-                std::int32_t* __restrict bin) {
-    const float least = float_at_least(range.low), end = float_at_least(range.high);
+void find_value_bins(const float* __restrict values, int n, const ValueRange& range,
+                     std::int32_t* __restrict bin) {
+    const float least = round_up_to_float(range.low), end = round_up_to_float(range.high);
     const auto low = static_cast<float>(range.low);
     const auto scale = static_cast<float>(range.bins / (range.high - range.low));
     const auto top = static_cast<float>(range.bins - 1);
     const std::int32_t none = range.bins;
-    in_blocks<16>(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
         const float value = values[x], place = (value - low) * scale;
         const bool counts = (value >= least) & (value < end);
         const float within = counts & (place < top) ? place : top;

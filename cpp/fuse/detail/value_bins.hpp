@@ -15,7 +15,7 @@ struct ValueRange {
 /// weighted_histogram and target_pixels have in common.
 ///
 /// bin = floor((value - low) (bins / (high - low))), at most bins - 1, in float32, to which low and the quotient are rounded.
-void value_bins(const float* values, int n, const ValueRange& range, std::int32_t* bin);
+void find_value_bins(const float* values, int n, const ValueRange& range, std::int32_t* bin);
 
 /// @throws std::invalid_argument unless low < high are finite and there are 1 to 65536 bins
 void require_range(const ValueRange& range);

@@ -46,7 +46,6 @@ from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
-from tricue.reference.cues.depth.height_above import height_above
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
@@ -106,7 +105,6 @@ __all__ = [
     "gradient_color_cells",
     "gradient_disparity",
     "gradient_flow",
-    "height_above",
     "histogram_mean",
     "joint_histogram",
     "kalman_predict",

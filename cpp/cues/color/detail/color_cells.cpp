@@ -9,11 +9,11 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void cells_of(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green,
-              const std::uint8_t* __restrict red, std::ptrdiff_t n, int bits,
-              std::int32_t* __restrict cells) {
+void find_cells(const std::uint8_t* __restrict blue, const std::uint8_t* __restrict green,
+                const std::uint8_t* __restrict red, std::ptrdiff_t n, int bits,
+                std::int32_t* __restrict cells) {
     const int shift = 8 - bits;
-    in_blocks(n, [=](std::ptrdiff_t k) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t k) {
         const std::int32_t b = blue[k] >> shift, g = green[k] >> shift, r = red[k] >> shift;
         cells[k] = (((b << bits) | g) << bits) | r;
     });
@@ -34,8 +34,8 @@ int bits_of_cube(FloatsRef cube, const char* name) {
 }
 
 void color_cells(const SampleView& samples, std::ptrdiff_t ellipse, int bits, std::int32_t* cells) {
-    cells_of(samples.plane(ellipse, 0), samples.plane(ellipse, 1), samples.plane(ellipse, 2), samples.n, bits,
-             cells);
+    find_cells(samples.plane(ellipse, 0), samples.plane(ellipse, 1), samples.plane(ellipse, 2), samples.n,
+               bits, cells);
 }
 
 }  // namespace tricue

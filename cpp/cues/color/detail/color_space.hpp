@@ -33,7 +33,7 @@ struct ColorSpace {
 /// Throws std::invalid_argument unless there are 1 to 256 bins an axis, at most 65535 in all, and chroma is in [1, 255].
 void require_space(const ColorSpace& space);
 
-/// What a histogram over the space must be: (size(),), finite, none negative, with a sum above 0, which is returned.
+/// Returns the sum of a histogram over the space. Throws unless it is (size(),), finite, none negative, with a sum above 0.
 double require_histogram(VectorRef histogram, const ColorSpace& space);
 
 /// The mean (3,) of such a histogram of this sum, every bin counted at the mean of its levels.

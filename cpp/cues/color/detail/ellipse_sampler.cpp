@@ -13,8 +13,9 @@ namespace {
 
 /// The places of one ellipse as byte offsets into the image. Clamping comes first, so truncation is the floor.
 TRICUE_MULTIVERSION
-void place(const float* __restrict u, const float* __restrict v, std::ptrdiff_t n, const double* ellipse,
-           int cols, int rows, std::int32_t stride, std::int32_t* __restrict offsets) {
+void find_offsets(const float* __restrict u, const float* __restrict v, std::ptrdiff_t n,
+                  const double* ellipse, int cols, int rows, std::int32_t stride,
+                  std::int32_t* __restrict offsets) {
     const auto x = static_cast<float>(ellipse[0]), y = static_cast<float>(ellipse[1]);
     const auto minor = static_cast<float>(ellipse[2]), major = static_cast<float>(ellipse[3]);
     const auto right = static_cast<float>(cols - 1), bottom = static_cast<float>(rows - 1);
@@ -26,7 +27,8 @@ void place(const float* __restrict u, const float* __restrict v, std::ptrdiff_t 
 }
 
 /// Each pixel as one word of four bytes, the fourth of the next pixel. The image's last pixel has no next: it is read one byte
-/// early, and shifted. Not multiversioned: gathers are slower than loads on processors that had to be mended.
+/// early, and shifted. Not multiversioned: gathers are slower than loads on processors with the Downfall
+/// mitigation.
 void gather(const std::uint8_t* pixels, std::int32_t last, const std::int32_t* offsets, std::ptrdiff_t n,
             std::uint32_t* words) {
     std::int32_t furthest = 0;
@@ -40,9 +42,9 @@ void gather(const std::uint8_t* pixels, std::int32_t last, const std::int32_t* o
 }
 
 TRICUE_MULTIVERSION
-void split(const std::uint32_t* __restrict words, std::ptrdiff_t n, std::uint8_t* __restrict blue,
-           std::uint8_t* __restrict green, std::uint8_t* __restrict red) {
-    in_blocks(n, [=](std::ptrdiff_t k) {
+void split_channels(const std::uint32_t* __restrict words, std::ptrdiff_t n, std::uint8_t* __restrict blue,
+                    std::uint8_t* __restrict green, std::uint8_t* __restrict red) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t k) {
         blue[k] = static_cast<std::uint8_t>(words[k]);
         green[k] = static_cast<std::uint8_t>(words[k] >> 8);
         red[k] = static_cast<std::uint8_t>(words[k] >> 16);
@@ -61,8 +63,8 @@ EllipseSampler::EllipseSampler(const ImageView& image, StatesRef pattern, const 
     offsets_.resize(kBatch * pattern.rows());
     words_.resize(kBatch * pattern.rows());
     const std::ptrdiff_t bytes = (image.rows - 1) * image.stride + 3 * std::ptrdiff_t{image.cols};
-    last_ = static_cast<std::int32_t>(std::max<std::ptrdiff_t>(bytes - 4, 0));
-    if (bytes < 4) std::memcpy(one_, image.data, 3);
+    last_word_ = static_cast<std::int32_t>(std::max<std::ptrdiff_t>(bytes - 4, 0));
+    if (bytes < 4) std::memcpy(single_pixel_, image.data, 3);
 }
 
 void EllipseSampler::read(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes) {
@@ -75,12 +77,12 @@ void EllipseSampler::read_batch(const double* ellipses, std::ptrdiff_t count, st
     const std::ptrdiff_t n = size();
     const bool single = image_.rows == 1 && image_.cols == 1;
     for (std::ptrdiff_t i = 0; i < count; ++i)
-        place(u_.data(), v_.data(), n, ellipses + 4 * i, image_.cols, image_.rows,
-              static_cast<std::int32_t>(image_.stride), offsets_.data() + n * i);
-    gather(single ? one_ : image_.data, last_, offsets_.data(), n * count, words_.data());
+        find_offsets(u_.data(), v_.data(), n, ellipses + 4 * i, image_.cols, image_.rows,
+                     static_cast<std::int32_t>(image_.stride), offsets_.data() + n * i);
+    gather(single ? single_pixel_ : image_.data, last_word_, offsets_.data(), n * count, words_.data());
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         std::uint8_t* out = planes + 3 * n * i;
-        split(words_.data() + n * i, n, out, out + n, out + 2 * n);
+        split_channels(words_.data() + n * i, n, out, out + n, out + 2 * n);
     }
 }
 

@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// Reads the same places of many ellipses: what sample_ellipses is made of. The image must outlive it.
+/// Samples an image at the places of a pattern under many ellipses. The image must outlive it.
 class EllipseSampler {
 public:
     /// @throws std::invalid_argument on a pattern that isn't n x 2 or not finite, and on an image without pixels
@@ -26,8 +26,8 @@ private:
     void read_batch(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes);
 
     ImageView image_;
-    std::int32_t last_;    ///< the offset of the last word that can be read
-    std::uint8_t one_[4];  ///< an image of a single pixel, too short for a word
+    std::int32_t last_word_;        ///< the offset of the last word that can be read
+    std::uint8_t single_pixel_[4];  ///< an image of a single pixel, too short for a word
     Eigen::ArrayXf u_, v_;
     Eigen::Array<std::int32_t, Eigen::Dynamic, 1> offsets_;
     Eigen::Array<std::uint32_t, Eigen::Dynamic, 1> words_;

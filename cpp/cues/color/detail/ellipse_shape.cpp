@@ -9,33 +9,33 @@
 namespace tricue {
 namespace {
 
-constexpr double kLongest = 4096.0, kFarthest = 1 << 30;
+constexpr double kMaxSemiAxis = 4096.0, kMaxCoordinate = 1 << 30;
 
-int whole(double value) {
+int to_int(double value) {
     return static_cast<int>(value);
 }
 
 int pixel_of(double place) {
-    return whole(std::floor(std::clamp(place, -kFarthest, kFarthest)));
+    return to_int(std::floor(std::clamp(place, -kMaxCoordinate, kMaxCoordinate)));
 }
 
-/// The pixels whose centres are within `reach` of a place.
-EllipseShape::Run run(double place, double reach) {
-    return {whole(std::ceil(place - reach - 0.5)), whole(std::floor(place + reach - 0.5)) + 1};
+/// The pixels whose centers are within `reach` of a place.
+EllipseShape::Run pixels_within(double place, double reach) {
+    return {to_int(std::ceil(place - reach - 0.5)), to_int(std::floor(place + reach - 0.5)) + 1};
 }
 
 }  // namespace
 
-Place::Place(const double* ellipse) : x(pixel_of(ellipse[0])), y(pixel_of(ellipse[1])) {}
+CenterPixel::CenterPixel(const double* ellipse) : x(pixel_of(ellipse[0])), y(pixel_of(ellipse[1])) {}
 
 EllipseShape::EllipseShape(const double* ellipse, double scale) {
     const double x = ellipse[0] - std::floor(ellipse[0]), y = ellipse[1] - std::floor(ellipse[1]);
     const double minor = scale * ellipse[2], major = scale * ellipse[3];
-    const Run rows = run(y, major);
+    const Run rows = pixels_within(y, major);
     runs.reserve(static_cast<std::size_t>(std::max(rows.end - rows.begin, 0)));
     for (int row = rows.begin; row < rows.end; ++row) {
         const double v = (row + 0.5 - y) / major;
-        const Run pixels = run(x, minor * std::sqrt(std::max(1.0 - v * v, 0.0)));
+        const Run pixels = pixels_within(x, minor * std::sqrt(std::max(1.0 - v * v, 0.0)));
         if (pixels.begin >= pixels.end) continue;
         if (runs.empty()) top = row;
         runs.push_back(pixels);
@@ -43,7 +43,7 @@ EllipseShape::EllipseShape(const double* ellipse, double scale) {
     }
 }
 
-EllipseShape::Run EllipseShape::widest() const {
+EllipseShape::Run EllipseShape::column_range() const {
     Run all{0, 0};
     for (const Run& row : runs) all = {std::min(all.begin, row.begin), std::max(all.end, row.end)};
     return all;
@@ -56,7 +56,7 @@ void require_ellipses(StatesRef ellipses, double margin, const char* name) {
     if (ellipses.rows() == 0) return;
     const double least = ellipses.rightCols(2).minCoeff(), most = ellipses.rightCols(2).maxCoeff();
     if (!(least > 0.0)) refuse(name, "semi-axes above 0", least);
-    if (margin * most > kLongest)
+    if (margin * most > kMaxSemiAxis)
         refuse(name, "semi-axes of at most 4096 pixels with the margin", margin * most);
 }
 

@@ -8,32 +8,32 @@
 
 namespace tricue {
 
-/// The pixel that a place lies in: where a shape is put. Beyond 2^30 no image has pixels, and all places are alike.
-struct Place {
+/// The pixel in which an ellipse has its center, clamped to ±2^30: no image reaches that far.
+struct CenterPixel {
     int x, y;
 
-    explicit Place(const double* ellipse);
+    explicit CenterPixel(const double* ellipse);
 };
 
-/// The pixels whose centres lie in an axis-aligned ellipse, as one run a row, relative to the pixel that its own centre lies in.
+/// The pixels whose centers lie in an axis-aligned ellipse, one run per row, relative to the pixel that contains the ellipse's center.
 ///
-/// They follow from where in that pixel the centre is, so an ellipse moved by whole pixels has the same shape. Row r, its centre
-/// at v = (r + 1/2 - y) / major, has the pixels whose centres are within minor sqrt(1 - v²) of x.
+/// They depend on where in that pixel the center is, so an ellipse moved by whole pixels has the same shape. Row r, its center
+/// at v = (r + 1/2 - y) / major, has the pixels whose centers are within minor sqrt(1 - v²) of x.
 struct EllipseShape {
     struct Run {
         int begin, end;
     };
 
     int top = 0;            ///< of the first run
-    std::vector<Run> runs;  ///< none is empty; one lies within the other towards the ends
+    std::vector<Run> runs;  ///< none is empty; towards the top and the bottom each lies within the next
     int area = 0;           ///< how many pixels
 
-    /// @param ellipse x, y, minor, major that require_ellipses has seen
+    /// @param ellipse x, y, minor, major, checked by require_ellipses
     /// @param scale   of both semi-axes; a larger one gives a shape that contains a smaller one's
     EllipseShape(const double* ellipse, double scale);
 
     int bottom() const { return top + static_cast<int>(runs.size()); }
-    Run widest() const;
+    Run column_range() const;
 };
 
 /// Throws std::invalid_argument unless ellipses (N, 4) are finite, with semi-axes in (0, 4096 / margin], and margin is in [1, 16].

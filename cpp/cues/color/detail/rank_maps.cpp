@@ -5,56 +5,59 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "cues/color/detail/byte_lookup.hpp"
 #include "cues/color/detail/rank_table.hpp"
 
 namespace tricue {
 namespace {
 
-/// The sum of |a - b| of bytes, in the form in which compilers see the instruction for it.
-inline std::int64_t difference(const std::uint8_t* __restrict a, const std::uint8_t* __restrict b,
-                               std::size_t n) {
+/// The sum of |a - b| of bytes, in a form that compilers recognize.
+inline std::int64_t sum_absolute_differences(const std::uint8_t* __restrict a,
+                                             const std::uint8_t* __restrict b, std::size_t n) {
     int sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += std::abs(a[k] - b[k]);
     return sum;
 }
 
 template <typename Count>
-inline std::int64_t difference(const Count* __restrict a, const Count* __restrict b, std::size_t n) {
+inline std::int64_t sum_absolute_differences(const Count* __restrict a, const Count* __restrict b,
+                                             std::size_t n) {
     std::int64_t sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += a[k] > b[k] ? a[k] - b[k] : b[k] - a[k];
     return sum;
 }
 
-inline void rank_all(const RankTable<std::uint8_t>& table, const std::uint8_t* levels, std::size_t n,
-                     std::uint8_t* ranks) {
-    look_up(table, levels, n, ranks);
+inline void find_ranks(const RankTable<std::uint8_t>& table, const std::uint8_t* levels, std::size_t n,
+                       std::uint8_t* ranks) {
+    look_up_bytes(table.data(), levels, n, ranks);
 }
 
 template <typename Count>
-inline void rank_all(const RankTable<Count>& table, const std::uint8_t* levels, std::size_t n, Count* ranks) {
+inline void find_ranks(const RankTable<Count>& table, const std::uint8_t* levels, std::size_t n,
+                       Count* ranks) {
     for (std::size_t k = 0; k < n; ++k) ranks[k] = table[levels[k]];
 }
 
 /// The distances between the samples of one ellipse and each of the M models.
 template <typename Count>
-TRICUE_MULTIVERSION void measure(const SampleView& samples, std::ptrdiff_t ellipse, const Count* models,
-                                 std::ptrdiff_t M, Count* ranks, double* distances) {
+TRICUE_MULTIVERSION void measure_distances(const SampleView& samples, std::ptrdiff_t ellipse,
+                                           const Count* models, std::ptrdiff_t M, Count* ranks,
+                                           double* distances) {
     const auto n = static_cast<std::size_t>(samples.n);
     std::array<RankTable<Count>, 3> tables;
     rank_tables(samples, ellipse, tables);
     for (std::size_t channel = 0; channel < 3; ++channel)
-        rank_all(tables[channel], samples.plane(ellipse, static_cast<int>(channel)), n, ranks + channel * n);
+        find_ranks(tables[channel], samples.plane(ellipse, static_cast<int>(channel)), n,
+                   ranks + channel * n);
     const auto size = static_cast<double>(n);
     for (std::ptrdiff_t m = 0; m < M; ++m) {
-        const std::int64_t sum = difference(ranks, models + 3 * m * samples.n, 3 * n);
+        const std::int64_t sum = sum_absolute_differences(ranks, models + 3 * m * samples.n, 3 * n);
         distances[m] = static_cast<double>(sum) / (3.0 * size * size);
     }
 }
 
 /// The models in units of 1/2n.
 template <typename Count>
-std::vector<Count> rounded(FloatsRef models, std::ptrdiff_t n) {
+std::vector<Count> to_counts(FloatsRef models, std::ptrdiff_t n) {
     std::vector<Count> counts;
     counts.reserve(static_cast<std::size_t>(models.size()));
     const auto twice = static_cast<float>(2 * n);
@@ -68,22 +71,22 @@ std::vector<Count> rounded(FloatsRef models, std::ptrdiff_t n) {
 
 }  // namespace
 
-RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()), n_(n) {
+RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()) {
     if (n < 1) refuse("samples", "at least one an ellipse", "none");
     if (models.cols() != 3 * n)
         refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples",
                std::to_string(models.cols()));
-    with_count_for(static_cast<std::size_t>(n), [&](auto count) {
+    with_count_type(static_cast<std::size_t>(n), [&](auto count) {
         using Count = decltype(count);
         counts_ =
-            Counts<Count>{rounded<Count>(models, n), std::vector<Count>(static_cast<std::size_t>(3 * n))};
+            Counts<Count>{to_counts<Count>(models, n), std::vector<Count>(static_cast<std::size_t>(3 * n))};
     });
 }
 
 void RankMaps::compare(const SampleView& samples, std::ptrdiff_t ellipse, double* distances) {
     std::visit(
         [&](auto& counts) {
-            measure(samples, ellipse, counts.models.data(), size_, counts.ranks.data(), distances);
+            measure_distances(samples, ellipse, counts.models.data(), size_, counts.ranks.data(), distances);
         },
         counts_);
 }

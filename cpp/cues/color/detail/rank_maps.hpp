@@ -10,7 +10,7 @@
 
 namespace tricue {
 
-/// M rank maps that the samples of one ellipse after the other are compared with: what rank_distance is made of.
+/// M rank maps with which the samples of ellipses are compared, one ellipse after the other.
 class RankMaps {
 public:
     /// @param models M x 3n ranks in [0, 1], n >= 1
@@ -23,13 +23,13 @@ public:
     void compare(const SampleView& samples, std::ptrdiff_t ellipse, double* distances);
 
 private:
-    /// Ranks in units of 1/2n, in the smallest type that holds them: those of the maps, and room for an ellipse's.
+    /// Ranks in units of 1/2n, in the smallest type that holds them: those of the maps, and a buffer for those of an ellipse.
     template <typename Count>
     struct Counts {
         std::vector<Count> models, ranks;
     };
 
-    std::ptrdiff_t size_, n_;
+    std::ptrdiff_t size_;
     std::variant<Counts<std::uint8_t>, Counts<std::uint16_t>, Counts<std::uint32_t>> counts_;
 };
 

@@ -17,16 +17,16 @@ using RankTable = std::array<Count, 256>;
 
 /// The most samples whose doubled ranks fit into a count.
 template <typename Count>
-constexpr std::size_t kMostSamples = std::numeric_limits<Count>::max() / 2;
+constexpr std::size_t kMaxSamples = std::numeric_limits<Count>::max() / 2;
 
-/// The tables of the three channels of one ellipse, n <= kMostSamples<Count>.
+/// The tables of the three channels of one ellipse, n <= kMaxSamples<Count>.
 ///
 /// Each step is done for all channels before the next: a vector load has to wait for the narrow stores before it, and that
 /// wait then goes into the other channels' work.
 template <typename Count>
 inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse,
                         std::array<RankTable<Count>, 3>& tables) {
-    // Neighbouring pixels are alike: two histograms a channel, so that a count needn't wait for the one just written.
+    // Neighboring pixels are alike: two histograms per channel, so that a count needn't wait for the one just written.
     alignas(64) Count counts[3][2][256] = {};
     const std::uint8_t* plane[] = {samples.plane(ellipse, 0), samples.plane(ellipse, 1),
                                    samples.plane(ellipse, 2)};
@@ -69,10 +69,10 @@ inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse,
 
 /// Calls `use` with a 0 of the smallest type that counts n samples.
 template <typename Use>
-inline void with_count_for(std::size_t n, Use&& use) {
-    if (n <= kMostSamples<std::uint8_t>)
+inline void with_count_type(std::size_t n, Use&& use) {
+    if (n <= kMaxSamples<std::uint8_t>)
         use(std::uint8_t{0});
-    else if (n <= kMostSamples<std::uint16_t>)
+    else if (n <= kMaxSamples<std::uint16_t>)
         use(std::uint16_t{0});
     else
         use(std::uint32_t{0});

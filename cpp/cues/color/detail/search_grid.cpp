@@ -16,7 +16,7 @@ void require_grid(const SearchGrid& grid) {
                    std::to_string(grid.step) + ")");
 }
 
-Region swept(const Region& region, const SearchGrid& grid) {
+Region swept_region(const Region& region, const SearchGrid& grid) {
     const int left = grid.cols / 2, up = grid.rows / 2;
     return {region.x0 - left * grid.step, region.y0 - up * grid.step,
             region.x1 + (grid.cols - 1 - left) * grid.step, region.y1 + (grid.rows - 1 - up) * grid.step};

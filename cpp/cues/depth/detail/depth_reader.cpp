@@ -9,8 +9,9 @@ namespace {
 
 /// Columns and rows of a rectangle's places; those outside the image have row -1.
 TRICUE_MULTIVERSION
-void place(const double* __restrict u, const double* __restrict v, std::ptrdiff_t n, const double* rectangle,
-           int cols, int rows, std::int32_t* __restrict column, std::int32_t* __restrict row) {
+void find_pixels(const double* __restrict u, const double* __restrict v, std::ptrdiff_t n,
+                 const double* rectangle, int cols, int rows, std::int32_t* __restrict column,
+                 std::int32_t* __restrict row) {
     const double center_x = rectangle[0], center_y = rectangle[1];
     const double half_width = 0.5 * rectangle[2], half_height = 0.5 * rectangle[3];
     for (std::ptrdiff_t k = 0; k < n; ++k) {
@@ -32,14 +33,15 @@ DepthReader::DepthReader(const DepthView& depth, StatesRef pattern) : depth_(dep
     const auto places = static_cast<std::size_t>(pattern.rows());
     column_.resize(places);
     row_.resize(places);
-    seen_.resize(places);
+    depths_.resize(places);
 }
 
 const float* DepthReader::read(const double* rectangle) {
-    place(u_.data(), v_.data(), u_.size(), rectangle, depth_.cols, depth_.rows, column_.data(), row_.data());
-    for (std::size_t k = 0; k < seen_.size(); ++k)
-        seen_[k] = row_[k] < 0 ? 0.0f : depth_.row(row_[k])[column_[k]];
-    return seen_.data();
+    find_pixels(u_.data(), v_.data(), u_.size(), rectangle, depth_.cols, depth_.rows, column_.data(),
+                row_.data());
+    for (std::size_t k = 0; k < depths_.size(); ++k)
+        depths_[k] = row_[k] < 0 ? 0.0f : depth_.row(row_[k])[column_[k]];
+    return depths_.data();
 }
 
 }  // namespace tricue

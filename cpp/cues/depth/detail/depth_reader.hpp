@@ -9,23 +9,23 @@
 
 namespace tricue {
 
-/// Reads the depths in one rectangle after the other at the places of a pattern: what depth_distance and rectangle_histogram
-/// are made of, where it is defined. The image must outlive it.
+/// Reads the depths of one rectangle after the other at the places of a pattern, as depth_distance.hpp defines them. The image must
+/// outlive it.
 class DepthReader {
 public:
     /// @throws std::invalid_argument on a pattern that isn't (n, 2), n at least 1, or not finite
     DepthReader(const DepthView& depth, StatesRef pattern);
 
-    /// Reads a rectangle of four finite numbers or more: centre x, y, width, height. Returns the depths, 0 outside the image.
+    /// Reads a rectangle of four finite numbers or more: center x, y, width, height. Returns the depths, 0 outside the image.
     const float* read(const double* rectangle);
 
-    std::size_t places() const { return seen_.size(); }
+    std::size_t places() const { return depths_.size(); }
 
 private:
     DepthView depth_;
     Vector u_, v_;
     std::vector<std::int32_t> column_, row_;
-    std::vector<float> seen_;
+    std::vector<float> depths_;
 };
 
 }  // namespace tricue

@@ -32,8 +32,8 @@ private:
     GaussianTaps taps_;
     int length_;
     std::vector<float> mean_, change_;
-    RowRing mean_bell_, mean_slope_, mean_curve_, change_bell_, change_slope_;  ///< along x
-    RowRing result_;
+    RowRingBuffer mean_smooth_, mean_slope_, mean_curvature_, change_smooth_, change_slope_;  ///< along x
+    RowRingBuffer result_;
 };
 
 }  // namespace tricue

@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-[[gnu::always_inline]] inline void sort(float& a, float& b) {
+TRICUE_INLINE void sort_pair(float& a, float& b) {
     const float less = a < b ? a : b, more = a < b ? b : a;
     a = less;
     b = more;
@@ -22,9 +22,11 @@ void median_row(const float* __restrict above, const float* __restrict here, con
     for (int x = 0; x < n; ++x) {
         float a = above[x], b = above[x + 1], c = above[x + 2], d = here[x], e = here[x + 1], f = here[x + 2],
               g = below[x], h = below[x + 1], i = below[x + 2];
-        sort(b, c), sort(e, f), sort(h, i), sort(a, b), sort(d, e), sort(g, h), sort(b, c), sort(e, f);
-        sort(h, i), sort(a, d), sort(f, i), sort(e, h), sort(d, g), sort(b, e), sort(c, f), sort(e, h);
-        sort(e, c), sort(g, e), sort(e, c);
+        sort_pair(b, c), sort_pair(e, f), sort_pair(h, i), sort_pair(a, b), sort_pair(d, e), sort_pair(g, h),
+            sort_pair(b, c), sort_pair(e, f);
+        sort_pair(h, i), sort_pair(a, d), sort_pair(f, i), sort_pair(e, h), sort_pair(d, g), sort_pair(b, e),
+            sort_pair(c, f), sort_pair(e, h);
+        sort_pair(e, c), sort_pair(g, e), sort_pair(e, c);
         out[x] = e;
     }
 }
@@ -35,9 +37,9 @@ void add_rows(const float* __restrict a, const float* __restrict b, int n, float
     for (int x = 0; x < n; ++x) out[x] = a[x] + b[x];
 }
 
-/// From halves of sums on, at pixel 0, and between them.
+/// Upsamples by two: sum[x] at even pixels, the mean of two neighbors between them.
 TRICUE_MULTIVERSION
-void spread_row(const float* __restrict sum, int n, float* __restrict out) {
+void interpolate_row(const float* __restrict sum, int n, float* __restrict out) {
     for (int x = 0; x < n / 2; ++x) {
         out[2 * x] = sum[x];
         out[2 * x + 1] = 0.5F * (sum[x] + sum[x + 1]);
@@ -60,7 +62,7 @@ Floats median(const Floats& plane) {
 
 }  // namespace
 
-Region halved(const Region& area, int rows, int cols) {
+Region coarser_region(const Region& area, int rows, int cols) {
     return {area.x0 / 2, area.y0 / 2, std::min(area.x1 / 2 + 1, cols), std::min(area.y1 / 2 + 1, rows)};
 }
 
@@ -77,19 +79,19 @@ void FlowGuess::row(int y, float* u, float* v) {
         std::fill_n(u, area_.x1 - area_.x0, 0.0F);
         std::fill_n(v, area_.x1 - area_.x0, 0.0F);
     } else {
-        double_row(u_, y, u);
-        double_row(v_, y, v);
+        upsample_row(u_, y, u);
+        upsample_row(v_, y, v);
     }
 }
 
-void FlowGuess::double_row(const Floats& plane, int y, float* out) {
+void FlowGuess::upsample_row(const Floats& plane, int y, float* out) {
     const int at = area_.y0 + y - y0_, skipped = area_.x0 - x0_, width = area_.x1 - area_.x0;
     const Eigen::Index top = at / 2, bottom = std::min<Eigen::Index>(top + at % 2, plane.rows() - 1);
     float* sum = sum_.data();
     add_rows(&plane(top, 0), &plane(bottom, 0), static_cast<int>(plane.cols()), sum);
     sum[plane.cols()] = sum[plane.cols() - 1];
     if (skipped == 1) *out++ = 0.5F * (sum[0] + sum[1]);
-    spread_row(sum + skipped, width - skipped, out);
+    interpolate_row(sum + skipped, width - skipped, out);
 }
 
 }  // namespace tricue

@@ -12,11 +12,11 @@ struct FlowField {
     Floats u, v;
 };
 
-/// What of the next coarser level, of that size, an area lies between.
-Region halved(const Region& area, int rows, int cols);
+/// The area of the next coarser level, of that size, between whose pixels an area lies.
+Region coarser_region(const Region& area, int rows, int cols);
 
-/// The flow that the next coarser level gives an area: smoothed by the median of 3x3, between its pixels linear, in finer
-/// pixels twice as long. Without a coarser level none.
+/// The initial flow of an area, from the next coarser level: median-filtered (3x3), upsampled linearly, and doubled. Zero without a
+/// coarser level.
 class FlowGuess {
 public:
     explicit FlowGuess(const Region& area) : area_(area) {}
@@ -28,7 +28,7 @@ public:
     void row(int y, float* u, float* v);
 
 private:
-    void double_row(const Floats& plane, int y, float* out);
+    void upsample_row(const Floats& plane, int y, float* out);
 
     Region area_;
     int x0_ = 0, y0_ = 0;  ///< of the coarse planes, in pixels of the finer level

@@ -17,7 +17,7 @@ struct FlowRow {
     float* contrast;  ///< equation (6), (gray levels per pixel squared) squared
 };
 
-/// u, v, angle and contrast (rows, cols) one below the other. One piece of memory is given back and got again faster than four.
+/// u, v, angle and contrast (rows, cols) one below the other. One block of memory is allocated and freed faster than four.
 struct FlowPlanes {
     FlowPlanes(Eigen::Index height, Eigen::Index width) : rows(height), planes(4 * height, width) {}
 
@@ -35,7 +35,7 @@ struct FlowMinima {
 };
 
 constexpr float kNoFlow = std::numeric_limits<float>::quiet_NaN();
-constexpr float kRoundingContrast = 1e-6F;  ///< what 32-bit sums of gray levels leave where there is none
+constexpr float kRoundingContrast = 1e-6F;  ///< the contrast that float32 rounding leaves in a uniform image
 
 /// Throw std::invalid_argument unless frames have pixels and one size, at most 16384 a side, a region's corners are in order and
 /// within them, an angle is 0 to 1 and a contrast finite and not negative.

@@ -15,7 +15,7 @@ void to_floats(const std::uint8_t* __restrict from, int n, float* __restrict to)
 
 }  // namespace
 
-void frame_row(const ImageView& image, int y, int x0, int n, float* out) {
+void read_frame_row(const ImageView& image, int y, int x0, int n, float* out) {
     const std::uint8_t* row = image.row(std::clamp(y, 0, image.rows - 1));
     const int begin = std::clamp(-x0, 0, n), end = std::clamp(image.cols - x0, begin, n);
     std::fill(out, out + begin, static_cast<float>(row[0]));

@@ -5,7 +5,7 @@
 
 namespace tricue {
 
-/// Pixels (x0 to x0 + n, y) of a gray image as floats; beyond the image its last row or column goes on.
-void frame_row(const ImageView& image, int y, int x0, int n, float* out);
+/// Pixels (x0 to x0 + n, y) of a gray image as floats; beyond the image its border is replicated.
+void read_frame_row(const ImageView& image, int y, int x0, int n, float* out);
 
 }  // namespace tricue

@@ -12,10 +12,10 @@
 namespace tricue {
 namespace {
 
-constexpr double kReach = 3.5;  // sigmas on each side, up to the outer edge of the last pixel
+constexpr double kSupportSigmas = 3.5;  // sigmas on each side, up to the outer edge of the last pixel
 
-[[gnu::always_inline]] inline void sum_and_difference(const float* before, const float* after, RowBlock& sum,
-                                                      RowBlock& difference) {
+TRICUE_INLINE void sum_and_difference(const float* before, const float* after, RowBlock& sum,
+                                      RowBlock& difference) {
     RowBlock left, right;
     load(before, left);
     load(after, right);
@@ -23,30 +23,30 @@ constexpr double kReach = 3.5;  // sigmas on each side, up to the outer edge of 
     difference = {right.a - left.a, right.b - left.b};
 }
 
-template <bool kCurved>
-[[gnu::always_inline]] inline void across(const float* row, int radius, const float* bells,
-                                          const float* slopes, const float* curves, int n, float* bell,
-                                          float* slope, float* curve) {
+template <bool kWithCurvature>
+TRICUE_INLINE void filter_across_by(const float* row, int radius, const float* smooth_weights,
+                                    const float* slope_weights, const float* curvature_weights, int n,
+                                    float* smooth, float* slope, float* curvature) {
     for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock middle, smooth{}, rise{}, bend{}, sum, difference;
+        RowBlock middle, smooth_sum{}, slope_sum{}, curvature_sum{}, sum, difference;
         load(row + x, middle);
-        add(bells[0], middle, smooth);
-        if (kCurved) add(curves[0], middle, bend);
+        add(smooth_weights[0], middle, smooth_sum);
+        if (kWithCurvature) add(curvature_weights[0], middle, curvature_sum);
         for (int k = 1; k <= radius; ++k) {
             sum_and_difference(row + x - k, row + x + k, sum, difference);
-            add(bells[k], sum, smooth);
-            add(slopes[k], difference, rise);
-            if (kCurved) add(curves[k], sum, bend);
+            add(smooth_weights[k], sum, smooth_sum);
+            add(slope_weights[k], difference, slope_sum);
+            if (kWithCurvature) add(curvature_weights[k], sum, curvature_sum);
         }
-        store(smooth, bell + x);
-        store(rise, slope + x);
-        if (kCurved) store(bend, curve + x);
+        store(smooth_sum, smooth + x);
+        store(slope_sum, slope + x);
+        if (kWithCurvature) store(curvature_sum, curvature + x);
     }
 }
 
 template <bool kOdd>
-[[gnu::always_inline]] inline void down(const float* const* rows, int radius, const float* weights, int n,
-                                        float* out) {
+TRICUE_INLINE void filter_down_by(const float* const* rows, int radius, const float* weights, int n,
+                                  float* out) {
     for (int x = 0; x < n; x += kRowBlock) {
         RowBlock middle, total{}, sum, difference;
         load(rows[radius] + x, middle);
@@ -60,28 +60,29 @@ template <bool kOdd>
 }
 
 TRICUE_MULTIVERSION
-void across_three(const float* row, int radius, const float* bells, const float* slopes, const float* curves,
-                  int n, float* bell, float* slope, float* curve) {
-    across<true>(row, radius, bells, slopes, curves, n, bell, slope, curve);
+void across_three(const float* row, int radius, const float* smooth_weights, const float* slope_weights,
+                  const float* curvature_weights, int n, float* smooth, float* slope, float* curvature) {
+    filter_across_by<true>(row, radius, smooth_weights, slope_weights, curvature_weights, n, smooth, slope,
+                           curvature);
 }
 
 TRICUE_MULTIVERSION
-void across_two(const float* row, int radius, const float* bells, const float* slopes, int n, float* bell,
-                float* slope) {
-    across<false>(row, radius, bells, slopes, nullptr, n, bell, slope, nullptr);
+void across_two(const float* row, int radius, const float* smooth_weights, const float* slope_weights, int n,
+                float* smooth, float* slope) {
+    filter_across_by<false>(row, radius, smooth_weights, slope_weights, nullptr, n, smooth, slope, nullptr);
 }
 
 TRICUE_MULTIVERSION
 void even_down(const float* const* rows, int radius, const float* weights, int n, float* out) {
-    down<false>(rows, radius, weights, n, out);
+    filter_down_by<false>(rows, radius, weights, n, out);
 }
 
 TRICUE_MULTIVERSION
 void odd_down(const float* const* rows, int radius, const float* weights, int n, float* out) {
-    down<true>(rows, radius, weights, n, out);
+    filter_down_by<true>(rows, radius, weights, n, out);
 }
 
-/// Where a cache line begins: registers that reach over the end of one take twice as long to load.
+/// The first cache line: loads that cross a line take twice as long.
 float* aligned(std::vector<float>& data) {
     void* begin = data.data();
     std::size_t room = data.size() * sizeof data[0];
@@ -94,24 +95,24 @@ int radius_of(const std::vector<float>& weights) {
 
 }  // namespace
 
-GaussianTaps::GaussianTaps(double sigma) : radius(static_cast<int>(std::ceil(kReach * sigma - 0.5))) {
+GaussianTaps::GaussianTaps(double sigma) : radius(static_cast<int>(std::ceil(kSupportSigmas * sigma - 0.5))) {
     std::vector<double> samples(static_cast<std::size_t>(radius) + 1);
-    for (auto* weights : {&bell, &slope, &curve}) weights->reserve(samples.size());
+    for (auto* weights : {&smooth, &slope, &curvature}) weights->reserve(samples.size());
     double sum = 0, square = 0, fourth = 0;  // of the samples on both sides, times x^0, x^2, x^4
     for (int x = 0; x <= radius; ++x) {
-        const double bell_here = std::exp(-x * x / (2 * sigma * sigma)), sides = x == 0 ? 1 : 2;
-        samples[static_cast<std::size_t>(x)] = bell_here;
-        sum += sides * bell_here;
-        square += sides * bell_here * x * x;
-        fourth += sides * bell_here * x * x * x * x;
+        const double sample = std::exp(-x * x / (2 * sigma * sigma)), sides = x == 0 ? 1 : 2;
+        samples[static_cast<std::size_t>(x)] = sample;
+        sum += sides * sample;
+        square += sides * sample * x * x;
+        fourth += sides * sample * x * x * x * x;
     }
     square /= sum;
     fourth /= sum;
     for (int x = 0; x <= radius; ++x) {
         const double share = samples[static_cast<std::size_t>(x)] / sum;
-        bell.push_back(static_cast<float>(share));
+        smooth.push_back(static_cast<float>(share));
         slope.push_back(static_cast<float>(x * share / square));
-        curve.push_back(static_cast<float>(2 * (x * x - square) * share / (fourth - square * square)));
+        curvature.push_back(static_cast<float>(2 * (x * x - square) * share / (fourth - square * square)));
     }
 }
 
@@ -119,14 +120,14 @@ void require_sigma(double sigma) {
     if (!(sigma >= 0.5 && sigma <= 16)) refuse("sigma", "0.5 to 16 pixels", sigma);
 }
 
-void filter_across(const float* row, const GaussianTaps& taps, int n, float* bell, float* slope,
-                   float* curve) {
-    across_three(row, taps.radius, taps.bell.data(), taps.slope.data(), taps.curve.data(), n, bell, slope,
-                 curve);
+void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope,
+                   float* curvature) {
+    across_three(row, taps.radius, taps.smooth.data(), taps.slope.data(), taps.curvature.data(), n, smooth,
+                 slope, curvature);
 }
 
-void filter_across(const float* row, const GaussianTaps& taps, int n, float* bell, float* slope) {
-    across_two(row, taps.radius, taps.bell.data(), taps.slope.data(), n, bell, slope);
+void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope) {
+    across_two(row, taps.radius, taps.smooth.data(), taps.slope.data(), n, smooth, slope);
 }
 
 void filter_down(const float* const* rows, const std::vector<float>& weights, int n, float* out) {
@@ -137,7 +138,7 @@ void slope_down(const float* const* rows, const std::vector<float>& weights, int
     odd_down(rows, radius_of(weights), weights.data(), n, out);
 }
 
-RowRing::RowRing(int count, int length)
+RowRingBuffer::RowRingBuffer(int count, int length)
     : count_(count),
       data_(static_cast<std::size_t>(whole_blocks(length)) * static_cast<std::size_t>(count) + kRowBlock) {
     float* first = aligned(data_);

@@ -11,14 +11,14 @@ namespace tricue {
 /// A Gaussian and its first two derivatives, sampled and cut off at 3.5 sigma, as weights to correlate with: those of
 /// the pixels at distance 0 to radius on the right of (below) the middle. To the left slope has the other sign, the others the same.
 ///
-/// Scaled so that of what is sampled exactly they make no error: bell sums to 1, slope gives 1 on the ramp x, curve
-/// gives 0 on a constant and 2 on the parabola x^2. Of waves with w sigma <= 1.5 slope^2 / curve is right to 2 % from sigma
+/// Scaled so that they are exact on polynomials: smooth sums to 1, slope gives 1 on the ramp x, curvature
+/// gives 0 on a constant and 2 on the parabola x^2. Of waves with w sigma <= 1.5 slope^2 / curvature is right to 2 % from sigma
 /// 1.5 on, to 3 % at 1; cut off at 3 sigma it would be 7 % off.
 struct GaussianTaps {
     explicit GaussianTaps(double sigma);
 
     int radius;
-    std::vector<float> bell, slope, curve;
+    std::vector<float> smooth, slope, curvature;
 };
 
 /// Throws std::invalid_argument unless it is 0.5 to 16 pixels.
@@ -27,22 +27,22 @@ void require_sigma(double sigma);
 /// Rows are filtered a block at a time (row_block.hpp): each must be writable up to a whole number of blocks, and readable up to that
 /// and the radius of the filter on both sides. What is read beyond the row counts only there.
 
-/// Of one row its filters along x, n pixels each, in one pass; the second without the curve.
-void filter_across(const float* row, const GaussianTaps& taps, int n, float* bell, float* slope,
-                   float* curve);
-void filter_across(const float* row, const GaussianTaps& taps, int n, float* bell, float* slope);
+/// Of one row its filters along x, n pixels each, in one pass; the second without the curvature.
+void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope,
+                   float* curvature);
+void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope);
 
-/// Along y, from 2 radius + 1 rows, the uppermost first: with weights that are the same above and below (bell, curve),
+/// Along y, from 2 radius + 1 rows, the uppermost first: with weights that are the same above and below (smooth, curvature),
 /// or of the other sign above (slope).
 void filter_down(const float* const* rows, const std::vector<float>& weights, int n, float* out);
 void slope_down(const float* const* rows, const std::vector<float>& weights, int n, float* out);
 
-/// Rows of equal length that follow each other: a row takes the place of the one `count` above it.
-class RowRing {
+/// The last `count` rows: a row takes the place of the one `count` above it.
+class RowRingBuffer {
 public:
-    RowRing(int count, int length);
-    RowRing(const RowRing&) = delete;  // a row's address would be of the other
-    RowRing& operator=(const RowRing&) = delete;
+    RowRingBuffer(int count, int length);
+    RowRingBuffer(const RowRingBuffer&) = delete;  // rows_ points into data_
+    RowRingBuffer& operator=(const RowRingBuffer&) = delete;
 
     /// Any y from -count on.
     float* row(int y) { return rows_[slot(y)]; }
@@ -55,7 +55,7 @@ private:
 
     int count_;
     std::vector<float> data_;
-    std::vector<float*> rows_;  ///< twice, so that `count` of them follow each other from any on
+    std::vector<float*> rows_;  ///< twice, so that `count` consecutive pointers begin at any row
 };
 
 }  // namespace tricue

@@ -55,9 +55,7 @@ void interpolate(const std::uint32_t* __restrict quads, int rows, int cols, int 
     }
 }
 
-}  // namespace
-
-GrayImage halved(const ImageView& image) {
+GrayImage downsampled(const ImageView& image) {
     GrayImage half{(image.rows + 1) / 2, (image.cols + 1) / 2, {}};
     half.pixels.resize(static_cast<std::size_t>(half.rows) * static_cast<std::size_t>(half.cols));
     std::vector<std::uint16_t> smooth(static_cast<std::size_t>(image.cols) + 4);
@@ -73,9 +71,11 @@ GrayImage halved(const ImageView& image) {
     return half;
 }
 
-std::vector<GrayImage> smaller_levels(const ImageView& image, int levels) {
-    std::vector<GrayImage> images{halved(image)};
-    while (static_cast<int>(images.size()) < levels - 1) images.push_back(halved(images.back().view()));
+}  // namespace
+
+std::vector<GrayImage> coarser_levels(const ImageView& image, int levels) {
+    std::vector<GrayImage> images{downsampled(image)};
+    while (static_cast<int>(images.size()) < levels - 1) images.push_back(downsampled(images.back().view()));
     return images;
 }
 

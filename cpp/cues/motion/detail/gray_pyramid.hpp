@@ -8,7 +8,7 @@
 
 namespace tricue {
 
-/// A gray image of its own.
+/// A gray image that owns its pixels.
 struct GrayImage {
     int rows, cols;
     std::vector<std::uint8_t> pixels;
@@ -16,18 +16,16 @@ struct GrayImage {
     ImageView view() const { return {pixels.data(), rows, cols, 1, cols}; }
 };
 
-/// Every second pixel, from the first on, of the image smoothed by 1, 4, 6, 4, 1 and rounded; beyond the edge its pixels go on.
-GrayImage halved(const ImageView& image);
+/// All levels of the image's pyramid but the first. Each is every second pixel of the one before, smoothed by 1, 4, 6, 4, 1 and rounded;
+/// the border is replicated.
+std::vector<GrayImage> coarser_levels(const ImageView& image, int levels);
 
-/// The image, all its levels but the first.
-std::vector<GrayImage> smaller_levels(const ImageView& image, int levels);
-
-/// A gray image to be read between its pixels: each holds its right, lower and lower right neighbor too, so that one load does.
+/// A gray image for bilinear interpolation: each entry packs a pixel with its right, lower and lower right neighbors, for one load.
 class QuadImage {
 public:
     explicit QuadImage(const ImageView& image);
 
-    /// The image at (x0 + i - u[i], y - v[i]), i = 0 to n - 1, bilinear; beyond the edge its pixels go on.
+    /// The image at (x0 + i - u[i], y - v[i]), i = 0 to n - 1, bilinear; the border is replicated.
     void warped_row(int y, int x0, const float* u, const float* v, int n, float* out) const;
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "base/lanes.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 
@@ -12,25 +12,26 @@ constexpr int whole_blocks(int n) {
     return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
 }
 
-/// A block is two registers of AVX-512 or four of AVX2, so that no sum waits for the one before. Sums have one order, whatever the machine.
+/// A block is two registers of AVX-512 or four of AVX2, so that no sum waits for the one before. The order of sums is the same on every
+/// machine.
 constexpr int kHalfBlock = kRowBlock / 2;
-using HalfBlock [[gnu::vector_size(4 * kHalfBlock)]] = float;
+using HalfBlock = Pack<float, kHalfBlock>;
 
 struct RowBlock {
     HalfBlock a, b;
 };
 
-[[gnu::always_inline]] inline void load(const float* from, RowBlock& to) {
-    read(from, to.a);
-    read(from + kHalfBlock, to.b);
+TRICUE_INLINE void load(const float* from, RowBlock& to) {
+    load(from, to.a);
+    load(from + kHalfBlock, to.b);
 }
 
-[[gnu::always_inline]] inline void store(const RowBlock& from, float* to) {
-    write(from.a, to);
-    write(from.b, to + kHalfBlock);
+TRICUE_INLINE void store(const RowBlock& from, float* to) {
+    store(from.a, to);
+    store(from.b, to + kHalfBlock);
 }
 
-[[gnu::always_inline]] inline void add(float weight, const RowBlock& block, RowBlock& sum) {
+TRICUE_INLINE void add(float weight, const RowBlock& block, RowBlock& sum) {
     sum.a += weight * block.a;
     sum.b += weight * block.b;
 }

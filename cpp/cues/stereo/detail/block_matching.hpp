@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// Rows that block matching reads or writes must go on for this many numbers after their end: it works on whole registers.
+/// Rows that block matching reads or writes need room for this many numbers after their end: it works on whole registers.
 constexpr int kMatchPadding = 32;
 
 /// One row of the left image and the same of the right, which begins where the first candidate matches the left;
@@ -23,7 +23,7 @@ struct ColumnSums {
     int candidates;
 };
 
-/// What the search finds for each pixel of a row; kNoCost stands for a candidate that isn't there.
+/// The result for each pixel of a row; kNoCost stands for a missing candidate.
 struct Matches {
     std::uint16_t* best;    ///< the least cost
     std::uint16_t* at;      ///< the first candidate that has it
@@ -33,7 +33,7 @@ struct Matches {
 };
 constexpr std::uint16_t kNoCost = 65535;
 
-/// What is looked for in the sums.
+/// How to search the sums.
 struct Search {
     int window;       ///< that of pixel x is columns [x, x + window) of the sums
     bool second;      ///< whether the second best is needed; else it isn't defined

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "base/simd.hpp"
-#include "cues/stereo/detail/window_mean.hpp"
+#include "cues/stereo/detail/box_filter.hpp"
 
 namespace tricue {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr int kLine = 16;  // floats in a cache line
 constexpr int kTaps = 4;   // of f_R: the columns that x - d lies between, and one more on each side
 
-/// A register is loaded and stored for each pixel: several times as fast as a gather for each tap.
+/// Copies all taps of a pixel at once: several times faster than a gather for each tap.
 void gather(const float* f, const int* column, int n, float* taps) {
     for (int x = 0; x < n; ++x) std::memcpy(taps + kTaps * x, f + column[x] - 1, kTaps * sizeof(float));
 }
@@ -33,69 +33,69 @@ void interpolate(const float* __restrict taps, const float* __restrict share, in
     }
 }
 
-/// What equation (7) is made of, a row of each: f_L, f_R, f_x^R, and the disparities known.
+/// The terms of equation (7), a row of each: f_L, f_R, f_x^R, and the expected disparities.
 struct Equations {
-    const float *left, *right, *right_slope, *seen, *offset;
+    const float *left, *right, *right_slope, *visible, *offset;
 };
 
 struct Products {
     float *ss, *st, *tt, *power, *reliability;
 };
 
-/// No row overlaps another: GCC doesn't believe __restrict of what comes in a struct.
+/// No row overlaps another: GCC ignores __restrict of pointers in a struct.
 TRICUE_MULTIVERSION
 void multiply(const Equations& row, int n, const Products& out) {
     const Equations in = row;
     const Products to = out;
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
-        const float left_slope = 0.5F * (in.left[x + 1] - in.left[x - 1]), seen = in.seen[x];
-        const float s = 0.5F * seen * (in.right_slope[x] + left_slope);
+        const float left_slope = 0.5F * (in.left[x + 1] - in.left[x - 1]), visible = in.visible[x];
+        const float s = 0.5F * visible * (in.right_slope[x] + left_slope);
         to.ss[x] = s * s;
-        to.st[x] = s * (s * in.offset[x] + seen * (in.right[x] - in.left[x]));
+        to.st[x] = s * (s * in.offset[x] + visible * (in.right[x] - in.left[x]));
     }
 }
 
 TRICUE_MULTIVERSION
-void multiply_all(const Equations& row, int n, const Products& out) {
+void multiply_finest(const Equations& row, int n, const Products& out) {
     const Equations in = row;
     const Products to = out;
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float left = in.left[x], right = in.right[x], right_slope = in.right_slope[x];
-        const float left_slope = 0.5F * (in.left[x + 1] - in.left[x - 1]), seen = in.seen[x];
-        const float s = 0.5F * seen * (right_slope + left_slope);
-        const float t = s * in.offset[x] + seen * (right - left);
+        const float left_slope = 0.5F * (in.left[x + 1] - in.left[x - 1]), visible = in.visible[x];
+        const float s = 0.5F * visible * (right_slope + left_slope);
+        const float t = s * in.offset[x] + visible * (right - left);
         to.ss[x] = s * s;
         to.st[x] = s * t;
         to.tt[x] = t * t;
-        to.power[x] = seen * (left * left + right * right);
-        to.reliability[x] = seen * (left_slope * left_slope + right_slope * right_slope);
+        to.power[x] = visible * (left * left + right * right);
+        to.reliability[x] = visible * (left_slope * left_slope + right_slope * right_slope);
     }
 }
 
-Region grown(const Region& region, int across, int down, int rows, int cols) {
+Region expanded(const Region& region, int across, int down, int rows, int cols) {
     return {std::max(region.x0 - across, 0), std::max(region.y0 - down, 0),
             std::min(region.x1 + across, cols), std::min(region.y1 + down, rows)};
 }
 
 }  // namespace
 
-LevelParts level_parts(const Region& wanted, int rows, int cols, int radius, int reach, double predicted,
-                       double uncertainty) {
-    LevelParts parts{wanted, grown(wanted, radius, radius, rows, cols), 0, 0, {}, {}};
+LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int radius, int reach,
+                                double predicted, double uncertainty) {
+    LevelRegions parts{wanted, expanded(wanted, radius, radius, rows, cols), 0, 0, {}, {}};
     const double least = parts.pooled.x0 - predicted - uncertainty - 1.0,
                  most = parts.pooled.x1 - predicted + uncertainty + 1.0;
     parts.first = static_cast<int>(std::clamp(std::floor(least), 0.0, cols - 1.0));
     parts.last = static_cast<int>(std::clamp(std::ceil(most), 0.0, cols - 1.0));
-    parts.left = grown(parts.pooled, reach + 1, reach, rows, cols);
-    parts.right =
-        grown({parts.first, parts.pooled.y0, parts.last + 1, parts.pooled.y1}, reach + 2, reach, rows, cols);
+    parts.left = expanded(parts.pooled, reach + 1, reach, rows, cols);
+    parts.right = expanded({parts.first, parts.pooled.y0, parts.last + 1, parts.pooled.y1}, reach + 2, reach,
+                           rows, cols);
     return parts;
 }
 
-GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, const LevelParts& parts,
-                             const GaussianSlope& filter, int radius, const KnownDisparity& known,
+GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, const LevelRegions& parts,
+                             const GaussianDerivative& filter, int radius, const DisparityPrior& known,
                              bool finest)
     : radius_(radius),
       rows_(left.rows()),
@@ -104,8 +104,8 @@ GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, cons
       pooled_(parts.pooled),
       left_(left, filter, std::max(pooled_.x0 - 1, 0), std::min(pooled_.x1 + 1, left.cols()), 1),
       right_(right, filter, std::max(parts.first - 1, 0), std::min(parts.last + 3, left.cols()), 2),
-      ahead_(known, pooled_.x0, pooled_.x1, parts.first, parts.last, left.cols()),
-      here_(known, wanted_.x0, wanted_.x1, parts.first, parts.last, left.cols()),
+      incoming_(known, pooled_.x0, pooled_.x1, parts.first, parts.last, left.cols()),
+      center_(known, wanted_.x0, wanted_.x1, parts.first, parts.last, left.cols()),
       width_(static_cast<std::size_t>((wanted_.x1 - wanted_.x0 + 2 * radius + kLine - 1) / kLine * kLine)),
       taps_(static_cast<std::size_t>(kTaps * (pooled_.x1 - pooled_.x0))),
       shifted_(taps_.size() / kTaps),
@@ -114,47 +114,48 @@ GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, cons
       column_(width_),
       means_(count_ * width_) {}
 
-/// Where a cache line begins: registers that reach over the end of one take twice as long.
+/// The first cache line: accesses that cross a line take twice as long.
 float* GradientLevel::ring() {
     void* begin = ring_.data();
     std::size_t room = ring_.size() * sizeof(float);
     return static_cast<float*>(std::align(kLine * sizeof(float), sizeof(float), begin, room));
 }
 
-float* GradientLevel::slot(std::size_t mean, int y) {
+float* GradientLevel::ring_row(std::size_t mean, int y) {
     const int side = 2 * radius_ + 1;
     const auto turn = static_cast<std::size_t>((y + side * side) % side);  // y is at least -radius
     return ring() + (mean * static_cast<std::size_t>(side) + turn) * width_;
 }
 
-void GradientLevel::add(int y) {
+void GradientLevel::add_row(int y) {
     latest_ = y;
     const int skip = pooled_.x0 - (wanted_.x0 - radius_), n = pooled_.x1 - pooled_.x0;
-    if (y < 0 || y >= rows_) {  // beyond the picture stands 0
-        for (std::size_t mean = 0; mean < count_; ++mean) std::fill_n(slot(mean, y) + skip, n, 0.0F);
+    if (y < 0 || y >= rows_) {  // 0 beyond the picture
+        for (std::size_t mean = 0; mean < count_; ++mean) std::fill_n(ring_row(mean, y) + skip, n, 0.0F);
         return;
     }
-    ahead_.move_to(y);
+    incoming_.move_to(y);
     const float* left = left_.row(y) + pooled_.x0;
-    gather(right_.row(y), ahead_.column(), n, taps_.data());
-    interpolate(taps_.data(), ahead_.share(), n, shifted_.data(), slope_.data());
-    const Equations row{left, shifted_.data(), slope_.data(), ahead_.seen(), ahead_.offset()};
-    Products out{slot(0, y) + skip, slot(1, y) + skip, nullptr, nullptr, nullptr};
+    gather(right_.row(y), incoming_.column(), n, taps_.data());
+    interpolate(taps_.data(), incoming_.share(), n, shifted_.data(), slope_.data());
+    const Equations row{left, shifted_.data(), slope_.data(), incoming_.visible(), incoming_.offset()};
+    Products out{ring_row(0, y) + skip, ring_row(1, y) + skip, nullptr, nullptr, nullptr};
     if (count_ == 2) return multiply(row, n, out);
-    out.tt = slot(2, y) + skip;
-    out.power = slot(3, y) + skip;
-    out.reliability = slot(4, y) + skip;
-    multiply_all(row, n, out);
+    out.tt = ring_row(2, y) + skip;
+    out.power = ring_row(3, y) + skip;
+    out.reliability = ring_row(4, y) + skip;
+    multiply_finest(row, n, out);
 }
 
 WindowMeans GradientLevel::means(float* reliability) {
     const int side = 2 * radius_ + 1;
-    std::array<const float*, kWidestWindow> rows;
+    std::array<const float*, kMaxWindow> rows;
     std::array<const float*, kMeans> found{};
     for (std::size_t mean = 0; mean < count_; ++mean) {
-        for (int k = 0; k < side; ++k) rows[static_cast<std::size_t>(k)] = slot(mean, latest_ - side + 1 + k);
+        for (int k = 0; k < side; ++k)
+            rows[static_cast<std::size_t>(k)] = ring_row(mean, latest_ - side + 1 + k);
         float* to = mean + 1 < kMeans ? means_.data() + mean * width_ : reliability;
-        mean_rows(rows.data(), side, wanted_.x1 - wanted_.x0, column_.data(), to);
+        box_filter_row(rows.data(), side, wanted_.x1 - wanted_.x0, column_.data(), to);
         found[mean] = to;
     }
     return {found[0], found[1], found[2], found[3], found[4]};

@@ -4,66 +4,67 @@
 #include <array>
 #include <vector>
 
-#include "cues/stereo/detail/gaussian_slope.hpp"
+#include "cues/stereo/detail/gaussian_derivative.hpp"
 #include "cues/stereo/detail/gray_plane.hpp"
-#include "cues/stereo/detail/shift_row.hpp"
+#include "cues/stereo/detail/warped_columns.hpp"
 
 namespace tricue {
 
-/// Means over the window round each pixel of a row, of s = (f_x^R + f_x^L) / 2, t = s offset + f^R - f^L, which (7) sets to s
-/// times the offset that is looked for, and of the brightness f; the offset is d - base.
+/// Means over the window around each pixel of a row. With s = (f_x^R + f_x^L) / 2 and t = s offset + f^R - f^L, equation (7) says
+/// t = s times the wanted offset d - base; f is the brightness.
 struct WindowMeans {
     const float *ss, *st;                   ///< s², s t
     const float *tt, *power, *reliability;  ///< t², f_L² + f_R², (9); only of the finest level
 };
 
-/// Which parts of its pictures a level needs: in it, not empty.
-struct LevelParts {
+/// The parts of its pictures that a level needs; inside them, not empty.
+struct LevelRegions {
     Region wanted;       ///< the pixels to measure
     Region pooled;       ///< those of their windows
-    int first, last;     ///< columns of the right picture where those may be, both included
+    int first, last;     ///< columns of the right picture where those can be, both included
     Region left, right;  ///< what filters read
 };
 
 /// @param predicted   disparity, pixels of this level
-/// @param uncertainty how far from that known disparities may lie
-LevelParts level_parts(const Region& wanted, int rows, int cols, int radius, int reach, double predicted,
-                       double uncertainty);
+/// @param uncertainty how far from that the expected disparities may be
+LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int radius, int reach,
+                                double predicted, double uncertainty);
 
 /// One level of gradient_disparity, row by row.
 class GradientLevel {
 public:
     /// @param left, right show parts.left and parts.right
     /// @param finest      all means are wanted, else two
-    GradientLevel(const GrayLevel& left, const GrayLevel& right, const LevelParts& parts,
-                  const GaussianSlope& filter, int radius, const KnownDisparity& known, bool finest);
+    GradientLevel(const GrayLevel& left, const GrayLevel& right, const LevelRegions& parts,
+                  const GaussianDerivative& filter, int radius, const DisparityPrior& known, bool finest);
 
-    /// Calls done(y, means, here) for each row; `here` are the known disparities of its pixels. The finest level's
+    /// Calls done(y, means, here) for each row; `here` are the expected disparities of its pixels. The finest level's
     /// reliabilities are written to reliability(y).
     template <typename Reliability, typename Done>
     void run(const Reliability& reliability, const Done& done) {
         for (int y = wanted_.y0 - radius_; y < wanted_.y1 + radius_; ++y) {
-            add(y);
+            add_row(y);
             const int middle = y - radius_;
             if (middle < wanted_.y0) continue;
-            here_.move_to(middle);
-            done(middle, means(reliability(middle)), here_);
+            center_.move_to(middle);
+            done(middle, means(reliability(middle)), center_);
         }
     }
 
 private:
     static constexpr std::size_t kMeans = 5;
 
-    void add(int y);
+    void add_row(int y);
     WindowMeans means(float* reliability);
     float* ring();
-    float* slot(std::size_t mean, int y);
+    float* ring_row(std::size_t mean, int y);
 
     int radius_, rows_;
     std::size_t count_;  ///< of means: 2 or kMeans
     Region wanted_, pooled_;
-    SlopeRows left_, right_;
-    ShiftRow ahead_, here_;  ///< of the row that comes into the window, and of the one in its middle
+    DerivativeRows left_, right_;
+    WarpedColumns incoming_,
+        center_;  ///< of the row that comes into the window, and of the one in its middle
     int latest_ = 0;
     std::size_t width_;  ///< of rows of the ring, so that all are aligned
     std::vector<float> taps_, shifted_, slope_, ring_, column_, means_;

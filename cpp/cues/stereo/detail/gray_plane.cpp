@@ -11,10 +11,9 @@
 namespace tricue {
 namespace {
 
-/// 8 times the mean of four rows, weighed 1, 3, 3, 1.
+/// 8 times the weighted mean of four rows, weights 1, 3, 3, 1.
 template <typename Pixel>
-[[gnu::always_inline]] inline void smooth(const std::array<const Pixel*, 4>& rows, int n,
-                                          float* __restrict out) {
+TRICUE_INLINE void smooth(const std::array<const Pixel*, 4>& rows, int n, float* __restrict out) {
     const Pixel* __restrict above = rows[0];
     const Pixel* __restrict upper = rows[1];
     const Pixel* __restrict lower = rows[2];
@@ -33,7 +32,7 @@ void smooth_bytes(const std::array<const std::uint8_t*, 4>& rows, int n, float* 
     smooth(rows, n, out);
 }
 
-/// The same along a row of which every second pixel is wanted; the first is in[1]. Brings both to a mean.
+/// The same along a row, for every second pixel from in[1] on. Normalizes both.
 TRICUE_MULTIVERSION
 void smooth_pairs(const float* __restrict in, int n, float* __restrict out) {
     constexpr float kShare = 1.0F / 64.0F;
@@ -50,18 +49,18 @@ GrayPlane::GrayPlane(const Region& part, int rows, int cols)
       pixels_(new float[static_cast<std::size_t>(part.x1 - part.x0) *
                         static_cast<std::size_t>(part.y1 - part.y0)]) {}
 
-Region halved_from(const Region& part, int rows, int cols) {
+Region downsample_source(const Region& part, int rows, int cols) {
     return {std::max(2 * part.x0 - 1, 0), std::max(2 * part.y0 - 1, 0), std::min(2 * part.x1 + 1, cols),
             std::min(2 * part.y1 + 1, rows)};
 }
 
-GrayPlane halved(const GrayLevel& level, const Region& part) {
+GrayPlane downsampled(const GrayLevel& level, const Region& part) {
     const int rows = level.rows(), cols = level.cols();
     GrayPlane half(part, (rows + 1) / 2, (cols + 1) / 2);
-    const Region from = halved_from(part, rows, cols);
-    const int first = 2 * part.x0 - 1, last = 2 * part.x1 + 1;  // columns, which may lie beyond the edge
+    const Region from = downsample_source(part, rows, cols);
+    const int first = 2 * part.x0 - 1, last = 2 * part.x1 + 1;  // columns, possibly beyond the border
     std::vector<float> smooth(static_cast<std::size_t>(last - first));
-    float* seen = smooth.data() + (from.x0 - first);
+    float* inside = smooth.data() + (from.x0 - first);
     const int n = from.x1 - from.x0;
     for (int y = part.y0; y < part.y1; ++y) {
         const auto four = [&](const auto& picture) {
@@ -71,11 +70,11 @@ GrayPlane halved(const GrayLevel& level, const Region& part) {
             return std::array{pixels(-1), pixels(0), pixels(1), pixels(2)};
         };
         if (level.image != nullptr)
-            smooth_bytes(four(*level.image), n, seen);
+            smooth_bytes(four(*level.image), n, inside);
         else
-            smooth_floats(four(*level.plane), n, seen);
-        std::fill(smooth.data(), seen, *seen);
-        std::fill(seen + n, smooth.data() + smooth.size(), seen[n - 1]);
+            smooth_floats(four(*level.plane), n, inside);
+        std::fill(smooth.data(), inside, *inside);
+        std::fill(inside + n, smooth.data() + smooth.size(), inside[n - 1]);
         smooth_pairs(smooth.data(), part.x1 - part.x0, half.row(y) + part.x0);
     }
     return half;

@@ -9,7 +9,7 @@
 
 namespace tricue {
 
-/// The part of a gray picture that is needed, as floats; rows and columns are counted as in the whole picture.
+/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture.
 class GrayPlane {
 public:
     GrayPlane() = default;
@@ -35,7 +35,7 @@ private:
     std::unique_ptr<float[]> pixels_;  ///< not a vector, which would write zeros first
 };
 
-/// A level of a pyramid: the picture itself, or what is needed of a smaller one. Somebody else owns both.
+/// A level of a pyramid: the picture itself, or a part of a smaller one. It owns neither.
 struct GrayLevel {
     const ImageView* image;  ///< or nullptr
     const GrayPlane* plane;  ///< if not
@@ -45,10 +45,10 @@ struct GrayLevel {
 };
 
 /// `part` of the picture at half the size, ((rows + 1) / 2, (cols + 1) / 2), smoothed by 1, 3, 3, 1 along both axes: its (i, j)
-/// lies between 2 i and 2 i + 1. Beyond the edge the picture's pixels go on. It reads halved_from(part, ...).
-GrayPlane halved(const GrayLevel& level, const Region& part);
+/// lies between 2 i and 2 i + 1. The border is replicated. It reads downsample_source(part, ...).
+GrayPlane downsampled(const GrayLevel& level, const Region& part);
 
-/// What halved() reads for a part, of a picture of that size.
-Region halved_from(const Region& part, int rows, int cols);
+/// The region that downsampled() reads for a part, in a picture of that size.
+Region downsample_source(const Region& part, int rows, int cols);
 
 }  // namespace tricue

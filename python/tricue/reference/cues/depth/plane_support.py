@@ -5,7 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse
-from tricue.reference.cues.depth.height_above import height_above
+from tricue.reference.cues.depth.detail.plane_height import height_above
 
 Floats = NDArray[np.float64]
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cues/stereo/detail/disparity_rows.hpp"
+#include "cues/stereo/detail/disparity_refinement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +14,13 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 TRICUE_MULTIVERSION
-void refine(const Matches& matches, int n, int first, int candidates, unsigned uniqueness,
-            float* __restrict disparity) {
+void refine_row(const Matches& matches, int n, int first, int candidates, unsigned uniqueness,
+                float* __restrict disparity) {
     const std::uint16_t* __restrict best = matches.best, * __restrict at = matches.at;
     const std::uint16_t* __restrict below = matches.below, * __restrict above = matches.above;
     const std::uint16_t* __restrict second = matches.second;
     for (int x = 0; x < n; ++x) {
-        const bool alike =
+        const bool ambiguous =
             (uniqueness > 0) & (second[x] != kNoCost) & (100u * second[x] <= (100u + uniqueness) * best[x]);
         const bool between = (below[x] != kNoCost) & (above[x] != kNoCost) & (at[x] + 1 < candidates);
         const int rise = std::max(below[x], above[x]) - best[x];
@@ -28,7 +28,7 @@ void refine(const Matches& matches, int n, int first, int candidates, unsigned u
         const float fraction = static_cast<float>(lean) / static_cast<float>(std::max(2 * rise, 1));
         const float whole = static_cast<float>(first + at[x]);
         const float fine = between ? whole + fraction : whole;
-        disparity[x] = alike | (best[x] == kNoCost) ? kNone : fine;
+        disparity[x] = ambiguous | (best[x] == kNoCost) ? kNone : fine;
     }
 }
 
@@ -36,13 +36,14 @@ void refine(const Matches& matches, int n, int first, int candidates, unsigned u
 
 void refine_matches(const Matches& matches, int n, int first, int candidates, unsigned uniqueness,
                     float* disparity) {
-    refine(matches, n, first, candidates, uniqueness, disparity);
+    refine_row(matches, n, first, candidates, uniqueness, disparity);
 }
 
-Claims::Claims(int begin, int end)
+LeftRightCheck::LeftRightCheck(int begin, int end)
     : begin_(begin), cost_(static_cast<std::size_t>(end - begin)), disparity_(cost_.size()) {}
 
-void Claims::check(const Matches& matches, int x0, int x1, int first, int tolerance, float* disparity) {
+void LeftRightCheck::check(const Matches& matches, int x0, int x1, int first, int tolerance,
+                           float* disparity) {
     const auto whole = [&](int x) { return first + matches.at[x - x0]; };
     const auto claimed = [&](int x) { return static_cast<std::size_t>(x - whole(x) - begin_); };
     std::fill(cost_.begin(), cost_.end(), kNoCost);

@@ -10,17 +10,17 @@
 
 namespace tricue {
 
-/// The rows of a gray image that block matching compares, filtered or as they are, over a region that may reach beyond the
-/// image: there the image's last row or column goes on. Only what the region shows is filtered.
-class StereoRows {
+/// The rows of a gray image that block matching compares, Sobel-filtered or not, over a region that may extend beyond the image: there
+/// the image's border is replicated. Only the region is filtered.
+class PrefilteredRows {
 public:
     static constexpr int kClip = 31;
 
     /// @param sobel   the x-Sobel filter clipped at ±kClip, as 0 to 2 kClip, else the gray levels themselves
     /// @param padding readable bytes after each row
-    StereoRows(const ImageView& image, const Region& region, bool sobel, int padding);
+    PrefilteredRows(const ImageView& image, const Region& region, bool sobel, int padding);
 
-    /// Its first byte is at column region.x0; any y.
+    /// The row from column region.x0 on; any y.
     const std::uint8_t* row(int y) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cues/stereo/detail/stereo_rows.hpp"
+#include "cues/stereo/detail/prefiltered_rows.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -9,7 +9,7 @@
 namespace tricue {
 namespace {
 
-constexpr std::int16_t kClip = StereoRows::kClip;
+constexpr std::int16_t kClip = PrefilteredRows::kClip;
 
 TRICUE_MULTIVERSION
 void smooth_down(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
@@ -38,7 +38,7 @@ void filter_row(const ImageView& image, int y, int x0, int x1, std::int16_t* smo
 
 }  // namespace
 
-StereoRows::StereoRows(const ImageView& image, const Region& region, bool sobel, int padding)
+PrefilteredRows::PrefilteredRows(const ImageView& image, const Region& region, bool sobel, int padding)
     : first_(std::clamp(region.y0, 0, image.rows - 1)),
       last_(std::clamp(region.y1 - 1, 0, image.rows - 1)),
       stride_(static_cast<std::size_t>(region.x1 - region.x0 + padding)),
@@ -47,17 +47,17 @@ StereoRows::StereoRows(const ImageView& image, const Region& region, bool sobel,
     std::vector<std::int16_t> smooth(sobel ? static_cast<std::size_t>(x1 - x0 + 2) : 0);
     for (int y = first_; y <= last_; ++y) {
         std::uint8_t* begin = rows_.data() + stride_ * static_cast<std::size_t>(y - first_);
-        std::uint8_t* seen = begin + (x0 - region.x0);
+        std::uint8_t* inside = begin + (x0 - region.x0);
         if (sobel)
-            filter_row(image, y, x0, x1, smooth.data(), seen);
+            filter_row(image, y, x0, x1, smooth.data(), inside);
         else
-            std::memcpy(seen, image.row(y) + x0, static_cast<std::size_t>(x1 - x0));
-        std::fill(begin, seen, *seen);
-        std::fill(seen + (x1 - x0), begin + stride_, seen[x1 - x0 - 1]);
+            std::memcpy(inside, image.row(y) + x0, static_cast<std::size_t>(x1 - x0));
+        std::fill(begin, inside, *inside);
+        std::fill(inside + (x1 - x0), begin + stride_, inside[x1 - x0 - 1]);
     }
 }
 
-const std::uint8_t* StereoRows::row(int y) const {
+const std::uint8_t* PrefilteredRows::row(int y) const {
     return rows_.data() + stride_ * static_cast<std::size_t>(std::clamp(y, first_, last_) - first_);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Height above a plane of all that a depth image shows."""
+"""Height above a plane of every pixel of a depth image: for above_floor and plane_support."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from tricue.reference.base.depth_pixels import has_depth, rays
 def height_above(
     depth: NDArray[np.float32], camera: NDArray[np.float64], plane: NDArray[np.float64]
 ) -> NDArray[np.float32]:
-    """Takes n · X + d of all pixels in float32."""
+    """(H, W) n · X + d in meters, in float32 throughout; NaN where nothing was measured."""
     x, y = rays(camera, depth)
     require_shape("plane", plane, (4,))
     require_finite("plane", plane)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cues/depth/detail/level_counter.hpp"
+#include "cues/depth/detail/relative_histogram.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,9 @@
 namespace tricue {
 namespace {
 
-constexpr std::size_t kLanes =
-    4;  // sums and counters of their own, so that none needs to wait for the one before
+constexpr std::size_t kLanes = 4;  // tables and sums side by side, so that none waits for the one before
 
-/// `levels` of what doesn't count. Those of neighbours are in tables of `levels + 1` counters of their own.
+/// The level of each depth, `levels` where it doesn't count. Neighbors count in different tables, of `levels + 1` counters each.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, std::size_t n, double z, double reach, int levels,
                  std::int32_t* __restrict level) {
@@ -54,28 +53,28 @@ double squared_distance(const std::int32_t* __restrict counts, double total, con
 
 }  // namespace
 
-LevelCounter::LevelCounter(Eigen::Index levels, double reach, std::size_t places)
+RelativeHistogram::RelativeHistogram(Eigen::Index levels, double reach, std::size_t samples)
     : reach_(reach),
       levels_(static_cast<int>(levels)),
-      level_(places),
+      level_(samples),
       counts_(kLanes * (static_cast<std::size_t>(levels) + 1)) {
     if (!(reach > 0.0 && std::isfinite(reach))) refuse("reach", "a finite number above 0", reach);
 }
 
-void LevelCounter::count(const float* seen, double z) {
-    find_levels(seen, level_.size(), z, reach_, levels_, level_.data());
+void RelativeHistogram::count(const float* depths, double z) {
+    find_levels(depths, level_.size(), z, reach_, levels_, level_.data());
     std::fill(counts_.begin(), counts_.end(), 0);
     std::int32_t* counts = counts_.data();
     for (const std::int32_t level : level_) ++counts[level];
     add_tables(counts, static_cast<std::size_t>(levels_) + 1);
 }
 
-double LevelCounter::distance(VectorRef model) const {
-    const double total = counted();
-    if (total == 0.0) return 1.0;
+double RelativeHistogram::distance(VectorRef model) const {
+    const double counted = total();
+    if (counted == 0.0) return 1.0;
     const double square =
-        squared_distance(counts_.data(), total, model.data(), static_cast<std::size_t>(model.size()));
-    return std::min(std::sqrt(0.5 * square) / total, 1.0);
+        squared_distance(counts_.data(), counted, model.data(), static_cast<std::size_t>(model.size()));
+    return std::min(std::sqrt(0.5 * square) / counted, 1.0);
 }
 
 TRICUE_MULTIVERSION

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cues/motion/detail/pooled_rows.hpp"
+#include "cues/motion/detail/normal_equations.hpp"
 
 #include "base/simd.hpp"
 
@@ -7,10 +7,11 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void multiply(const Constraints& row, int n, const Products& out) {
+void multiply_constraints(const Constraints& row, int n, const NormalEquations& out) {
     const float *g_xs = row.g_x, *g_ys = row.g_y, *h_ys = row.h_y, *g_ts = row.g_t, *h_ts = row.h_t;
     float *xx = out.xx, *xy = out.xy, *yy = out.yy, *xt = out.xt, *yt = out.yt;
-#pragma GCC ivdep  // no row is another: more than the compiler would compare before the loop
+    // no row is another: more than the compiler would compare before the loop
+    TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
         const float g_x = g_xs[x], g_y = g_ys[x], h_x = g_y, h_y = h_ys[x], g_t = g_ts[x], h_t = h_ts[x];
         xx[x] = g_x * g_x + h_x * h_x;
@@ -47,26 +48,27 @@ void mean_across(const float* row, int count, float share, int n, float* out) {
     }
 }
 
-RowRing products_ring(int pool, int length) {
+RowRingBuffer make_ring(int pool, int length) {
     return {2 * pool + 1, length + 2 * pool};
 }
 
 }  // namespace
 
-PooledRows::PooledRows(int pool, int length)
+NormalEquationRows::NormalEquationRows(int pool, int length)
     : pool_(pool),
       length_(length),
-      products_{products_ring(pool, length), products_ring(pool, length), products_ring(pool, length),
-                products_ring(pool, length), products_ring(pool, length)},
+      products_{make_ring(pool, length), make_ring(pool, length), make_ring(pool, length),
+                make_ring(pool, length), make_ring(pool, length)},
       sums_(5, whole_blocks(length) + 2 * pool),
       result_(5, length) {}
 
-void PooledRows::push(int y, const Constraints& constraints) {
+void NormalEquationRows::push(int y, const Constraints& constraints) {
     auto& [xx, xy, yy, xt, yt] = products_;
-    multiply(constraints, length_ + 2 * pool_, {xx.row(y), xy.row(y), yy.row(y), xt.row(y), yt.row(y)});
+    multiply_constraints(constraints, length_ + 2 * pool_,
+                         {xx.row(y), xy.row(y), yy.row(y), xt.row(y), yt.row(y)});
 }
 
-Products PooledRows::row(int y) {
+NormalEquations NormalEquationRows::row(int y) {
     const int side = 2 * pool_ + 1;
     const float share = 1 / static_cast<float>(side);
     // Each step for all rows before the next: a load that reaches over what was just stored has to wait for it.

@@ -7,23 +7,23 @@
 
 namespace tricue {
 
-/// Planes of floats with a rim of one number, so that all inside have neighbours.
-class RimmedPlanes {
+/// Planes of floats with a border of one number, so that every number inside has all its neighbors.
+class PaddedPlanes {
 public:
-    RimmedPlanes(int planes, int rows, int cols)
+    PaddedPlanes(int planes, int rows, int cols)
         : rows_(rows),
           cols_(cols),
           numbers_(static_cast<std::size_t>(planes) * (static_cast<std::size_t>(rows) + 2) *
                    (static_cast<std::size_t>(cols) + 2)) {}
 
-    /// From the first number inside on; y is between -1 and `rows`.
+    /// The first number inside of row y, -1 to `rows`.
     float* row(int plane, int y) {
         const std::ptrdiff_t line = plane * (std::ptrdiff_t{rows_} + 2) + y + 1;
         return numbers_.data() + line * (std::ptrdiff_t{cols_} + 2) + 1;
     }
 
-    /// With the nearest numbers inside; there must be one.
-    void fill_rim(int plane) {
+    /// Sets the border to the nearest numbers inside; the plane must not be empty.
+    void replicate_border(int plane) {
         for (int y = 0; y < rows_; ++y) {
             float* inside = row(plane, y);
             inside[-1] = inside[0];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cues/stereo/detail/shift_row.hpp"
+#include "cues/stereo/detail/warped_columns.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace tricue {
 namespace {
 
 TRICUE_MULTIVERSION
-void double_up(const float* __restrict coarse, int n, float rest, float* __restrict fine) {
+void upsample(const float* __restrict coarse, int n, float rest, float* __restrict fine) {
     for (int i = 0; i < n; ++i) {
         const float offset = 2.0F * coarse[i] + rest;
         fine[2 * i] = offset;
@@ -24,7 +24,7 @@ struct Columns {
 
 TRICUE_MULTIVERSION
 void find_columns(const float* __restrict offset, int n, const Columns& at, int* __restrict column,
-                  float* __restrict share, float* __restrict seen) {
+                  float* __restrict share, float* __restrict visible) {
     const int start = at.start, first = at.first, last = at.last, edge = at.cols - 1;
     for (int x = 0; x < n; ++x) {
         const float shift = -offset[x];
@@ -33,38 +33,38 @@ void find_columns(const float* __restrict offset, int n, const Columns& at, int*
         const int found = start + x + whole;
         const bool inside = (found >= 0) & ((found < edge) | ((found == edge) & (part == 0.0F)));
         share[x] = part;
-        seen[x] = inside ? 1.0F : 0.0F;
+        visible[x] = inside ? 1.0F : 0.0F;
         column[x] = std::min(std::max(found, first), last);
     }
 }
 
 }  // namespace
 
-ShiftRow::ShiftRow(const KnownDisparity& known, int x0, int x1, int first, int last, int cols)
-    : known_(known),
+WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols)
+    : prior_(prior),
       x0_(x0 - x0 % 2),
       first_(first),
       last_(last),
       cols_(cols),
       skip_(x0 % 2),
-      offset_(static_cast<std::size_t>((x1 - x0_ + 1) / 2 * 2), known.rest),
+      offset_(static_cast<std::size_t>((x1 - x0_ + 1) / 2 * 2), prior.rest),
       share_(offset_.size()),
-      seen_(offset_.size()),
+      visible_(offset_.size()),
       column_(offset_.size()) {
-    if (known.coarse == nullptr) locate();
+    if (prior.coarse == nullptr) update_columns();
 }
 
-void ShiftRow::move_to(int y) {
-    if (known_.coarse == nullptr || y / 2 == row_) return;
+void WarpedColumns::move_to(int y) {
+    if (prior_.coarse == nullptr || y / 2 == row_) return;
     row_ = y / 2;
-    double_up(known_.coarse->row(row_) + x0_ / 2, static_cast<int>(offset_.size() / 2), known_.rest,
-              offset_.data());
-    locate();
+    upsample(prior_.coarse->row(row_) + x0_ / 2, static_cast<int>(offset_.size() / 2), prior_.rest,
+             offset_.data());
+    update_columns();
 }
 
-void ShiftRow::locate() {
-    find_columns(offset_.data(), static_cast<int>(offset_.size()), {x0_ - known_.base, first_, last_, cols_},
-                 column_.data(), share_.data(), seen_.data());
+void WarpedColumns::update_columns() {
+    find_columns(offset_.data(), static_cast<int>(offset_.size()), {x0_ - prior_.base, first_, last_, cols_},
+                 column_.data(), share_.data(), visible_.data());
 }
 
 }  // namespace tricue

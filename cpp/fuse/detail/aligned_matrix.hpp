@@ -7,23 +7,23 @@
 
 namespace tricue {
 
-/// A matrix whose rows begin where a cache line does, since registers that reach over the end of one take twice as long to load. They
-/// end with a whole line; nobody counts on what is in it beyond their columns. It begins with zeros.
-class PaddedRows {
+/// A matrix whose rows begin at cache lines, since loads that cross a line take twice as long. Rows are padded to whole lines, with
+/// unspecified numbers. Initially all numbers are 0.
+class AlignedMatrix {
 public:
-    static constexpr int kLine = 16;  ///< floats
+    static constexpr int kLineFloats = 16;  ///< floats
 
-    PaddedRows(int rows, int cols)
+    AlignedMatrix(int rows, int cols)
         : rows_(rows),
           cols_(cols),
-          pitch_(std::ptrdiff_t{(cols + kLine - 1) / kLine} * kLine),
-          numbers_(static_cast<std::size_t>(rows * pitch_ + kLine)) {
+          pitch_(std::ptrdiff_t{(cols + kLineFloats - 1) / kLineFloats} * kLineFloats),
+          numbers_(static_cast<std::size_t>(rows * pitch_ + kLineFloats)) {
         void* begin = numbers_.data();
         std::size_t room = numbers_.size() * sizeof(float);
-        first_ = static_cast<float*>(std::align(kLine * sizeof(float), 1, begin, room));
+        first_ = static_cast<float*>(std::align(kLineFloats * sizeof(float), 1, begin, room));
     }
-    PaddedRows(const PaddedRows&) = delete;  // rows would be the other's
-    PaddedRows& operator=(const PaddedRows&) = delete;
+    AlignedMatrix(const AlignedMatrix&) = delete;  // first_ points into numbers_
+    AlignedMatrix& operator=(const AlignedMatrix&) = delete;
 
     int rows() const { return rows_; }
     int cols() const { return cols_; }

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cues/color/detail/compact_bins.hpp"
+#include "cues/color/detail/ellipse_shape.hpp"
+
+namespace tricue {
+
+/// The histogram under a shape that moves over an image one pixel at a time: only pixels of its outline leave and enter.
+class SlidingHistogram {
+public:
+    /// @param image must outlive it, and contain the shape wherever it is moved
+    /// @param start the offset of the pixel that the shape is relative to
+    /// @param unit  what one pixel counts
+    SlidingHistogram(const EllipseShape& shape, const CompactBins& image, std::ptrdiff_t start,
+                     std::int32_t unit);
+
+    void move_right();
+    void move_left();
+    void move_down();
+
+    const std::int32_t* counts() const { return counts_.data(); }  ///< units of each index
+    int masked_count() const { return masked_count_; }             ///< pixels inside the mask
+    /// Pixels inside the image.
+    int visible() const { return area_ - counts_[CompactBins::kOutside] / unit_; }
+
+private:
+    using Offsets = std::vector<std::int32_t>;
+
+    /// Offsets of the pixels that leave the shape in a step, and of those that enter it.
+    struct Boundary {
+        Offsets leave, enter;
+    };
+
+    void find_boundaries(const EllipseShape& shape);
+    void add(std::ptrdiff_t begin, std::ptrdiff_t end);
+    void replace(const Offsets& leave, const Offsets& enter);
+
+    const CompactBins& image_;
+    std::ptrdiff_t center_;
+    std::int32_t unit_;
+    int area_, masked_count_ = 0;
+    std::vector<std::int32_t> counts_;
+    Boundary horizontal_, vertical_;
+};
+
+}  // namespace tricue

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/arrays.hpp"
+
+namespace tricue {
+
+/// A histogram of depths relative to a depth z: L levels of [-reach, reach) meters.
+///
+/// A measured depth counts where its level floor(((depth - z) + reach) (L / (2 reach))), in float64, is in [0, L).
+class RelativeHistogram {
+public:
+    /// Of `samples` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
+    RelativeHistogram(Eigen::Index levels, double reach, std::size_t samples);
+
+    /// @param depths `samples` depths, meters; whatever isn't above 0 and finite is no measurement
+    void count(const float* depths, double z);
+
+    const std::int32_t* counts() const { return counts_.data(); }  ///< of each level
+    /// How many samples count.
+    double total() const { return samples() - counts_[static_cast<std::size_t>(levels_)]; }
+    double samples() const { return static_cast<double>(level_.size()); }
+
+    /// The distance of equation (38) between the normalized histogram and a model, over sqrt 2; 1 where nothing counts.
+    double distance(VectorRef model) const;
+
+private:
+    double reach_;
+    int levels_;
+    std::vector<std::int32_t> level_;
+    /// Of each level and of samples that don't count; then kLanes - 1 more such tables.
+    std::vector<std::int32_t> counts_;
+};
+
+/// How many of n depths were measured and are below a limit.
+int count_below(const float* depth, std::size_t n, double limit);
+
+/// How many of n depths were measured and count in the one level [z - reach, z + reach).
+int count_within(const float* depth, std::size_t n, double z, double reach);
+
+/// @throws std::invalid_argument unless it is a histogram of at least one level, of sum 1 or 0, none negative
+void require_model(VectorRef model);
+
+/// @throws std::invalid_argument unless it is finite and not negative
+void require_nearer(double nearer);
+
+}  // namespace tricue

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cues/stereo/detail/gray_plane.hpp"
+
+namespace tricue {
+
+/// The derivative of a Gaussian as separable filters: the right halves of 2 reach + 1 weights.
+struct GaussianDerivative {
+    static constexpr int kMaxReach = 15;
+
+    /// @param sigma pixels, 0.5 to 6; reach is 2.5 sigma, rounded up
+    explicit GaussianDerivative(double sigma);
+
+    int reach;
+    std::array<float, kMaxReach + 1> smooth;      ///< symmetric; all 2 reach + 1 sum to 1
+    std::array<float, kMaxReach + 1> derivative;  ///< antisymmetric; gives 1 on a ramp of 1 per pixel
+};
+
+/// The x-derivative of a picture, smoothed by a Gaussian along both axes, row by row.
+class DerivativeRows {
+public:
+    /// @param level  shows `reach` more than [x0, x1) and the rows asked for, as far as the picture goes
+    /// @param x0, x1 columns wanted, inside the picture; the border is replicated for `padding` more on each side
+    DerivativeRows(const GrayLevel& level, const GaussianDerivative& filter, int x0, int x1, int padding);
+
+    /// Row y, in the picture; row(y)[x], x in [x0 - padding, x1 + padding). Valid until the next call.
+    const float* row(int y);
+
+private:
+    template <typename Picture>
+    auto rows_around(const Picture& picture, int y, int x) const;
+
+    GrayLevel level_;
+    GaussianDerivative filter_;
+    int x0_, x1_, padding_;
+    std::vector<float> smooth_, derivative_;
+};
+
+}  // namespace tricue
