@@ -64,8 +64,8 @@ def test_a_short_loss_is_bridged(stage, follow):
 def test_redetected_elsewhere(background, gone, stage, follow):
     """A face that comes back 150 px away after 10 or 100 lost frames is detected within 15 frames.
 
-    The model isn't unlearned meanwhile. The search is random, and prefers no detection to a wrong one: of three
-    seeds one must detect the face, and none may be TRACKED anywhere else.
+    The model isn't unlearned meanwhile. The search is random, and prefers no detection to a wrong one: of
+    three seeds one must detect the face, and none may be TRACKED anywhere else.
     """
     found = 0
     for seed in range(3):

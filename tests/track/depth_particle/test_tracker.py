@@ -237,11 +237,11 @@ def test_follows_with_a_worse_sensor(flaws, seed, follow):
 def test_timestamps_are_the_rate(rate, passing: DepthScene, follow):
     """Frames with timestamps 1 / rate apart give the track of frames without any at that rate.
 
-    With i / rate, differences are off by a rounding of i / rate, 2.2e-16 s of 2.4 s at most: a share of
-    7e-15 of a frame. It goes into drift and noise as metres (velocity and position_noise times seconds), and
-    from there, as in a step on other kernels, into log weights that are 200 times as steep a metre at most, which
-    is 1e-12 px a frame, carried on over 36 frames: 1e-9 px, unless a resampled index or a sample crosses
-    its border, a chance of about 1e-4.
+    With i / rate, differences are off by a rounding of i / rate, 2.2e-16 s of 2.4 s at most: a share of 7e-15
+    of a frame. It goes into drift and noise as metres (velocity and position_noise times seconds), and from
+    there, as in a step on other kernels, into log weights that are 200 times as steep a metre at most, which
+    is 1e-12 px a frame, carried on over 36 frames: 1e-9 px, unless a resampled index or a sample crosses its
+    border, a chance of about 1e-4.
     """
     bare = [Frame(depth=frame.depth) for frame in passing.frames]
     timed = [Frame(depth=f.depth, timestamp=i / rate) for i, f in enumerate(passing.frames)]

@@ -74,7 +74,7 @@ def best_match(
 def _cost(state: list[float], expected: list[float], deviation: list[float], known: list[bool]) -> float:
     """Half the squared Mahalanobis distance, nats.
 
-    A size never seen as a whole is a lower bound, and the center along its axis is uncertain.
+    A size never visible as a whole is a lower bound, and the center along its axis is uncertain.
     """
     off = [(s - e) / d for s, e, d in zip(state, expected, deviation, strict=True)]
     for axis in range(2):
