@@ -23,7 +23,7 @@ from tricue.scenes import (
 )
 from tricue.scenes.rendering import photographs
 from tricue.scenes.rendering.paste import ellipse_mask, expose, paste
-from tricue.track.depth_objects.objects import SLICES, Objects
+from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, Objects
 
 pytest.register_assert_rewrite("bad_input_cases")  # its asserts tell as much as a test's
 
@@ -111,11 +111,11 @@ def objects_of() -> Callable[..., Objects]:
 
     def make(states: Sequence[Sequence[float]], cut: Sequence[Sequence[int]] | None = None) -> Objects:
         five = np.array(states, np.float64).reshape(-1, 5)
-        even = np.full((len(five), SLICES), 1 / SLICES, np.float32)
+        even = np.full((len(five), DISTRIBUTION_BINS), 1 / DISTRIBUTION_BINS, np.float32)
         return Objects(
             states=five,
             cut=np.zeros((len(five), 4), np.bool_) if cut is None else np.array(cut, np.bool_),
-            shift=np.zeros((len(five), 2)),
+            centroid_offset=np.zeros((len(five), 2)),
             columns=even,
             rows=even,
             area=0.55 * five[:, 3:].prod(axis=1),

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, ColorParticleTracker, Status
-from tricue.track.color_particle.tracker import MIN_MISSED
+from tricue.track.color_particle.state import MIN_MISSED_FRAMES
 
 Image = NDArray[np.uint8]
 RNG = np.random.default_rng(0)
@@ -24,7 +24,7 @@ START = Box(100, 90, 50, 63)
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("blank", BLANK)
-def test_a_frame_without_target_is_told(blank, seed, stage, follow):
+def test_a_frame_without_target_is_reported(blank, seed, stage, follow):
     """Black, white and noise frames give a score under 0.3 and OCCLUDED at the first, LOST at the fifth,
     never TRACKED.
     """
@@ -35,10 +35,10 @@ def test_a_frame_without_target_is_told(blank, seed, stage, follow):
     assert max(track.score for track in tracks) < 0.3
 
 
-@pytest.mark.parametrize(("lost_after", "frames"), [(0.0, MIN_MISSED), (0.15, 5), (0.41, 13)])
-def test_lost_after_as_many_seconds_as_said(lost_after, frames, stage, follow):
-    """At 30 frames/s the status is LOST from the frame on that completes the seconds, not before; never
-    before MIN_MISSED frames.
+@pytest.mark.parametrize(("lost_after", "frames"), [(0.0, MIN_MISSED_FRAMES), (0.15, 5), (0.41, 13)])
+def test_lost_after_the_seconds_of_its_parameter(lost_after, frames, stage, follow):
+    """At 30 frames/s the status is LOST from the frame that completes the seconds on, and never
+    before MIN_MISSED_FRAMES frames.
     """
     tracker = ColorParticleTracker(lost_after=lost_after)
     follow(tracker, stage(HERE), START)
@@ -61,12 +61,11 @@ def test_a_short_loss_is_bridged(stage, follow):
 
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle"])
 @pytest.mark.parametrize("gone", [10, 100])
-def test_found_again_elsewhere(background, gone, stage, follow):
-    """A face that comes back 150 px away after 10 or 100 lost frames is found within 15: it wasn't unlearned.
+def test_redetected_elsewhere(background, gone, stage, follow):
+    """A face that comes back 150 px away after 10 or 100 lost frames is detected within 15 frames.
 
-    The search is drawn at random and rather stays lost than it follows something else: of three seeds one
-    must
-    find the face, and none may be TRACKED anywhere else.
+    The model isn't unlearned meanwhile. The search is random, and prefers no detection to a wrong one: of
+    three seeds one must detect the face, and none may be TRACKED anywhere else.
     """
     found = 0
     for seed in range(3):
@@ -82,8 +81,8 @@ def test_found_again_elsewhere(background, gone, stage, follow):
 
 
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle", "retina", "immunohistochemistry"])
-def test_a_lost_face_is_not_seen_in_a_background(background, stage, follow):
-    """Once lost, the target isn't found in 60 frames that show clutter alone."""
+def test_a_lost_face_is_not_detected_in_a_background(background, stage, follow):
+    """Once lost, the target isn't detected in 60 frames of clutter alone."""
     tracker = ColorParticleTracker(seed=0)
     follow(tracker, stage(HERE, background), START)
     for _ in range(8):
@@ -93,7 +92,7 @@ def test_a_lost_face_is_not_seen_in_a_background(background, stage, follow):
 
 
 def test_the_box_of_a_lost_target_stays(stage, follow):
-    """While the target is searched for the box stays where it was last believed to be."""
+    """While the target is searched, the box stays where it was last estimated."""
     tracker = ColorParticleTracker(seed=0)
     follow(tracker, stage(HERE), START)
     tracks = [tracker.update(BLANK["black"]()) for _ in range(20)]

@@ -89,7 +89,7 @@ def test_starts_on_a_box_over_the_edge(stage, follow):
     assert errors(tracks, boxes).max() < 6
 
 
-def test_ranks_alone_see_no_light(scene: Scene, follow):
+def test_ranks_alone_are_invariant_to_light(scene: Scene, follow):
     """With ranks alone, a strictly increasing change of each channel of all frames leaves the track bit
     for bit as it is.
     """
@@ -105,7 +105,7 @@ def test_ranks_alone_see_no_light(scene: Scene, follow):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_every_track_is_sane(seed, follow):
+def test_tracks_are_sane_in_any_frame(seed, follow):
     """In clutter, noise, black and foreign frames boxes are finite, sizes within their range, scores in
     [0, 1].
     """
@@ -125,8 +125,8 @@ def test_every_track_is_sane(seed, follow):
     assert all(isinstance(track.status, Status) and track.position is None for track in tracks)
 
 
-def test_particles_show_the_swarm(scene: Scene):
-    """The particles are none before init, then as many as asked for, and spread round the estimate."""
+def test_particles_are_exposed(scene: Scene):
+    """The particles are none before init, then as many as set, and spread around the estimate."""
     tracker = ColorParticleTracker(particles=37)
     assert tracker.particles.shape == (0, 4)
     tracker.init(scene.frames[0], scene.boxes[0])

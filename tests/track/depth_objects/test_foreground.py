@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What is left of a depth image: what is in range and above the floor."""
+"""The foreground of a depth image: what is in range and above the floor."""
 
 import math
 
@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import DepthParticleTracker, Intrinsics
-from tricue.track.depth_objects.foreground import NO_FLOOR, Foreground, foreground, numbers
+from tricue.track.depth_objects.floor import NO_FLOOR
+from tricue.track.depth_objects.foreground import Foreground, extract_foreground
+from tricue.track.depth_objects.projection import camera_vector
 
 Params = DepthParticleTracker.Params
 Depth = NDArray[np.float32]
@@ -19,7 +21,7 @@ POST = (slice(30, 120), slice(80, 96))
 
 
 def heights(depth: Depth) -> NDArray[np.float64]:
-    """Metres over the true floor of every pixel."""
+    """Metres above the true floor of each pixel."""
     v, u = np.indices(depth.shape)
     return CAMERA.back_project(u, v, depth) @ FLOOR[:3] + FLOOR[3]
 
@@ -39,7 +41,7 @@ def hall(noise: float = 0.0, wall: float = WALL, post: float = 3.0) -> Depth:
 def found(kernels, depth: Depth, plane=NO_FLOOR, seed=0, **parameters):
     """The foreground of a frame, and its floor."""
     rng = np.random.default_rng(seed)
-    return foreground(kernels, depth, numbers(CAMERA), plane, rng, Params(**parameters))
+    return extract_foreground(kernels, depth, camera_vector(CAMERA), plane, rng, Params(**parameters))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -54,8 +56,8 @@ def test_the_floor_is_found(seed, kernels):
     assert math.degrees(math.acos(min(1.0, noisy[:3] @ FLOOR[:3]))) < 0.25
 
 
-def test_the_floor_is_taken_out(kernels):
-    """Everything up to 12 cm over the floor is taken out, nothing above it is, whatever its distance."""
+def test_the_floor_is_removed(kernels):
+    """Everything up to 12 cm above the floor is removed, nothing above that, whatever its distance."""
     depth = hall(wall=np.inf)
     depth[20:30, 60:70] = 4.0
     fg, _ = found(kernels, depth, far=1e9)
@@ -68,8 +70,8 @@ def test_the_floor_is_taken_out(kernels):
 
 
 @pytest.mark.parametrize("clear", [0.0, 0.05, 0.5])
-def test_the_floor_is_as_thick_as_said(clear, kernels):
-    """The floor is taken out up to ``floor_clear``."""
+def test_the_floor_is_removed_up_to_a_height(clear, kernels):
+    """The floor is removed up to the height ``floor_clear``."""
     depth = hall()
     fg, _ = found(kernels, depth, floor_clear=clear)
     over = heights(depth)[np.isfinite(fg.depth)]
@@ -78,7 +80,7 @@ def test_the_floor_is_as_thick_as_said(clear, kernels):
 
 
 def test_without_floor_it_stays(kernels):
-    """With ``floor=False`` the floor belongs to the foreground, and no plane is looked for."""
+    """With ``floor=False`` the floor belongs to the foreground, and no plane is searched."""
     fg, plane = found(kernels, hall(), floor=False)
     assert np.isfinite(fg.depth).all()
     assert not plane.any()
@@ -139,7 +141,7 @@ def test_only_what_is_in_range_is_left(near, far, kernels):
 
 @pytest.mark.parametrize(("resolution", "step"), [(320, 1), (176, 1), (88, 2), (59, 3), (16, 11)])
 def test_wide_images_are_thinned(resolution, step, kernels):
-    """An image wider than asked for is thinned out to every step-th pixel, and its camera sees the same
+    """An image wider than ``resolution`` is thinned to every step-th pixel, and its camera sees the same
     points: pixel (i, j) lies where (step i, step j) did.
     """
     depth = hall()

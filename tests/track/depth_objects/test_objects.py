@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The objects that a depth image is divided into, against drawn boxes of known size and place, and who of
+"""The objects that a depth image is divided into, against drawn boxes of known size and place, and which of
 them may be a person.
 """
 
@@ -7,14 +7,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Intrinsics, reference
-from tricue.track.depth_objects.foreground import NO_FLOOR, Foreground, foreground, numbers
-from tricue.track.depth_objects.objects import SLICES, segment
-from tricue.track.depth_particle.initialize import humans, in_box, somebody
+from tricue.track.depth_objects.floor import NO_FLOOR
+from tricue.track.depth_objects.foreground import Foreground, extract_foreground
+from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, segment
+from tricue.track.depth_objects.projection import camera_vector
+from tricue.track.depth_particle.initialize import find_people, initialize_in_box, initialize_on_person
 
 Params = DepthParticleTracker.Params
 P = Params()
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
-NUMBERS = numbers(CAMERA)
+NUMBERS = camera_vector(CAMERA)
 NEARER, FARTHER, WALL = 2.0, 4.0, 7.0  # metres
 LEFT_BOX, RIGHT_BOX = Box(30, 30, 36, 100), Box(110, 50, 20, 60)  # pixels
 
@@ -25,7 +27,7 @@ def drawn(*boxes: tuple[Box, float], wall: float = WALL, shape: tuple[int, int] 
     for box, z in boxes:
         left, top, right, bottom = map(int, box.xyxy)
         depth[max(0, top) : max(0, bottom), max(0, left) : max(0, right)] = z
-    return foreground(
+    return extract_foreground(
         reference, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
     )[0]
 
@@ -49,7 +51,7 @@ def test_two_boxes_are_two_objects(kernels):
     np.testing.assert_allclose(objects.states, [metric(*each) for each in TWO], rtol=1e-6, atol=1e-6)
     assert objects.whole.all()
     np.testing.assert_allclose(objects.area, objects.states[:, 3] * objects.states[:, 4], rtol=1e-6)
-    assert (np.abs(objects.shift) < 0.5 * objects.states[:, 2:3] / CAMERA.fx).all()
+    assert (np.abs(objects.centroid_offset) < 0.5 * objects.states[:, 2:3] / CAMERA.fx).all()
 
 
 def test_a_wall_behind_changes_nothing(kernels):
@@ -65,21 +67,23 @@ def test_distributions_are_shares(kernels):
     """Columns and rows sum to 1; of a full box they are even, but for whole pixels."""
     objects = segment(kernels, drawn(*TWO, wall=np.nan), NO_FLOOR, P)
     for each, sides in ((objects.columns, (36, 20)), (objects.rows, (100, 60))):
-        assert each.shape == (2, SLICES)
+        assert each.shape == (2, DISTRIBUTION_BINS)
         np.testing.assert_allclose(each.sum(axis=1), 1, rtol=1e-6)
         for shares, side in zip(each, sides, strict=True):
-            assert np.abs(shares - 1 / SLICES).max() < 1 / side
+            assert np.abs(shares - 1 / DISTRIBUTION_BINS).max() < 1 / side
 
 
 def test_the_centroid_of_a_triangle(kernels):
-    """A right triangle's centroid is a sixth of its sides off its box's middle, within half a slice."""
+    """A right triangle's centroid is a sixth of its sides off its box's center, within half a bin."""
     depth = np.full((144, 176), np.nan, np.float32)
     for row in range(96):
         depth[20 + row, 40 : 41 + row] = 3.0
     fg = Foreground(depth, NUMBERS, 1)
     objects = segment(kernels, fg, NO_FLOOR, P)
     expected = np.array([-1, 1]) * objects.states[0, 3:] / 6
-    np.testing.assert_allclose(objects.shift[0], expected, atol=objects.states[0, 3:].max() / SLICES / 2)
+    np.testing.assert_allclose(
+        objects.centroid_offset[0], expected, atol=objects.states[0, 3:].max() / DISTRIBUTION_BINS / 2
+    )
 
 
 @pytest.mark.parametrize(
@@ -107,14 +111,14 @@ def test_what_is_in_front_cuts(kernels):
     assert objects.cut[farther].tolist() == [True, False, False, False]
 
 
-def test_edges_part_what_touches(kernels):
+def test_edges_separate_objects_that_touch(kernels):
     """Two boxes side by side, 0.15 m apart in depth, are two objects with edges, and one without."""
     boxes = ((Box(40, 30, 40, 80), 2.0), (Box(80, 30, 40, 80), 2.15))
     assert len(segment(kernels, drawn(*boxes, wall=np.nan), NO_FLOOR, P).states) == 2
     assert len(segment(kernels, drawn(*boxes, wall=np.nan), NO_FLOOR, Params(edges=False)).states) == 1
 
 
-def test_crumbs_are_no_objects(kernels):
+def test_a_few_pixels_are_no_object(kernels):
     """A few pixels are no object, whatever their depth."""
     objects = segment(kernels, drawn((Box(50, 50, 2, 3), NEARER), wall=np.nan), NO_FLOOR, P)
     assert len(objects.states) == 0
@@ -126,15 +130,15 @@ def test_nothing_in_range_is_no_object(wall, kernels):
     objects = segment(kernels, drawn(wall=wall), NO_FLOOR, P)
     assert objects.states.shape == (0, 5)
     assert objects.cut.shape == (0, 4)
-    assert objects.shift.shape == (0, 2)
-    assert objects.columns.shape == objects.rows.shape == (0, SLICES)
+    assert objects.centroid_offset.shape == (0, 2)
+    assert objects.columns.shape == objects.rows.shape == (0, DISTRIBUTION_BINS)
     assert objects.area.shape == (0,)
     assert objects.boxes(NUMBERS) == []
 
 
-def test_feet_come_back_from_the_floor(kernels):
-    """An object that ends 0.2 m over the floor is taken down to it: its foot stays in the column, its head
-    where it is.
+def test_objects_are_extended_down_to_the_floor(kernels):
+    """An object that ends 0.2 m above the floor is extended down to it. Its foot stays in the column, its
+    head where it is.
     """
     fg = drawn((LEFT_BOX, NEARER), wall=np.nan)
     bare = segment(kernels, fg, NO_FLOOR, P)
@@ -150,8 +154,8 @@ def test_feet_come_back_from_the_floor(kernels):
 
 
 @pytest.mark.parametrize("over", [-0.1, 0.5])
-def test_what_floats_or_is_sunk_gets_no_feet(over, kernels):
-    """An object under the floor, or far over it, stays as it is."""
+def test_objects_below_or_far_above_the_floor_are_not_extended(over, kernels):
+    """An object below the floor, or far above it, stays as it is."""
     fg = drawn((LEFT_BOX, NEARER), wall=np.nan)
     bare = segment(kernels, fg, NO_FLOOR, P)
     foot = bare.states[0, 1] + bare.states[0, 4] / 2
@@ -161,12 +165,12 @@ def test_what_floats_or_is_sunk_gets_no_feet(over, kernels):
 
 @pytest.mark.parametrize("resolution", [88, 59])
 def test_boxes_of_thinned_images_are_where_their_states_are(resolution, kernels):
-    """In an image thinned out an object's box in pixels is its metric state as the camera sees it, and within
+    """In a thinned image an object's box in pixels is its metric state as the camera sees it, and within
     a step of the box drawn.
     """
     p = Params(floor=False, resolution=resolution, gap_passes=0)
     depth = drawn((LEFT_BOX, NEARER), wall=np.nan).depth
-    fg, plane = foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
+    fg, plane = extract_foreground(kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), p)
     objects = segment(kernels, fg, plane, p)
     (box,), ((x, y, z, w, h),) = objects.boxes(NUMBERS), objects.states
     assert np.abs(np.subtract(box, LEFT_BOX)).max() <= fg.step
@@ -175,7 +179,7 @@ def test_boxes_of_thinned_images_are_where_their_states_are(resolution, kernels)
 
 
 def person(x: float = 0.0, z: float = 3.0, width: float = 0.5, height: float = 1.7) -> list[float]:
-    """The state of somebody."""
+    """The state of a person."""
     return [x, 0.0, z, width, height]
 
 
@@ -193,41 +197,41 @@ def person(x: float = 0.0, z: float = 3.0, width: float = 0.5, height: float = 1
 )
 def test_people_have_a_size(width, height, human, objects_of):
     """A human candidate is 0.9 to 2.2 m tall, and one to six times as tall as wide."""
-    assert len(humans(objects_of([person(width=width, height=height)]), P)) == human
+    assert len(find_people(objects_of([person(width=width, height=height)]), P)) == human
 
 
 def test_furniture_fills_its_box(objects_of):
     """What fills its box is no human candidate; where it is cut it may be one, but comes after all others."""
     objects = objects_of(3 * [person()], [[0, 0, 0, 0], [0, 0, 0, 1], [0, 0, 0, 0]])
     full = objects.states[:, 3] * objects.states[:, 4]
-    assert humans(objects._replace(area=full * [0.9, 0.9, 0.5]), P).tolist() == [2, 1]
+    assert find_people(objects._replace(area=full * [0.9, 0.9, 0.5]), P).tolist() == [2, 1]
 
 
 def test_people_are_listed_largest_first(objects_of):
     """Candidates keep the objects' order, which is by size, without those that are none."""
     objects = objects_of([person(width=0.9), person(height=0.3), person(width=0.6), person(width=0.5)])
-    assert humans(objects, P).tolist() == [0, 2, 3]
+    assert find_people(objects, P).tolist() == [0, 2, 3]
 
 
-def test_a_narrow_person_at_the_border_may_be_one(objects_of):
+def test_a_person_cut_by_the_border_may_be_narrow(objects_of):
     """Somebody whose width the border cuts may be too narrow, but not too wide."""
     cut = [[1, 0, 0, 0]]
-    assert len(humans(objects_of([person(width=0.2)], cut), P)) == 1
-    assert len(humans(objects_of([person(width=1.9)], cut), P)) == 0
+    assert len(find_people(objects_of([person(width=0.2)], cut), P)) == 1
+    assert len(find_people(objects_of([person(width=1.9)], cut), P)) == 0
 
 
 def test_nobody_is_an_error_that_asks_for_a_box(objects_of):
     """Without a candidate the error names the box."""
     with pytest.raises(ValueError, match=r"^box: expected .*nobody was found"):
-        somebody(objects_of([person(height=0.3)]), P)
+        initialize_on_person(objects_of([person(height=0.3)]), P)
 
 
 def test_a_box_starts_at_the_depth_of_its_object(kernels):
-    """A box drawn loosely round an object has the object's depth, and its own place and size."""
+    """A box drawn loosely around an object has the object's depth, and its own place and size."""
     fg = drawn(*TWO)
     objects = segment(kernels, fg, NO_FLOOR, P)
     loose = Box(LEFT_BOX.x - 4, LEFT_BOX.y - 6, LEFT_BOX.width + 9, LEFT_BOX.height + 8)
-    found = in_box(loose, objects, fg, P)
+    found = initialize_in_box(loose, objects, fg, P)
     np.testing.assert_allclose(found.state, metric(loose, NEARER), rtol=1e-6)
     assert found.whole.all()
 
@@ -237,22 +241,24 @@ def test_a_box_on_no_object_has_the_depth_of_its_middle(kernels):
     fg = drawn((LEFT_BOX, NEARER))
     objects = segment(kernels, fg, NO_FLOOR, P)
     part = Box(LEFT_BOX.x + 10, LEFT_BOX.y + 10, 12, 12)
-    np.testing.assert_allclose(in_box(part, objects, fg, P).state, metric(part, NEARER), rtol=1e-6)
+    np.testing.assert_allclose(initialize_in_box(part, objects, fg, P).state, metric(part, NEARER), rtol=1e-6)
 
 
 @pytest.mark.parametrize("size", [2, 3, 5])
 @pytest.mark.parametrize("corner", range(60, 66))
 def test_a_small_box_in_a_thinned_image_has_a_depth(size, corner, kernels):
-    """Wherever a small box lies on a measured surface, an image thinned out has a depth for it."""
+    """Wherever a small box lies on a measured surface, a thinned image has a depth for it."""
     p = Params(floor=False, resolution=44)
-    fg, plane = foreground(
+    fg, plane = extract_foreground(
         kernels, np.full((144, 176), 3.0, np.float32), NUMBERS, NO_FLOOR, np.random.default_rng(0), p
     )
-    found = in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg, p)
+    found = initialize_in_box(Box(corner, corner, size, size), segment(kernels, fg, plane, p), fg, p)
     assert found.state[2] == pytest.approx(3.0)
 
 
 def test_a_box_on_nothing_is_named(kernels):
     """A box without a measurement in its middle is an error that names it."""
     with pytest.raises(ValueError, match=r"^box: expected a target with measured depth"):
-        in_box(Box(10, 10, 20, 20), segment(kernels, drawn(wall=np.nan), NO_FLOOR, P), drawn(wall=np.nan), P)
+        initialize_in_box(
+            Box(10, 10, 20, 20), segment(kernels, drawn(wall=np.nan), NO_FLOOR, P), drawn(wall=np.nan), P
+        )

@@ -49,9 +49,10 @@ def test_one_step_agrees(form, passing: DepthScene):
     round otherwise is float64: the mean depth of an object, the plane by least squares, the distance over 64
     levels, weights and their cumulative sums. A mean over a body's 600 pixels at 4 m, summed in another
     order, is off by some sqrt(600) EPS64 4 m = 2e-14 m, more than any other. The object's state goes into the
-    log weights with a slope of at most sqrt(2 FAR_OFF) / (TRUST SHARP) = 82 a metre in each of five
-    dimensions, so a log weight changes by e = 8e-12, and the weighted mean by 2 e times the extent of the
-    particles, 0.2 m: 3e-12 m or 1e-10 px, each with an allowance of some ten. The largest seen is 2e-14 px.
+    log weights with a slope of at most sqrt(2 MAX_OBJECT_COST) / (DEVIATION_FACTOR OBJECT_DEVIATION) = 82 a
+    metre in each of five dimensions, so a log weight changes by e = 8e-12, and the weighted mean by 2 e times
+    the extent of the particles, 0.2 m: 3e-12 m or 1e-10 px, each with an allowance of some ten. The largest
+    seen is 2e-14 px.
     """
     frames, camera = half_size(passing)
     tracker = DepthParticleTracker(seed=1, particles=20, intrinsics=camera, **FORMS[form])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""That the depth particle tracker follows people, knows when they are hidden, and reads frames for what they
-measure, however they say it.
+"""That the depth particle tracker follows people, reports when they are hidden, and reads the same
+measurements in every layout and encoding.
 """
 
 import gc
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics, Status, Track
 from tricue.scenes import DepthScene, crossing, walker
 
-WITHIN = 3  # frames, until an occlusion is told
+WITHIN = 3  # frames, until an occlusion is reported
 BACK = 5  # frames, until somebody is followed again
 HIDDEN, SEEN = 0.15, 0.5  # visible share
 
@@ -53,7 +53,7 @@ def crossed(crossings: list[DepthScene], follow) -> list[tuple[DepthScene, list[
 
 @pytest.mark.parametrize("seed", range(4))
 def test_follows_a_walker(seed, walkers, follow):
-    """Somebody who walks alone, crouches and raises the arms is followed from the true first box, and told
+    """Somebody who walks alone, crouches and raises the arms is followed from the true first box, and
     TRACKED in 95 % of the frames.
     """
     tracks = tracks_of(walkers[seed], follow, walkers[seed].boxes[0], seed=seed)
@@ -70,7 +70,7 @@ def test_starts_without_a_box(seed, walkers, follow):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_tells_an_occlusion(seed, crossed):
+def test_reports_an_occlusion(seed, crossed):
     """Within three frames of being hidden a target is OCCLUDED, and stays so as long as it is hidden."""
     scene, tracks = crossed[seed]
     hidden = scene.visible < HIDDEN
@@ -120,7 +120,7 @@ def test_never_stands_where_another_stands(seed, crossed):
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_covariance_is_one(seed, crossed):
+def test_covariance_is_valid(seed, crossed):
     """A covariance is symmetric and positive definite in every frame."""
     for track in crossed[seed][1]:
         np.testing.assert_array_equal(track.covariance, track.covariance.T)
@@ -139,7 +139,7 @@ def test_covariance_grows_while_occluded(seed, crossed):
     assert np.median(variance[hidden]) > np.median(variance[~hidden])
 
 
-def test_scores_say_what_is_seen(crossed):
+def test_scores_follow_visibility(crossed):
     """The score is 0 while hidden, above 0.3 in half of the frames while TRACKED, and in [0, 1]."""
     for _, tracks in crossed:
         scores = np.array([track.score for track in tracks])
@@ -149,7 +149,7 @@ def test_scores_say_what_is_seen(crossed):
         assert (scores[~tracked] == 0).all()
 
 
-def test_an_empty_room_has_nobody():
+def test_no_person_is_detected_in_an_empty_room():
     """Without a box, and with a bare wall, a floor or nothing in front, the error begins with the box."""
     floor = np.full((144, 176), 7.0, np.float32)
     floor[80:] = (1.3 * 201 / (np.arange(80, 144) - 71.5))[:, None]
@@ -187,7 +187,7 @@ def test_positions_are_in_the_box(crossed):
 
 
 @pytest.mark.parametrize("name", LAYOUTS)
-def test_no_measurement_is_said_in_any_way(name, passing: DepthScene, follow, pass_by):
+def test_all_encodings_of_no_measurement_are_the_same(name, passing: DepthScene, follow, pass_by):
     """NaN, 0, infinity, below 0, float64 and another memory order give the same track bit for bit."""
     frames = [Frame(depth=LAYOUTS[name](f.depth), timestamp=f.timestamp) for f in passing.frames]
     tracker = DepthParticleTracker(intrinsics=passing.intrinsics, seed=5)
@@ -209,7 +209,7 @@ def test_integers_with_a_scale_are_metres(dtype, scale, passing: DepthScene, fol
 
 
 def test_color_beside_the_depth_changes_nothing(passing: DepthScene, follow, pass_by):
-    """A color channel, of another size too, isn't looked at."""
+    """A color channel, of another size too, is ignored."""
     picture = np.random.default_rng(0).integers(0, 256, (20, 30, 3), np.uint8)
     frames = [Frame(color=picture, depth=f.depth, timestamp=f.timestamp) for f in passing.frames]
     tracker = DepthParticleTracker(intrinsics=passing.intrinsics, seed=5)
@@ -222,7 +222,7 @@ def test_color_beside_the_depth_changes_nothing(passing: DepthScene, follow, pas
 @pytest.mark.parametrize("seed", range(2))
 def test_follows_with_a_worse_sensor(flaws, seed, follow):
     """With 30 % of the pixels missing, or three times the noise, the walker is still followed: mean IoU above
-    0.6, median error under 12 cm; without any flaw as well as usually.
+    0.6, median error under 12 cm; without any flaw as well as with the default sensor.
     """
     scene = walker(seed, **flaws)
     tracks = tracks_of(scene, follow, scene.boxes[0], seed=seed)
@@ -237,11 +237,11 @@ def test_follows_with_a_worse_sensor(flaws, seed, follow):
 def test_timestamps_are_the_rate(rate, passing: DepthScene, follow):
     """Frames with timestamps 1 / rate apart give the track of frames without any at that rate.
 
-    With i / rate, differences are off by a rounding of i / rate, 2.2e-16 s of 2.4 s at most: a share of
-    7e-15 of a frame. It goes into drift and noise as metres (velocity and agility times seconds), and from
+    With i / rate, differences are off by a rounding of i / rate, 2.2e-16 s of 2.4 s at most: a share of 7e-15
+    of a frame. It goes into drift and noise as metres (velocity and position_noise times seconds), and from
     there, as in a step on other kernels, into log weights that are 200 times as steep a metre at most, which
-    is 1e-12 px a frame, carried on over 36 frames: 1e-9 px, unless a resampled index or a sample crosses
-    its border, a chance of about 1e-4.
+    is 1e-12 px a frame, carried on over 36 frames: 1e-9 px, unless a resampled index or a sample crosses its
+    border, a chance of about 1e-4.
     """
     bare = [Frame(depth=frame.depth) for frame in passing.frames]
     timed = [Frame(depth=f.depth, timestamp=i / rate) for i, f in enumerate(passing.frames)]
@@ -268,7 +268,7 @@ def test_time_matters(passing: DepthScene, follow):
 @pytest.mark.parametrize(
     "stamps", [(0.0, 0.0, 0.0), (2.0, 1.0, 0.0), (None, 0.5, None), (0.0, 1e9, 2e9)], ids=str
 )
-def test_odd_timestamps_are_survived(stamps, passing: DepthScene, follow):
+def test_irregular_timestamps_are_accepted(stamps, passing: DepthScene, follow):
     """Times that stand still, run back, come now and then, or leap by years leave the target followed."""
     frames = [Frame(depth=f.depth, timestamp=t) for f, t in zip(passing.frames, stamps, strict=False)]
     tracker = DepthParticleTracker(intrinsics=passing.intrinsics)
@@ -276,22 +276,22 @@ def test_odd_timestamps_are_survived(stamps, passing: DepthScene, follow):
     assert overlaps(tracks, passing.boxes[:3]).min() > 0.5
 
 
-def test_the_camera_is_believed(walkers, follow):
+def test_positions_follow_the_intrinsics(walkers, follow):
     """With half the focal length everything is twice as far aside, at the same depth."""
     scene = walkers[0]
     c = scene.intrinsics
     wide = Intrinsics(c.fx / 2, c.fy / 2, c.cx, c.cy, c.width, c.height)
-    usual, twice = (
+    default, twice = (
         DepthParticleTracker(intrinsics=camera, floor=False).init(scene.frames[0], scene.boxes[0])
         for camera in (c, wide)
     )
-    np.testing.assert_allclose(twice.position[2], usual.position[2], rtol=1e-9)
-    np.testing.assert_allclose(twice.position[:2], 2 * usual.position[:2], rtol=1e-9)
-    assert twice.box == pytest.approx(usual.box)
+    np.testing.assert_allclose(twice.position[2], default.position[2], rtol=1e-9)
+    np.testing.assert_allclose(twice.position[:2], 2 * default.position[:2], rtol=1e-9)
+    assert twice.box == pytest.approx(default.box)
 
 
-def test_particles_and_objects_are_shown(passing: DepthScene):
-    """Particles and objects are none before init; then as many particles as asked for, spread round the box,
+def test_particles_and_objects_are_exposed(passing: DepthScene):
+    """Particles and objects are none before init; then as many particles as set, spread around the box,
     and the target is one of the objects.
     """
     tracker = DepthParticleTracker(particles=37, intrinsics=passing.intrinsics)
@@ -308,7 +308,7 @@ def test_particles_and_objects_are_shown(passing: DepthScene):
 
 
 @pytest.mark.parametrize("company", [False, True], ids=["alone", "beside somebody"])
-def test_lost_when_gone_and_found_when_back(company, walkers, follow):
+def test_lost_when_gone_and_tracked_when_back(company, walkers, follow):
     """Somebody whom nothing hides and who isn't there is OCCLUDED at first, LOST after lost_after seconds,
     and TRACKED within five frames of standing there again.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the target looks like, and how likely a window of the image is to show it."""
+"""The target's appearance: the likelihood that a window of the image shows it, and how it is learned."""
 
 from typing import Any, NamedTuple
 
@@ -8,35 +8,47 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.base.ellipse_pattern import grid, ring
-from tricue.track.color_particle.contrast import ColorContrast
-from tricue.track.color_particle.observation import Observation, RankSpatial, observation
+from tricue.track.color_particle.color_contrast import ColorContrast
+from tricue.track.color_particle.color_models import Gaussian, Histogram, Lookup, Region
+from tricue.track.color_particle.observation_model import ObservationModel
 from tricue.track.color_particle.params import ColorParticleParams
+from tricue.track.color_particle.rank_models import RankSections, RankSpatial
 
 Floats = NDArray[Any]
 Image = NDArray[np.uint8]
 
+OBSERVATION_MODELS: dict[str, type[Any]] = {
+    "region": Region,
+    "gaussian": Gaussian,
+    "lookup": Lookup,
+    "histogram": Histogram,
+    "rank-sections": RankSections,
+    "rank-spatial": RankSpatial,
+}
+MIN_LINEAR_LIKELIHOOD = 1e-12  # in its logarithm
 
-class Look(NamedTuple):
-    """The samples of N windows: (N, 3, n) on the grid inside, (N, 3, m) in the ring around."""
+
+class WindowSamples(NamedTuple):
+    """Pixels of N windows: (N, 3, n) on the grid inside each window, (N, 3, m) in the ring around it."""
 
     inside: Image
     around: Image
 
 
 class Appearance(NamedTuple):
-    """The observation model and the colors against the surround, learned together."""
+    """The observation model and the color contrast, which are learned together."""
 
-    model: Observation
+    model: ObservationModel
     contrast: ColorContrast | None
-    grid: Floats  # (n, 2) where windows are sampled, in semi-axes
-    ring: Floats  # (m, 2) the same around them
+    grid: Floats  # (n, 2) sample positions in the window, semi-axes
+    ring: Floats  # (m, 2) sample positions around it, semi-axes
     linear: bool  # whether the likelihood is (18) as printed
     sharpness: float
 
     @classmethod
-    def of(cls, p: ColorParticleParams) -> "Appearance":
-        """Of which nothing is known yet."""
-        model = observation(p)
+    def create(cls, p: ColorParticleParams) -> "Appearance":
+        """Models that have learned nothing yet."""
+        model: ObservationModel = OBSERVATION_MODELS[p.observation].create(p)
         return cls(
             model,
             ColorContrast(p.color_weight) if p.color_weight > 0 else None,
@@ -46,40 +58,46 @@ class Appearance(NamedTuple):
             model.sharpness if p.sharpness is None else p.sharpness,
         )
 
-    def look(self, k: Kernels, image: Image, ellipses: Floats) -> Look:
-        """Read the windows of N ellipses."""
-        return Look(
+    def sample(self, k: Kernels, image: Image, ellipses: Floats) -> WindowSamples:
+        """Sample the windows of ellipses (N, 4)."""
+        return WindowSamples(
             k.sample_ellipses(image, ellipses, self.grid), k.sample_ellipses(image, ellipses, self.ring)
         )
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
-        """(N,) log p(y | x): equation (18), or its exponential form, times the color term."""
-        distance, contrast = self.measure(k, image, ellipses, searching)
+        """(N,) log p(y | x), nats: equation (18), or its exponential form, times the color contrast term."""
+        distance, log_contrast = self._measure(k, image, ellipses, searching)
         if self.linear:
-            contrast += np.log(np.maximum(1 - distance, 1e-12))
+            log_contrast += np.log(np.maximum(1 - distance, MIN_LINEAR_LIKELIHOOD))
         else:
-            contrast -= self.sharpness * distance * distance
-        return contrast
+            log_contrast -= self.sharpness * distance * distance
+        return log_contrast
 
-    def measure(
-        self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False
-    ) -> tuple[Floats, Floats]:
-        """(N,) distances to the model, and (N,) of the color term; both in one pass where a kernel does."""
-        if self.contrast and isinstance(self.model, RankSpatial):
+    def _measure(self, k: Kernels, image: Image, ellipses: Floats, searching: bool) -> tuple[Floats, Floats]:
+        """(N,) distances to the model and (N,) log-likelihoods of the color contrast."""
+        if self.contrast and isinstance(self.model, RankSpatial):  # one kernel computes both
             maps, table = self.model.maps, self.contrast.table
             distances, contrast = k.rank_contrast(image, ellipses, self.grid, self.ring, maps, table)
-            return self.model.chosen(distances, searching), self.contrast.weight * contrast
-        look = self.look(k, image, ellipses)
-        distance = self.model.distance(k, *look, searching).astype(np.float64)
-        return distance, self.contrast.log_likelihood(k, *look) if self.contrast else np.zeros(len(ellipses))
+            return self.model.combine(distances, searching), self.contrast.weight * contrast
+        samples = self.sample(k, image, ellipses)
+        distance = self.model.distance(k, *samples, searching).astype(np.float64)
+        if self.contrast:
+            return distance, self.contrast.log_likelihood(k, *samples)
+        return distance, np.zeros(len(ellipses))
 
-    def recognition(self, k: Kernels, look: Look, searching: bool = False) -> float:
-        """How surely the first window shows the target, in [0, 1]."""
-        return self.model.recognition(k, *look, searching)
+    def score(self, k: Kernels, samples: WindowSamples, searching: bool = False) -> float:
+        """Confidence, in [0, 1], that the first window shows the target."""
+        return self.model.score(k, *samples, searching)
 
-    def learned(
-        self, k: Kernels, image: Image, ellipse: Floats, look: Look, rate: float, color_rate: float
+    def learn(
+        self,
+        k: Kernels,
+        image: Image,
+        ellipse: Floats,
+        samples: WindowSamples,
+        rate: float,
+        color_rate: float,
     ) -> "Appearance":
-        """With the window of one ellipse (1, 4) blended into the models; rates of 1 start them."""
-        contrast = self.contrast and self.contrast.learned(k, image, ellipse, color_rate)
-        return self._replace(model=self.model.learned(k, *look, rate), contrast=contrast)
+        """Blend the window of one ellipse (1, 4) into both models; rates of 1 initialize them."""
+        contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
+        return self._replace(model=self.model.learn(k, *samples, rate), contrast=contrast)

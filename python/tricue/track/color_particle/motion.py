@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How an ellipse moves: equation (30) with the velocity in its mean, and a size that returns to what it
-usually is.
-"""
+"""The motion model of an ellipse: equation (30) with a velocity, and a size that returns to its mean."""
 
 import math
 from typing import NamedTuple
@@ -13,65 +11,72 @@ from tricue.track.base.prediction import Prediction
 from tricue.track.color_particle.params import ColorParticleParams
 
 Floats = NDArray[np.float64]
-Pair = tuple[float, float]
-Ellipse = tuple[float, float, float, float]
+Ellipse = tuple[float, float, float, float]  # x, y, minor, major
 
-STILL = np.zeros(4)
-JITTER = 0.5  # pixels of position noise that even the smallest target has
+MIN_PIXEL_NOISE = 0.5  # pixels, standard deviation of the position of even the smallest target
 
 
-class Motion(NamedTuple):
-    """The target's ellipse, its smoothed velocity (pixels a frame), its usual size and its first size."""
+class EllipseMotion(NamedTuple):
+    """The target's ellipse, pixels, and how it moves.
+
+    velocity: pixels per frame, smoothed. mean_size: running mean of the semi-axes. first_size: of the first
+    frame.
+    """
 
     ellipse: Ellipse
-    velocity: Pair
-    usual: Pair
-    first: Pair
+    velocity: tuple[float, float]
+    mean_size: tuple[float, float]
+    first_size: tuple[float, float]
 
     @classmethod
-    def start(cls, ellipse: Ellipse) -> "Motion":
-        """At rest."""
+    def start(cls, ellipse: Ellipse) -> "EllipseMotion":
+        """The motion of a target at rest."""
         return cls(ellipse, (0.0, 0.0), ellipse[2:], ellipse[2:])
 
     @property
     def side(self) -> float:
-        """Pixels: the side of the square as large as the ellipse's box."""
+        """Pixels: the side of a square with the area of the ellipse's box."""
         return 2.0 * math.sqrt(self.ellipse[2] * self.ellipse[3])
 
     def predict(self, p: ColorParticleParams, shape: tuple[int, ...]) -> Prediction:
-        """Where particles go next; K of (30) grows with the velocity. Centers stay in the image."""
+        """The particles' transition density; its noise, K of (30), grows with the velocity.
+
+        Centers stay in the image of this shape.
+        """
         (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
-        noise, k, pull = JITTER + p.position_noise * self.side, p.velocity_noise, p.size_pull
-        sizes = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
-        reach = max(p.reach, p.reach_sizes * self.side)
+        noise, k, pull = MIN_PIXEL_NOISE + p.position_noise * self.side, p.velocity_noise, p.size_pull
+        size_noise = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
+        step = max(p.max_step, p.max_step_sizes * self.side)
         height, width = shape[:2]
-        left, right = min(max(x - reach, 0.0), width), min(max(x + reach, 0.0), width)
-        top, bottom = min(max(y - reach, 0.0), height), min(max(y + reach, 0.0), height)
-        (smallest, largest), (first_minor, first_major) = p.size_range, self.first
+        left, right = min(max(x - step, 0.0), width), min(max(x + step, 0.0), width)
+        top, bottom = min(max(y - step, 0.0), height), min(max(y + step, 0.0), height)
+        mean_minor, mean_major = self.mean_size
+        (smallest, largest), (first_minor, first_major) = p.size_range, self.first_size
         return Prediction(
-            np.array((vx, vy, pull * (self.usual[0] - minor), pull * (self.usual[1] - major))),
-            np.array((noise + k * abs(vx), noise + k * abs(vy), sizes * minor, sizes * major)),
+            np.array((vx, vy, pull * (mean_minor - minor), pull * (mean_major - major))),
+            np.array((noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major)),
             np.array((left, top, smallest * first_minor, smallest * first_major)),
             np.array((right, bottom, largest * first_minor, largest * first_major)),
         )
 
-    def moved(self, ellipse: Ellipse, p: ColorParticleParams) -> "Motion":
-        """What one more estimate makes of it."""
+    def update(self, ellipse: Ellipse, p: ColorParticleParams) -> "EllipseMotion":
+        """Move to a new estimate; its step updates the velocity, its size the mean size."""
         (x, y, *_), (vx, vy), rate = self.ellipse, self.velocity, p.velocity_rate
         velocity = (vx + rate * (ellipse[0] - x - vx), vy + rate * (ellipse[1] - y - vy))
-        minor, major = self.usual
-        memory = p.size_memory
-        usual = (minor + memory * (ellipse[2] - minor), major + memory * (ellipse[3] - major))
-        return Motion(ellipse, velocity, usual, self.first)
+        minor, major = self.mean_size
+        size_rate = p.size_rate
+        mean_size = (minor + size_rate * (ellipse[2] - minor), major + size_rate * (ellipse[3] - major))
+        return EllipseMotion(ellipse, velocity, mean_size, self.first_size)
 
-    def stopped_at(self, ellipse: Ellipse) -> "Motion":
-        """At rest in another place."""
-        return Motion(ellipse, (0.0, 0.0), self.usual, self.first)
+    def restart_at(self, ellipse: Ellipse) -> "EllipseMotion":
+        """Move to another place, at rest; the mean size stays."""
+        return EllipseMotion(ellipse, (0.0, 0.0), self.mean_size, self.first_size)
 
 
 def size_mixing(p: ColorParticleParams) -> Floats:
-    """(4, 4) for white noise from the right: makes the two semi-axes grow together, but for the noise of
-    their ratio.
+    """(4, 4) factor for white noise, from the right, that correlates the noise of the two semi-axes.
+
+    They grow and shrink together, but for the noise of their ratio.
     """
     variance = p.size_noise**2 + p.aspect_noise**2
     common = p.size_noise**2 / variance if variance > 0 else 0.0

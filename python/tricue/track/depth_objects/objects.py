@@ -9,63 +9,71 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
-from tricue.track.depth_objects.metric import box_of
 from tricue.track.depth_objects.params import SegmentationParams
+from tricue.track.depth_objects.projection import project_box
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
-SLICES = 16  # of an object's width and height, in its horizontal and vertical distribution
-EDGE = 2  # pixels from the border within which an object may go on outside
-FEET = 0.35  # metres over the floor, from which somebody still stands on it
-LEGS = 0.7  # as wide as a body's box on average
-BESIDE = 0.08  # metres from an object, where something nearer may cover more of it,
-COVERED = 0.15  # on so much of a side
-NEVER = 1e6  # metres, a jump of the depth that there is not
-ONE = np.uint8(1)
+DISTRIBUTION_BINS = 16  # of an object's width and height, in its horizontal and vertical distribution
+BORDER = 2  # pixels from the image's border, within which an object may continue outside
+MAX_FEET_HEIGHT = 0.35  # metres: an object whose lower end is lower than that stands on the floor
+LEGS_FILL = 0.7  # of the strip of the box that is added down to the floor
+OCCLUDER_DISTANCE = 0.08  # metres from a side of an object, where an occluder is looked for
+MAX_SIDE_COVERED = 0.15  # of a side; an object that is covered more is cut there
+NO_EDGES = 1e6  # metres: no jump of the depth is as large
+MIN_PIXELS = 8.0  # of an object, whatever its distance
+MAX_DIVISIONS = 255  # of the range of depths: labels have 8 bits
 
 
 class Objects(NamedTuple):
-    """C objects, largest first; with their signatures, horizontal and vertical distribution.
+    """C objects, largest first.
 
-    states: (C, 5) X, Y, Z of the box's centre, width and height, metres; Z is the mean depth.
-    cut: (C, 4) whether it may go on at its left, right, top, bottom: at the image's border, or behind
-        something nearer.
-    shift: (C, 2) from the box's centre to the centroid, metres.
-    columns, rows: (C, SLICES) each of sum 1. area: (C,) square metres.
+    states: (C, 5) X, Y, Z of the box's center, width and height, metres; Z is the mean depth.
+    cut: (C, 4) whether it may continue beyond its left, right, top, bottom: at the image's border or behind
+        an occluder.
+    centroid_offset: (C, 2) from the box's center to the centroid, metres.
+    columns, rows: (C, DISTRIBUTION_BINS) horizontal and vertical distribution, each of sum 1.
+    area: (C,) square metres.
     """
 
     states: Floats
     cut: NDArray[np.bool_]
-    shift: Floats
+    centroid_offset: Floats
     columns: Singles
     rows: Singles
     area: Floats
 
     @property
     def whole(self) -> NDArray[np.bool_]:
-        """(C, 2) whether the width and the height are seen whole."""
+        """(C, 2) whether the whole width and the whole height are visible."""
         return ~(self.cut[:, ::2] | self.cut[:, 1::2])
 
     def boxes(self, camera: Floats) -> list[Box]:
         """Their boxes in pixels of a camera (4,)."""
-        return [box_of(state, camera) for state in self.states]
+        return [project_box(state, camera) for state in self.states]
 
 
 def segment(k: Kernels, fg: Foreground, plane: Floats, p: SegmentationParams) -> Objects:
-    """Divide the range at the minima of the depth's density, and each division into connected objects."""
+    """Divide the range at the minima of the depth's density, and each division into connected objects.
+
+    plane: (6,) the floor, to which the feet of objects are extended; NO_FLOOR without one.
+    """
     depth = fg.depth
-    gap = p.edge_gap if p.edges else NEVER
-    mask = k.depth_edges(depth, gap, p.edge_slope) ^ ONE
+    gap = p.edge_gap if p.edges else NO_EDGES
+    mask = k.depth_edges(depth, gap, p.edge_slope) ^ np.uint8(1)
     counts = k.depth_histogram(depth, mask, p.near, p.far, p.levels)
     level = (p.far - p.near) / p.levels
     density = k.depth_density(counts, p.bandwidth / level)
     _, minima = k.density_extrema(density, p.prominence * float(density.max()))
-    dividers = np.array([p.near, *(p.near + (m + 0.5) * level for m in minima[:254].tolist()), p.far])
+    minima = minima[: MAX_DIVISIONS - 1]
+    dividers = np.array([p.near, *(p.near + (m + 0.5) * level for m in minima.tolist()), p.far])
     labels = k.divide_depth(depth, mask, dividers)
-    least = p.least_area * fg.camera[0] * fg.camera[1] / p.far**2
-    area = int(min(max(8.0, least), depth.size + 1.0))
-    table, _, columns, rows, _ = k.depth_components(labels, depth, p.near, p.far, 0, SLICES, area, False)
-    cut = k.cut_sides(depth, table, fg.camera, EDGE, BESIDE, p.nearer, COVERED)
-    measured = k.measure_objects(table, columns, rows, cut, fg.camera, plane[:4], FEET, LEGS)
+    far_pixels = p.min_area * fg.camera[0] * fg.camera[1] / p.far**2
+    min_pixels = int(min(max(MIN_PIXELS, far_pixels), depth.size + 1.0))
+    table, _, columns, rows, _ = k.depth_components(
+        labels, depth, p.near, p.far, 0, DISTRIBUTION_BINS, min_pixels, False
+    )
+    cut = k.cut_sides(depth, table, fg.camera, BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED)
+    measured = k.measure_objects(table, columns, rows, cut, fg.camera, plane[:4], MAX_FEET_HEIGHT, LEGS_FILL)
     return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""On whom the depth particle tracker starts: on what is in a box, or on the most prominent person."""
+"""The initial target of the depth particle tracker: in a given box, or the most prominent person."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,85 +7,88 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.errors import NoDepthInBoxError, TargetNotFoundError
 from tricue.track.depth_objects.foreground import Foreground
-from tricue.track.depth_objects.metric import state_of
-from tricue.track.depth_objects.objects import EDGE, Objects
-from tricue.track.depth_particle.matching import Found
+from tricue.track.depth_objects.objects import BORDER, Objects
+from tricue.track.depth_objects.projection import back_project_box
+from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
 
-ALIKE = 0.3  # overlap of a box and the object that is meant by it
+MIN_BOX_IOU = 0.3  # of a given box with the object that it stands for
 
 
-def humans(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
-    """Indices of those that may be people, by aspect ratio, size, and how much of their box they fill.
+def find_people(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
+    """Indices of the human candidates, by aspect ratio, size, and the share of their box that they fill.
 
-    The largest come first; last come those that fill their box and may do so because it is cut.
+    The largest come first. Last come candidates that fill too much of their box, but may do so because they
+    are cut.
     """
     width, height = objects.states[:, 3], objects.states[:, 4]
     aspect, filled = height / width, objects.area / (width * height)
     tall = (height >= p.human_height[0]) & (height <= p.human_height[1])
     upright = (aspect >= p.aspect[0]) & ((aspect <= p.aspect[1]) | ~objects.whole[:, 0])
-    slender, cut = filled <= p.fill, objects.cut.any(axis=1)
+    slender, cut = filled <= p.max_fill, objects.cut.any(axis=1)
     return np.concatenate([np.flatnonzero(tall & upright & each) for each in (slender, ~slender & cut)])
 
 
-def somebody(objects: Objects, p: DepthParticleParams) -> Found:
-    """The largest of the human candidates; ValueError where there is none."""
-    people = humans(objects, p)
+def initialize_on_person(objects: Objects, p: DepthParticleParams) -> TargetObject:
+    """The largest human candidate; TargetNotFoundError without any."""
+    people = find_people(objects, p)
     if len(people) == 0:
-        empty = "" if len(objects.states) else f", nor anything else {_in_range(p)}"
+        empty = "" if len(objects.states) else f", nor anything else {_describe_range(p)}"
         raise TargetNotFoundError(
             f"box: expected (x, y, width, height), as nobody was found in this frame{empty}"
         )
-    chosen = int(people[0])
-    return Found(objects.states[chosen], objects.whole[chosen], Signature.of(objects, chosen))
+    index = int(people[0])
+    return TargetObject(objects.states[index], objects.whole[index], Signature.from_object(objects, index))
 
 
-def in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> Found:
-    """The box itself, at the depth of the object that fills it best, or else of what is in its middle.
+def initialize_in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> TargetObject:
+    """The given box, at the depth of the object that overlaps it most.
 
-    ValueError where nothing is in its middle that can be followed.
+    Where no object overlaps it well, the depth is the median in the middle of the box. NoDepthInBoxError
+    where there is none.
     """
     camera = fg.camera * fg.step
     overlaps = [box.iou(each) for each in objects.boxes(camera)]
     best = int(np.argmax(overlaps)) if overlaps else -1
-    meant = best >= 0 and overlaps[best] > ALIKE
-    z = float(objects.states[best, 2]) if meant else _middle_depth(fg, box, p)
-    return Found(
-        state_of(box, z, camera),
+    on_object = best >= 0 and overlaps[best] > MIN_BOX_IOU
+    z = float(objects.states[best, 2]) if on_object else _median_depth(fg, box, p)
+    return TargetObject(
+        back_project_box(box, z, camera),
         _whole(box, fg),
-        Signature.of(objects, best) if meant else Signature.unknown(),
+        Signature.from_object(objects, best) if on_object else Signature.uniform(),
     )
 
 
 def _whole(box: Box, fg: Foreground) -> NDArray[np.bool_]:
+    """(2,) whether the box's width and height are inside the image."""
     height, width = np.multiply(fg.depth.shape, fg.step)
     left, top, right, bottom = box.xyxy
     return np.array(
-        [left >= EDGE and right <= width - EDGE, top >= EDGE and bottom <= height - EDGE], np.bool_
+        [left >= BORDER and right <= width - BORDER, top >= BORDER and bottom <= height - BORDER], np.bool_
     )
 
 
-def _middle(start: float, length: float, step: int, size: int) -> slice:
-    """The pixels in the middle half of an interval, at least one, as far as they are in the image."""
+def _middle_half(start: float, length: float, step: int, size: int) -> slice:
+    """The pixels in the middle half of an interval, inside the image, at least one."""
     first = int((start + length / 4) // step)
     last = max(first, int((start + 3 * length / 4) // step))
     return slice(min(max(first, 0), size - 1), max(min(last + 1, size), 1))
 
 
-def _in_range(p: DepthParticleParams) -> str:
+def _describe_range(p: DepthParticleParams) -> str:
     return f"above the floor and between near and far, {p.near:g} and {p.far:g} m"
 
 
-def _middle_depth(fg: Foreground, box: Box, p: DepthParticleParams) -> float:
-    """The median depth in the middle of a box; ValueError where nothing there has one."""
+def _median_depth(fg: Foreground, box: Box, p: DepthParticleParams) -> float:
+    """The median depth in the middle of a box; NoDepthInBoxError where there is none."""
     height, width = fg.depth.shape
-    columns = _middle(box.x, box.width, fg.step, width)
-    middle = fg.depth[_middle(box.y, box.height, fg.step, height), columns]
+    columns = _middle_half(box.x, box.width, fg.step, width)
+    middle = fg.depth[_middle_half(box.y, box.height, fg.step, height), columns]
     middle = middle[np.isfinite(middle)]
     if middle.size == 0:
         raise NoDepthInBoxError(
-            f"box: expected a target with measured depth in its middle, {_in_range(p)}, "
+            f"box: expected a target with measured depth in its middle, {_describe_range(p)}, "
             f"got none in {tuple(box)}"
         )
     return float(np.median(middle))

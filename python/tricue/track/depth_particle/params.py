@@ -18,67 +18,124 @@ class DepthParticleParams(SegmentationParams):
     ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``.
     """
 
-    particles: int = parameter(100, unit="particles", source="section V", low=2, high=100_000)
+    particles: int = parameter(
+        100, unit="particles", source="section V", low=2, high=100_000, doc="of the filter"
+    )
     rate: float = parameter(
-        15.0, unit="frames/s", source=OURS, above=0, doc="where frames have no timestamps"
+        15.0, unit="frames/s", source=OURS, above=0, doc="assumed for frames without timestamps"
     )
 
     aspect: tuple[float, float] = parameter(
         (1.0, 6.0), unit="height/width", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
     )
-    fill: float = parameter(
+    max_fill: float = parameter(
         0.62,
         unit="of its box",
         source=OURS,
         above=0,
         high=1,
-        doc="by a human candidate at most: no furniture",
+        doc="by a human candidate; furniture fills more",
+        was="fill",
     )
     human_height: tuple[float, float] = parameter(
         (0.9, 2.2), unit="m", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
     )
 
     histogram: Literal["relative", "absolute"] = parameter(
-        "relative", unit="-", source="absolute: (38) as printed; " + OURS, doc="to the particle's own depth"
+        "relative",
+        unit="-",
+        source="absolute: (38) as printed; " + OURS,
+        doc="relative: to the particle's own depth",
     )
     likelihood: Literal["linear", "exponential"] = parameter(
-        "exponential", unit="-", source="(37) is linear; " + OURS, doc="1 - d, or exp(-sharpness d²)"
+        "exponential",
+        unit="-",
+        source="(37) is linear; " + OURS,
+        doc="of a distance d: 1 - d, or exp(-sharpness d²)",
     )
     sharpness: float = parameter(30.0, unit="nats", source=OURS, above=0, doc="of the exponential form")
-    reach: float = parameter(0.5, unit="m", source=OURS, above=0, doc="half the relative histogram's range")
+    histogram_reach: float = parameter(
+        0.5, unit="m", source=OURS, above=0, doc="half the range of the relative histogram", was="reach"
+    )
     bins: int = parameter(64, unit="levels", source=OURS, low=4, high=4096, doc="of the relative histogram")
     grid: tuple[int, int] = parameter(
-        (14, 10), unit="samples", source=OURS, low=2, high=64, doc="rows, columns read in a rectangle"
+        (14, 10),
+        unit="samples",
+        source=OURS,
+        low=2,
+        high=64,
+        doc="rows, columns of the samples in a rectangle",
     )
     contrast: float = parameter(
-        8.0, unit="nats", source=OURS, low=0, doc="of the target's depth inside against around"
+        8.0, unit="nats", source=OURS, low=0, doc="of the depth contrast in the log-likelihood; 0: not used"
     )
-    margin: float = parameter(1.25, unit="half sizes", source=OURS, above=1, doc="where around is read")
+    margin: float = parameter(
+        1.25, unit="half sizes", source=OURS, above=1, doc="outline on which the surround is sampled"
+    )
     measurement: float = parameter(
-        1.0, unit="-", source=OURS, low=0, doc="weight of the segmented object in the likelihood; 0: only (2)"
+        1.0, unit="-", source=OURS, low=0, doc="weight of the segmented object in the likelihood; 0: not used"
     )
     object_share: float = parameter(
-        0.4, unit="of particles", source="section IV.A; " + OURS, low=0, below=1, doc="drawn at the object"
+        0.4,
+        unit="of particles",
+        source="section IV.A; " + OURS,
+        low=0,
+        below=1,
+        doc="drawn around the segmented object",
     )
 
-    fastest: float = parameter(2.0, unit="m/s", source="a brisk walk", above=0, doc="speed of the target")
-    velocity_rate: float = parameter(0.5, unit="-", source=OURS, low=0, high=1, doc="its smoothing; 1: none")
-    agility: float = parameter(0.5, unit="m/s", source="K of (39); " + OURS, low=0, doc="position noise")
-    size_noise: float = parameter(0.06, unit="of the size", source=OURS, above=0)
-    size_rate: float = parameter(0.15, unit="per frame", source=OURS, low=0, high=1, doc="memory of the size")
+    max_speed: float = parameter(
+        2.0, unit="m/s", source="a brisk walk", above=0, doc="of the target", was="fastest"
+    )
+    velocity_rate: float = parameter(
+        0.5, unit="-", source=OURS, low=0, high=1, doc="of learning the velocity; 1: no smoothing"
+    )
+    position_noise: float = parameter(
+        0.5,
+        unit="m/s",
+        source="K of (39); " + OURS,
+        low=0,
+        doc="standard deviation of the position, per second",
+        was="agility",
+    )
+    size_noise: float = parameter(
+        0.06, unit="of the size", source=OURS, above=0, doc="standard deviation per frame"
+    )
+    size_rate: float = parameter(
+        0.15, unit="per frame", source=OURS, low=0, high=1, doc="of the running mean of the size"
+    )
 
-    learning_rate: float = parameter(0.08, unit="per frame", source="section IV.C", low=0, high=1)
-    hidden_above: float = parameter(
-        0.25, unit="of its area", source=OURS, low=0, high=1, doc="in front of the target: it is occluded"
+    learning_rate: float = parameter(
+        0.08, unit="per frame", source="section IV.C", low=0, high=1, doc="of the depth histogram"
     )
-    seen_above: float = parameter(
-        0.5, unit="of usual", source=OURS, low=0, high=1, doc="share of its area at its depth: it is seen"
+    max_covered: float = parameter(
+        0.25,
+        unit="of its area",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="by what is in front; a target that is covered more is hidden",
+        was="hidden_above",
     )
-    surprise: float = parameter(
-        6.0, unit="nats", source=OURS, low=0, doc="log-likelihood under its usual value that isn't the target"
+    min_visible_share: float = parameter(
+        0.5,
+        unit="of its running mean",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="of the share of its area that is at its depth; below it the target is missed",
+        was="seen_above",
+    )
+    likelihood_drop: float = parameter(
+        6.0,
+        unit="nats",
+        source=OURS,
+        low=0,
+        doc="of the log-likelihood below its running mean, from which the target is missed",
+        was="surprise",
     )
     lost_after: float = parameter(
-        1.5, unit="s", source=OURS, low=0, doc="not seen, though nothing is in front, until LOST"
+        1.5, unit="s", source=OURS, low=0, doc="time missed, with nothing in front, until LOST"
     )
 
     def __post_init__(self) -> None:

@@ -1,45 +1,48 @@
 # SPDX-License-Identifier: MIT
-"""What tells a target from other objects of its size: how it is spread over its box."""
+"""The shape that distinguishes a target from other objects of its size: its distribution over its box."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.depth_objects.objects import SLICES, Objects
+from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, Objects
 
 Floats = NDArray[np.float64]
 
-RATE = 0.1  # per frame, of learning
+SIGNATURE_RATE = 0.1  # per frame, of learning
 
 
 class Signature(NamedTuple):
-    """How a target is spread over its box: (2 SLICES,) shares of its columns and of its rows, and (2,) metres
-    from the box's centre to the centroid.
+    """The distribution of a target over its box.
+
+    distribution: (2 DISTRIBUTION_BINS,) the horizontal and then the vertical one, each of sum 1.
+    centroid_offset: (2,) metres, from the box's center to the centroid.
     """
 
-    spread: Floats
-    shift: Floats
+    distribution: Floats
+    centroid_offset: Floats
 
     @classmethod
-    def unknown(cls) -> "Signature":
-        """Even."""
-        return cls(np.full(2 * SLICES, 1 / SLICES), np.zeros(2))
+    def uniform(cls) -> "Signature":
+        """The signature of a target of unknown shape."""
+        return cls(np.full(2 * DISTRIBUTION_BINS, 1 / DISTRIBUTION_BINS), np.zeros(2))
 
     @classmethod
-    def of(cls, objects: Objects, index: int) -> "Signature":
-        """An object's."""
-        return cls(_spread(objects, index), objects.shift[index])
+    def from_object(cls, objects: Objects, index: int) -> "Signature":
+        """The signature of a segmented object."""
+        return cls(_distribution(objects, index), objects.centroid_offset[index])
 
     def distance(self, objects: Objects, index: int) -> float:
-        """In [0, 1]: how differently an object is spread over its box."""
-        return float(np.abs(_spread(objects, index) - self.spread).sum()) / 4
+        """The total variation distance to an object's distributions, their mean, in [0, 1]."""
+        return float(np.abs(_distribution(objects, index) - self.distribution).sum()) / 4
 
-    def learned(self, new: "Signature") -> "Signature":
-        """With another one blended in."""
-        spread = self.spread + RATE * (new.spread - self.spread)
-        return Signature(spread, self.shift + RATE * (new.shift - self.shift))
+    def learn(self, new: "Signature") -> "Signature":
+        """Blend in another signature."""
+        distribution = self.distribution + SIGNATURE_RATE * (new.distribution - self.distribution)
+        offset = self.centroid_offset + SIGNATURE_RATE * (new.centroid_offset - self.centroid_offset)
+        return Signature(distribution, offset)
 
 
-def _spread(objects: Objects, index: int) -> Floats:
+def _distribution(objects: Objects, index: int) -> Floats:
     return np.concatenate((objects.columns[index], objects.rows[index]), dtype=np.float64)

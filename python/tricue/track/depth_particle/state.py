@@ -8,16 +8,20 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.objects import Objects
-from tricue.track.depth_particle.model import DepthModel
+from tricue.track.depth_particle.depth_model import DepthModel
+from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
-from tricue.track.depth_particle.walk import Walk
 
 Floats = NDArray[np.float64]
 
 
 class ParticleSet(NamedTuple):
-    """Weighted states (N, 5), their expected value and its covariance."""
+    """Weighted particles and their estimate.
+
+    particles: (N, 5) X, Y, Z, width, height, metres. weights: (N,) of sum 1. state: (5,) and covariance
+    (5, 5): of the weighted particles.
+    """
 
     particles: Floats
     weights: Floats
@@ -25,38 +29,38 @@ class ParticleSet(NamedTuple):
     covariance: Floats
 
     @classmethod
-    def of(cls, k: Kernels, particles: Floats, weights: Floats) -> "ParticleSet":
-        """With their expected value."""
+    def create(cls, k: Kernels, particles: Floats, weights: Floats) -> "ParticleSet":
+        """Particles with their estimate."""
         state, covariance, _ = k.summarize(particles, weights)
         return cls(particles, weights, state, covariance)
 
     @classmethod
-    def gathered(cls, state: Floats, n: int) -> "ParticleSet":
-        """n particles at one place."""
+    def at_state(cls, state: Floats, n: int) -> "ParticleSet":
+        """n particles of the same state (5,) and weight."""
         return cls(np.repeat(state[None], n, axis=0), np.full(n, 1 / n), state, np.zeros((5, 5)))
 
 
 class State(NamedTuple):
-    """All that changes from frame to frame."""
+    """All that changes from frame to frame; a value that ``update`` replaces."""
 
-    shape: tuple[int, ...]
-    camera: Floats  # (4,) fx, fy, cx, cy
-    plane: Floats
+    shape: tuple[int, ...]  # of the first frame
+    camera: Floats  # (4,) fx, fy, cx, cy, pixels
+    plane: Floats  # (6,) the floor, as find_floor gives it
     model: DepthModel
-    walk: Walk
+    motion: BodyMotion
     signature: Signature
     particles: ParticleSet
-    objects: Objects
+    objects: Objects  # of the last frame
     score: float
-    mean: float  # running mean of the log-likelihood
-    mean_filled: float  # the same of the share of the rectangle that is at the target's depth
-    random: dict[str, Any]  # of the random numbers' generator
+    mean_log_likelihood: float  # running mean over the frames in which the target was learned
+    mean_inside: float  # the same of the share of the rectangle that is at the target's depth
+    random: dict[str, Any]  # state of the random number generator
     timestamp: float | None
-    missed: float = 0.0  # seconds for which it was not seen
-    hidden: bool = False  # by something nearer
-    spread: Floats | float = 0.0  # metres, (3,) of X, Y, Z: how far a target that isn't seen may have gone
-    occluder: Floats | None = None  # (3,) metres: where that is, while the target is missed
+    missed_seconds: float = 0.0
+    hidden: bool = False  # whether the target is missed because something is in front of it
+    position_spread: Floats | float = 0.0  # (3,) metres, standard deviation of X, Y, Z of a missed target
+    occluder: Floats | None = None  # (3,) metres, position of what hides the target, while it is missed
 
     def lost(self, p: DepthParticleParams) -> bool:
-        """Whether it has been gone for long, though nothing is in front of it."""
-        return self.missed >= p.lost_after and not self.hidden
+        """Whether the target is LOST: missed for long, though nothing is in front of it."""
+        return self.missed_seconds >= p.lost_after and not self.hidden

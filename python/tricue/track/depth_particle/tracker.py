@@ -15,42 +15,46 @@ from tricue.track.base.prediction import Prediction
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.depth_objects.foreground import NO_FLOOR, Foreground, foreground, numbers
-from tricue.track.depth_objects.metric import box_of, rectangle_of
+from tricue.track.depth_objects.floor import NO_FLOOR
+from tricue.track.depth_objects.foreground import Foreground, extract_foreground
 from tricue.track.depth_objects.objects import segment
-from tricue.track.depth_particle.initialize import in_box, somebody
-from tricue.track.depth_particle.matching import Found, cover
-from tricue.track.depth_particle.model import NOT_MEASURED, SHARP, SIZE_TRUST, DepthModel, Measured, Seen
+from tricue.track.depth_objects.projection import camera_vector, project_box, project_rectangle
+from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation
+from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
+from tricue.track.depth_particle.matching import TargetObject
+from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
+from tricue.track.depth_particle.motion import BodyMotion
+from tricue.track.depth_particle.occluder import find_occluder
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
 from tricue.track.depth_particle.state import ParticleSet, State
-from tricue.track.depth_particle.walk import Walk
 
 Floats = NDArray[np.float64]
 
-CLOSE = np.array([0.06, 0.05, 0.05])  # metres, of the second sweep's positions
-CLOSE_SIZE = 0.05  # of its sizes
-COASTING_HIDDEN, COASTING = 0.97, 0.85  # of the velocity, a frame: behind something, missed for no reason
+REFINE_POSITION = np.array([0.06, 0.05, 0.05])  # metres of X, Y, Z, standard deviation of the second sampling
+REFINE_SIZE = 0.05  # of the size, standard deviation of the second sampling
+VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
 MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
-UNIT = np.eye(3)
-STILL = np.zeros(5)  # no drift
-ROOT = np.diag(SHARP)
-NOTHING: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # detected
-MIN_DEPTH_NOISE = 0.01  # metres, standard deviation of a position
+LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
+MIN_POSITION_DEVIATION = 0.01  # metres, of a track's position
+IDENTITY = np.eye(3)
+NO_DRIFT = np.zeros(5)
+OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at an object
+NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
 
 
 class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
-    """Follows a person, or another thing that stands free, in depth images; needs neither color nor light.
+    """Tracks a person, or another free-standing object, in depth images; needs neither color nor light.
 
-    Particles are metric: the centre (X, Y, Z) of a rectangle and its width and height. They are drawn from a
-    walker's dynamics and from objects segmented in the depth, and weighed by the rectangle's depth histogram,
-    by how much more of the target's depth is in it than round it, and by the object itself.
+    Particles are rectangles in metres: center (X, Y, Z), width and height. They are drawn from the motion
+    model of a walking person and from objects segmented in the depth image. Their weights come from the depth
+    histogram in the rectangle, from the contrast of the depths inside to those around, and from the object.
 
-    ``DepthParticleTracker(intrinsics=None, seed=0, kernels="native", **parameters)``: the parameters are
-    those of :attr:`Params`, one by one or all at once as ``params=``. Without ``intrinsics`` a camera with
-    square pixels and 60 degrees of view is assumed, and tracks have no position. The same seed gives the
-    same track, bit for bit. Pickles with all of its state.
+    ``DepthParticleTracker(intrinsics=None, seed=0, kernels="native", **parameters)`` takes the parameters of
+    :attr:`Params`, one by one or all at once as ``params=``. Without ``intrinsics`` a default camera with
+    square pixels and 60 degrees of view is assumed, and tracks have no position. The same seed gives the same
+    track, bit for bit. A tracker can be pickled with all of its state.
 
     Source: Sabeti, Parvizi, Wu, "Visual Tracking Using Color Cameras and Time-of-Flight Range Imaging
     Sensors", 2008, section IV.
@@ -88,58 +92,61 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
 
     @property
     def particles(self) -> Floats:
-        """(N, 5) float64: centre x, y, width, height in pixels and depth in metres of every particle's
-        rectangle; empty before ``init``.
+        """(N, 5) float64: center x, y, width, height in pixels and depth in metres of each particle; empty
+        before ``init``.
         """
         if self._state is None:
             return np.empty((0, 5))
-        return np.array([rectangle_of(each, self._state.camera) for each in self._state.particles.particles])
+        return np.array(
+            [project_rectangle(each, self._state.camera) for each in self._state.particles.particles]
+        )
 
     @property
     def objects(self) -> list[Box]:
-        """The boxes of the objects that the last frame was divided into, pixels."""
+        """The boxes of the objects segmented in the last frame, pixels."""
         return [] if self._state is None else self._state.objects.boxes(self._state.camera)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on the target in ``box``, (x, y, width, height) in pixels of the depth
-        image, or, without one, on the most prominent person.
+        """Start, or restart, on the target in ``box``: (x, y, width, height), pixels of the depth image.
 
-        ValueError where no part of the box is inside or nothing in it has a depth in range, and, without a
-        box, where nobody is found.
+        Without a box, start on the most prominent person. ValueError where no part of the box is inside the
+        image, or no depth in the middle of the box is in range. Without a box, ValueError where no person is
+        detected.
         """
         depth, timestamp = validation.depth_image(frame)
-        camera = numbers(validation.camera_for(self.intrinsics, depth.shape))
+        camera = camera_vector(validation.camera_for(self.intrinsics, depth.shape))
         rng = np.random.default_rng(self.seed)
-        fg, plane = foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
+        fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
         objects = segment(self._k, fg, plane, self.params)
         if box is None:
-            target = somebody(objects, self.params)
+            target = initialize_on_person(objects, self.params)
         else:
-            target = in_box(validation.box_in(as_box(box), depth.shape), objects, fg, self.params)
-        model = DepthModel.empty(self.params).learned(self._k, fg, target.state, 1.0)
-        seen = model.look(self._k, fg, target.state[None])
+            box_inside = validation.box_in(as_box(box), depth.shape)
+            target = initialize_in_box(box_inside, objects, fg, self.params)
+        model = DepthModel.empty(self.params).learn(self._k, fg, target.state, 1.0)
+        observed = model.observe(self._k, fg, target.state[None])
         self._state = state = State(
             shape=depth.shape,
             camera=camera,
             plane=plane,
             model=model,
-            walk=Walk.start(target.state, target.whole),
+            motion=BodyMotion.start(target.state, target.whole),
             signature=target.signature,
-            particles=ParticleSet.gathered(target.state, self.params.particles),
+            particles=ParticleSet.at_state(target.state, self.params.particles),
             objects=objects,
-            score=_score(seen),
-            mean=float(seen.log_likelihood[0]),
-            mean_filled=float(seen.inside[0]),
+            score=_score(observed),
+            mean_log_likelihood=float(observed.log_likelihood[0]),
+            mean_inside=float(observed.inside[0]),
             random=dict(rng.bit_generator.state),
             timestamp=timestamp,
         )
         return self._track(state)
 
     def update(self, frame: FrameLike) -> Track:
-        """Follow the target into the next frame, of the same size as the first.
+        """Track the target into the next frame, of the same size as the first.
 
-        Frames' timestamps tell the time between them, ``rate`` where there are none. RuntimeError before
-        ``init``. An error leaves the tracker as it was.
+        The time between frames follows from their timestamps, or from ``rate`` without them. RuntimeError
+        before ``init``. An error leaves the tracker unchanged.
         """
         before = validation.started(self._state)
         depth, timestamp = validation.depth_image(frame, before.shape)
@@ -150,133 +157,146 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         return self._track(state)
 
     def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
-        """Predict, segment, measure, weigh, estimate; learn, or coast where the target isn't seen."""
+        """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
         k, p = self._k, self.params
-        fg, plane = foreground(k, depth, state.camera, state.plane, self._rng, p)
+        fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
         objects = segment(k, fg, plane, p)
-        prediction = state.walk.predict(p, seconds, state.missed)
-        found, walk, occluder = find_target(state, objects, prediction, seconds, p)
-        state = state._replace(plane=plane, objects=objects, walk=walk, occluder=occluder)
-        measured = NOT_MEASURED if found is None else Measured.of(found.state, p.measurement)
-        wide = self._sweep(state, fg, prediction, found, measured)
-        particles = self._sweep_close(state, fg, wide, measured)
-        seen = state.model.look(k, fg, particles.state[None])
-        if self._recognized(state, seen, found):
-            return self._accepted(state, fg, particles, seen, found, seconds)
-        return self._missed(state, fg, prediction, seconds)
+        prediction = state.motion.predict(p, seconds, state.missed_seconds)
+        target, motion, occluder = find_target(state, objects, prediction, seconds, p)
+        state = state._replace(plane=plane, objects=objects, motion=motion, occluder=occluder)
+        measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
+        particles = self._filter(state, fg, prediction, target, measured)
+        particles = self._refine(state, fg, particles, measured)
+        observed = state.model.observe(k, fg, particles.state[None])
+        if self._recognized(state, observed, target):
+            return self._accept(state, fg, particles, observed, target, seconds)
+        return self._coast(state, fg, prediction, seconds)
 
-    def _sweep(
-        self, state: State, fg: Foreground, prediction: Prediction, found: Found | None, measured: Measured
+    def _filter(
+        self,
+        state: State,
+        fg: Foreground,
+        prediction: Prediction,
+        target: TargetObject | None,
+        measured: Measurement,
     ) -> ParticleSet:
-        """One step of the particle filter: (39) and the object as proposal, (2), (31), the expected value."""
+        """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31)."""
         k, p, particles = self._k, self.params, state.particles
         drift, scale, lower, upper = prediction
         noise = self._rng.standard_normal(particles.particles.shape)
-        detection = NOTHING
-        if found is not None:
-            detection = (found.state, ROOT, p.object_share)
-        chosen = particles.particles.take(k.resample(particles.weights, self._rng.random()), axis=0)
-        moved = k.propose(chosen, drift, scale, noise, *detection, lower, upper)
-        likelihood = self._log_likelihood(state, fg, moved, measured)
-        weights, _ = k.reweight(likelihood, moved, chosen, drift, scale, *detection)
-        return ParticleSet.of(k, moved, weights)
+        detection = NO_OBJECT
+        if target is not None:
+            detection = (target.state, OBJECT_ROOT, p.object_share)
+        resampled = particles.particles.take(k.resample(particles.weights, self._rng.random()), axis=0)
+        moved = k.propose(resampled, drift, scale, noise, *detection, lower, upper)
+        log_likelihood = self._log_likelihood(state, fg, moved, measured)
+        weights, _ = k.reweight(log_likelihood, moved, resampled, drift, scale, *detection)
+        return ParticleSet.create(k, moved, weights)
 
-    def _sweep_close(
-        self, state: State, fg: Foreground, wide: ParticleSet, measured: Measured
+    def _refine(
+        self, state: State, fg: Foreground, particles: ParticleSet, measured: Measurement
     ) -> ParticleSet:
-        """Once more, close to the first sweep's result: 100 particles are few in five dimensions."""
+        """Sample again, close to the first estimate: 100 particles are few in five dimensions."""
         k = self._k
-        middle = wide.state
-        scale = np.concatenate([CLOSE, CLOSE_SIZE * state.walk.size])
-        near = middle + scale * self._rng.standard_normal(wide.particles.shape)
-        np.maximum(near[:, 2:], 0.1, out=near[:, 2:])
-        likelihood = self._log_likelihood(state, fg, near, measured)
-        weights, _ = k.reweight(likelihood, near, near, STILL, scale, *NOTHING)
-        return ParticleSet.of(k, near, weights)
+        scale = np.concatenate([REFINE_POSITION, REFINE_SIZE * state.motion.mean_size])
+        close = particles.state + scale * self._rng.standard_normal(particles.particles.shape)
+        np.maximum(close[:, 2:], 0.1, out=close[:, 2:])
+        log_likelihood = self._log_likelihood(state, fg, close, measured)
+        weights, _ = k.reweight(log_likelihood, close, close, NO_DRIFT, scale, *NO_OBJECT)
+        return ParticleSet.create(k, close, weights)
 
-    def _log_likelihood(self, state: State, fg: Foreground, particles: Floats, measured: Measured) -> Floats:
-        """(N,) of the depth in and round the rectangle, of the usual size, and of the segmented object."""
-        prior = self._k.rectangle_prior(particles, state.walk.size, SIZE_TRUST, *measured)
-        return state.model.look(self._k, fg, particles).log_likelihood + prior
+    def _log_likelihood(
+        self, state: State, fg: Foreground, particles: Floats, measured: Measurement
+    ) -> Floats:
+        """(N,) nats: of the depths in and around each rectangle, of its size, and of the measured object."""
+        prior = self._k.rectangle_prior(particles, state.motion.mean_size, LOG_SIZE_DEVIATION, *measured)
+        return state.model.observe(self._k, fg, particles).log_likelihood + prior
 
-    def _recognized(self, state: State, seen: Seen, found: Found | None) -> bool:
-        """Whether the target is seen there; one that was missed comes back as an object only."""
-        if state.missed > 0 and found is None:
+    def _recognized(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
+        """Whether the target is visible at the estimate; after it was missed, only where an object is it."""
+        if state.missed_seconds > 0 and target is None:
             return False
         return bool(
-            seen.inside[0] >= self.params.seen_above * state.mean_filled
-            and seen.log_likelihood[0] >= state.mean - self.params.surprise
+            observed.inside[0] >= self.params.min_visible_share * state.mean_inside
+            and observed.log_likelihood[0] >= state.mean_log_likelihood - self.params.likelihood_drop
         )
 
-    def _accepted(
+    def _accept(
         self,
         state: State,
         fg: Foreground,
         particles: ParticleSet,
-        seen: Seen,
-        found: Found | None,
+        observed: DepthObservation,
+        target: TargetObject | None,
         seconds: float,
     ) -> State:
-        """The state of a target that was seen; it is learned from where nothing is in front."""
+        """The state of a recognized target, which is learned where hardly anything is in front of it."""
         p = self.params
-        front = float(seen.front[0])
-        steady = state.missed == 0 and front < p.hidden_above
+        front = float(observed.front[0])
+        visible = state.missed_seconds == 0 and front < p.max_covered
         state = state._replace(
             particles=particles,
-            walk=state.walk.seen(particles.state, p, seconds, steady),
-            score=_score(seen),
-            missed=0.0,
+            motion=state.motion.update(particles.state, p, seconds, visible),
+            score=_score(observed),
+            missed_seconds=0.0,
             hidden=False,
             occluder=None,
-            spread=0.0,
+            position_spread=0.0,
         )
-        if front >= MAX_COVERED_TO_LEARN:
-            return state
-        walk, signature = state.walk, state.signature
-        if found is not None:
-            walk = walk.measured(found.state[3:], found.whole, p)
-            if found.whole.all():
-                signature = signature.learned(found.signature)
+        return state if front >= MAX_COVERED_TO_LEARN else self._learn(state, fg, observed, target)
+
+    def _learn(
+        self, state: State, fg: Foreground, observed: DepthObservation, target: TargetObject | None
+    ) -> State:
+        """Update the depth model, the running means, the size and the signature."""
+        p, motion, signature = self.params, state.motion, state.signature
+        if target is not None:
+            motion = motion.learn_size(target.state[3:], target.whole, p)
+            if target.whole.all():
+                signature = signature.learn(target.signature)
+        mean, mean_inside = state.mean_log_likelihood, state.mean_inside
         return state._replace(
-            model=state.model.learned(self._k, fg, particles.state, p.learning_rate),
-            mean=state.mean + MEAN_RATE * (float(seen.log_likelihood[0]) - state.mean),
-            mean_filled=state.mean_filled + MEAN_RATE * (float(seen.inside[0]) - state.mean_filled),
-            walk=walk,
+            model=state.model.learn(self._k, fg, state.particles.state, p.learning_rate),
+            mean_log_likelihood=mean + MEAN_RATE * (float(observed.log_likelihood[0]) - mean),
+            mean_inside=mean_inside + MEAN_RATE * (float(observed.inside[0]) - mean_inside),
+            motion=motion,
             signature=signature,
         )
 
-    def _missed(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> State:
-        """Coast on the memory of the walk: neither velocity nor size nor model learn."""
+    def _coast(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> State:
+        """The state of a missed target: moved as predicted; velocity, size and model are not learned."""
         p = self.params
-        expected = np.clip(state.walk.state + prediction.drift, prediction.lower, prediction.upper)
-        front = float(state.model.look(self._k, fg, expected[None]).front[0])
-        hidden, occluder = front > p.hidden_above, state.occluder
+        expected = np.clip(state.motion.state + prediction.drift, prediction.lower, prediction.upper)
+        front = float(state.model.observe(self._k, fg, expected[None]).front[0])
+        hidden, occluder = front > p.max_covered, state.occluder
         if hidden and occluder is None:
-            covering = cover(state.objects, expected, p.nearer)
-            occluder = None if covering is None else state.objects.states[covering, :3]
+            index = find_occluder(state.objects, expected, p.occluder_margin)
+            occluder = None if index is None else state.objects.states[index, :3]
         return state._replace(
-            walk=state.walk.coasted(expected, COASTING_HIDDEN if hidden else COASTING),
-            particles=ParticleSet.gathered(expected, p.particles),
+            motion=state.motion.coast(expected, VELOCITY_KEPT_HIDDEN if hidden else VELOCITY_KEPT),
+            particles=ParticleSet.at_state(expected, p.particles),
             score=0.0,
-            missed=state.missed + seconds,
+            missed_seconds=state.missed_seconds + seconds,
             hidden=hidden,
-            spread=prediction.scale[:3],
+            position_spread=prediction.scale[:3],
             occluder=occluder,
         )
 
     def _track(self, state: State) -> Track:
-        box = box_of(state.walk.state, state.camera)
-        if state.missed == 0:
+        box = project_box(state.motion.state, state.camera)
+        if state.missed_seconds == 0:
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
         if self.intrinsics is None:
             return Track(box, state.score, status)
-        covariance = state.particles.covariance[:3, :3] + (MIN_DEPTH_NOISE**2 + state.spread**2) * UNIT
-        position = state.walk.state[:3].copy()
-        position[:2] += state.signature.shift
+        variance = MIN_POSITION_DEVIATION**2 + state.position_spread**2
+        covariance = state.particles.covariance[:3, :3] + variance * IDENTITY
+        position = state.motion.state[:3].copy()
+        position[:2] += state.signature.centroid_offset
         return Track(box, state.score, status, position, covariance)
 
 
-def _score(seen: Seen) -> float:
-    return min(max(float(seen.contrast[0]), 0.0), 1.0)
+def _score(observed: DepthObservation) -> float:
+    """The contrast of a single rectangle, in [0, 1]."""
+    return min(max(float(observed.contrast[0]), 0.0), 1.0)

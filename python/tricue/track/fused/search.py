@@ -6,9 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.depth_objects.foreground import NO_FLOOR, foreground, numbers
+from tricue.track.depth_objects.floor import NO_FLOOR
+from tricue.track.depth_objects.foreground import extract_foreground
 from tricue.track.depth_objects.objects import segment
 from tricue.track.depth_objects.params import SegmentationParams
+from tricue.track.depth_objects.projection import camera_vector
 from tricue.track.fused.examine import Found, continuous, examine, hidden
 from tricue.track.fused.experts.depth import measure
 from tricue.track.fused.localize import Known, Place, best_place
@@ -132,8 +134,8 @@ def _apart(known: Known, sight: Sight, target: Target) -> list[Target]:
     2008, section IV.A).
     """
     assert sight.depth is not None, "the picture is made of depth"
-    camera, rng = numbers(sight.camera), np.random.default_rng(0)
-    seen, plane = foreground(sight.k, sight.depth, camera, NO_FLOOR, rng, SEGMENTS)
+    camera, rng = camera_vector(sight.camera), np.random.default_rng(0)
+    seen, plane = extract_foreground(sight.k, sight.depth, camera, NO_FLOOR, rng, SEGMENTS)
     objects = segment(sight.k, seen, plane, SEGMENTS)
     found = []
     for state, box in zip(objects.states.tolist(), objects.boxes(camera), strict=True):

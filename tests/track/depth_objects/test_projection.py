@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: MIT
-"""Rectangles in metres, and the boxes that a camera sees of them."""
+"""Rectangles in metres, and their boxes in a camera's image."""
 
 import numpy as np
 from tricue import Box, Intrinsics
-from tricue.track.depth_objects.foreground import numbers
-from tricue.track.depth_objects.metric import box_of, rectangle_of, state_of
+from tricue.track.depth_objects.projection import (
+    back_project_box,
+    camera_vector,
+    project_box,
+    project_rectangle,
+)
 
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
-NUMBERS = numbers(CAMERA)
+NUMBERS = camera_vector(CAMERA)
 
 
 def boxes(count):
@@ -20,20 +24,20 @@ def boxes(count):
 
 
 def test_states_and_boxes_are_inverse():
-    """A box's state, seen by the camera, is the box, in the rectangle's centre, size and depth too."""
+    """A box's state, seen by the camera, is the box, in the rectangle's center, size and depth too."""
     for box, z in boxes(50):
-        state = state_of(box, z, NUMBERS)
-        np.testing.assert_allclose(box_of(state, NUMBERS), box, rtol=1e-12, atol=1e-12)
-        x, y, *others = rectangle_of(state, NUMBERS)
+        state = back_project_box(box, z, NUMBERS)
+        np.testing.assert_allclose(project_box(state, NUMBERS), box, rtol=1e-12, atol=1e-12)
+        x, y, *others = project_rectangle(state, NUMBERS)
         np.testing.assert_allclose((x, y), box.center, rtol=1e-12, atol=1e-12)
         np.testing.assert_allclose(others, [box.width, box.height, z], rtol=1e-12)
 
 
 def test_corners_are_where_the_camera_projects_them():
     """A box's corners are the projections of its rectangle's, half a pixel on: (0, 0) is a corner there, and
-    a pixel's centre here.
+    the center of that pixel here.
     """
     for box, z in boxes(50):
-        x, y, _, width, height = state_of(box, z, NUMBERS)
+        x, y, _, width, height = back_project_box(box, z, NUMBERS)
         corners = np.array([[x - width / 2, y - height / 2, z], [x + width / 2, y + height / 2, z]])
         np.testing.assert_allclose((CAMERA.project(corners) + 0.5).ravel(), box.xyxy, rtol=0, atol=1e-10)

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""The color term of the likelihood: how much more of the target's colors a window has than its surround.
+
+It takes the place of the paper's skin color model, and is relative to the surround of this target. Bayes'
+rule with equal priors on two joint color histograms gives P(target | color). This term tells where the target
+ends, which the ranks of the pixels inside the window can't.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.base.ellipse_pattern import ring
+
+Samples = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+Table = NDArray[np.float32]
+
+CONTRAST_BINS = 16  # of each channel
+EMPTY_HISTOGRAM: Table = np.zeros((CONTRAST_BINS, CONTRAST_BINS, CONTRAST_BINS), np.float32)
+CONTRAST_SAMPLES = 600  # learned inside the target, and as many around it
+TARGET_PATTERN = ring(CONTRAST_SAMPLES, 0.0, 1.0)
+SURROUND_PATTERN = ring(CONTRAST_SAMPLES, 1.15, 2.0)
+MIN_CELL_SHARE = 1e-4  # of the samples; a cell with fewer says little about either side
+
+
+class ColorContrast(NamedTuple):
+    """Joint color histograms of the target and of its surround, and the table of P(target | color).
+
+    Each is (16, 16, 16) float32. weight: of this term in the log-likelihood, nats.
+    """
+
+    weight: float
+    target: Table = EMPTY_HISTOGRAM
+    surround: Table = EMPTY_HISTOGRAM
+    table: Table = EMPTY_HISTOGRAM
+    skipped: bool = False  # whether the last frame was not learned
+
+    def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> "ColorContrast":
+        """Blend in the colors inside and around the ellipse (1, 4); a rate of 1 initializes the histograms.
+
+        Colors change slowly: only every second call learns, with twice the rate.
+        """
+        if rate < 1 and not self.skipped:
+            return self._replace(skipped=True)
+        inside, around = (
+            k.sample_ellipses(image, ellipse, pattern) for pattern in (TARGET_PATTERN, SURROUND_PATTERN)
+        )
+        double_rate = min(2 * rate, 1.0)
+        tables = k.learn_contrast(inside, around, self.target, self.surround, double_rate, MIN_CELL_SHARE)
+        return ColorContrast(self.weight, *tables)
+
+    def log_likelihood(self, k: Kernels, inside: Samples, around: Samples) -> Floats:
+        """(N,) nats: the weight times the mean of P(target | color) inside less its mean around."""
+        mean_inside, mean_around = (
+            k.color_lookup(samples, self.table).mean(axis=1, dtype=np.float64) for samples in (inside, around)
+        )
+        log_likelihood: Floats = self.weight * (mean_inside - mean_around)
+        return log_likelihood

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+"""What the color particle tracker keeps from frame to frame."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.track.color_particle.appearance import Appearance, WindowSamples
+from tricue.track.color_particle.motion import EllipseMotion
+from tricue.track.color_particle.params import ColorParticleParams
+
+Floats = NDArray[np.float64]
+
+MIN_MISSED_FRAMES = 5  # in a row, at least, until the target is LOST
+
+
+class ParticleSet(NamedTuple):
+    """Weighted particles and their estimate.
+
+    particles: (N, 4) ellipses x, y, minor, major, pixels. weights: (N,) of sum 1.
+    effective: the effective sample size. ellipse: (4,) the particles' expected value.
+    log_likelihood: of that ellipse, nats.
+    """
+
+    particles: Floats
+    weights: Floats
+    effective: float
+    ellipse: Floats
+    log_likelihood: float
+
+
+class State(NamedTuple):
+    """All that changes from frame to frame; a value that ``update`` replaces."""
+
+    shape: tuple[int, ...]  # of the first frame
+    appearance: Appearance
+    skin_color: NDArray[np.uint8]  # (3,) the reference color of the skin classifier
+    motion: EllipseMotion
+    particles: ParticleSet
+    samples: WindowSamples  # of the target's window, in the last frame in which it was estimated
+    score: float
+    mean_log_likelihood: float  # running mean over the frames in which it was estimated
+    recognized_mean: float  # the same over the frames in which it was recognized
+    random: dict[str, Any]  # state of the random number generator
+    timestamp: float | None
+    missed_frames: int = 0  # in a row
+    missed_seconds: float = 0.0
+
+    def lost(self, p: ColorParticleParams) -> bool:
+        """Whether the target is LOST, and is searched for in the whole frame."""
+        return self.missed_frames >= MIN_MISSED_FRAMES and self.missed_seconds >= p.lost_after

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""The plane of the floor, by random samples of the depth image; kept while the camera doesn't move."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+
+Floats = NDArray[np.float64]
+Depth = NDArray[np.float32]
+
+NO_FLOOR = np.zeros(6)
+UP = np.array([0.0, -1.0, 0.0])  # camera frame
+MIN_FLOOR_COSINE = 0.6  # of the floor's normal with UP: the camera is tilted or rolled by up to 53 degrees
+FLOOR_COLUMNS = 80  # of the thinned image in which the floor is searched
+FLOOR_TOLERANCE = 0.04  # metres, of a point on the floor
+FLOOR_TRIALS = 128  # planes tried
+MIN_SUPPORT_KEPT = 0.8  # of the known floor's support: the camera hasn't moved
+MIN_FLOOR_SUPPORT = 0.06  # of all points, on a new floor
+MAX_BELOW_FLOOR = 0.03  # of all points, below a new floor
+
+
+def find_floor(
+    k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator, near: float
+) -> Floats:
+    """The plane (6,) with much support and hardly any points below it.
+
+    known: the plane of the last frame, or NO_FLOOR. It is kept while it has its support, and where this frame
+    has no better one. camera: (4,) of this image. near: metres, the smallest depth used.
+
+    A plane is its unit normal, its distance from the camera, and the shares of the points on and below it.
+    """
+    step = max(1, round(depth.shape[1] / FLOOR_COLUMNS))
+    support = 0.0
+    if known.any():
+        support = float(k.plane_support(depth, camera, known[:4], FLOOR_TOLERANCE, step)[0])
+        if support >= MIN_SUPPORT_KEPT * known[4]:
+            return known
+    coarse = depth[::step, ::step]
+    # Points within the tolerance of the camera would be on any plane through it.
+    coarse = np.where(coarse >= near, coarse, np.float32(np.nan))
+    # The lower half of the image, in which most of the floor is.
+    triples = rng.integers(coarse.size // 2, coarse.size, (FLOOR_TRIALS, 3))
+    plane = k.floor_plane(coarse, camera / step, triples, FLOOR_TOLERANCE, UP, MIN_FLOOR_COSINE)
+    accepted = plane[4] > max(MIN_FLOOR_SUPPORT, support) and plane[5] < MAX_BELOW_FLOOR
+    return plane if accepted else known

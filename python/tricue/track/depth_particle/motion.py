@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""The motion model of a walking person before a depth camera: (39) in metres, of a nearly constant size."""
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.track.base.prediction import Prediction
+from tricue.track.depth_particle.params import DepthParticleParams
+
+Floats = NDArray[np.float64]
+
+MIN_POSITION_NOISE = np.array([0.03, 0.02, 0.03])  # metres of X, Y, Z, standard deviation in no time
+AXIS_NOISE = np.array([1.0, 0.3, 1.0])  # times position_noise: people move less up and down than sideways
+SIZE_RETURN = 0.3  # per frame, of the size to its running mean
+MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
+FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole for the first time
+MIN_SIZE = 0.1  # metres
+
+
+class BodyMotion(NamedTuple):
+    """The target's rectangle in the camera frame and how it moves.
+
+    state: (5,) X, Y, Z of its center, width, height, metres. velocity: (3,) m/s, smoothed.
+    mean_size: (2,) running mean of width and height, metres. size_known: (2,) whether they were ever visible
+    as a whole; until then they are lower bounds.
+    """
+
+    state: Floats
+    velocity: Floats
+    mean_size: Floats
+    size_known: NDArray[np.bool_]
+
+    @classmethod
+    def start(cls, state: Floats, size_known: NDArray[np.bool_]) -> "BodyMotion":
+        """The motion of a target at rest."""
+        return cls(state, np.zeros(3), state[3:].copy(), size_known)
+
+    def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> Prediction:
+        """The particles' transition density over so many seconds.
+
+        The noise, K of (39), grows with them and with ``missed``, the seconds without the target before them.
+        """
+        drift = np.concatenate([self.velocity * seconds, SIZE_RETURN * (self.mean_size - self.state[3:])])
+        time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
+        noise = MIN_POSITION_NOISE + p.position_noise * time * AXIS_NOISE
+        scale = np.concatenate([noise, p.size_noise * self.mean_size])
+        return Prediction(drift, scale, *_bounds(p.near, p.far))
+
+    def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":
+        """Move to a new estimate; its step updates the velocity where both positions were ``visible``."""
+        velocity = self.velocity
+        if visible:
+            step = (state[:3] - self.state[:3]) / seconds
+            step *= min(1.0, p.max_speed / max(math.hypot(*step.tolist()), 1e-9))
+            velocity = velocity + p.velocity_rate * (step - velocity)
+        return self._replace(state=state, velocity=velocity)
+
+    def coast(self, state: Floats, velocity_kept: float) -> "BodyMotion":
+        """Move to a predicted state, and keep a share of the velocity."""
+        return self._replace(state=state, velocity=velocity_kept * self.velocity)
+
+    def grow(self, size: Floats) -> "BodyMotion":
+        """Raise mean sizes that are lower bounds to the size (2,) of the visible part."""
+        if self.size_known.all():
+            return self
+        mean_size = np.where(self.size_known, self.mean_size, np.maximum(self.mean_size, size))
+        return self._replace(mean_size=mean_size)
+
+    def learn_size(self, size: Floats, whole: NDArray[np.bool_], p: DepthParticleParams) -> "BodyMotion":
+        """Blend in a size (2,); where it is not ``whole`` (2,), it is a lower bound."""
+        size = size if whole.all() else np.where(whole, size, np.maximum(size, self.mean_size))
+        first = whole & ~self.size_known
+        rate = p.size_rate if self.size_known.all() else np.where(first, FIRST_SIZE_RATE, p.size_rate)
+        mean_size = self.mean_size + rate * (size - self.mean_size)
+        return self._replace(mean_size=mean_size, size_known=self.size_known | whole)
+
+
+@cache
+def _bounds(near: float, far: float) -> tuple[Floats, Floats]:
+    """Lower and upper bounds (5,) of a state, metres."""
+    lower = np.array([-np.inf, -np.inf, near, MIN_SIZE, MIN_SIZE])
+    return lower, np.array([np.inf, np.inf, far, np.inf, np.inf])

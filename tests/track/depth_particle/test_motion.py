@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+"""The depth tracker's motion model: its predictions, and what it learns from a position and a size."""
+
+import numpy as np
+import pytest
+from tricue import DepthParticleTracker
+from tricue.track.depth_particle.motion import (
+    AXIS_NOISE,
+    MIN_POSITION_NOISE,
+    MIN_SIZE,
+    SIZE_RETURN,
+    BodyMotion,
+)
+
+P = DepthParticleTracker.Params(
+    position_noise=0.5, size_noise=0.06, max_speed=2.0, velocity_rate=0.5, size_rate=0.15
+)
+STATE = np.array([0.2, -0.1, 3.0, 0.6, 1.7])
+WHOLE, CUT = np.array([True, True]), np.array([False, False])
+SECOND = 1.0
+
+
+def motion(**changes: object) -> BodyMotion:
+    """A motion at rest in STATE, but for the changes."""
+    return BodyMotion.start(STATE, WHOLE)._replace(**changes)
+
+
+def test_a_motion_starts_at_rest():
+    """At the start the velocity is zero and the mean size is the initial size."""
+    start = BodyMotion.start(STATE, WHOLE)
+    np.testing.assert_array_equal(start.velocity, 0)
+    np.testing.assert_array_equal(start.mean_size, STATE[3:])
+    np.testing.assert_array_equal(start.size_known, WHOLE)
+
+
+def test_the_start_shares_no_size_with_its_state():
+    """The mean size is a copy: a change of the given state doesn't reach it."""
+    given = STATE.copy()
+    start = BodyMotion.start(given, WHOLE)
+    given[3:] = 9
+    np.testing.assert_array_equal(start.mean_size, STATE[3:])
+
+
+@pytest.mark.parametrize("seconds", [1 / 30, 1 / 15, 0.5])
+def test_prediction_is_in_metres_per_second(seconds):
+    """The drift is velocity times time, in metres, and the size returns to its mean by a share."""
+    prediction = motion(velocity=np.array([1.0, 0.0, -0.5]), mean_size=np.array([0.8, 1.6])).predict(
+        P, seconds, 0
+    )
+    expected = [seconds, 0, -0.5 * seconds, SIZE_RETURN * 0.2, SIZE_RETURN * -0.1]
+    np.testing.assert_allclose(prediction.drift, expected, rtol=1e-12, atol=1e-15)
+    np.testing.assert_allclose(
+        prediction.scale[:3], MIN_POSITION_NOISE + 0.5 * seconds * AXIS_NOISE, rtol=1e-12
+    )
+    np.testing.assert_allclose(prediction.scale[3:], 0.06 * np.array([0.8, 1.6]), rtol=1e-12)
+
+
+def test_noise_grows_while_missed_up_to_a_second():
+    """The seconds for which it was missed add to the noise of the position, up to one in all. The noise
+    of sizes stays.
+    """
+    scales = np.array([motion().predict(P, 0.1, 0.1 * missed).scale for missed in range(40)])
+    assert (np.diff(scales[:10, :3], axis=0) > 0).all()
+    np.testing.assert_allclose(scales[9:, :3] - (MIN_POSITION_NOISE + 0.5 * AXIS_NOISE), 0, atol=1e-12)
+    assert np.ptp(scales[:, 3:], axis=0).max() == 0
+
+
+def test_noise_of_a_long_frame_is_not_cut():
+    """A single frame of two seconds has the noise of two seconds, though hidden targets stop at one."""
+    np.testing.assert_allclose(
+        motion().predict(P, 2.0, 5.0).scale[:3], MIN_POSITION_NOISE + 0.5 * 2 * AXIS_NOISE, rtol=1e-12
+    )
+
+
+def test_predictions_stay_in_range():
+    """Depths stay between near and far, sizes above the smallest; sideways there is no bound."""
+    prediction = motion().predict(P, SECOND, 0)
+    np.testing.assert_array_equal(prediction.lower, [-np.inf, -np.inf, P.near, MIN_SIZE, MIN_SIZE])
+    np.testing.assert_array_equal(prediction.upper, [np.inf, np.inf, P.far, np.inf, np.inf])
+
+
+def test_velocity_is_learned_from_visible_positions_only():
+    """A step of 0.1 m in 0.1 s is 1 m/s, of which the smoothing takes half. Positions that aren't
+    visible change nothing.
+    """
+    there = STATE + [0.1, 0, 0, 0, 0]
+    seen = motion().update(there, P, 0.1, visible=True)
+    np.testing.assert_allclose(seen.velocity, [0.5, 0, 0], rtol=1e-9)
+    np.testing.assert_array_equal(seen.state, there)
+    hidden = motion(velocity=np.array([0.3, 0, 0])).update(there, P, 0.1, visible=False)
+    np.testing.assert_array_equal(hidden.velocity, [0.3, 0, 0])
+    np.testing.assert_array_equal(hidden.state, there)
+
+
+@pytest.mark.parametrize("rate", [15, 30, 60])
+def test_velocity_does_not_depend_on_the_frame_rate(rate):
+    """Somebody who walks at 1.2 m/s is learned to walk at 1.2 m/s, at 15, 30 and 60 frames/s."""
+    now = motion()
+    for i in range(1, 4 * rate):
+        now = now.update(STATE + np.array([1.2 * i / rate, 0, 0, 0, 0]), P, 1 / rate, visible=True)
+    np.testing.assert_allclose(now.velocity, [1.2, 0, 0], rtol=1e-6, atol=1e-9)
+
+
+def test_velocity_is_limited_to_max_speed():
+    """A jump of 3 m in a frame counts as the maximum speed in its direction."""
+    far = STATE + [0, 0, 3.0, 0, 0]
+    np.testing.assert_allclose(motion().update(far, P, 0.1, visible=True).velocity, [0, 0, 1.0], rtol=1e-9)
+
+
+def test_coasting_keeps_a_share_of_the_velocity():
+    """A coasting target is where it was predicted, with a share of its velocity; the mean size stays."""
+    before = motion(velocity=np.array([1.0, 0.5, -1.0]))
+    after = before.coast(STATE + 1, 0.9)
+    np.testing.assert_array_equal(after.state, STATE + 1)
+    np.testing.assert_allclose(after.velocity, [0.9, 0.45, -0.9], rtol=1e-12)
+    assert after.mean_size is before.mean_size
+    assert after.size_known is before.size_known
+
+
+def test_an_unknown_size_grows_only():
+    """A size never visible as a whole grows to its visible part, and never shrinks; a known size stays."""
+    unknown = motion(size_known=np.array([False, False]))
+    np.testing.assert_array_equal(unknown.grow(np.array([0.9, 1.2])).mean_size, [0.9, 1.7])
+    np.testing.assert_array_equal(motion().grow(np.array([0.9, 2.0])).mean_size, STATE[3:])
+
+
+def test_a_whole_size_is_blended_in():
+    """A whole size moves a known one by size_rate, larger or smaller."""
+    after = motion().learn_size(np.array([0.8, 1.5]), WHOLE, P)
+    np.testing.assert_allclose(after.mean_size, [0.6 + 0.15 * 0.2, 1.7 - 0.15 * 0.2], rtol=1e-12)
+
+
+def test_a_cut_size_is_a_lower_bound():
+    """A cut size never makes the mean size smaller, and doesn't make it known."""
+    after = motion(size_known=CUT).learn_size(np.array([0.4, 1.9]), CUT, P)
+    assert after.mean_size[0] == 0.6
+    assert 1.7 < after.mean_size[1] <= 1.9
+    assert not after.size_known.any()
+
+
+def test_the_first_whole_size_is_learned_fast():
+    """A size visible as a whole for the first time is known from then on, and learned mostly at once."""
+    first = motion(size_known=CUT).learn_size(np.array([0.8, 1.7]), np.array([True, False]), P)
+    np.testing.assert_array_equal(first.size_known, [True, False])
+    assert first.mean_size[0] > 0.6 + 0.5 * 0.2
+    again = first.learn_size(np.array([0.6, 1.7]), CUT, P)
+    np.testing.assert_array_equal(again.size_known, [True, False])
