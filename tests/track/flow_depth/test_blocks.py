@@ -6,31 +6,38 @@ import math
 import numpy as np
 import pytest
 from tricue import FlowDepthTracker
-from tricue.track.flow_depth.blocks import FIRM, NOT_TARGET, OCCLUDED, TARGET, Blocks, Seen
+from tricue.track.flow_depth.blocks import (
+    NOT_TARGET_BLOCK,
+    OCCLUDED_BLOCK,
+    TARGET_BLOCK,
+    TRUSTED_FRAMES,
+    BlockObservation,
+    Blocks,
+)
 
 P = FlowDepthTracker.Params()
-OURS, NEAREST, OCCLUDER, WALL = 12.0, 14.0, 20.0, 4.0  # disparities, places
-FULL = 40  # places of a block
+OURS, NEAREST, OCCLUDER, WALL = 12.0, 14.0, 20.0, 4.0  # disparities, cells
+FULL = 40  # cells of a block
 
 
 def seen(
-    targets: int = 0, mean: float = OURS, readings: int = FULL, alike: int = 0, places: int = FULL
-) -> Seen:
-    """What a frame shows of one block."""
-    counts = (np.array([number], np.int64) for number in (places, targets, readings, alike))
+    targets: int = 0, mean: float = OURS, measured: int = FULL, same_depth: int = 0, cells: int = FULL
+) -> BlockObservation:
+    """What a frame measures in one block."""
+    counts = (np.array([number], np.int64) for number in (cells, targets, measured, same_depth))
     here, mine, read, near = counts
-    return Seen(here, mine, read, np.array([mean]), near)
+    return BlockObservation(here, mine, read, np.array([mean]), near)
 
 
 GOOD = seen(targets=FULL)
 BEHIND = seen(mean=OCCLUDER)
 AWAY = seen(mean=WALL)
-BLANK = seen(readings=0, mean=math.nan)
-OUTSIDE = seen(places=0, readings=0, mean=math.nan)
+BLANK = seen(measured=0, mean=math.nan)
+OUTSIDE = seen(cells=0, measured=0, mean=math.nan)
 
 
 def block(state: int, core: bool = True) -> Blocks:
-    """One block of 8x5 places at (0, 0), of that state, without votes."""
+    """One block of 8x5 cells at (0, 0), of that state, without votes."""
     none = np.zeros(1, np.int64)
     return Blocks(
         corners=np.array([[0.0, 0.0, 8.0, 5.0]]),
@@ -38,14 +45,14 @@ def block(state: int, core: bool = True) -> Blocks:
         size=1.0,
         states=np.array([state]),
         votes=none,
-        against=none,
+        votes_against=none,
         core=np.array([core]),
-        firm=np.array([FIRM if state == TARGET else 0]),
-        idle=np.array([0]),
+        trusted=np.array([TRUSTED_FRAMES if state == TARGET_BLOCK else 0]),
+        frames_without_pixels=np.array([0]),
     )
 
 
-def states(start: Blocks, *frames: Seen, p=P) -> list[int]:
+def states(start: Blocks, *frames: BlockObservation, p=P) -> list[int]:
     """The block's state after each frame."""
     after = []
     for frame in frames:
@@ -56,85 +63,102 @@ def states(start: Blocks, *frames: Seen, p=P) -> list[int]:
 
 def test_votes_make_a_target():
     """A block that isn't the target's becomes so in the frame of its third vote, not before."""
-    assert states(block(NOT_TARGET, core=False), *3 * [GOOD]) == [NOT_TARGET, NOT_TARGET, TARGET]
+    assert states(block(NOT_TARGET_BLOCK, core=False), *3 * [GOOD]) == [
+        NOT_TARGET_BLOCK,
+        NOT_TARGET_BLOCK,
+        TARGET_BLOCK,
+    ]
 
 
 @pytest.mark.parametrize("votes", [1, 2, 7])
 def test_as_many_votes_as_are_asked_for(votes):
     """The number of votes is the parameter's."""
-    after = states(block(NOT_TARGET, core=False), *votes * [GOOD], p=FlowDepthTracker.Params(votes=votes))
-    assert after == (votes - 1) * [NOT_TARGET] + [TARGET]
+    after = states(
+        block(NOT_TARGET_BLOCK, core=False), *votes * [GOOD], p=FlowDepthTracker.Params(votes_to_add=votes)
+    )
+    assert after == (votes - 1) * [NOT_TARGET_BLOCK] + [TARGET_BLOCK]
 
 
 def test_a_frame_without_takes_a_vote_back():
     """Frames without target pixels take votes back, one each, and never below none."""
-    start = block(NOT_TARGET, core=False)
-    assert states(start, GOOD, GOOD, AWAY, GOOD, GOOD)[-2:] == [NOT_TARGET, TARGET]
-    assert states(start, *9 * [AWAY], *3 * [GOOD])[-2:] == [NOT_TARGET, TARGET]
+    start = block(NOT_TARGET_BLOCK, core=False)
+    assert states(start, GOOD, GOOD, AWAY, GOOD, GOOD)[-2:] == [NOT_TARGET_BLOCK, TARGET_BLOCK]
+    assert states(start, *9 * [AWAY], *3 * [GOOD])[-2:] == [NOT_TARGET_BLOCK, TARGET_BLOCK]
 
 
-@pytest.mark.parametrize(("targets", "state"), [(9, NOT_TARGET), (10, TARGET)])
+@pytest.mark.parametrize(("targets", "state"), [(9, NOT_TARGET_BLOCK), (10, TARGET_BLOCK)])
 def test_enough_target_pixels_are_a_vote(targets, state):
-    """A quarter of a block's 40 places gives a vote, one less doesn't."""
-    assert states(block(NOT_TARGET, core=False), *3 * [seen(targets=targets)])[-1] == state
+    """A quarter of a block's 40 cells gives a vote, one less doesn't."""
+    assert states(block(NOT_TARGET_BLOCK, core=False), *3 * [seen(targets=targets)])[-1] == state
 
 
 def test_something_nearer_hides_a_target():
     """A target block without target pixels, before which something is nearer, is occluded at once, for as
     long as that is there, and the target's again at its disparity.
     """
-    after = states(block(TARGET), GOOD, *9 * [BEHIND], seen(alike=FULL))
-    assert after == [TARGET, *9 * [OCCLUDED], TARGET]
+    after = states(block(TARGET_BLOCK), GOOD, *9 * [BEHIND], seen(same_depth=FULL))
+    assert after == [TARGET_BLOCK, *9 * [OCCLUDED_BLOCK], TARGET_BLOCK]
 
 
-def test_target_pixels_are_believed_before_disparity():
+def test_target_pixels_count_before_disparity():
     """A block with enough target pixels isn't occluded, whatever its mean disparity."""
-    assert states(block(TARGET), seen(targets=FULL, mean=OCCLUDER)) == [TARGET]
+    assert states(block(TARGET_BLOCK), seen(targets=FULL, mean=OCCLUDER)) == [TARGET_BLOCK]
 
 
-@pytest.mark.parametrize(("mean", "state"), [(NEAREST, TARGET), (np.nextafter(NEAREST, 99), OCCLUDED)])
+@pytest.mark.parametrize(
+    ("mean", "state"), [(NEAREST, TARGET_BLOCK), (np.nextafter(NEAREST, 99), OCCLUDED_BLOCK)]
+)
 def test_only_what_is_nearer_hides(mean, state):
     """The mean disparity has to be above the one from which something is nearer."""
-    assert states(block(TARGET), seen(mean=mean)) == [state]
+    assert states(block(TARGET_BLOCK), seen(mean=mean)) == [state]
 
 
-@pytest.mark.parametrize(("readings", "state"), [(7, TARGET), (8, OCCLUDED)])
-def test_few_readings_hide_nothing(readings, state):
-    """A fifth of a block's places must have a disparity until it counts as that of something nearer."""
-    assert states(block(TARGET), seen(mean=OCCLUDER, readings=readings)) == [state]
+@pytest.mark.parametrize(("measured", "state"), [(7, TARGET_BLOCK), (8, OCCLUDED_BLOCK)])
+def test_few_disparities_hide_nothing(measured, state):
+    """A fifth of a block's cells must have a disparity until it counts as that of something nearer."""
+    assert states(block(TARGET_BLOCK), seen(mean=OCCLUDER, measured=measured)) == [state]
 
 
 def test_votes_against_end_a_target():
     """A target block that shows neither target nor something nearer isn't the target's from the fourth frame
     on.
     """
-    assert states(block(TARGET), *5 * [AWAY]) == [TARGET, TARGET, TARGET, NOT_TARGET, NOT_TARGET]
+    assert states(block(TARGET_BLOCK), *5 * [AWAY]) == [
+        TARGET_BLOCK,
+        TARGET_BLOCK,
+        TARGET_BLOCK,
+        NOT_TARGET_BLOCK,
+        NOT_TARGET_BLOCK,
+    ]
 
 
 def test_a_target_pixel_ends_the_votes_against():
     """One frame with target pixels lets the count against begin again."""
-    assert states(block(TARGET), *3 * [AWAY], GOOD, *4 * [AWAY])[-2:] == [TARGET, NOT_TARGET]
+    assert states(block(TARGET_BLOCK), *3 * [AWAY], GOOD, *4 * [AWAY])[-2:] == [
+        TARGET_BLOCK,
+        NOT_TARGET_BLOCK,
+    ]
 
 
 def test_who_was_voted_out_starts_from_none():
     """A block that was voted out needs all votes again, though it had them."""
-    after = states(block(TARGET, core=False), *5 * [GOOD], *4 * [AWAY], *3 * [GOOD])
-    assert after[8:] == [NOT_TARGET, NOT_TARGET, NOT_TARGET, TARGET]
+    after = states(block(TARGET_BLOCK, core=False), *5 * [GOOD], *4 * [AWAY], *3 * [GOOD])
+    assert after[8:] == [NOT_TARGET_BLOCK, NOT_TARGET_BLOCK, NOT_TARGET_BLOCK, TARGET_BLOCK]
 
 
 @pytest.mark.parametrize(
-    "frame", [BLANK, OUTSIDE, seen(mean=WALL, readings=7)], ids=["blank", "outside", "few"]
+    "frame", [BLANK, OUTSIDE, seen(mean=WALL, measured=7)], ids=["blank", "outside", "few"]
 )
 def test_nothing_is_no_vote_against(frame):
     """A block in which hardly anything is read, or that is outside the picture, stays the target's."""
-    assert states(block(TARGET), *20 * [frame])[-1] == TARGET
+    assert states(block(TARGET_BLOCK), *20 * [frame])[-1] == TARGET_BLOCK
 
 
 def test_outside_the_picture_votes_stay():
     """Frames in which a block is outside the picture neither give nor take votes."""
-    assert states(block(NOT_TARGET, core=False), GOOD, GOOD, *9 * [OUTSIDE], GOOD)[-2:] == [
-        NOT_TARGET,
-        TARGET,
+    assert states(block(NOT_TARGET_BLOCK, core=False), GOOD, GOOD, *9 * [OUTSIDE], GOOD)[-2:] == [
+        NOT_TARGET_BLOCK,
+        TARGET_BLOCK,
     ]
 
 
@@ -143,40 +167,42 @@ def test_depth_alone_holds_the_first_window_only(core):
     """At the target's disparity, without target pixels, a block of the first window is voted in; another
     isn't.
     """
-    alike = seen(alike=FULL)
-    assert states(block(NOT_TARGET, core), *9 * [alike])[-1] == (TARGET if core else NOT_TARGET)
+    same_depth = seen(same_depth=FULL)
+    assert states(block(NOT_TARGET_BLOCK, core), *9 * [same_depth])[-1] == (
+        TARGET_BLOCK if core else NOT_TARGET_BLOCK
+    )
 
 
 def test_an_occluded_block_waits():
     """An occluded block of which nothing is read, or that left the picture, stays occluded."""
-    assert states(block(OCCLUDED), *9 * [BLANK], *9 * [OUTSIDE])[-1] == OCCLUDED
+    assert states(block(OCCLUDED_BLOCK), *9 * [BLANK], *9 * [OUTSIDE])[-1] == OCCLUDED_BLOCK
 
 
 def test_no_other_state_is_occluded():
     """Something nearer before a block that isn't the target's doesn't make it occluded."""
-    assert states(block(NOT_TARGET), *9 * [BEHIND])[-1] == NOT_TARGET
+    assert states(block(NOT_TARGET_BLOCK), *9 * [BEHIND])[-1] == NOT_TARGET_BLOCK
 
 
-def test_readings_stay_firm_for_a_while():
-    """A block's readings count for so many frames after its last target pixels; while it is hidden the time
+def test_blocks_stay_trusted_for_a_while():
+    """A block's measured count for so many frames after its last target pixels; while it is hidden the time
     stands still.
     """
-    start = block(TARGET).voted(GOOD, NEAREST, P)
-    for expected in (FIRM - 1, FIRM - 2):
+    start = block(TARGET_BLOCK).voted(GOOD, NEAREST, P)
+    for expected in (TRUSTED_FRAMES - 1, TRUSTED_FRAMES - 2):
         start = start.voted(AWAY, NEAREST, P)
-        assert start.firm[0] == expected
+        assert start.trusted[0] == expected
     for frame in (BEHIND, BEHIND):
         start = start.voted(frame, NEAREST, P)
-        assert start.firm[0] == FIRM - 2
-    assert start.voted(GOOD, NEAREST, P).firm[0] == FIRM
+        assert start.trusted[0] == TRUSTED_FRAMES - 2
+    assert start.voted(GOOD, NEAREST, P).trusted[0] == TRUSTED_FRAMES
 
 
 def test_a_vote_changes_a_copy():
     """Voting leaves the blocks it began with as they were: an update that fails has changed nothing."""
     start = Blocks.of((10.0, 10.0, 30.0, 60.0), P)
     kept = [np.copy(field) for field in start]
-    many = Seen(*(np.repeat(field, len(start.states)) for field in BEHIND))
-    assert (start.voted(many, NEAREST, P).states == OCCLUDED).any()
+    many = BlockObservation(*(np.repeat(field, len(start.states)) for field in BEHIND))
+    assert (start.voted(many, NEAREST, P).states == OCCLUDED_BLOCK).any()
     for field, before in zip(start, kept, strict=True):
         np.testing.assert_array_equal(field, before)
 
@@ -184,7 +210,7 @@ def test_a_vote_changes_a_copy():
 WINDOWS = {
     "a person": (50.0, 20.0, 80.0, 110.0),
     "fractions": (50.3, 20.7, 61.1, 55.2),
-    "2 places": (7.0, 7.0, 9.0, 9.0),
+    "2 cells": (7.0, 7.0, 9.0, 9.0),
     "wide": (-100.0, 45.0, 200.0, 47.0),
 }
 
@@ -201,13 +227,13 @@ def test_the_first_window_is_tiled(name):
     assert areas.min() > 0
     assert areas.sum() == pytest.approx((x1 - x0) * (y1 - y0))
     assert blocks.window == pytest.approx(WINDOWS[name])
-    np.testing.assert_array_equal(blocks.states == TARGET, blocks.core)
+    np.testing.assert_array_equal(blocks.states == TARGET_BLOCK, blocks.core)
     assert len(np.unique(np.round(blocks.rectangles, 6), axis=0)) == len(blocks.states)
 
 
 @pytest.mark.parametrize("name", WINDOWS)
 def test_the_grid_is_larger_on_every_side(name):
-    """There are blocks beyond each side of the first window, by whom arms and legs can be taken in."""
+    """There are blocks beyond each side of the first window, by which arms and legs can be added."""
     x0, y0, x1, y1 = WINDOWS[name]
     grid = Blocks.of(WINDOWS[name], P).rectangles
     assert grid[:, 0].min() < x0 < x1 < grid[:, 2].max()
@@ -215,11 +241,11 @@ def test_the_grid_is_larger_on_every_side(name):
 
 
 def test_blocks_have_the_share_that_is_asked_for():
-    """Blocks are about ``block`` of the window's side long, and never much smaller than 3 places."""
+    """Blocks are about ``block_side`` of the window's side long, and never much smaller than 3 cells."""
     for share in (0.1, 0.2, 0.5, 1.0):
-        blocks = Blocks.of((0.0, 0.0, 60.0, 60.0), FlowDepthTracker.Params(block=share))
+        blocks = Blocks.of((0.0, 0.0, 60.0, 60.0), FlowDepthTracker.Params(block_side=share))
         assert blocks.core.sum() == round(1 / share) ** 2
-    small = Blocks.of((0.0, 0.0, 9.0, 9.0), FlowDepthTracker.Params(block=0.01))
+    small = Blocks.of((0.0, 0.0, 9.0, 9.0), FlowDepthTracker.Params(block_side=0.01))
     assert small.core.sum() == 9
 
 
@@ -232,7 +258,7 @@ def test_there_are_never_too_many_blocks(window, share):
     """Windows as thin and large as boxes may be, and blocks as small, make some thousand blocks at most: no
     memory is asked for that isn't there.
     """
-    blocks = Blocks.of(window, FlowDepthTracker.Params(block=share))
+    blocks = Blocks.of(window, FlowDepthTracker.Params(block_side=share))
     assert blocks.window == pytest.approx(window)
     assert len(blocks.states) <= 15_000
 
@@ -249,16 +275,16 @@ def test_blocks_move_and_grow_round_their_anchor():
 
 def test_without_a_block_there_is_no_window():
     """A target of whose blocks none is left has no window."""
-    assert block(NOT_TARGET).window is None
+    assert block(NOT_TARGET_BLOCK).window is None
 
 
-def test_covered_is_a_share_of_those_in_the_picture():
+def test_the_occluded_share_is_of_blocks_in_the_image():
     """Of four blocks of the target, one outside the picture, two of the other three behind something nearer,
-    two thirds are covered; of none, none.
+    two thirds are occluded; of none, none.
     """
-    four = Blocks.of((0.0, 0.0, 20.0, 20.0), FlowDepthTracker.Params(block=0.5))
+    four = Blocks.of((0.0, 0.0, 20.0, 20.0), FlowDepthTracker.Params(block_side=0.5))
     four = four._replace(**{n: getattr(four, n)[four.core] for n in ("corners", "states", "votes", "core")})
     shown = [BEHIND, BEHIND, AWAY, OUTSIDE]
-    together = Seen(*(np.concatenate(fields) for fields in zip(*shown, strict=True)))
-    assert four.covered(together, NEAREST) == pytest.approx(2 / 3)
-    assert four._replace(states=np.zeros(4, np.int64)).covered(together, NEAREST) == 0
+    together = BlockObservation(*(np.concatenate(fields) for fields in zip(*shown, strict=True)))
+    assert four.occluded_share(together, NEAREST) == pytest.approx(2 / 3)
+    assert four._replace(states=np.zeros(4, np.int64)).occluded_share(together, NEAREST) == 0

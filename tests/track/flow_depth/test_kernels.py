@@ -13,7 +13,13 @@ FORMS = {
     "flow": {"cues": ("flow",)},
     "disparity": {"cues": ("disparity",)},
     "one level": {"flow_levels": 1, "disparity_levels": 1},
-    "as the paper": {"ripple": 0, "surround": 0, "memory": 0, "flow_change": 100, "depth_change": 100},
+    "as the paper": {
+        "min_prominence": 0,
+        "surround_weight": 0,
+        "density_memory": 0,
+        "flow_change": 100,
+        "disparity_change": 100,
+    },
 }
 PIXELS, METRES, PLACES = 1e-4, 1e-5, 3
 

@@ -1,52 +1,52 @@
 # SPDX-License-Identifier: MIT
-"""That the model's peaks and densities are those of the target, and of what is round it."""
+"""That the model's peaks and densities are those of the target, and of its surround."""
 
 import dataclasses
 
 import numpy as np
 import pytest
 from tricue import FlowDepthTracker
-from tricue.track.flow_depth.cues import Cues, Reading
-from tricue.track.flow_depth.model import Expected, Model, Places, estimate
+from tricue.track.flow_depth.cues import CueMap, Cues
+from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
 
 P = FlowDepthTracker.Params()
 H, W = 40, 60
 WINDOW = (20.0, 10.0, 40.0, 30.0)
 INSIDE = np.s_[10:30, 20:40]
 OURS, AROUND = (0.9, -0.4, 12.0), (0.0, 0.0, 7.0)  # u, v, d
-EXPECTED = [Expected(0.7, 100, 3), Expected(0.0, 100, 3), Expected(11.5, 100, 6)]
+EXPECTED = [ExpectedPeak(0.7, 100, 3), ExpectedPeak(0.0, 100, 3), ExpectedPeak(11.5, 100, 6)]
 
 
-def reading(ours: float, around: float, seed: int, spread: float = 0.05) -> Reading:
-    """Of a target in the window and of what is round it, with noise and all of one weight."""
+def cue_map(ours: float, around: float, seed: int, spread: float = 0.05) -> CueMap:
+    """One observation of a target in the window and of its surround, with noise, all of one weight."""
     values = np.full((H, W), around, np.float32)
     values[INSIDE] = ours
     values += np.random.default_rng(seed).normal(0, spread, values.shape).astype(np.float32)
-    return Reading(values, np.ones_like(values))
+    return CueMap(values, np.ones_like(values))
 
 
 def cues_of(*pairs: tuple[float, float]) -> Cues:
-    """The three readings of targets and surroundings."""
-    u, v, d = (reading(*each, seed) for seed, each in enumerate(pairs))
+    """The three observations of targets and surrounds."""
+    u, v, d = (cue_map(*each, seed) for seed, each in enumerate(pairs))
     return Cues((0, 0, W, H), (u, v), d)
 
 
 CUES = cues_of(*zip(OURS, AROUND, strict=True))
 OWN = np.zeros((H, W), np.uint8)
 OWN[INSIDE] = 1
-PLACES = Places(OWN, np.ones_like(OWN))
+MASKS = HistogramMasks(OWN, np.ones_like(OWN))
 
 
-def model_of(k, cues=CUES, expected=EXPECTED, places=PLACES, before=None, **changes) -> Model:
+def model_of(k, cues=CUES, expected=EXPECTED, masks=MASKS, before=None, **changes) -> TargetModel:
     """The model of the cues in the window."""
-    return estimate(k, cues, expected, WINDOW, places, before, dataclasses.replace(P, **changes))
+    return estimate_model(k, cues, expected, WINDOW, masks, before, dataclasses.replace(P, **changes))
 
 
 def test_peaks_are_the_targets(kernels):
-    """The representative velocity and disparity are the target's, to a fifth of a bin, not those round it."""
+    """The representative velocity and disparity are the target's to a fifth of a bin, not the surround's."""
     found = model_of(kernels)
     for peak, true, at in zip(found.peaks, OURS, EXPECTED, strict=True):
-        assert peak == pytest.approx(true, abs=0.2 * 2 * at.reach / P.bins)
+        assert peak == pytest.approx(true, abs=0.2 * 2 * at.half_range / P.bins)
 
 
 def test_densities_are_densities(kernels):
@@ -59,11 +59,11 @@ def test_densities_are_densities(kernels):
         assert density.min() >= 0
         assert alternative.min() > 0
         assert alternative.sum() <= 1 + 1e-9
-    assert found.ranges == tuple((at.value - at.reach, at.value + at.reach) for at in EXPECTED)
+    assert found.ranges == tuple((at.value - at.half_range, at.value + at.half_range) for at in EXPECTED)
 
 
 def test_each_density_is_highest_where_its_own_are(kernels):
-    """In the target's bin the target's density is the larger, in that of what is round it the other one."""
+    """In the target's bin the target's density is the larger, in that of its surround the other one."""
     found = model_of(kernels)
     for i, (low, high) in enumerate(found.ranges):
         bins = [int((value - low) / (high - low) * P.bins) for value in (OURS[i], AROUND[i])]
@@ -71,10 +71,10 @@ def test_each_density_is_highest_where_its_own_are(kernels):
         assert found.densities[i][bins[1]] < 0.2 * found.alternatives[i][bins[1]]
 
 
-def test_without_surround_it_may_be_anything(kernels):
-    """With ``surround=0``, and where nothing is round the target, the alternative is uniform, as printed."""
-    everywhere = Places(np.ones_like(OWN), np.ones_like(OWN))
-    for found in (model_of(kernels, surround=0), model_of(kernels, places=everywhere)):
+def test_without_surround_the_alternative_is_uniform(kernels):
+    """With ``surround_weight=0``, and without any surround, the alternative is uniform, as printed."""
+    everywhere = HistogramMasks(np.ones_like(OWN), np.ones_like(OWN))
+    for found in (model_of(kernels, surround_weight=0), model_of(kernels, masks=everywhere)):
         for alternative in found.alternatives:
             np.testing.assert_allclose(alternative, 1 / P.bins, rtol=1e-12)
 
@@ -93,14 +93,14 @@ def test_smoothing_may_be_wider_than_the_range(bins, smoothing, kernels):
 
 
 def test_flow_is_that_of_the_visible(kernels):
-    """Places that something nearer takes don't count for the velocity, though they do for the disparity."""
+    """Cells that something nearer hides don't count for the velocity, though they do for the disparity."""
     cues = cues_of((0.9, 0.0), (-0.4, 0.0), (12.0, 7.0))
     hider = np.s_[10:30, 20:33]
-    for each, value in zip(cues.readings, (-1.5, 1.5, 16.0), strict=True):
+    for each, value in zip(cues.maps, (-1.5, 1.5, 16.0), strict=True):
         each.values[hider] = value
     visible = np.ones_like(OWN)
     visible[hider] = 0
-    u, v, d = model_of(kernels, cues, places=Places(OWN, visible)).peaks
+    u, v, d = model_of(kernels, cues, masks=HistogramMasks(OWN, visible)).peaks
     assert (u, v) == pytest.approx((0.9, -0.4), abs=0.05)
     assert d == pytest.approx(16, abs=0.13)  # half a bin
     assert model_of(kernels, cues).peaks[0] == pytest.approx(-1.5, abs=0.05)
@@ -109,15 +109,15 @@ def test_flow_is_that_of_the_visible(kernels):
 def test_what_is_expected_wins_over_what_is_more(kernels):
     """A narrow spread takes the lower peak that is where the target is expected."""
     cues = cues_of((0.9, 0.0), (-0.4, 0.0), (12.0, 7.0))
-    cues.readings[2].values[10:30, 20:33] = 16.0
-    narrow = [*EXPECTED[:2], Expected(11.5, 0.5, 6)]
+    cues.maps[2].values[10:30, 20:33] = 16.0
+    narrow = [*EXPECTED[:2], ExpectedPeak(11.5, 0.5, 6)]
     assert model_of(kernels, cues).peaks[2] == pytest.approx(16, abs=0.13)
     assert model_of(kernels, cues, narrow).peaks[2] == pytest.approx(12, abs=0.25)
 
 
-def test_without_readings_it_is_as_expected(kernels):
-    """Without any reading the peak is the expected value, and no density is there to find pixels by."""
-    blind = Cues(CUES.region, None, Reading(np.full((H, W), np.nan, np.float32), np.ones((H, W), np.float32)))
+def test_without_observations_it_is_as_expected(kernels):
+    """Without any observation the peak is the expected value, and no density is there to find pixels by."""
+    blind = Cues(CUES.region, None, CueMap(np.full((H, W), np.nan, np.float32), np.ones((H, W), np.float32)))
     found = model_of(kernels, blind, EXPECTED[2:])
     assert found.peaks == pytest.approx((11.5,))
     assert not found.densities[0].any()
@@ -125,13 +125,13 @@ def test_without_readings_it_is_as_expected(kernels):
 
 
 def test_memory_blends_the_densities(kernels):
-    """Densities are ``memory`` parts those of before, moved to the new peak, of sum 1; without memory, or
-    before, they are the new ones alone.
+    """Densities are mixed with those before, moved to the new peak, by ``density_memory``, and have sum 1.
+    Without memory, or before, they are the new ones alone.
     """
     before = model_of(kernels)
-    wider = Cues((0, 0, W, H), (reading(1.4, 0, 5, 0.4), CUES.readings[1]), CUES.disparity)
-    alone = model_of(kernels, wider, memory=0)
-    both = model_of(kernels, wider, before=before, memory=0.8)
+    wider = Cues((0, 0, W, H), (cue_map(1.4, 0, 5, 0.4), CUES.maps[1]), CUES.disparity)
+    alone = model_of(kernels, wider, density_memory=0)
+    both = model_of(kernels, wider, before=before, density_memory=0.8)
     assert both.peaks == alone.peaks
     assert both.densities[0].sum() == pytest.approx(1)
     for moved in (before.densities[0], alone.densities[0]):
@@ -139,5 +139,5 @@ def test_memory_blends_the_densities(kernels):
         assert moved.shape == both.densities[0].shape
     assert alone.densities[0].max() < both.densities[0].max() < before.densities[0].max()
     np.testing.assert_array_equal(
-        model_of(kernels, wider, before=before, memory=0).densities, alone.densities
+        model_of(kernels, wider, before=before, density_memory=0).densities, alone.densities
     )

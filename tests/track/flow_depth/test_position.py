@@ -38,31 +38,31 @@ def test_covariances_are_honest(followed):
     """
     scene, tracks = followed
     offs = np.array([track.position for track in tracks]) - scene.positions[: len(tracks)]
-    surprises = [
+    squared_deviations = [
         off @ np.linalg.solve(track.covariance, off) for track, off in zip(tracks, offs, strict=True)
     ]
-    assert 1 < np.mean(surprises) < 6
+    assert 1 < np.mean(squared_deviations) < 6
 
 
 def test_noises_are_the_parameters(followed):
     """Twice the noise of place and disparity is twice the standard deviation, with the same position."""
     scene, _ = followed
-    usual, noisy = (
+    single, noisy = (
         FlowDepthTracker(rig=scene.rig, place_noise=1.5 * more, disparity_noise=0.2 * more).init(
             scene.frames[0], scene.boxes[0]
         )
         for more in (1, 2)
     )
-    np.testing.assert_array_equal(usual.position, noisy.position)
-    np.testing.assert_allclose(noisy.covariance, 4 * usual.covariance, rtol=1e-9)
+    np.testing.assert_array_equal(single.position, noisy.position)
+    np.testing.assert_allclose(noisy.covariance, 4 * single.covariance, rtol=1e-9)
 
 
-def test_who_is_not_seen_gets_less_sure(followed):
-    """After t seconds without the target its covariance has the square of agility t² / 2 more in every
-    direction; while it is seen agility changes nothing.
+def test_a_missed_target_gets_less_certain(followed):
+    """After t seconds without the target its variance is larger by the square of acceleration_noise t² / 2 in
+    every direction; while it is seen that noise changes nothing.
     """
     scene, _ = followed
-    trackers = [FlowDepthTracker(rig=scene.rig, agility=agility) for agility in (1.0, 2.0)]
+    trackers = [FlowDepthTracker(rig=scene.rig, acceleration_noise=noise) for noise in (1.0, 2.0)]
     for tracker in trackers:
         tracker.init(scene.frames[0], scene.boxes[0])
     for frame in scene.frames[1:12]:
@@ -104,11 +104,11 @@ def test_a_camera_alone_does_not_calibrate_a_pair(overtakings):
     np.testing.assert_allclose(found.position, expected.position, rtol=1e-6)
 
 
-def test_the_rig_is_believed(overtakings):
+def test_the_rig_scales_positions(overtakings):
     """With twice the baseline everything in a pair is twice as far, in every direction."""
     scene = overtakings(0, 55)
     rigs = scene.rig, type(scene.rig)(scene.rig.intrinsics, 2 * scene.rig.baseline)
-    usual, twice = (FlowDepthTracker(rig=rig).init(scene.frames[0], scene.boxes[0]) for rig in rigs)
-    np.testing.assert_allclose(twice.position, 2 * usual.position, rtol=1e-12)
-    assert twice.box == usual.box
+    once, twice = (FlowDepthTracker(rig=rig).init(scene.frames[0], scene.boxes[0]) for rig in rigs)
+    np.testing.assert_allclose(twice.position, 2 * once.position, rtol=1e-12)
+    assert twice.box == once.box
     assert twice.status is Status.TRACKED

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""That rectangles move, grow, and are turned into whole places of a picture."""
+"""That rectangles move, grow, and are turned into whole cells of an image."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tricue.track.flow_depth.rectangles import grown, moved, places_of
+from tricue.track.flow_depth.rectangles import cells_of, grown, moved
 
 SHAPE = (12, 20)
 numbers = st.floats(-1e6, 1e6)
@@ -28,17 +28,17 @@ def test_moving_and_growing():
         ((2.5, 3.5, 2.5, 3.5), (2, 3, 3, 4)),
     ],
 )
-def test_every_place_that_it_touches(rectangle, region):
-    """The region is that of all places that the rectangle touches and that the picture has."""
-    assert places_of(rectangle, SHAPE) == region
+def test_every_cell_that_it_touches(rectangle, region):
+    """The region is that of all cells that the rectangle touches and that the picture has."""
+    assert cells_of(rectangle, SHAPE) == region
 
 
 @given(numbers, numbers, st.floats(0, 1e6), st.floats(0, 1e6))
 def test_any_region_is_one_of_the_picture(x, y, width, height):
-    """Whatever the rectangle, corners are in order and in the picture, and every place whose centre lies in
+    """Whatever the rectangle, corners are in order and in the picture, and every cell whose center lies in
     it is in the region.
     """
-    x0, y0, x1, y1 = places_of((x, y, x + width, y + height), SHAPE)
+    x0, y0, x1, y1 = cells_of((x, y, x + width, y + height), SHAPE)
     assert 0 <= x0 <= x1 <= SHAPE[1]
     assert 0 <= y0 <= y1 <= SHAPE[0]
     columns, rows = np.arange(SHAPE[1]) + 0.5, np.arange(SHAPE[0]) + 0.5
@@ -50,7 +50,7 @@ def test_any_region_is_one_of_the_picture(x, y, width, height):
 @pytest.mark.parametrize(
     "rectangle", [(20, 0, 25, 5), (-9, 0, -1, 5), (0, 12, 5, 13), (0, -9, 5, 0), (1e9, 0, 2e9, 5)]
 )
-def test_outside_there_are_none(rectangle):
+def test_outside_there_are_no_cells(rectangle):
     """A rectangle outside the picture has an empty region."""
-    x0, y0, x1, y1 = places_of(rectangle, SHAPE)
+    x0, y0, x1, y1 = cells_of(rectangle, SHAPE)
     assert (x1 - x0) * (y1 - y0) == 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That the status says what is the matter: TRACKED, OCCLUDED behind something nearer, LOST in the end."""
+"""That the status is TRACKED, OCCLUDED behind something nearer, and LOST in the end."""
 
 import numpy as np
 import pytest
@@ -21,14 +21,14 @@ def without_anything(scene: WalkScene, step: float, **parameters) -> list[Track]
     return [tracker.update(Frame(black, right=black, timestamp=each)) for each in seconds]
 
 
-@pytest.mark.parametrize(("unsure", "step"), [(0.4, 1 / 15), (0.4, 1 / 30), (1.0, 1 / 15)])
-def test_what_nothing_hides_is_lost_soon(unsure, step, overtaken: WalkScene):
-    """A target that isn't seen, though nothing hides it, coasts as TRACKED at score 0 for ``unsure`` seconds
-    by the timestamps, and is LOST then.
+@pytest.mark.parametrize(("unoccluded_lost_after", "step"), [(0.4, 1 / 15), (0.4, 1 / 30), (1.0, 1 / 15)])
+def test_what_nothing_hides_is_lost_soon(unoccluded_lost_after, step, overtaken: WalkScene):
+    """A target that isn't seen, though nothing hides it, coasts as TRACKED at score 0 for
+    ``unoccluded_lost_after`` seconds by the timestamps, and is LOST then.
     """
-    tracks = without_anything(overtaken, step, unsure=unsure)
+    tracks = without_anything(overtaken, step, unoccluded_lost_after=unoccluded_lost_after)
     lost = next(i for i, track in enumerate(tracks) if track.status is L)
-    assert (lost + 1) * step == pytest.approx(unsure, abs=1.01 * step)
+    assert (lost + 1) * step == pytest.approx(unoccluded_lost_after, abs=1.01 * step)
     assert [track.status for track in tracks] == lost * [T] + (40 - lost) * [L]
     assert {track.score for track in tracks} == {0}
 
@@ -53,7 +53,7 @@ def test_what_something_hides_is_lost_late(lost_after, overtakings):
     assert {track.score for track in tracks} == {0}
 
 
-def test_without_timestamps_the_rate_tells(overtaken: WalkScene):
+def test_without_timestamps_the_rate_counts(overtaken: WalkScene):
     """Without timestamps a frame takes 1 / rate seconds."""
     for rate in (5.0, 15.0):
         tracker = FlowDepthTracker(rig=overtaken.rig, rate=rate)
@@ -66,7 +66,7 @@ def test_without_timestamps_the_rate_tells(overtaken: WalkScene):
         assert (statuses.index(L) + 1) / rate == pytest.approx(0.4, abs=1.01 / rate)
 
 
-def test_scores_say_what_is_seen(walk_on):
+def test_scores_follow_visibility(walk_on):
     """The score is in [0, 1], above 0.5 while all of the target is seen, and 0 while it isn't TRACKED."""
     tracks = walk_on()
     assert all(0 <= track.score <= 1 for track in tracks)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""That the flow and depth tracker follows a walker through an overtaking, says when it is hidden, where it
-is, and which pixels belong to it.
+"""That the flow and depth tracker follows a walker through an overtaking, detects its occlusion, and gives
+its position and its pixels.
 """
 
 import functools
@@ -12,7 +12,7 @@ from tricue import Box, FlowDepthTracker, Frame, Status, Track
 from tricue.scenes import WalkScene
 
 CAMERAS = {"pair": {}, "depth camera": {"depth": True}}
-LATE, BACK = 4, 8  # frames until an occlusion is told, and until the target is TRACKED again
+LATE, BACK = 4, 8  # frames until an occlusion is detected, and until the target is TRACKED again
 
 Run = tuple[WalkScene, list[Track], list[np.ndarray]]
 
@@ -65,7 +65,7 @@ def test_follows_the_right_person_through(camera, ran):
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
-def test_tells_the_occlusion(camera, ran):
+def test_detects_the_occlusion(camera, ran):
     """The target is TRACKED until 60 % of it are visible at most, not TRACKED from a few frames after
     10 % until it comes back, and OCCLUDED for most of that.
     """
@@ -78,7 +78,7 @@ def test_tells_the_occlusion(camera, ran):
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
-def test_takes_the_target_up_again(camera, ran):
+def test_redetects_the_target(camera, ran):
     """Within eight frames after a fifth of it is visible again the target is TRACKED, and stays so."""
     scene, tracks, _ = ran(camera)
     assert {track.status for track in tracks[scene.events.back + BACK :]} <= {Status.TRACKED}

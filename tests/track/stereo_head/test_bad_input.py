@@ -250,7 +250,7 @@ def test_a_start_on_two_times_the_left_image_is_sane(far):
 @pytest.mark.parametrize("name", FRAMES)
 def test_odd_frames_are_sane(name):
     """Empty, uniform, noisy and swapped pairs give sane tracks until long lost, as does the next good one."""
-    tracker = started(lost_after=0.1, again_after=0.05)
+    tracker = started(lost_after=0.1, search_frame_after=0.05)
     for _ in range(5):
         cases.assert_sane(tracker.update(odd(name)))
     cases.assert_sane(tracker.update(NEXT))

@@ -10,12 +10,17 @@ from tricue.scenes import StereoScene
 
 FORMS = {
     "usual": {},
-    "by color alone": {"ring_weight": 0, "depth_weight": 0, "learn": "all", "light": False},
-    "printed filter": {"motion": "constant", "noise": "polynomial", "disparity_noise": 1, "center": "mean"},
+    "by color alone": {"ring_weight": 0, "depth_weight": 0, "learn": "all", "compensate_light": False},
+    "printed filter": {
+        "motion": "constant",
+        "noise_model": "polynomial",
+        "disparity_noise": 1,
+        "disparity_statistic": "mean",
+    },
     "fed back": {"feedback": True},
     "unfused": {"fuse": False},
 }
-SHORT = {"search": (4, 2), "again_after": 10.0}  # the twin counts every place from scratch
+SHORT = {"search": (4, 2), "search_frame_after": 10.0}  # the twin counts every place from scratch
 SCORE = 2e-6
 
 
@@ -91,7 +96,7 @@ def test_those_frames_have_an_occlusion(covered: StereoScene, follow):
 
 def test_the_search_over_the_picture_agrees(covered: StereoScene):
     """A head that was lost is found again at the same place, on both sets of kernels."""
-    tracker = StereoHeadTracker(rig=covered.rig, again_after=0.0, search=(4, 2))
+    tracker = StereoHeadTracker(rig=covered.rig, search_frame_after=0.0, search=(4, 2))
     tracker.init(covered.frames[0], covered.boxes[0])
     tracker.update(covered.frames[1])
     mirrored = type(covered.frames[2])(

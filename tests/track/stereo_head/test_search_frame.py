@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tricue import Box, Intrinsics, StereoHeadTracker, StereoRig
 from tricue.kernels import load
-from tricue.track.stereo_head.search_frame import NEARER, Head, _distances, find_again
+from tricue.track.stereo_head.prepared_pair import PreparedPair
+from tricue.track.stereo_head.search_frame import DISTANCE_RATIO, LostHead, _sample_distances, search_frame
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
-from tricue.track.stereo_head.view import Pair
 
 Params = StereoHeadTracker.Params
 P = Params()
@@ -31,7 +31,7 @@ def grain(shape: tuple[int, int], color: np.ndarray, spread: int, seed: int) -> 
 
 def stage(
     geometry: StereoGeometry, where: list[tuple[float, float, float]], colors: list[np.ndarray]
-) -> tuple[Pair, list[Box]]:
+) -> tuple[PreparedPair, list[Box]]:
     """Heads of these colors at x, y (shares of the picture) and z before a wall, as flat ellipses at whole
     disparities, far ones first.
     """
@@ -50,12 +50,12 @@ def stage(
         for side, shift in zip(sides, (0, disparity), strict=True):
             mask = ((columns + shift - middle[0]) / half[0]) ** 2 + ((rows - middle[1]) / half[1]) ** 2 < 1
             side[mask] = np.roll(texture, -shift, axis=1)[mask]
-    return Pair.of(sides[0], sides[1], None, P), boxes
+    return PreparedPair.of(sides[0], sides[1], None, P), boxes
 
 
 def histogram(k, color: np.ndarray) -> np.ndarray:
     """The model (L,) of a head's texture."""
-    bins = k.color_bins(grain((60, 60), color, 30, 9), (0, 0, 60, 60), P.bins, P.chroma, 1)
+    bins = k.color_bins(grain((60, 60), color, 30, 9), (0, 0, 60, 60), P.bins, P.max_chroma, 1)
     counts = np.bincount(bins.ravel(), minlength=int(np.prod(P.bins))).astype(float)
     return counts / counts.sum()
 
@@ -65,9 +65,9 @@ def overlap(ellipse: tuple[float, float, float, float], box: Box) -> float:
     return Box.from_ellipse(*ellipse).iou(box)
 
 
-def anywhere(colors: np.ndarray) -> Head:
+def anywhere(colors: np.ndarray) -> LostHead:
     """A head of these colors that may be at any place and distance."""
-    return Head((WIDTH, HEIGHT), colors, np.array([0.0, 0.0, 3.0]), 100.0)
+    return LostHead((WIDTH, HEIGHT), colors, np.array([0.0, 0.0, 3.0]), 100.0)
 
 
 def metric(geometry: StereoGeometry, place: tuple[float, float, float]) -> np.ndarray:
@@ -90,11 +90,11 @@ def test_a_head_is_found_anywhere(kernels, place):
     """
     k, geometry = load(kernels), StereoGeometry.of(rig())
     pair, (box,) = stage(geometry, [place], [SKIN])
-    found = find_again(k, pair, geometry, anywhere(histogram(k, SKIN)), P)
+    found = search_frame(k, pair, geometry, anywhere(histogram(k, SKIN)), P)
     assert found is not None
     ellipse, disparity = found
     assert overlap(ellipse, box) > 0.5
-    assert disparity == pytest.approx(geometry.disparity(place[2]), rel=1 / NEARER - 1)
+    assert disparity == pytest.approx(geometry.disparity(place[2]), rel=1 / DISTANCE_RATIO - 1)
 
 
 def test_places_are_pixels_of_the_picture():
@@ -103,9 +103,9 @@ def test_places_are_pixels_of_the_picture():
     geometry = StereoGeometry.of(rig(4))
     pair, (box,) = stage(geometry, [(0.7, 0.4, 1.5)], [SKIN])
     assert pair.step == 4
-    ellipse, disparity = find_again(kernels, pair, geometry, anywhere(histogram(kernels, SKIN)), P)
+    ellipse, disparity = search_frame(kernels, pair, geometry, anywhere(histogram(kernels, SKIN)), P)
     assert overlap(ellipse, box) > 0.5
-    assert disparity == pytest.approx(geometry.disparity(1.5), rel=1 / NEARER - 1)
+    assert disparity == pytest.approx(geometry.disparity(1.5), rel=1 / DISTANCE_RATIO - 1)
 
 
 @pytest.mark.parametrize("ours", [0, 1])
@@ -114,7 +114,7 @@ def test_colors_tell_heads_apart(ours):
     kernels = load("native")
     geometry, colors = StereoGeometry.of(rig()), [SKIN, np.array([190, 120, 60])]
     pair, boxes = stage(geometry, [(0.3, 0.5, 1.6), (0.75, 0.5, 1.6)], colors)
-    ellipse, _ = find_again(kernels, pair, geometry, anywhere(histogram(kernels, colors[ours])), P)
+    ellipse, _ = search_frame(kernels, pair, geometry, anywhere(histogram(kernels, colors[ours])), P)
     assert overlap(ellipse, boxes[ours]) > 0.5
 
 
@@ -135,46 +135,46 @@ def test_a_head_is_found_where_it_can_be(ours, places):
     k, geometry = load("native"), StereoGeometry.of(rig())
     pair, boxes = stage(geometry, places, [SKIN, SKIN])
     there = metric(geometry, places[ours])
-    head = Head((WIDTH, HEIGHT), histogram(k, SKIN), there + [0.1, -0.1, 0.05], 0.35)
-    ellipse, disparity = find_again(k, pair, geometry, head, P)
+    head = LostHead((WIDTH, HEIGHT), histogram(k, SKIN), there + [0.1, -0.1, 0.05], 0.35)
+    ellipse, disparity = search_frame(k, pair, geometry, head, P)
     assert overlap(ellipse, boxes[ours]) > 0.5
     z = geometry.disparity(1.0) / disparity
     found = CAMERA.back_project(ellipse[0] - 0.5, ellipse[1] - 0.5, z)
-    assert np.linalg.norm(found - head.seen) <= head.reach * (1 + 1e-12)
+    assert np.linalg.norm(found - head.last_seen) <= head.radius * (1 + 1e-12)
 
 
-def test_out_of_reach_is_nowhere():
-    """Where no place of the picture is within reach nothing is found, however like the head it is."""
+def test_outside_the_radius_nothing_is_found():
+    """Where no place of the image is within the radius nothing is found, however like the head it is."""
     k, geometry = load("native"), StereoGeometry.of(rig())
     pair, _ = stage(geometry, [(0.5, 0.5, 1.5)], [SKIN])
-    aside = Head((WIDTH, HEIGHT), histogram(k, SKIN), np.array([5.0, 0.0, 1.5]), 0.3)
-    assert find_again(k, pair, geometry, aside, P) is None
+    aside = LostHead((WIDTH, HEIGHT), histogram(k, SKIN), np.array([5.0, 0.0, 1.5]), 0.3)
+    assert search_frame(k, pair, geometry, aside, P) is None
 
 
 @pytest.mark.parametrize(
     ("z", "reach", "expected"), [(2.0, 0.5, (1.5, 2.5)), (0.5, 0.3, (P.near, 0.8)), (5.9, 1.0, (4.9, P.far))]
 )
-def test_reach_and_range_bound_the_distance(z, reach, expected):
-    """A head can be nearer and farther by its reach, between near and far."""
-    head = Head((WIDTH, HEIGHT), np.ones(1), np.array([0.3, 0.1, z]), reach)
+def test_radius_and_range_bound_the_distance(z, reach, expected):
+    """A head can be nearer and farther by its radius, between near and far."""
+    head = LostHead((WIDTH, HEIGHT), np.ones(1), np.array([0.3, 0.1, z]), reach)
     assert head.distances(P) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(("near", "far"), [(0.4, 6.0), (1.0, 1.05), (2.0, 2.0)])
 def test_distances_are_a_step_apart(near, far):
-    """They go from near to far, both included, each at most 1 / NEARER times the one before."""
-    found = _distances(near, far)
+    """They go from near to far, both included, each at most 1 / DISTANCE_RATIO times the one before."""
+    found = _sample_distances(near, far)
     assert found[0] == pytest.approx(near, rel=1e-12)
     assert found[-1] == pytest.approx(far, rel=1e-12)
     ratios = np.divide(found[1:], found[:-1])
     assert (ratios >= 1).all()
-    assert (ratios <= 1 / NEARER * (1 + 1e-12)).all()
+    assert (ratios <= 1 / DISTANCE_RATIO * (1 + 1e-12)).all()
 
 
-def test_what_is_too_small_to_see_is_not_looked_for(kernels):
-    """A head whose ellipse would be under a place that is looked at is None."""
+def test_what_is_too_small_is_not_searched(kernels):
+    """A head whose ellipse would be smaller than a searched cell is not found: None."""
     geometry = StereoGeometry.of(rig())
     image = cv2.resize(np.zeros((2, 2, 3), np.uint8), (160, 120))
-    pair = Pair.of(image, image, None, P)
+    pair = PreparedPair.of(image, image, None, P)
     tiny = anywhere(histogram(kernels, SKIN))._replace(size=(0.002, 0.002))
-    assert find_again(kernels, pair, geometry, tiny, P) is None
+    assert search_frame(kernels, pair, geometry, tiny, P) is None

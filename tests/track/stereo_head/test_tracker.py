@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""That the stereo head tracker follows heads in changing light, says where they are in metres and how surely,
-and knows when they are hidden.
+"""That the stereo head tracker follows heads in changing light, gives their positions with covariances,
+and recognizes occlusions.
 """
 
 import functools
@@ -21,7 +21,7 @@ SEEDS = range(3)
 HELD = {"normal": 0.97, "distractor": 0.85, "turning": 0.93, "ramp": 0.95, "jump": 0.95}  # of IoU above 0.5
 HIDDEN = range(6)
 GONE = 0.02  # visible share
-WITHIN, BACK = 3, 15  # frames until an occlusion is told, and until the head is right again
+WITHIN, BACK = 3, 15  # frames until an occlusion is detected, and until the head is right again
 TWICE = np.ones((2, 2, 1), np.uint8)
 has_cascade = hasattr(cv2, "CascadeClassifier") and hasattr(cv2, "data")
 
@@ -41,7 +41,7 @@ def shares(tracks: Sequence[Track], scene: StereoScene) -> Floats:
     return np.linalg.norm(offs(tracks, scene), axis=1) / np.linalg.norm(scene.positions, axis=1)
 
 
-def surprises(tracks: Sequence[Track], scene: StereoScene) -> Floats:
+def squared_deviations(tracks: Sequence[Track], scene: StereoScene) -> Floats:
     """(M,) normalised errors squared: 3 in the mean where covariances are honest."""
     pairs = zip(tracks, offs(tracks, scene), strict=True)
     return np.array([off @ np.linalg.solve(track.covariance, off) for track, off in pairs])
@@ -93,7 +93,7 @@ def test_larger_pictures_are_searched_at_a_quarter(heads, follow):
 
 def test_covariances_are_honest(followed):
     """The mean normalised error squared over heads in swinging light is between 1 and 5."""
-    assert 1 < np.mean([surprises(tracks, scene) for scene, tracks in followed("normal")]) < 5
+    assert 1 < np.mean([squared_deviations(tracks, scene) for scene, tracks in followed("normal")]) < 5
 
 
 def test_covariance_is_one(followed, hidden):
@@ -104,7 +104,7 @@ def test_covariance_is_one(followed, hidden):
             assert np.linalg.eigvalsh(track.covariance).min() > 0
 
 
-def test_distance_is_less_sure_than_place(followed):
+def test_distance_is_less_certain_than_direction(followed):
     """Beyond 1 m the covariance is longest along the line of sight, as stereo's is, and grows with the
     distance.
     """
@@ -144,26 +144,26 @@ def gone(scene: StereoScene) -> NDArray[np.int_]:
     return np.flatnonzero(scene.visible < GONE)
 
 
-def test_tells_an_occlusion(hidden):
+def test_detects_an_occlusion(hidden):
     """Within three frames of being hidden a head is OCCLUDED or LOST, and stays so while it is hidden, in
     80 % of the runs.
     """
-    told = []
+    detected = []
     for scene, tracks in hidden:
         assert len(gone(scene)) > WITHIN
-        told.append(all(tracks[index].status is not Status.TRACKED for index in gone(scene)[WITHIN:]))
-    assert np.mean(told) >= 0.8
+        detected.append(all(tracks[index].status is not Status.TRACKED for index in gone(scene)[WITHIN:]))
+    assert np.mean(detected) >= 0.8
 
 
-def test_a_hidden_head_gets_less_sure(hidden):
-    """From one frame without the head to the next its place gets less certain."""
+def test_a_hidden_head_gets_less_certain(hidden):
+    """From one frame without the head to the next its position gets less certain."""
     for _, tracks in hidden:
         for before, after in itertools.pairwise(tracks):
             if Status.TRACKED not in (before.status, after.status):
                 assert np.trace(after.covariance) > np.trace(before.covariance)
 
 
-def test_takes_heads_up_again(hidden):
+def test_redetects_heads(hidden):
     """After a hand has hidden it a head is TRACKED and held again within 15 frames, in 80 % of the runs."""
     right = []
     for scene, tracks in hidden:
@@ -177,7 +177,7 @@ def test_takes_heads_up_again(hidden):
     assert np.mean(right) >= 0.8
 
 
-def test_scores_say_what_is_seen(followed, hidden):
+def test_scores_are_positive_while_tracked(followed, hidden):
     """The score is in [0, 1], above 0 while TRACKED, and 0 otherwise."""
     for _, tracks in [*hidden, *followed("normal")]:
         for track in tracks:
@@ -222,18 +222,18 @@ def test_no_position_without_a_rig(heads, follow):
     assert np.mean(overlaps(tracks, scene.boxes) > 0.5) > 0.9
 
 
-def test_the_rig_is_believed(heads):
+def test_the_rig_scales_positions(heads):
     """With twice the baseline everything is twice as far, in every direction, and as large in the picture."""
     scene = heads(0)
     rig = scene.rig
-    usual, twice = (
+    once, twice = (
         StereoHeadTracker(rig=StereoRig(rig.intrinsics, baseline), far=12.0, near=0.2).init(
             scene.frames[0], scene.boxes[0]
         )
         for baseline in (rig.baseline, 2 * rig.baseline)
     )
-    np.testing.assert_allclose(twice.position, 2 * usual.position, rtol=1e-12)
-    assert twice.box == pytest.approx(usual.box)
+    np.testing.assert_allclose(twice.position, 2 * once.position, rtol=1e-12)
+    assert twice.box == pytest.approx(once.box)
 
 
 def test_starts_on_a_face(heads, follow, monkeypatch):
@@ -350,13 +350,13 @@ def test_fused_is_never_worse(kind, followed):
 
 
 def test_learning_holds_a_light_ramp(followed):
-    """In light that falls to a half the usual form holds the head, and a model that neither learns nor is
-    told of the light is lost.
+    """In light that falls to a half the default form holds the head, and a model that neither learns nor
+    is compensated for the light is lost.
     """
-    still = {"light": False, "learning_rate": 0, "depth_weight": 0}
-    usual, stiff = (
+    still = {"compensate_light": False, "learning_rate": 0, "depth_weight": 0}
+    default, fixed = (
         np.mean(np.concatenate([overlaps(tracks, scene.boxes) > 0.5 for scene, tracks in runs]))
         for runs in (followed("ramp"), followed("ramp", **still))
     )
-    assert usual >= 0.95
-    assert stiff < 0.8
+    assert default >= 0.95
+    assert fixed < 0.8

@@ -63,21 +63,21 @@ def _scene(kind: str = "normal", camera: str = "160x120", noise: float = 0.0) ->
     return partial(Trial.make, kind=kind, camera=camera, noise=noise)
 
 
-PAPERS_FILTER_PARAMS: dict[str, Any] = {"motion": "constant", "noise": "polynomial", "disparity_noise": 1.0}
+PAPERS_FILTER_PARAMS: dict[str, Any] = {"motion": "constant", "noise_model": "polynomial", "disparity_noise": 1.0}
 PRINTED_PARAMS: dict[str, Any] = {
     **PAPERS_FILTER_PARAMS,
     "ring_weight": 0.0,
     "depth_weight": 0.0,
-    "light": False,
+    "compensate_light": False,
     "learn": "all",
     "learning_rate": 0.1,
-    "anchor": 0.0,
-    "rim": 0.0,
-    "center": "mean",
+    "first_frame_weight": 0.0,
+    "ellipse_margin": 0.0,
+    "disparity_statistic": "mean",
     "feedback": True,
 }
 
-COLOR_ONLY_PARAMS: dict[str, Any] = {"light": False, "depth_weight": 0.0}  # of the search for the head
+COLOR_ONLY_PARAMS: dict[str, Any] = {"compensate_light": False, "depth_weight": 0.0}  # of the search for the head
 
 EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
     "moreno-fig3": Experiment(
@@ -88,8 +88,8 @@ EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
             "as printed": _stereo(**PRINTED_PARAMS),
             "without depth in the search": _stereo(depth_weight=0.0),
             "without updating": _stereo(learning_rate=0.0),
-            "light not compensated": _stereo(light=False),
-            "light not compensated, without updating": _stereo(light=False, learning_rate=0.0),
+            "light not compensated": _stereo(compensate_light=False),
+            "light not compensated, without updating": _stereo(compensate_light=False, learning_rate=0.0),
             "color alone": _stereo(**COLOR_ONLY_PARAMS),
             "color alone, without updating": _stereo(**COLOR_ONLY_PARAMS, learning_rate=0.0),
         },

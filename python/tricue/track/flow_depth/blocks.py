@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The blocks of section 4.4: which parts of the window belong to the target, and which of them are hidden."""
+"""The blocks of section 4.4: which parts of the window belong to the target, and which are occluded."""
 
 import math
 from typing import NamedTuple
@@ -14,42 +14,48 @@ Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Counts = NDArray[np.int64]
 
-NOT_TARGET, TARGET, OCCLUDED = 0, 1, 2  # figure 7
-AROUND = 0.6  # of the window's height, by which the grid is larger on each side: arms and legs go there
-LEAST_SIDE = 3.0  # places
-MOST = 64  # blocks across or along the window: one as thin as boxes may be would have millions
-FIRM = 3  # frames
-READ = 0.2  # of a block's places, that need a disparity to tell what is nearer
+NOT_TARGET_BLOCK, TARGET_BLOCK, OCCLUDED_BLOCK = 0, 1, 2  # states of figure 7
+GRID_MARGIN = 0.6  # of the window's height, half of it on each side: for arms and legs
+MIN_BLOCK_SIDE = 3.0  # cells
+MAX_BLOCKS = 64  # across or along the window: the thinnest windows would have millions
+TRUSTED_FRAMES = 3  # for which a block is trusted after it had target pixels
+MIN_MEASURED_SHARE = 0.2  # of a block's cells: with fewer disparities, nothing is concluded from them
 
 
-class Seen(NamedTuple):
-    """What a frame shows of each block, (N,): its places in the picture, target pixels among them, those
-    with a disparity and their mean, and those with about the target's disparity.
+class BlockObservation(NamedTuple):
+    """What a frame measures in each block, (N,) each.
+
+    cells: its cells inside the image. target_pixels: of them, those of the target. measured: those with a
+    disparity. mean_disparity: its mean over them. same_depth: those at about the target's disparity.
     """
 
-    places: Counts
-    targets: Counts
-    readings: Counts
-    mean: Floats
-    alike: Counts
+    cells: Counts
+    target_pixels: Counts
+    measured: Counts
+    mean_disparity: Floats
+    same_depth: Counts
 
-    def nearer(self, than: float) -> Flags:
-        """Blocks of something that is nearer than a disparity."""
-        return np.asarray((self.mean > than) & (self.readings >= READ * self.places) & (self.places > 0))
+    def is_nearer(self, disparity: float) -> Flags:
+        """(N,) whether a block's mean disparity is above one, with enough cells measured."""
+        enough = self.measured >= MIN_MEASURED_SHARE * self.cells
+        return np.asarray((self.mean_disparity > disparity) & enough & (self.cells > 0))
 
-    def filled(self, counts: Counts, share: float) -> Flags:
-        """Blocks of which a share is counted."""
-        return np.asarray((counts >= share * self.places) & (self.places > 0))
+    def has_share(self, counts: Counts, share: float) -> Flags:
+        """(N,) whether the counts are at least a share of a block's cells."""
+        return np.asarray((counts >= share * self.cells) & (self.cells > 0))
 
 
 class Blocks(NamedTuple):
     """A grid that moves with the target and grows as its disparity does.
 
-    corners: (N, 4) x0, y0, x1, y1 from the anchor, at first. anchor: (2,) places. size: by which the corners
-    have grown. states: (N,) of figure 7. votes, against: (N,) frames, as far as they count. core: (N,) those
-    of the first window: it was given, so that depth alone keeps them in it, for arms and legs don't move as
-    the body does. firm: (N,) frames for which a block's readings count after it had target pixels. idle: (N,)
-    frames for which it has had the target's disparity and no target pixels.
+    corners: (N, 4) x0, y0, x1, y1 from the anchor, in the first frame, cells. anchor: (2,) cells.
+    size: factor by which the corners have grown. states: (N,) of figure 7.
+    votes: (N,) frames for a block to become a target block, at most as many as are needed.
+    votes_against: (N,) frames for it to become none.
+    core: (N,) the blocks of the first window. As the window was given, depth alone keeps them, for arms and
+    legs don't move as the body does.
+    trusted: (N,) frames for which a block still counts in the model after it had target pixels.
+    frames_without_pixels: (N,) frames since it had target pixels in which it had the target's disparity.
     """
 
     corners: Floats
@@ -57,84 +63,93 @@ class Blocks(NamedTuple):
     size: float
     states: Counts
     votes: Counts
-    against: Counts
+    votes_against: Counts
     core: Flags
-    firm: Counts
-    idle: Counts
+    trusted: Counts
+    frames_without_pixels: Counts
 
     @classmethod
     def of(cls, window: Rectangle, p: FlowDepthParams) -> "Blocks":
-        """A grid over the window and round it; those in the window belong to the target until they are voted
-        out. In the paper none does before it is voted in, but the window was given.
+        """A grid over the first window and around it.
+
+        The blocks of the window belong to the target until they are voted out, as the window was given. In
+        the paper every block has to be voted in.
         """
         x0, y0, x1, y1 = window
         width, height = x1 - x0, y1 - y0
-        side = max(p.block * math.sqrt(width * height), LEAST_SIDE)
-        columns, rows = (min(max(round(length / side), 1), MOST) for length in (width, height))
-        more = math.ceil(AROUND * rows / 2)
-        i, j = np.meshgrid(np.arange(-more, columns + more), np.arange(-more, rows + more))
+        side = max(p.block_side * math.sqrt(width * height), MIN_BLOCK_SIDE)
+        columns, rows = (min(max(round(length / side), 1), MAX_BLOCKS) for length in (width, height))
+        margin = math.ceil(GRID_MARGIN * rows / 2)
+        i, j = np.meshgrid(np.arange(-margin, columns + margin), np.arange(-margin, rows + margin))
         left, top = i.ravel() * width / columns - width / 2, j.ravel() * height / rows - height / 2
         corners = np.stack([left, top, left + width / columns, top + height / rows], axis=1)
-        none = np.zeros(len(corners), np.int64)
+        zeros = np.zeros(len(corners), np.int64)
         core = ((i >= 0) & (i < columns) & (j >= 0) & (j < rows)).ravel()
         anchor = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
-        return cls(
-            corners, anchor, 1.0, np.where(core, TARGET, NOT_TARGET), none, none, core, FIRM * core, none
-        )
+        states = np.where(core, TARGET_BLOCK, NOT_TARGET_BLOCK)
+        return cls(corners, anchor, 1.0, states, zeros, zeros, core, TRUSTED_FRAMES * core, zeros)
 
     def moved(self, right: float, down: float) -> "Blocks":
-        """The grid elsewhere."""
+        """The grid, moved."""
         return self._replace(anchor=self.anchor + [right, down])
 
     @property
     def rectangles(self) -> Floats:
-        """(N, 4) x0, y0, x1, y1, places."""
+        """(N, 4) x0, y0, x1, y1, cells."""
         return self.corners * self.size + np.tile(self.anchor, 2)
 
     @property
     def window(self) -> Rectangle | None:
-        """The rectangle round target and occluded blocks; None without any."""
-        mine = self.rectangles[self.states != NOT_TARGET]
+        """The rectangle around target and occluded blocks; None where there are none."""
+        mine = self.rectangles[self.states != NOT_TARGET_BLOCK]
         if len(mine) == 0:
             return None
         (x0, y0), (x1, y1) = mine[:, :2].min(axis=0).tolist(), mine[:, 2:].max(axis=0).tolist()
         return x0, y0, x1, y1
 
-    def covered(self, seen: Seen, nearest: float) -> float:
-        """Share of the target's blocks, those that are in the picture, that something nearer hides."""
-        mine = (self.states != NOT_TARGET) & (seen.places > 0)
-        return float((mine & seen.nearer(nearest)).sum() / max(mine.sum(), 1))
+    def occluded_share(self, observed: BlockObservation, occluder_disparity: float) -> float:
+        """The share of the target's blocks inside the image that something nearer hides."""
+        mine = (self.states != NOT_TARGET_BLOCK) & (observed.cells > 0)
+        return float((mine & observed.is_nearer(occluder_disparity)).sum() / max(mine.sum(), 1))
 
-    def voted(self, seen: Seen, nearest: float, p: FlowDepthParams) -> "Blocks":
-        """The states after a frame. nearest: the disparity from which something hides the target.
+    def voted(self, observed: BlockObservation, occluder_disparity: float, p: FlowDepthParams) -> "Blocks":
+        """The blocks after the votes of a frame, figure 7.
 
-        A block of the first window also stays, and comes back, by the target's disparity alone; for a while,
-        as the floor round the feet has it too. One of which hardly anything is read gets no vote against it:
-        cloth and cardboard without texture.
+        occluder_disparity: the disparity above which something hides the target.
+        A core block stays, and comes back, also by the target's disparity alone; for a limited time, as the
+        floor around the feet has it too. A block with hardly any disparities gets no vote against it: cloth
+        and cardboard without texture have none.
         """
-        found = seen.filled(seen.targets, p.share)
-        alike = seen.filled(seen.alike, p.share)
-        hidden = seen.nearer(nearest) & ~found
-        here = seen.places > 0
-        known = seen.readings >= READ * seen.places
-        target, occluded = self.states == TARGET, self.states == OCCLUDED
-        idle = np.where(found, 0, self.idle + (alike & ~hidden))
-        core = self.core & (idle < p.idle)
-        votes = np.where(found | (alike & core), self.votes + 1, np.maximum(self.votes - here, 0))
-        missing = target & ~found & ~alike & ~hidden & here & known
-        against = np.where(missing, self.against + 1, np.where(target & (found | alike), 0, self.against))
+        found = observed.has_share(observed.target_pixels, p.min_block_share)
+        same_depth = observed.has_share(observed.same_depth, p.min_block_share)
+        hidden = observed.is_nearer(occluder_disparity) & ~found
+        inside = observed.cells > 0
+        measured = observed.measured >= MIN_MEASURED_SHARE * observed.cells
+        target, occluded = self.states == TARGET_BLOCK, self.states == OCCLUDED_BLOCK
+        without_pixels = np.where(found, 0, self.frames_without_pixels + (same_depth & ~hidden))
+        core = self.core & (without_pixels < p.max_frames_without_pixels)
+        votes = np.where(found | (same_depth & core), self.votes + 1, np.maximum(self.votes - inside, 0))
+        missing = target & ~found & ~same_depth & ~hidden & inside & measured
+        against = np.where(
+            missing,
+            self.votes_against + 1,
+            np.where(target & (found | same_depth), 0, self.votes_against),
+        )
         states = self.states.copy()
-        states[(states == NOT_TARGET) & (votes >= p.votes)] = TARGET
-        states[target & hidden] = OCCLUDED
-        states[occluded & ~hidden & (found | (seen.readings > 0))] = TARGET
-        states[target & ((against >= p.against) | (idle >= p.idle))] = NOT_TARGET
-        gone = states == NOT_TARGET
-        firm = np.where(found, FIRM, np.where(hidden, self.firm, np.maximum(self.firm - 1, 0)))
+        states[(states == NOT_TARGET_BLOCK) & (votes >= p.votes_to_add)] = TARGET_BLOCK
+        states[target & hidden] = OCCLUDED_BLOCK
+        states[occluded & ~hidden & (found | (observed.measured > 0))] = TARGET_BLOCK
+        removed = (against >= p.votes_to_remove) | (without_pixels >= p.max_frames_without_pixels)
+        states[target & removed] = NOT_TARGET_BLOCK
+        outside = states == NOT_TARGET_BLOCK
+        trusted = np.where(
+            found, TRUSTED_FRAMES, np.where(hidden, self.trusted, np.maximum(self.trusted - 1, 0))
+        )
         return self._replace(
             states=states,
-            votes=np.where(gone & target, 0, np.minimum(votes, p.votes)),
-            against=np.where(gone, 0, against),
+            votes=np.where(outside & target, 0, np.minimum(votes, p.votes_to_add)),
+            votes_against=np.where(outside, 0, against),
             core=core,
-            firm=firm,
-            idle=idle,
+            trusted=trusted,
+            frames_without_pixels=without_pixels,
         )

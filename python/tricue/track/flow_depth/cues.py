@@ -1,45 +1,38 @@
 # SPDX-License-Identifier: MIT
-"""What a frame says of motion and depth round the target: the observations (10), with their reliabilities."""
+"""Flow and disparity around the target: the observations (10), with their reliabilities."""
 
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Region
-from tricue.track.flow_depth.view import Plane, View
+from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
 
-LEAST = 12  # places with a disparity
-SOLID = 0.25  # of them, that have the same
-TOGETHER = 1.0  # places: the same
-WIDEST = 0.3  # of the columns, as disparity of parallel cameras; negative ones up to an eighth of that
-WINDOW, UNIQUENESS = 7, 10  # of the block matching that finds the first disparity
-POOL = 2  # places, radius in which the pyramid's constraints are pooled
+POOLING_RADIUS = 2  # cells, within which the constraints of the pyramid's flow are pooled
 
 
-class Reading(NamedTuple):
-    """One observation of each place (h, w), NaN where there is none, and the weights (h, w) of their
-    histogram.
-    """
+class CueMap(NamedTuple):
+    """One observation of each cell, (h, w), NaN where there is none, and its weight in histograms, (h, w)."""
 
     values: Plane
     weights: Plane
 
 
 class Cues(NamedTuple):
-    """Of the places of a region: u, v in places a frame and d in places, as far as they are used; all are
-    (h, w).
+    """The observations of a region's cells: flow u, v, cells a frame, and disparity d, cells.
+
+    A cue that isn't used is None.
     """
 
     region: Region
-    flow: tuple[Reading, Reading] | None
-    disparity: Reading | None
+    flow: tuple[CueMap, CueMap] | None
+    disparity: CueMap | None
 
     @property
-    def readings(self) -> tuple[Reading, ...]:
-        """Those of (10) that there are: u, v, d."""
+    def maps(self) -> tuple[CueMap, ...]:
+        """Those of u, v, d (10) that are used, in this order."""
         return (self.flow or ()) + ((self.disparity,) if self.disparity else ())
 
     @property
@@ -49,62 +42,46 @@ class Cues(NamedTuple):
         return y1 - y0, x1 - x0
 
     def disparities(self) -> Plane:
-        """(h, w); NaN everywhere without that cue."""
+        """(h, w) cells; NaN everywhere without that cue."""
         return np.full(self.shape, np.nan, np.float32) if self.disparity is None else self.disparity.values
 
 
 def measure(
-    k: Kernels, before: View | None, now: View, region: Region, expected: float, p: FlowDepthParams
+    k: Kernels,
+    before: ReducedFrame | None,
+    now: ReducedFrame,
+    region: Region,
+    expected: float,
+    p: FlowDepthParams,
 ) -> Cues:
-    """Flow from the view before, if any, and disparity round the expected one, places."""
+    """Measure the flow from the frame before, if any, and the disparity around the expected one, cells."""
     flow = disparity = None
     if "flow" in p.cues and before is not None:
-        flow = _flow(k, before, now, region, p)
+        flow = _measure_flow(k, before, now, region, p)
     if "disparity" in p.cues:
-        disparity = _disparity(k, now, region, expected, p)
+        disparity = _measure_disparity(k, now, region, expected, p)
     return Cues(region, flow, disparity)
 
 
-def _flow(k: Kernels, before: View, now: View, region: Region, p: FlowDepthParams) -> tuple[Reading, Reading]:
-    least = p.min_angle, p.min_contrast
+def _measure_flow(
+    k: Kernels, before: ReducedFrame, now: ReducedFrame, region: Region, p: FlowDepthParams
+) -> tuple[CueMap, CueMap]:
+    limits = p.min_angle, p.min_contrast
     if p.flow_levels == 1:
-        u, v, angle, _ = k.gradient_flow(before.gray, now.gray, p.sigma, *least, region)
+        u, v, angle, _ = k.gradient_flow(before.gray, now.gray, p.sigma, *limits, region)
     else:
-        u, v, angle, _ = k.pyramid_flow(before.gray, now.gray, p.sigma, p.flow_levels, *least, region, POOL)
-    return Reading(u, angle), Reading(v, angle)
+        u, v, angle, _ = k.pyramid_flow(
+            before.gray, now.gray, p.sigma, p.flow_levels, *limits, region, POOLING_RADIUS
+        )
+    return CueMap(u, angle), CueMap(v, angle)
 
 
-def _disparity(k: Kernels, now: View, region: Region, expected: float, p: FlowDepthParams) -> Reading:
+def _measure_disparity(
+    k: Kernels, now: ReducedFrame, region: Region, expected: float, p: FlowDepthParams
+) -> CueMap:
     if now.disparity is not None:
         x0, y0, x1, y1 = region
-        found = np.ascontiguousarray(now.disparity[y0:y1, x0:x1])
-        return Reading(found, np.ones_like(found))
+        disparity = np.ascontiguousarray(now.disparity[y0:y1, x0:x1])
+        return CueMap(disparity, np.ones_like(disparity))
     assert now.right is not None
-    return Reading(*k.gradient_disparity(now.gray, now.right, expected, p.disparity_levels, region=region))
-
-
-def own_disparity(k: Kernels, now: View, region: Region) -> float | None:
-    """The disparity, places, that most of a region has; None where hardly anything has any, and in an empty
-    region.
-    """
-    x0, y0, x1, y1 = region
-    if x0 >= x1 or y0 >= y1:
-        return None
-    found = _searched(k, now, region)
-    found = found[np.isfinite(found)]
-    if found.size < LEAST:
-        return None
-    candidates = np.unique(np.round(found))
-    together = [np.abs(found - candidate) <= TOGETHER for candidate in candidates]
-    most: NDArray[np.bool_] = max(together, key=np.count_nonzero)
-    return float(np.median(found[most])) if np.count_nonzero(most) >= SOLID * found.size else None
-
-
-def _searched(k: Kernels, now: View, region: Region) -> Plane:
-    if now.disparity is not None:
-        x0, y0, x1, y1 = region
-        return now.disparity[y0:y1, x0:x1]
-    assert now.right is not None
-    last = max(int(WIDEST * now.gray.shape[1]), 1)
-    first, last = (bound - round(now.shift) for bound in (-last // 8, last))
-    return k.sad_disparity(now.gray, now.right, region, False, first, last, WINDOW, UNIQUENESS)
+    return CueMap(*k.gradient_disparity(now.gray, now.right, expected, p.disparity_levels, region=region))

@@ -1,71 +1,79 @@
 # SPDX-License-Identifier: MIT
-"""What a frame in which the target was found changes: its velocity and disparity, its blocks and its
-outline.
-"""
+"""What a frame with the target teaches: its velocity, disparity, blocks, outline and running means."""
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import NOT_TARGET, OCCLUDED, TARGET
+from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, TARGET_BLOCK
 from tricue.track.flow_depth.cues import Cues
+from tricue.track.flow_depth.masks import mask_blocks, mask_disparity
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, moved
-from tricue.track.flow_depth.state import FollowState, Velocity
-from tricue.track.flow_depth.verify import Judged, alike, own_places
+from tricue.track.flow_depth.state import FlowDepthState, Velocity
+from tricue.track.flow_depth.verify import Verdict
 
-YOUNG = 12  # frames learned, before which it is also learned while more is hidden
-MAX_OCCLUDED_OUTLINE = 0.05  # of the blocks, up to which the outline is learned
-MAX_OCCLUDED, MAX_OCCLUDED_YOUNG = 0.15, 0.5  # the same for velocity and number of pixels
-MIN_DISPARITY = 1.0  # places, from which the target's size is known from it
-FOLLOW_RATE = 0.3  # of a step of the target pixels' centre, that a velocity without flow takes
+MAX_OCCLUDED_FOR_OUTLINE = 0.05  # of the blocks, up to which the outline is learned
+MAX_OCCLUDED_FOR_MEANS = 0.15  # of the blocks, up to which the running means are learned
+MAX_OCCLUDED_FOR_FIRST_MEANS, FIRST_MEANS = 0.5, 12  # the same in the first learned frames; how many
+MIN_SIZE_DISPARITY = 1.0  # cells, from which the target's size follows its disparity
+CENTER_VELOCITY_RATE = 0.3  # of a step of the target pixels' center, that a velocity without flow takes
 
 
-def accepted(k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams) -> FollowState:
-    """The target is where its pixels are: what velocity and disparity it has, and which blocks."""
-    model = judged.model
+def learn(
+    k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
+) -> FlowDepthState:
+    """The state after a frame in which the target was found."""
+    model = verdict.model
     if not state.missed:
-        measured = (model.peaks[0], model.peaks[1]) if cues.flow else _followed(state, judged.temporal)
+        window = verdict.temporal_window
+        measured = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, window)
         disparity = state.disparity if cues.disparity is None else model.peaks[-1]
-        state = state._replace(velocity=state.velocity_of(measured, judged.number), disparity=disparity)
-    blocks = state.blocks._replace(size=_size(state)).voted(judged.seen, judged.nearest, p)
+        velocity = state.smooth_velocity(measured, verdict.pixel_count)
+        state = state._replace(velocity=velocity, disparity=disparity)
+    blocks = state.blocks._replace(size=_estimate_size(state))
+    blocks = blocks.voted(verdict.observed, verdict.occluder_disparity, p)
     state = state._replace(
         model=model,
-        temporal=judged.temporal,
+        temporal_window=verdict.temporal_window,
         missed=0.0,
-        covered=False,
-        score=min(judged.number / max(state.usual, 1.0), 1.0),
+        occluded=False,
+        score=min(verdict.pixel_count / max(state.mean_pixels, 1.0), 1.0),
         blocks=blocks,
         window=blocks.window or state.window,
     )
-    return _learned_usual(k, state, cues, judged, p)
+    return _learn_unoccluded(k, state, cues, verdict, p)
 
 
-def _size(state: FollowState) -> float:
-    """By which the target has grown: as the disparity of parallel cameras. It stays where that is so
-    small, or none at all, that its noise would be most of the ratio.
+def _estimate_size(state: FlowDepthState) -> float:
+    """The factor by which the target has grown: that of its disparity for parallel cameras.
+
+    The size stays where that disparity is so small that its noise would decide.
     """
-    now, first = state.disparity + state.shift, state.first + state.shift
-    return now / first if min(now, first) >= MIN_DISPARITY else state.blocks.size
+    now, first = (each + state.disparity_offset for each in (state.disparity, state.first_disparity))
+    return now / first if min(now, first) >= MIN_SIZE_DISPARITY else state.blocks.size
 
 
-def _learned_usual(
-    k: Kernels, state: FollowState, cues: Cues, judged: Judged, p: FlowDepthParams
-) -> FollowState:
-    """How large and how fast it is, in frames in which nothing hides it."""
+def _learn_unoccluded(
+    k: Kernels, state: FlowDepthState, cues: Cues, verdict: Verdict, p: FlowDepthParams
+) -> FlowDepthState:
+    """The outline and the running means, learned where few blocks are occluded."""
     states = state.blocks.states
-    occluded = int((states == OCCLUDED).sum()) / max(int((states != NOT_TARGET).sum()), 1)
-    if occluded <= MAX_OCCLUDED_OUTLINE and cues.disparity is not None:
-        mine = own_places(k, state, cues, states == TARGET)
-        mine &= judged.pixels | alike(state, cues, state.disparity, p)
-        box, number, _ = k.temporal_window(mine, 0, 0.0)
-        if number:
+    occluded = int((states == OCCLUDED_BLOCK).sum()) / max(int((states != NOT_TARGET_BLOCK).sum()), 1)
+    if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
+        mask = mask_blocks(k, state, cues, states == TARGET_BLOCK)
+        mask &= verdict.pixels | mask_disparity(state, cues, state.disparity, p)
+        box, count, _ = k.temporal_window(mask, 0, 0.0)
+        if count:
             outline = state.outline.learned(moved(box, *cues.region[:2]), state.blocks)
             state = state._replace(outline=outline)
-    if occluded <= (MAX_OCCLUDED if state.known >= YOUNG else MAX_OCCLUDED_YOUNG):
-        state = state.learned(judged.number)
+    is_first = state.learned_frames < FIRST_MEANS
+    if occluded <= (MAX_OCCLUDED_FOR_FIRST_MEANS if is_first else MAX_OCCLUDED_FOR_MEANS):
+        state = state.with_means(verdict.pixel_count)
     return state
 
 
-def _followed(state: FollowState, temporal: Rectangle) -> Velocity:
-    """Without flow: that of the target pixels' centre. The paper has none."""
-    (x, y), (new_x, new_y) = (((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal, temporal))
+def _follow_center(state: FlowDepthState, window: Rectangle) -> Velocity:
+    """The velocity of the target pixels' center, where there is no flow; ours, the paper has none."""
+    (x, y), (new_x, new_y) = (
+        ((x0 + x1) / 2, (y0 + y1) / 2) for x0, y0, x1, y1 in (state.temporal_window, window)
+    )
     u, v = state.velocity
-    return u + FOLLOW_RATE * (new_x - x), v + FOLLOW_RATE * (new_y - y)
+    return u + CENTER_VELOCITY_RATE * (new_x - x), v + CENTER_VELOCITY_RATE * (new_y - y)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's velocity and disparity, and how they are distributed: sections 4.2 and 4.3."""
+"""The target's velocity and disparity, and their densities, sections 4.2 and 4.3."""
 
 import math
 from collections.abc import Sequence
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.cues import Cues, Reading
+from tricue.track.flow_depth.cues import CueMap, Cues
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle
 
@@ -18,28 +18,32 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.uint8]
 Range = tuple[float, float]
 
-EVER = 1e6  # places: all readings are within
-TINY = 1e-300
+MAX_OBSERVATION = 1e6  # cells: no observation is beyond
+MIN_DENSITY_SUM = 1e-300  # keeps a density of zeros from a division by 0
 
 
-class Expected(NamedTuple):
-    """Of one observation: where the target's is expected, how far it may be from there, and how wide the
-    range of histograms is, to each side.
+class ExpectedPeak(NamedTuple):
+    """Where the peak of one observation's histogram is expected.
+
+    value: the expected peak. deviation: the standard deviation of the peak from there. half_range: half the
+    range of the histograms.
     """
 
     value: float
-    spread: float
-    reach: float
+    deviation: float
+    half_range: float
 
     @property
     def range(self) -> Range:
-        """Of the histogram."""
-        return self.value - self.reach, self.value + self.reach
+        """The range of the histograms."""
+        return self.value - self.half_range, self.value + self.half_range
 
 
-class Model(NamedTuple):
-    """Of each observation u, v, d that is used: the target's density (bins,), that of what is round it,
-    their range, and the peak, which is the representative velocity or disparity.
+class TargetModel(NamedTuple):
+    """For each observation of u, v, d that is used: two densities, their range, and the target's peak.
+
+    densities: (bins,) of the target, of sum 1. alternatives: (bins,) of what is around it. peaks: the
+    representative velocity or disparity.
     """
 
     densities: tuple[Floats, ...]
@@ -48,72 +52,78 @@ class Model(NamedTuple):
     peaks: tuple[float, ...]
 
 
-class Places(NamedTuple):
-    """Where histograms are made, (h, w) each: own, the places of the target's blocks, what is round them
-    isn't the target; moving, those whose depth is the target's or isn't known: flow counts only there.
+class HistogramMasks(NamedTuple):
+    """The cells that count in histograms, (h, w) of 0 and 1 each.
+
+    target: the cells of the target's blocks; the others are its surround.
+    same_depth: the cells whose disparity is the target's or isn't known; flow counts only there.
     """
 
-    own: Mask
-    moving: Mask
+    target: Mask
+    same_depth: Mask
 
 
-def estimate(
+def estimate_model(
     k: Kernels,
     cues: Cues,
-    expected: Sequence[Expected],
+    expected: Sequence[ExpectedPeak],
     window: Rectangle,
-    places: Places,
-    before: Model | None,
+    masks: HistogramMasks,
+    before: TargetModel | None,
     p: FlowDepthParams,
-) -> Model:
-    """The model from the histograms in a window, and from the model before, whose densities are moved to the
-    new peaks.
-    """
-    around = 1 - places.own
+) -> TargetModel:
+    """The model from the histograms in a window, mixed with the model before, moved to the new peaks."""
+    surround = 1 - masks.target
     densities, alternatives, peaks = [], [], []
-    for i, (reading, at) in enumerate(zip(cues.readings, expected, strict=True)):
-        of_flow = cues.flow is not None and i < len(cues.flow)
-        mine = places.own & places.moving if of_flow else places.own
-        histogram = k.weighted_histogram(*reading, window, *at.range, p.bins, mine)
-        width = 2 * at.reach / p.bins
-        density, peak = k.target_distribution(histogram, p.smoothing, p.ripple, p.bins / 2, at.spread / width)
+    for i, (cue, at) in enumerate(zip(cues.maps, expected, strict=True)):
+        is_flow = cues.flow is not None and i < len(cues.flow)
+        counted = masks.target & masks.same_depth if is_flow else masks.target
+        histogram = k.weighted_histogram(*cue, window, *at.range, p.bins, counted)
+        width = 2 * at.half_range / p.bins
+        density, peak = k.target_distribution(
+            histogram, p.smoothing, p.min_prominence, p.bins / 2, at.deviation / width
+        )
         if np.isnan(peak):
             peak = p.bins / 2
-        elif before is not None and p.memory:
-            old = (before.peaks[i] - before.ranges[i][0]) / width  # the peak then, bins
-            density = _blended(density, before.densities[i], old - peak, p.memory)
+        elif before is not None and p.density_memory:
+            old_peak = (before.peaks[i] - before.ranges[i][0]) / width  # bins
+            density = _blend(density, before.densities[i], old_peak - peak, p.density_memory)
         densities.append(density)
-        alternatives.append(_around(k, reading, around, at, p))
+        alternatives.append(_estimate_alternative(k, cue, surround, at, p))
         peaks.append(at.range[0] + peak * width)
-    return Model(tuple(densities), tuple(alternatives), tuple(at.range for at in expected), tuple(peaks))
+    return TargetModel(
+        tuple(densities), tuple(alternatives), tuple(at.range for at in expected), tuple(peaks)
+    )
 
 
-def _blended(density: Floats, before: Floats, ahead: float, memory: float) -> Floats:
-    """Both densities, the one before moved by so many bins down; of sum 1."""
+def _blend(density: Floats, before: Floats, shift: float, memory: float) -> Floats:
+    """The density mixed with the one before, moved down by ``shift`` bins; of sum 1."""
     bins = np.arange(len(density))
-    moved = np.interp(bins + ahead, bins, before, left=0, right=0)
+    moved = np.interp(bins + shift, bins, before, left=0, right=0)
     both = memory * moved + (1 - memory) * density
-    return np.asarray(both / max(both.sum(), TINY))
+    return np.asarray(both / max(both.sum(), MIN_DENSITY_SUM))
 
 
-def _around(k: Kernels, reading: Reading, around: Mask, at: Expected, p: FlowDepthParams) -> Floats:
-    """P(F) of what isn't the target: partly as in the surround, partly anything, as that may change."""
-    height, width = around.shape
+def _estimate_alternative(
+    k: Kernels, cue: CueMap, surround: Mask, at: ExpectedPeak, p: FlowDepthParams
+) -> Floats:
+    """P(F) of what isn't the target: partly that of its surround, partly uniform, as that may change."""
+    height, width = surround.shape
     whole = 0.0, 0.0, float(width), float(height)
-    anything = np.full(p.bins, 1 / p.bins)
-    total = float(k.weighted_histogram(*reading, whole, -EVER, EVER, 1, around)[0])
-    if not (p.surround and total > 0):
-        return anything
-    histogram = k.weighted_histogram(*reading, whole, *at.range, p.bins, around)
-    bell = _bell(p.smoothing)
-    first = len(bell) // 2  # not "same": that is as long as the bell where that is the longer one
-    smooth = np.convolve(histogram, bell)[first : first + p.bins]
-    return p.surround * smooth / total + (1 - p.surround) * anything
+    uniform = np.full(p.bins, 1 / p.bins)
+    total = float(k.weighted_histogram(*cue, whole, -MAX_OBSERVATION, MAX_OBSERVATION, 1, surround)[0])
+    if not (p.surround_weight and total > 0):
+        return uniform
+    histogram = k.weighted_histogram(*cue, whole, *at.range, p.bins, surround)
+    gaussian = _gaussian(p.smoothing)
+    first = len(gaussian) // 2  # not mode="same", whose result may be longer than the histogram
+    smooth = np.convolve(histogram, gaussian)[first : first + p.bins]
+    return p.surround_weight * smooth / total + (1 - p.surround_weight) * uniform
 
 
 @lru_cache(maxsize=16)
-def _bell(deviation: float) -> Floats:
-    """A Gaussian of sum 1, bins."""
-    reach = math.ceil(3 * deviation)
-    bell = np.exp(-0.5 * (np.arange(-reach, reach + 1) / deviation) ** 2)
-    return np.asarray(bell / bell.sum())
+def _gaussian(deviation: float) -> Floats:
+    """A Gaussian of sum 1; its deviation in bins."""
+    radius = math.ceil(3 * deviation)
+    gaussian = np.exp(-0.5 * (np.arange(-radius, radius + 1) / deviation) ** 2)
+    return np.asarray(gaussian / gaussian.sum())

@@ -11,11 +11,12 @@ OURS = "our experiment: benchmarks/README.md"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FlowDepthParams(Params):
-    """Places are pixels of a picture of at most about ``resolution`` columns, in which flow and disparity
-    are measured. Lengths in places are those in a picture of 160 columns, the paper's, and grow with it.
+    """Flow and disparity are measured in a reduced image of at most about ``resolution`` columns. A cell is
+    one of its pixels. Lengths in cells are those in an image of 160 columns, the paper's, and grow with it.
 
-    Nearest to the paper's own form is ``flow_levels=1``, ``disparity_levels=1``, ``ripple=0``,
-    ``surround=0``, ``memory=0``, ``posterior=0.5``, ``flow_change=100``, ``depth_change=100``.
+    Nearest to the paper's own form is ``flow_levels=1``, ``disparity_levels=1``, ``min_prominence=0``,
+    ``surround_weight=0``, ``density_memory=0``, ``min_posterior=0.5``, ``flow_change=100``,
+    ``disparity_change=100``.
     """
 
     cues: tuple[Literal["flow", "disparity"], ...] = parameter(
@@ -24,85 +25,262 @@ class FlowDepthParams(Params):
         source="section 1; one alone: section 5",
         choices=("flow", "disparity"),
     )
-    resolution: int = parameter(320, unit="places", source=OURS, low=32, doc="most columns")
+    resolution: int = parameter(
+        320, unit="cells", source=OURS, low=32, doc="most columns of the image that is measured"
+    )
     vergence: float = parameter(
-        0.0, unit="degrees", source="section 3.1", above=-45, below=45, doc="right camera, inwards"
+        0.0,
+        unit="degrees",
+        source="section 3.1",
+        above=-45,
+        below=45,
+        doc="by which the right camera is turned inwards",
     )
 
-    sigma: float = parameter(0.8, unit="places", source=OURS, low=0.5, high=8, doc="of the filters g, h")
-    flow_levels: int = parameter(2, unit="levels", source="1: section 2; " + OURS, low=1, high=6)
-    min_angle: float = parameter(0.05, unit="-", source="(5); " + OURS, low=0, high=1, doc="reliability")
-    min_contrast: float = parameter(1.0, unit="levels²", source="(6); " + OURS, low=0, doc="reliability")
-    disparity_levels: int = parameter(3, unit="levels", source="1: section 3; " + OURS, low=1, high=6)
+    sigma: float = parameter(0.8, unit="cells", source=OURS, low=0.5, high=8, doc="of the filters g, h")
+    flow_levels: int = parameter(
+        2, unit="levels", source="1: section 2; " + OURS, low=1, high=6, doc="of the flow's pyramid"
+    )
+    min_angle: float = parameter(
+        0.05, unit="-", source="(5); " + OURS, low=0, high=1, doc="reliability of the flow"
+    )
+    min_contrast: float = parameter(
+        1.0, unit="levels²", source="(6); " + OURS, low=0, doc="reliability of the flow"
+    )
+    disparity_levels: int = parameter(
+        3, unit="levels", source="1: section 3; " + OURS, low=1, high=6, doc="of the disparity's pyramid"
+    )
 
     bins: int = parameter(48, unit="bins", source=OURS, low=8, high=512, doc="of each histogram")
-    smoothing: float = parameter(1.5, unit="bins", source="section 4.2; " + OURS, above=0, high=8)
-    ripple: float = parameter(
-        0.05, unit="of the peak", source=OURS, low=0, below=1, doc="what rises less is no minimum's end"
+    smoothing: float = parameter(
+        1.5,
+        unit="bins",
+        source="section 4.2; " + OURS,
+        above=0,
+        high=8,
+        doc="of histograms, standard deviation",
     )
-    flow_reach: float = parameter(
-        3.0, unit="places", source=OURS, low=0.01, doc="of histograms, round the velocity"
+    min_prominence: float = parameter(
+        0.05,
+        unit="of the peak",
+        source=OURS,
+        low=0,
+        below=1,
+        doc="rise of a histogram by which a minimum ends the target's part",
+        was="ripple",
     )
-    depth_reach: float = parameter(6.0, unit="places", source=OURS, low=0.01, doc="and round the disparity")
+    flow_half_range: float = parameter(
+        3.0,
+        unit="cells",
+        source=OURS,
+        low=0.01,
+        doc="of the flow's histograms, to each side of the velocity",
+        was="flow_reach",
+    )
+    disparity_half_range: float = parameter(
+        6.0,
+        unit="cells",
+        source=OURS,
+        low=0.01,
+        doc="of the disparity's histogram, to each side of the disparity",
+        was="depth_reach",
+    )
     flow_change: float = parameter(
-        0.3, unit="places", source="section 4.1; " + OURS, above=0, doc="of the velocity in a frame"
+        0.3,
+        unit="cells",
+        source="section 4.1; " + OURS,
+        above=0,
+        doc="of the velocity in a frame, standard deviation",
     )
-    depth_change: float = parameter(
-        0.5, unit="places", source=OURS, above=0, doc="of the disparity in a frame"
+    disparity_change: float = parameter(
+        0.5,
+        unit="cells",
+        source=OURS,
+        above=0,
+        doc="of the disparity in a frame, standard deviation",
+        was="depth_change",
     )
-    surround: float = parameter(
-        0.8, unit="of P(F)", source="0: section 4.3; " + OURS, low=0, below=1, doc="as around the target"
+    surround_weight: float = parameter(
+        0.8,
+        unit="of P(F)",
+        source="0: section 4.3; " + OURS,
+        low=0,
+        below=1,
+        doc="weight of the surround's density; the rest is uniform",
+        was="surround",
     )
-    sharp: float = parameter(
+    depth_camera_scale: float = parameter(
         0.3,
         unit="-",
         source=OURS,
         above=0,
         high=1,
-        doc="of all lengths in disparity, with a depth camera: it errs less than matching does",
+        doc="of all lengths in disparity, with a depth camera: it is more exact than matching",
+        was="sharp",
     )
     margin: float = parameter(
-        0.25, unit="of the width", source="section 4.1; " + OURS, low=0, high=2, doc="candidate region"
+        0.25,
+        unit="of the width",
+        source="section 4.1; " + OURS,
+        low=0,
+        high=2,
+        doc="of the candidate region around the window",
     )
-    memory: float = parameter(0.8, unit="-", source=OURS, low=0, below=1, doc="of densities, frame to frame")
-    posterior: float = parameter(0.8, unit="-", source="(11); " + OURS, above=0, high=1, doc="by both cues")
-    posterior_alone: float = parameter(
-        0.5, unit="-", source="(11); " + OURS, above=0, high=1, doc="by one cue, which says less"
+    density_memory: float = parameter(
+        0.8,
+        unit="-",
+        source=OURS,
+        low=0,
+        below=1,
+        doc="weight of the densities of the frame before",
+        was="memory",
+    )
+    min_posterior: float = parameter(
+        0.8,
+        unit="-",
+        source="(11); " + OURS,
+        above=0,
+        high=1,
+        doc="of a target pixel, by both cues",
+        was="posterior",
+    )
+    min_posterior_one_cue: float = parameter(
+        0.5,
+        unit="-",
+        source="(11); " + OURS,
+        above=0,
+        high=1,
+        doc="of a target pixel, by one cue alone, whose posteriors are less extreme",
+        was="posterior_alone",
     )
 
-    neighbours: int = parameter(3, unit="of 8", source=OURS, low=0, high=8, doc="of a target pixel")
-    block: float = parameter(
-        0.15, unit="of the window", source="section 4.4; " + OURS, above=0, high=1, doc="side"
+    min_neighbors: int = parameter(
+        3,
+        unit="of 8",
+        source=OURS,
+        low=0,
+        high=8,
+        doc="target pixels around a target pixel",
+        was="neighbours",
     )
-    share: float = parameter(0.25, unit="of a block", source="section 4.4; " + OURS, above=0, high=1)
-    votes: int = parameter(3, unit="frames", source="section 4.4; " + OURS, low=1)
-    against: int = parameter(4, unit="frames", source="section 4.4; " + OURS, low=1)
-    idle: int = parameter(
-        20, unit="frames", source=OURS, low=1, doc="by disparity alone, until a block isn't the target's"
+    block_side: float = parameter(
+        0.15,
+        unit="of the window",
+        source="section 4.4; " + OURS,
+        above=0,
+        high=1,
+        doc="of a square window's side",
+        was="block",
     )
-    nearer: float = parameter(2.0, unit="places", source=OURS, above=0, doc="of disparity: an occluder")
-    similar: float = parameter(0.75, unit="places", source=OURS, above=0, doc="of disparity: the target's")
+    min_block_share: float = parameter(
+        0.25,
+        unit="of a block",
+        source="section 4.4; " + OURS,
+        above=0,
+        high=1,
+        doc="of target pixels, for a vote",
+        was="share",
+    )
+    votes_to_add: int = parameter(
+        3,
+        unit="frames",
+        source="section 4.4; " + OURS,
+        low=1,
+        doc="until a block is the target's",
+        was="votes",
+    )
+    votes_to_remove: int = parameter(
+        4,
+        unit="frames",
+        source="section 4.4; " + OURS,
+        low=1,
+        doc="until a block isn't the target's any more",
+        was="against",
+    )
+    max_frames_without_pixels: int = parameter(
+        20,
+        unit="frames",
+        source=OURS,
+        low=1,
+        doc="by disparity alone, until a block isn't the target's any more",
+        was="idle",
+    )
+    occluder_margin: float = parameter(
+        2.0,
+        unit="cells",
+        source=OURS,
+        above=0,
+        doc="of disparity above the target's, from which something is an occluder",
+        was="nearer",
+    )
+    disparity_tolerance: float = parameter(
+        0.75,
+        unit="cells",
+        source=OURS,
+        above=0,
+        doc="of disparity, up to which a cell is at the target's depth",
+        was="similar",
+    )
     thickness: float = parameter(
-        0.1, unit="of the disparity", source=OURS, low=0, below=1, doc="at least that is similar, too"
+        0.1,
+        unit="of the disparity",
+        source=OURS,
+        low=0,
+        below=1,
+        doc="of the target: lower bound of that tolerance and that margin",
     )
 
-    covered: float = parameter(
-        0.75, unit="of the blocks", source=OURS, above=0, high=1, doc="that are hidden: all of it is"
+    max_occluded_share: float = parameter(
+        0.75,
+        unit="of the blocks",
+        source=OURS,
+        above=0,
+        high=1,
+        doc="from which the whole target counts as occluded",
+        was="covered",
     )
-    few: float = parameter(
-        0.1, unit="of usual", source="section 4.5; " + OURS, above=0, high=1, doc="target pixels"
+    min_pixels: float = parameter(
+        0.1,
+        unit="of the running mean",
+        source="section 4.5; " + OURS,
+        above=0,
+        high=1,
+        doc="target pixels, below which the target is missed",
+        was="few",
     )
-    again: float = parameter(
-        0.15, unit="of usual", source="section 4.5; " + OURS, above=0, high=1, doc="that come back"
+    min_pixels_to_redetect: float = parameter(
+        0.15,
+        unit="of the running mean",
+        source="section 4.5; " + OURS,
+        above=0,
+        high=1,
+        doc="target pixels, from which a missed target is found again",
+        was="again",
     )
-    unsure: float = parameter(
-        0.4, unit="s", source=OURS, low=0, doc="not seen, though nothing hides it, until LOST"
+    unoccluded_lost_after: float = parameter(
+        0.4,
+        unit="s",
+        source=OURS,
+        low=0,
+        doc="without the target, though nothing occludes it, until LOST",
+        was="unsure",
     )
-    lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="not seen, until LOST")
-    rate: float = parameter(15.0, unit="frames/s", source="section 6", above=0, doc="without timestamps")
-    place_noise: float = parameter(2.5, unit="places", source=OURS, above=0, doc="of the window's centre")
-    disparity_noise: float = parameter(0.2, unit="places", source=OURS, above=0)
-    agility: float = parameter(2.0, unit="m/s²", source=OURS, above=0, doc="while it isn't seen")
+    lost_after: float = parameter(3.0, unit="s", source=OURS, low=0, doc="without the target, until LOST")
+    rate: float = parameter(
+        15.0, unit="frames/s", source="section 6", above=0, doc="where frames have no timestamps"
+    )
+    place_noise: float = parameter(
+        2.5, unit="cells", source=OURS, above=0, doc="standard deviation of the window's center"
+    )
+    disparity_noise: float = parameter(0.2, unit="cells", source=OURS, above=0, doc="standard deviation")
+    acceleration_noise: float = parameter(
+        2.0,
+        unit="m/s²",
+        source=OURS,
+        above=0,
+        doc="standard deviation, while the target is missed",
+        was="agility",
+    )
 
     def __post_init__(self) -> None:
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name

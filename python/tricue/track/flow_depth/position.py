@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's position in metres, with its covariance: from the middle of its box, and its disparity."""
+"""The target's position in metres, with its covariance, from the center of its box and its disparity."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,29 +7,30 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.params import FlowDepthParams
-from tricue.track.flow_depth.state import FollowState
+from tricue.track.flow_depth.state import FlowDepthState
 
 Floats = NDArray[np.float64]
-LEAST = 1e-3  # pixels of disparity
+MIN_POSITION_DISPARITY = 1e-3  # pixels, of parallel cameras
 
 
-def located(
-    k: Kernels, box: Box, state: FollowState, p: FlowDepthParams
+def locate(
+    k: Kernels, box: Box, state: FlowDepthState, p: FlowDepthParams
 ) -> tuple[Floats, Floats] | tuple[None, None]:
-    """Position (3,), metres in the left camera's frame, and covariance (3, 3); None where the disparity
-    isn't above 0.
+    """Position (3,), metres in the left camera's frame, and covariance (3, 3).
 
-    A target that isn't seen may have changed its speed: its covariance grows with the fourth power of the
-    time.
+    None and None where the disparity isn't above 0. While the target is missed its velocity may change: the
+    covariance grows with the fourth power of the time.
     """
-    step = state.view.step
-    disparity = state.disparity * step + state.lens.shift
-    if not disparity > LEAST:
+    step = state.reduced.step
+    disparity = state.disparity * step + state.geometry.offset
+    if not disparity > MIN_POSITION_DISPARITY:
         return None, None
     x, y = box.center
-    place, depth = (step * state.view.scale * each for each in (p.place_noise, p.disparity_noise))
+    place_noise, disparity_noise = (
+        step * state.reduced.scale * each for each in (p.place_noise, p.disparity_noise)
+    )
     measured = np.array([[x - 0.5, y - 0.5, disparity]])
-    variances = np.array([place**2, place**2, depth**2])
-    points, covariances = k.back_project(measured, variances, state.lens.camera, state.lens.baseline)
-    drift = (p.agility * state.missed**2 / 2) ** 2
+    variances = np.array([place_noise**2, place_noise**2, disparity_noise**2])
+    points, covariances = k.back_project(measured, variances, state.geometry.camera, state.geometry.baseline)
+    drift = (p.acceleration_noise * state.missed**2 / 2) ** 2
     return points[0], covariances[0] + drift * np.eye(3)

@@ -1,26 +1,26 @@
 # SPDX-License-Identifier: MIT
-"""Rectangles (x0, y0, x1, y1) in places, corners as floats."""
+"""Rectangles (x0, y0, x1, y1) in cells, corners as floats."""
 
 import math
 
 Rectangle = tuple[float, float, float, float]
-Region = tuple[int, int, int, int]
+Region = tuple[int, int, int, int]  # of whole cells, x1 and y1 excluded
 
 
 def moved(rectangle: Rectangle, right: float, down: float) -> Rectangle:
-    """The rectangle elsewhere."""
+    """The rectangle, moved."""
     x0, y0, x1, y1 = rectangle
     return x0 + right, y0 + down, x1 + right, y1 + down
 
 
 def grown(rectangle: Rectangle, across: float, along: float) -> Rectangle:
-    """The rectangle with so much more on its left and right, and above and below."""
+    """The rectangle, larger by ``across`` on its left and right and by ``along`` above and below."""
     x0, y0, x1, y1 = rectangle
     return x0 - across, y0 - along, x1 + across, y1 + along
 
 
-def places_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
-    """The whole places of an image (H, W) that it touches; empty where it touches none."""
+def cells_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
+    """The whole cells of an image (H, W) that a rectangle touches; empty where it touches none."""
     x0, y0, x1, y1 = rectangle
     height, width = shape
     left, top = (min(max(math.floor(low), 0), high) for low, high in ((x0, width), (y0, height)))

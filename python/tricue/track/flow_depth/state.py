@@ -8,77 +8,77 @@ from numpy.typing import NDArray
 
 from tricue.track.base.track import Status
 from tricue.track.flow_depth.blocks import Blocks
-from tricue.track.flow_depth.model import Model
-from tricue.track.flow_depth.outline import Outline
+from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
+from tricue.track.flow_depth.model import TargetModel
+from tricue.track.flow_depth.outline import PixelOutline
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, Region
-from tricue.track.flow_depth.view import Lens, View
+from tricue.track.flow_depth.reduced_frame import ReducedFrame
 
 Velocity = tuple[float, float]
 
-SETTLED = 3  # frames, until the usual velocity is known
-RATE = 0.15  # a frame, of the running means
-SURE = 0.5  # of the usual number of target pixels, from which their velocity counts in full
+MIN_LEARNED_FRAMES = 3  # more are needed until the mean velocity is used
+MEAN_RATE = 0.15  # per frame, of running means
+MIN_PIXELS_FOR_VELOCITY = 0.5  # of their mean number, from which the measured velocity counts in full
 
 
-class FollowState(NamedTuple):
-    """All that changes from frame to frame; lengths are in places."""
+class FlowDepthState(NamedTuple):
+    """All that changes from frame to frame; lengths are in cells."""
 
     shape: tuple[int, ...]  # of the image
-    lens: Lens
-    view: View
-    window: Rectangle  # of the blocks, section 4.5
-    temporal: Rectangle  # round the target pixels
+    geometry: DisparityGeometry
+    reduced: ReducedFrame  # the newest frame
+    window: Rectangle  # around the blocks, section 4.5
+    temporal_window: Rectangle  # around the target pixels, section 4.3
     blocks: Blocks
-    outline: Outline
+    outline: PixelOutline
     velocity: Velocity  # a frame
     disparity: float
-    first: float  # the same in the first frame
+    first_disparity: float
     timestamp: float | None
-    region: Region  # in which the target pixels are
-    pixels: NDArray[np.uint8]  # (h, w) of the region
-    model: Model | None = None
-    steady: Velocity = (0.0, 0.0)  # running means while nothing hides it: of the velocity,
-    usual: float = 0.0  # of the number of target pixels
-    known: int = 0  # frames in them
+    region: Region  # in which the pixels are
+    pixels: NDArray[np.uint8]  # (h, w) of the region, 1 at the target's
+    model: TargetModel | None = None
+    mean_velocity: Velocity = (0.0, 0.0)  # running mean over frames with little occlusion
+    mean_pixels: float = 0.0  # running mean of the number of target pixels over them
+    learned_frames: int = 0  # how many of them there were
     score: float = 1.0
-    covered: bool = False  # whether something nearer hides it
-    missed: float = 0.0  # seconds for which it was not seen
+    occluded: bool = False  # whether something nearer hides the target
+    missed: float = 0.0  # seconds since the target was last found
 
     @property
-    def shift(self) -> float:
-        """By which a verged pair's disparities are smaller than those of parallel cameras."""
-        return self.lens.shift / self.view.step
+    def disparity_offset(self) -> float:
+        """By which the disparities of a verged pair are smaller than those of parallel cameras, cells."""
+        return self.geometry.offset / self.reduced.step
 
     @property
-    def settled(self) -> bool:
-        """Whether the usual velocity is known."""
-        return self.known > SETTLED
+    def has_mean_velocity(self) -> bool:
+        """Whether enough frames are in the mean velocity."""
+        return self.learned_frames > MIN_LEARNED_FRAMES
 
-    def velocity_of(self, measured: Velocity, count: int) -> Velocity:
-        """The target's, of the measured one: the fewer the pixels, the more it is as usual."""
-        if not self.settled:
+    def smooth_velocity(self, measured: Velocity, count: int) -> Velocity:
+        """The velocity, from one measured by ``count`` target pixels: the fewer, the nearer to the mean."""
+        if not self.has_mean_velocity:
             return measured
-        sure = min(count / max(SURE * self.usual, 1.0), 1.0)
-        (u, v), (steady_u, steady_v) = measured, self.steady
-        return steady_u + sure * (u - steady_u), steady_v + sure * (v - steady_v)
+        weight = min(count / max(MIN_PIXELS_FOR_VELOCITY * self.mean_pixels, 1.0), 1.0)
+        (u, v), (mean_u, mean_v) = measured, self.mean_velocity
+        return mean_u + weight * (u - mean_u), mean_v + weight * (v - mean_v)
 
-    def learned(self, count: int) -> "FollowState":
-        """With a frame in which nothing hides the target in the running means; less of it if little is
-        seen.
-        """
-        known = self.known + 1
-        rate = max(RATE, 1 / known)
-        if known > SETTLED:
-            rate *= min(count / max(self.usual, 1.0), 1.0) ** 2
-        (u, v), (steady_u, steady_v) = self.velocity, self.steady
-        steady = steady_u + rate * (u - steady_u), steady_v + rate * (v - steady_v)
-        return self._replace(known=known, steady=steady, usual=self.usual + rate * (count - self.usual))
+    def with_means(self, count: int) -> "FlowDepthState":
+        """The state with a frame of ``count`` target pixels in its running means; few count less."""
+        frames = self.learned_frames + 1
+        rate = max(MEAN_RATE, 1 / frames)
+        if frames > MIN_LEARNED_FRAMES:
+            rate *= min(count / max(self.mean_pixels, 1.0), 1.0) ** 2
+        (u, v), (mean_u, mean_v) = self.velocity, self.mean_velocity
+        velocity = mean_u + rate * (u - mean_u), mean_v + rate * (v - mean_v)
+        pixels = self.mean_pixels + rate * (count - self.mean_pixels)
+        return self._replace(learned_frames=frames, mean_velocity=velocity, mean_pixels=pixels)
 
     def status(self, p: FlowDepthParams) -> Status:
-        """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides it."""
+        """OCCLUDED behind something nearer; LOST after a while, sooner where nothing hides the target."""
         if self.missed == 0:
             return Status.TRACKED
-        if self.missed > p.lost_after or (self.missed > p.unsure and not self.covered):
+        if self.missed > p.lost_after or (self.missed > p.unoccluded_lost_after and not self.occluded):
             return Status.LOST
-        return Status.OCCLUDED if self.covered else Status.TRACKED
+        return Status.OCCLUDED if self.occluded else Status.TRACKED

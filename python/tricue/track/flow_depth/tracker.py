@@ -17,32 +17,32 @@ from tricue.track.base import validation
 from tricue.track.base.track import Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.flow_depth.blocks import OCCLUDED, TARGET
+from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, TARGET_BLOCK
 from tricue.track.flow_depth.cues import Cues, measure
+from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initialize import initialize
-from tricue.track.flow_depth.learn import accepted
-from tricue.track.flow_depth.masks import blocks_of, mask_of
+from tricue.track.flow_depth.learn import learn
+from tricue.track.flow_depth.overlay import block_boxes, target_mask
 from tricue.track.flow_depth.params import FlowDepthParams
-from tricue.track.flow_depth.position import located
-from tricue.track.flow_depth.rectangles import moved, places_of
-from tricue.track.flow_depth.state import FollowState
-from tricue.track.flow_depth.verify import candidate, judge
-from tricue.track.flow_depth.view import Lens, view_of
+from tricue.track.flow_depth.position import locate
+from tricue.track.flow_depth.rectangles import cells_of, moved
+from tricue.track.flow_depth.reduced_frame import reduce_frame
+from tricue.track.flow_depth.state import FlowDepthState
+from tricue.track.flow_depth.verify import candidate_region, verify
 
-MIN_SIDE = 4  # places, of the region that is measured
-MIN_HIDDEN = 0.5  # of the blocks, from which what isn't seen is hidden
+MIN_REGION_SIDE = 4  # cells, of the region that is measured
+MIN_OCCLUDED_SHARE = 0.5  # of the blocks, from which a missed target counts as occluded
 
 
-class FlowDepthTracker(TrackerBase[FlowDepthParams, FollowState]):
-    """Follows one person or object among others by what moves and is as far away as it, also with a moving
-    camera, through overtaking and complete occlusion.
+class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
+    """Follows one person or object among others by its motion and its disparity, also with a moving camera,
+    through overtaking and complete occlusion.
 
     Each frame has ``color`` (BGR or gray), rectified, and ``right`` or ``depth``; the depth is that of the
-    color image's pixels. ``cues`` chooses flow, disparity or both; flow alone needs color alone, and
-    disparity alone of a depth camera depth alone. The box is in the left image. ``position`` and
-    ``covariance`` are there with ``rig=`` for a pair, or ``intrinsics=`` for a depth camera. Of a pair that
-    is verged, ``vergence`` says by how much. Nothing is random: ``seed`` is taken as by every tracker and
-    not used.
+    color image's pixels. ``cues`` chooses flow, disparity or both. Flow alone needs color alone. Disparity
+    alone with a depth camera needs depth alone. The box is in pixels of the left image. Tracks have a
+    ``position`` and a ``covariance`` with ``rig=`` for a stereo pair, or ``intrinsics=`` for a depth camera.
+    ``vergence`` is the angle of a verged stereo pair. The tracker isn't random: the seed changes nothing.
 
         tracker = tricue.FlowDepthTracker(rig=rig)
         track = tracker.init(frame, box=(x, y, width, height))
@@ -82,99 +82,104 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FollowState]):
         """Start, or start again, on what is in ``box``, (x, y, width, height) in pixels of the left image.
 
         ValueError without a box, where no part of it is inside, and, unless flow is the only cue, where
-        nothing in it has a disparity or depth in common. UserWarning where left and right seem to be swapped,
+        its pixels share no disparity or depth. Warns (UserWarning) where left and right seem to be swapped,
         or not rectified.
         """
         checked = validation.moving(frame, self.params.cues)
         target = validation.initial_box(box, checked.image.shape)
         if "disparity" in self.params.cues and checked.frame.right is not None and not self.params.vergence:
-            warn_of_stereo(checked.frame)  # of a verged pair the right image is turned back first
-        lens = self._lens(checked.image.shape, checked.frame)
-        view = view_of(self._k, checked.frame, lens, self.params)
-        return self._keep(initialize(self._k, checked, view, lens, target, self.params))
+            warn_of_stereo(checked.frame)  # the right image of a verged pair isn't turned back yet
+        geometry = self._geometry(checked.image.shape, checked.frame)
+        reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
+        return self._keep(initialize(self._k, checked, reduced, geometry, target, self.params))
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        Frames' timestamps tell how long it wasn't seen, ``rate`` where there are none. RuntimeError before
-        ``init``. An error leaves the tracker as it was.
+        The time between frames is that of their timestamps, or 1 / ``rate`` where there are none.
+        RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.started(self._state)
         checked = validation.moving(frame, self.params.cues, before.shape)
-        view = view_of(self._k, checked.frame, before.lens, self.params)
+        reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
-        state = _ahead(before)
-        region = places_of(candidate(state, self.params), view.gray.shape)
-        if min(region[2] - region[0], region[3] - region[1]) < MIN_SIDE:
-            state = _missed(state._replace(pixels=np.zeros_like(state.pixels)), seconds)
+        state = _predict(before)
+        region = cells_of(candidate_region(state, self.params), reduced.gray.shape)
+        if min(region[2] - region[0], region[3] - region[1]) < MIN_REGION_SIDE:
+            state = _coast(state._replace(pixels=np.zeros_like(state.pixels)), seconds)
         else:
-            cues = measure(self._k, before.view, view, region, before.disparity, self.params)
+            cues = measure(self._k, before.reduced, reduced, region, before.disparity, self.params)
             state = self._follow(state, cues, seconds)
-        return self._keep(state._replace(view=view, timestamp=checked.frame.timestamp))
+        return self._keep(state._replace(reduced=reduced, timestamp=checked.frame.timestamp))
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
-        """(H, W) 255 at the target's pixels in the newest frame, else 0; None before ``init``. In the first
-        frame there are none yet.
+        """(H, W) 255 at the target's pixels in the newest frame, else 0; None before ``init``.
+
+        In the first frame there are none yet.
         """
-        return None if self._state is None else mask_of(self._state)
+        return None if self._state is None else target_mask(self._state)
 
     @property
     def blocks(self) -> tuple[tuple[Box, ...], tuple[Box, ...]]:
         """The target blocks and the occluded blocks of figure 8, pixels; none before ``init``."""
         if self._state is None:
             return (), ()
-        return blocks_of(self._state, TARGET), blocks_of(self._state, OCCLUDED)
+        return block_boxes(self._state, TARGET_BLOCK), block_boxes(self._state, OCCLUDED_BLOCK)
 
-    def _follow(self, state: FollowState, cues: Cues, seconds: float) -> FollowState:
-        """Sections 4.2 to 4.5: verify what is there; accept the target, or coast while it isn't seen."""
+    def _follow(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
+        """Sections 4.2 to 4.5: verify that the target is there, and learn; or coast while it is missed."""
         p, k = self.params, self._k
-        judged = judge(k, state, cues, p)
-        found = judged.found(state, p)
-        state = state._replace(region=cues.region, pixels=judged.pixels)
+        verdict = verify(k, state, cues, p)
+        found = verdict.found(state, p)
+        state = state._replace(region=cues.region, pixels=verdict.pixels)
         if found:
-            return accepted(k, state, cues, judged, p)
+            return learn(k, state, cues, verdict, p)
         if not state.missed:
-            state = state._replace(blocks=state.blocks.voted(judged.seen, judged.nearest, p))
-        return _missed(state._replace(covered=judged.hidden >= MIN_HIDDEN), seconds)
+            blocks = state.blocks.voted(verdict.observed, verdict.occluder_disparity, p)
+            state = state._replace(blocks=blocks)
+        return _coast(state._replace(occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE), seconds)
 
-    def _lens(self, shape: tuple[int, ...], frame: Frame) -> Lens:
+    def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
+        """The geometry of the rig; without a right image or a rig, that of a depth camera."""
         if frame.right is not None or self.rig is not None:
-            return Lens.of(validation.rig_for(self.rig, shape), self.params.vergence)
+            return DisparityGeometry.of(validation.rig_for(self.rig, shape), self.params.vergence)
         camera = validation.camera_for(self.intrinsics, shape)
-        return Lens.of(StereoRig(camera, validation.USUAL_BASELINE), 0.0)
+        return DisparityGeometry.of(StereoRig(camera, validation.USUAL_BASELINE), 0.0)
 
-    def _keep(self, state: FollowState) -> Track:
-        """The track of a state, which is kept only if there is one."""
+    def _keep(self, state: FlowDepthState) -> Track:
+        """The track of a state, which is kept unless making the track fails."""
         track = self._track(state)
         self._state = state
         return track
 
-    def _track(self, state: FollowState) -> Track:
-        """The box is the mean of the blocks' window, which is up to a block too large, and of the pixels'
+    def _track(self, state: FlowDepthState) -> Track:
+        """The track of a state.
+
+        Its box is the mean of the blocks' window, which is up to a block too large, and of the pixels'
         outline, which is too small.
         """
         outline = state.outline.rectangle(state.blocks)
-        step = state.view.step
+        step = state.reduced.step
         x0, y0, x1, y1 = (step * (a + b) / 2 for a, b in zip(state.window, outline, strict=True))
         box = Box.from_xyxy(x0, y0, x1, y1)
         status = state.status(self.params)
-        calibrated = self.rig is not None or (self.intrinsics is not None and state.view.right is None)
+        calibrated = self.rig is not None or (self.intrinsics is not None and state.reduced.right is None)
         if "disparity" not in self.params.cues or not calibrated:
             return Track(box, state.score, status)
-        return Track(box, state.score, status, *located(self._k, box, state, self.params))
+        return Track(box, state.score, status, *locate(self._k, box, state, self.params))
 
 
-def _ahead(state: FollowState) -> FollowState:
-    """Where the target is expected next: at its velocity, or the usual one while it isn't seen."""
-    right, down = state.steady if state.missed and state.known else state.velocity
+def _predict(state: FlowDepthState) -> FlowDepthState:
+    """The state moved by its velocity, or by the mean velocity while the target is missed."""
+    right, down = state.mean_velocity if state.missed and state.learned_frames else state.velocity
     return state._replace(
         window=moved(state.window, right, down),
-        temporal=moved(state.temporal, right, down),
+        temporal_window=moved(state.temporal_window, right, down),
         blocks=state.blocks.moved(right, down),
     )
 
 
-def _missed(state: FollowState, seconds: float) -> FollowState:
-    """Coasting: neither model nor blocks learn."""
+def _coast(state: FlowDepthState, seconds: float) -> FlowDepthState:
+    """The state after a frame without the target; nothing is learned."""
     return state._replace(missed=state.missed + seconds, score=0.0)

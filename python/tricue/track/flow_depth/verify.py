@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A frame judged by what is known of the target: distributions, pixels and blocks, sections 4.1 to 4.4."""
+"""Verify that the target is in a frame, by its densities, pixels and blocks, sections 4.1 to 4.5."""
 
 from typing import NamedTuple
 
@@ -7,130 +7,124 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import TARGET, Seen
+from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.model import Expected, Model, Places, estimate
+from tricue.track.flow_depth.masks import mask_blocks, mask_disparity
+from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, grown, moved
-from tricue.track.flow_depth.state import FollowState
+from tricue.track.flow_depth.state import FlowDepthState
 
-Flags = NDArray[np.bool_]
 Mask = NDArray[np.uint8]
 
-MARGIN = 4.0  # places, at least, to each side of the window
-LARGER = 0.1  # of the margin, for each frame that it was not seen
-LONGEST = 20  # of them
-CHANGE, REACH = 0.03, 0.3  # of the disparity, in a frame, and as far as histograms reach at least
-PART = 0.2  # of the largest region of target pixels, that others must have
-FEWEST = 8  # target pixels
-BACK = 0.1  # of the blocks, more of which may be hidden when it comes back than when it goes
+MIN_CANDIDATE_MARGIN = 4.0  # cells of the paper's images, to each side of the window
+CANDIDATE_GROWTH = 0.1  # of the margin, for each frame in which the target was missed
+MAX_GROWTH_FRAMES = 20  # that make the margin larger
+MIN_DISPARITY_CHANGE, MIN_DISPARITY_HALF_RANGE = 0.03, 0.3  # of the disparity, for near targets
+MIN_PIXEL_REGION = 0.2  # of the largest connected region of target pixels, that others must have
+MIN_TARGET_PIXELS = 8
+REDETECTION_OCCLUSION = 0.1  # of the blocks, by which more may be occluded when the target is re-detected
 
 
-class Judged(NamedTuple):
-    """model: by which it was judged. disparity: the target's. pixels: (h, w) the target's, and how many;
-    temporal: the rectangle round them. seen: what the blocks show. nearest: the disparity from which
-    something hides it. hidden: share of its blocks that are.
+class Verdict(NamedTuple):
+    """What a frame shows of the target.
+
+    model: by which it was searched. disparity: the target's, cells. pixels: (h, w) 1 at the target's.
+    pixel_count: how many. temporal_window: the rectangle around them. observed: the measurements in the
+    blocks. occluder_disparity: above which something hides the target. occluded_share: of its blocks.
     """
 
-    model: Model
+    model: TargetModel
     disparity: float
     pixels: Mask
-    number: int
-    temporal: Rectangle
-    seen: Seen
-    nearest: float
-    hidden: float
+    pixel_count: int
+    temporal_window: Rectangle
+    observed: BlockObservation
+    occluder_disparity: float
+    occluded_share: float
 
-    def found(self, state: FollowState, p: FlowDepthParams) -> bool:
-        """Whether the target is there: section 4.5, that it isn't when there are few pixels, or when nearly
-        all is hidden.
-        """
-        share, most = (p.again, p.covered + BACK) if state.missed else (p.few, p.covered)
-        return self.number >= max(share * state.usual, FEWEST) and self.hidden < most
+    def found(self, state: FlowDepthState, p: FlowDepthParams) -> bool:
+        """Whether the target is there: with enough pixels, section 4.5, and not nearly all of it occluded."""
+        if state.missed:
+            min_pixels, max_share = p.min_pixels_to_redetect, p.max_occluded_share + REDETECTION_OCCLUSION
+        else:
+            min_pixels, max_share = p.min_pixels, p.max_occluded_share
+        enough = self.pixel_count >= max(min_pixels * state.mean_pixels, MIN_TARGET_PIXELS)
+        return enough and self.occluded_share < max_share
 
 
-def judge(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Judged:
-    """What the cues say of the target; a target that isn't seen is judged by the model from before."""
+def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> Verdict:
+    """Find the target's pixels and blocks by the cues; a missed target's model is the one from before."""
     x, y = cues.region[:2]
-    model = state.model if state.missed and state.model is not None else _model(k, state, cues, p)
-    box, count, pixels = _pixels(k, state, cues, model, p)
+    model = state.model if state.missed and state.model is not None else _estimate(k, state, cues, p)
+    box, count, pixels = _find_pixels(k, state, cues, model, p)
     disparity = state.disparity if state.missed or cues.disparity is None else model.peaks[-1]
-    seen = _seen(k, state, cues, pixels, disparity, p)
-    nearest = disparity + max(
-        p.nearer * state.view.depth_scale(p), p.thickness * abs(disparity + state.shift)
+    observed = _observe_blocks(k, state, cues, pixels, disparity, p)
+    occluder_disparity = disparity + max(
+        p.occluder_margin * state.reduced.disparity_scale(p),
+        p.thickness * abs(disparity + state.disparity_offset),
     )
-    hidden = state.blocks.covered(seen, nearest)
-    return Judged(model, disparity, pixels, count, moved(box, x, y), seen, nearest, hidden)
+    share = state.blocks.occluded_share(observed, occluder_disparity)
+    return Verdict(model, disparity, pixels, count, moved(box, x, y), observed, occluder_disparity, share)
 
 
-def candidate(state: FollowState, p: FlowDepthParams) -> Rectangle:
-    """The candidate region of section 4.1; larger while the target isn't seen."""
+def candidate_region(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
+    """The candidate region of section 4.1, cells; it grows while the target is missed."""
     x0, y0, x1, y1 = state.window
-    larger = 1 + LARGER * min(state.missed * p.rate, LONGEST)
-    least = MARGIN * state.view.scale
+    growth = 1 + CANDIDATE_GROWTH * min(state.missed * p.rate, MAX_GROWTH_FRAMES)
+    minimum = MIN_CANDIDATE_MARGIN * state.reduced.scale
     across, along = p.margin * (x1 - x0), p.margin * (y1 - y0) / 2
-    return grown(state.window, larger * max(across, least), larger * max(along, least))
+    return grown(state.window, growth * max(across, minimum), growth * max(along, minimum))
 
 
-def own_places(k: Kernels, state: FollowState, cues: Cues, chosen: Flags) -> Mask:
-    """(h, w) the places of the cues' region that lie in chosen blocks."""
-    x, y = cues.region[:2]
-    return k.block_mask(state.blocks.rectangles[chosen] - [x, y, x, y], *cues.shape)
-
-
-def alike(state: FollowState, cues: Cues, disparity: float, p: FlowDepthParams) -> Mask:
-    """(h, w) the places that are about as far away as a disparity."""
-    view = state.view
-    thick = p.thickness * abs(disparity + state.shift) / view.scale
-    most = np.float32(max(p.similar, thick) * view.depth_scale(p))
-    near: Flags = np.abs(cues.disparities() - np.float32(disparity)) < most
-    return near.view(np.uint8)
-
-
-def _model(k: Kernels, state: FollowState, cues: Cues, p: FlowDepthParams) -> Model:
-    """The target's distributions in the temporal window, section 4.2."""
-    scale = state.view.scale
+def _estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
+    """The target's densities in the temporal window, section 4.2."""
+    scale = state.reduced.scale
     x, y = cues.region[:2]
     expected = []
     if cues.flow is not None:
-        spread = p.flow_change if state.settled else p.flow_reach
-        expected += [Expected(each, spread * scale, p.flow_reach * scale) for each in state.velocity]
-    moving = np.ones(cues.shape, np.uint8)
+        deviation = p.flow_change if state.has_mean_velocity else p.flow_half_range
+        expected += [
+            ExpectedPeak(each, deviation * scale, p.flow_half_range * scale) for each in state.velocity
+        ]
+    same_depth = np.ones(cues.shape, np.uint8)
     if cues.disparity is not None:
-        deep = state.view.depth_scale(p)
-        most = abs(state.disparity + state.shift)
-        change = max(p.depth_change * deep, CHANGE * most)
-        expected.append(Expected(state.disparity, change, max(p.depth_reach * deep, REACH * most)))
-        # What has another depth, as the background in the first window, moves otherwise.
+        disparity_scale = state.reduced.disparity_scale(p)
+        parallel = abs(state.disparity + state.disparity_offset)
+        change = max(p.disparity_change * disparity_scale, MIN_DISPARITY_CHANGE * parallel)
+        half_range = max(p.disparity_half_range * disparity_scale, MIN_DISPARITY_HALF_RANGE * parallel)
+        expected.append(ExpectedPeak(state.disparity, change, half_range))
+        # What is at another depth, as the background in the first window, moves differently.
         off = np.abs(cues.disparity.values - np.float32(state.disparity))
-        moving = (~(off > np.float32(p.similar * deep))).view(np.uint8)
+        same_depth = (~(off > np.float32(p.disparity_tolerance * disparity_scale))).view(np.uint8)
     blocks = state.blocks
-    own = own_places(k, state, cues, (blocks.states == TARGET) & (blocks.firm > 0))
-    return estimate(k, cues, expected, moved(state.temporal, -x, -y), Places(own, moving), state.model, p)
+    target = mask_blocks(k, state, cues, (blocks.states == TARGET_BLOCK) & (blocks.trusted > 0))
+    window = moved(state.temporal_window, -x, -y)
+    return estimate_model(k, cues, expected, window, HistogramMasks(target, same_depth), state.model, p)
 
 
-def _pixels(
-    k: Kernels, state: FollowState, cues: Cues, model: Model, p: FlowDepthParams
+def _find_pixels(
+    k: Kernels, state: FlowDepthState, cues: Cues, model: TargetModel, p: FlowDepthParams
 ) -> tuple[tuple[int, int, int, int], int, Mask]:
-    """The target pixels of section 4.3, cleaned: the box round them, their number, and which."""
+    """The target pixels of section 4.3 without noise: the box around them, their number, and (h, w) which."""
     x, y = cues.region[:2]
-    window, around = (moved(each, -x, -y) for each in (state.window, candidate(state, p)))
-    least = p.posterior if len(p.cues) > 1 else p.posterior_alone
-    values = [reading.values for reading in cues.readings]
+    window, candidate = (moved(each, -x, -y) for each in (state.window, candidate_region(state, p)))
+    min_posterior = p.min_posterior if len(p.cues) > 1 else p.min_posterior_one_cue
+    values = [cue.values for cue in cues.maps]
     mask, _ = k.target_pixels(
-        values, model.densities, model.ranges, window, around, least, model.alternatives
+        values, model.densities, model.ranges, window, candidate, min_posterior, model.alternatives
     )
-    return k.temporal_window(mask, p.neighbours, PART)
+    return k.temporal_window(mask, p.min_neighbors, MIN_PIXEL_REGION)
 
 
-def _seen(
-    k: Kernels, state: FollowState, cues: Cues, pixels: Mask, disparity: float, p: FlowDepthParams
-) -> Seen:
-    """What the blocks show, section 4.4."""
+def _observe_blocks(
+    k: Kernels, state: FlowDepthState, cues: Cues, pixels: Mask, disparity: float, p: FlowDepthParams
+) -> BlockObservation:
+    """The measurements in the blocks, section 4.4; without disparities every cell counts as measured."""
     x, y = cues.region[:2]
     rectangles = state.blocks.rectangles - [x, y, x, y]
     values = cues.disparities()
-    places, targets, readings, mean = k.block_counts(pixels, values, rectangles)
-    _, near, _, _ = k.block_counts(alike(state, cues, disparity, p), values, rectangles)
-    known = places if cues.disparity is None else readings
-    return Seen(places, targets, known, mean, near)
+    cells, targets, with_disparity, mean = k.block_counts(pixels, values, rectangles)
+    _, same_depth, _, _ = k.block_counts(mask_disparity(state, cues, disparity, p), values, rectangles)
+    measured = cells if cues.disparity is None else with_disparity
+    return BlockObservation(cells, targets, measured, mean, same_depth)

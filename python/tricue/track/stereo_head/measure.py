@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A head measured in a pair: its place by color and depth, its disparity, and what both say in metres."""
+"""The measurement of a head in a stereo pair: its best match, its disparity, its position and color."""
 
 from typing import NamedTuple
 
@@ -7,72 +7,77 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.stereo_head.depth import Depth, depth_of, span_round
-from tricue.track.stereo_head.filter import INTERSECTION_NOISE, MEASURED
+from tricue.track.stereo_head.color_model import measure_first_histogram, measure_histogram
+from tricue.track.stereo_head.disparity import EllipseDisparity, limits_around, measure_disparity
+from tricue.track.stereo_head.head_filter import INTERSECTION_NOISE, MEASUREMENT_SIZE
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.search import Place, best_place, first_histogram, histogram_of
+from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
+from tricue.track.stereo_head.search_local import EllipseMatch, search_local
+from tricue.track.stereo_head.search_region import crop_region
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
-from tricue.track.stereo_head.view import Ellipse, Pair, look
 
 Floats = NDArray[np.float64]
 
-SURE = 0.02  # of a place's score, that even the best lack
+MIN_SCORE_LOSS = 0.02  # how far a mean score is taken to be below 1, at least
 
 
-class Measured(NamedTuple):
-    """The place and the depth of a head, its colors C (L,), and the measurement of (8), (7,), with its
-    covariance (7, 7).
+class HeadMeasurement(NamedTuple):
+    """A measured head.
+
+    match, depth: its best match and the disparity there. histogram: (L,) its colors, C of (2).
+    values: (7,) the measurement of (8). noise: (7, 7) its covariance.
     """
 
-    place: Place
-    depth: Depth
-    colors: Floats
+    match: EllipseMatch
+    depth: EllipseDisparity
+    histogram: Floats
     values: Floats
     noise: Floats
 
-    def doubted(self, usual: float, p: StereoHeadParams) -> "Measured":
-        """The same, its position the less certain the less its place is like the model than usual.
+    def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":
+        """The same with a larger covariance of the position, where the score is below the running mean.
 
-        Not where the noise is the paper's polynomial of the distance, (9).
+        The noise by the paper's polynomial of the distance, (9), stays as it is.
         """
         # Rounded, so that both sets of kernels, whose scores differ by 1e-6, give the same track.
-        doubt = round((1 - self.place.score) / max(1 - usual, SURE), 2)
-        if doubt <= 1 or p.noise == "polynomial":
+        factor = round((1 - self.match.score) / max(1 - mean_score, MIN_SCORE_LOSS), 2)
+        if factor <= 1 or p.noise_model == "polynomial":
             return self
         noise = self.noise.copy()
-        noise[:3, :3] *= doubt
+        noise[:3, :3] *= factor
         return self._replace(noise=noise)
 
 
 def measure(
     k: Kernels,
-    pair: Pair,
+    pair: PreparedPair,
     geometry: StereoGeometry,
     ellipse: Ellipse,
     disparity: float,
-    histogram: Floats | None,
+    model: Floats | None,
     p: StereoHeadParams,
-) -> Measured | None:
-    """Look for the head round an ellipse, at about a disparity, pixels; None where nothing has one that a
-    head between near and far has.
+) -> HeadMeasurement | None:
+    """Measure the head around an ellipse, at about a disparity, pixels.
 
-    Without a histogram the place is the ellipse itself, and its colors are the model.
+    model: (L,) the color model to search for. Without one the match is the ellipse itself, and its colors
+    are the first model. None where nothing is matched, or at a distance outside near to far.
     """
-    view = look(k, pair, ellipse, disparity, p)
-    if histogram is None:
-        colors = first_histogram(k, view, ellipse, pair.step, p)
-        place = best_place(k, view, ellipse, colors, pair.step, (0, 0), p)
+    region = crop_region(k, pair, ellipse, disparity, p)
+    if model is None:
+        histogram = measure_first_histogram(k, region, ellipse, pair.step, p)
+        match = search_local(k, region, ellipse, histogram, pair.step, (0, 0), p)
     else:
-        place = best_place(k, view, ellipse, histogram, pair.step, p.search, p)
-        colors = histogram_of(k, view, place.ellipse, pair.step, p)
-    depth = depth_of(k, pair, place.ellipse, span_round(disparity, pair.step, p), p)
+        match = search_local(k, region, ellipse, model, pair.step, p.search, p)
+        histogram = measure_histogram(k, region, match.ellipse, pair.step, p)
+    depth = measure_disparity(k, pair, match.ellipse, limits_around(disparity, pair.step, p), p)
     if depth is None:
         return None
-    point, covariance = geometry.point(k, *place.ellipse[:2], depth.disparity, pair.step, p)
-    if not p.near <= point[2] <= p.far:  # NaN, too, where the disparity is none
+    point, covariance = geometry.triangulate(k, *match.ellipse[:2], depth.disparity, pair.step, p)
+    if not p.near <= point[2] <= p.far:  # also of NaN, from a disparity of 0
         return None
-    noise = np.zeros((MEASURED, MEASURED))
+    noise = np.zeros((MEASUREMENT_SIZE, MEASUREMENT_SIZE))
     noise[:3, :3] = covariance
-    noise[range(3, MEASURED), range(3, MEASURED)] = [p.color_noise**2] * 3 + [INTERSECTION_NOISE**2]
-    mean = k.histogram_mean(colors, p.bins, p.chroma)
-    return Measured(place, depth, colors, np.array([*point, *mean, place.intersection]), noise)
+    others = range(3, MEASUREMENT_SIZE)
+    noise[others, others] = [p.color_noise**2] * 3 + [INTERSECTION_NOISE**2]
+    color = k.histogram_mean(histogram, p.bins, p.max_chroma)
+    return HeadMeasurement(match, depth, histogram, np.array([*point, *color, match.intersection]), noise)

@@ -7,92 +7,160 @@ from typing import Literal
 
 from tricue.track.base.params import Params, parameter
 
-MOST_BINS = 65535  # that 16 bits number
+MAX_COLOR_BINS = 65535  # that 16 bits can number, one value left for "none"
 OURS = "our experiment: benchmarks/README.md"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StereoHeadParams(Params):
-    """Places are pixels of a picture of about ``resolution`` columns: in it the head is searched.
+    """The head is searched in a reduced image of about ``resolution`` columns. A cell is one of its pixels.
 
-    The paper's own form is ``ring_weight=0``, ``depth_weight=0``, ``light=False``, ``learn="all"``,
-    ``learning_rate=0.1``, ``anchor=0``, ``rim=0``, ``center="mean"``, ``motion="constant"``,
-    ``noise="polynomial"``, ``disparity_noise=1``, ``feedback=True``; unfused, as in its figure 3, is
-    ``fuse=False``.
+    The paper's own form is ``ring_weight=0``, ``depth_weight=0``, ``compensate_light=False``,
+    ``learn="all"``, ``learning_rate=0.1``, ``first_frame_weight=0``, ``ellipse_margin=0``,
+    ``disparity_statistic="mean"``, ``motion="constant"``, ``noise_model="polynomial"``,
+    ``disparity_noise=1``, ``feedback=True``. Its figure 3, unfused, is that with ``fuse=False``.
     """
 
     resolution: int = parameter(
-        160, unit="pixels", source="section 5", low=16, doc="columns of the picture that is searched"
+        160, unit="cells", source="section 5", low=16, doc="columns of the image that is searched"
     )
     search: tuple[int, int] = parameter(
         (8, 4),
-        unit="places",
+        unit="cells",
         source="section 5: 8, 2; " + OURS,
         low=0,
         high=64,
-        doc="to each side; up and down",
+        doc="range of the search: to each side; up and down",
     )
     bins: tuple[int, int, int] = parameter(
         (16, 16, 8), unit="bins", source=OURS, low=1, high=64, doc="of B - G, G - R, B + G + R"
     )
-    chroma: int = parameter(
-        64, unit="levels", source=OURS, low=1, high=255, doc="where the axes of B - G and G - R end"
+    max_chroma: int = parameter(
+        64,
+        unit="levels",
+        source=OURS,
+        low=1,
+        high=255,
+        doc="where the axes of B - G and G - R end",
+        was="chroma",
     )
-    light: bool = parameter(True, unit="-", source=OURS, doc="take colors as in the first frame's light")
+    compensate_light: bool = parameter(
+        True, unit="-", source=OURS, doc="turn colors into those of the first frame's light", was="light"
+    )
     ring: float = parameter(
-        1.5, unit="semi-axes", source=OURS, above=1, high=4, doc="outline of the surround"
+        1.5, unit="semi-axes", source=OURS, above=1, high=4, doc="outer edge of the ring around the ellipse"
     )
     ring_weight: float = parameter(
-        0.6, unit="-", source=OURS, low=0, doc="of the surround in a place's score"
+        0.6, unit="-", source=OURS, low=0, doc="weight of the ring's colors, subtracted from the score"
     )
-    depth_weight: float = parameter(0.4, unit="-", source=OURS, low=0, doc="of coherent depth in that score")
-    depth_ring: float = parameter(0.5, unit="-", source=OURS, low=0, doc="of the surround in that depth")
-    coherent: float = parameter(
-        0.6, unit="places", source=OURS, above=0, doc="of disparity, up to which depth is the head's"
+    depth_weight: float = parameter(
+        0.4, unit="-", source=OURS, low=0, doc="weight of the share at the head's depth in the score"
+    )
+    depth_ring: float = parameter(
+        0.5, unit="-", source=OURS, low=0, doc="weight of the ring's share, subtracted from that share"
+    )
+    disparity_tolerance: float = parameter(
+        0.6,
+        unit="cells",
+        source=OURS,
+        above=0,
+        doc="of disparity, up to which a cell is at the head's depth",
+        was="coherent",
     )
 
     hair: float = parameter(
-        0.5, unit="of the model", source="section 3.1; " + OURS, low=0, high=1, doc="in the first frame"
+        0.5,
+        unit="of the model",
+        source="section 3.1; " + OURS,
+        low=0,
+        high=1,
+        doc="weight of the head's top in the first model",
     )
-    anchor: float = parameter(
-        0.15, unit="of the model", source=OURS, low=0, high=1, doc="that stays as it was in the first frame"
+    first_frame_weight: float = parameter(
+        0.15,
+        unit="of the model",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="weight of the first frame's colors, which is never unlearned",
+        was="anchor",
     )
     learning_rate: float = parameter(
         0.3, unit="per frame", source="a of (2); 0.1: section 5; " + OURS, low=0, high=1
     )
     learn: Literal["coherent", "all"] = parameter(
-        "coherent", unit="-", source="all: section 3.1; " + OURS, doc="pixels that are learned"
+        "coherent",
+        unit="-",
+        source="all: section 3.1; " + OURS,
+        doc="cells of the ellipse that are learned: those at the head's depth, or all",
     )
-    gate: float = parameter(
+    min_intersection_to_learn: float = parameter(
         0.6,
-        unit="of usual",
+        unit="of the running mean",
         source="section 3.1; " + OURS,
         low=0,
         high=1,
-        doc="of (1), from which it is learned",
+        doc="intersection (1), from which colors are learned",
+        was="gate",
     )
 
     disparities: tuple[int, int] = parameter(
-        (4, 4), unit="places", source="(4), section 5", low=1, high=64, doc="below and above the expected one"
+        (4, 4),
+        unit="cells",
+        source="(4), section 5",
+        low=1,
+        high=64,
+        doc="range of the disparity: below and above the expected one",
     )
-    window: int = parameter(5, unit="places", source=OURS, low=1, high=15, doc="side of what is matched, odd")
-    uniqueness: int = parameter(5, unit="percent", source=OURS, low=0, high=100, doc="of a match's cost")
+    window: int = parameter(
+        5, unit="cells", source=OURS, low=1, high=15, doc="side of the matching window, odd"
+    )
+    uniqueness: int = parameter(
+        5, unit="percent", source=OURS, low=0, high=100, doc="by which other disparities must cost more"
+    )
     prefilter: bool = parameter(True, unit="-", source=OURS, doc="match edges: cameras differ in brightness")
-    rim: float = parameter(
-        0.25, unit="windows", source="0: (5); " + OURS, low=0, high=1, doc="left out: windows reach over it"
+    ellipse_margin: float = parameter(
+        0.25,
+        unit="windows",
+        source="0: (5); " + OURS,
+        low=0,
+        high=1,
+        doc="left out of the disparity at the ellipse's edge, where windows reach over it",
+        was="rim",
     )
-    center: Literal["median", "mean"] = parameter("median", unit="-", source="mean: (5); " + OURS)
+    disparity_statistic: Literal["median", "mean"] = parameter(
+        "median", unit="-", source="mean: (5); " + OURS, doc="of the ellipse's disparities", was="center"
+    )
 
-    fuse: bool = parameter(True, unit="-", source="section 4; False: figure 3, unfused")
-    motion: Literal["velocity", "constant"] = parameter("velocity", unit="-", source="constant: (6); " + OURS)
-    agility: float = parameter(6.0, unit="m/s²", source=OURS, above=0, doc="acceleration")
-    fastest: float = parameter(1.0, unit="m/s", source="a walk indoors; " + OURS, above=0)
-    noise: Literal["propagated", "polynomial"] = parameter(
-        "propagated", unit="-", source="polynomial: (9); " + OURS, doc="of a measured position"
+    fuse: bool = parameter(
+        True, unit="-", source="section 4; False: figure 3, unfused", doc="filter the measurements"
     )
-    disparity_noise: float = parameter(0.25, unit="pixels", source="1: figure 2; " + OURS, above=0)
-    place_noise: float = parameter(0.7, unit="places", source=OURS, above=0, doc="of the ellipse's centre")
-    color_noise: float = parameter(4.0, unit="levels", source="section 4.1; " + OURS, above=0)
+    motion: Literal["velocity", "constant"] = parameter(
+        "velocity", unit="-", source="constant: (6); " + OURS, doc="constant velocity or constant position"
+    )
+    acceleration_noise: float = parameter(
+        6.0, unit="m/s²", source=OURS, above=0, doc="standard deviation of the acceleration", was="agility"
+    )
+    max_speed: float = parameter(
+        1.0,
+        unit="m/s",
+        source="a walk indoors; " + OURS,
+        above=0,
+        doc="of a head: its first velocity, its motion when constant, and where it is re-detected",
+        was="fastest",
+    )
+    noise_model: Literal["propagated", "polynomial"] = parameter(
+        "propagated", unit="-", source="polynomial: (9); " + OURS, doc="of a measured position", was="noise"
+    )
+    disparity_noise: float = parameter(
+        0.25, unit="pixels", source="1: figure 2; " + OURS, above=0, doc="standard deviation"
+    )
+    place_noise: float = parameter(
+        0.7, unit="cells", source=OURS, above=0, doc="standard deviation of the ellipse's center"
+    )
+    color_noise: float = parameter(
+        4.0, unit="levels", source="section 4.1; " + OURS, above=0, doc="standard deviation of the mean color"
+    )
     feedback: bool = parameter(
         False, unit="-", source="True: section 4.1; " + OURS, doc="the filter's mean color moves the model"
     )
@@ -100,27 +168,49 @@ class StereoHeadParams(Params):
         30.0, unit="frames/s", source="section 5", above=0, doc="where frames have no timestamps"
     )
 
-    seen_above: float = parameter(
-        0.5, unit="of usual", source=OURS, low=0, high=1, doc="score and depth: the head is seen"
+    min_score: float = parameter(
+        0.5,
+        unit="of the running mean",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="of score and share at the head's depth, from which the head is recognized",
+        was="seen_above",
     )
-    surprise: float = parameter(
-        5.0, unit="deviations", source=OURS, above=0, doc="of a position that isn't the head's"
+    max_deviations: float = parameter(
+        5.0,
+        unit="deviations",
+        source=OURS,
+        above=0,
+        doc="of a measured position from the predicted one",
+        was="surprise",
     )
-    again_after: float = parameter(
-        0.1, unit="s", source=OURS, low=0, doc="not seen, until it is looked for everywhere"
+    search_frame_after: float = parameter(
+        0.1,
+        unit="s",
+        source=OURS,
+        low=0,
+        doc="without the head, until the whole image is searched",
+        was="again_after",
     )
-    again_above: float = parameter(
-        0.6, unit="of usual", source=OURS, low=0, high=1, doc="score and depth of the head seen there"
+    min_score_to_redetect: float = parameter(
+        0.6,
+        unit="of the running mean",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="as min_score, in the search of the whole image",
+        was="again_above",
     )
-    lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="not seen, until LOST")
-    near: float = parameter(0.4, unit="m", source=OURS, low=0.001, doc="least distance of a head")
-    far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance")
+    lost_after: float = parameter(0.5, unit="s", source=OURS, low=0, doc="without the head, until LOST")
+    near: float = parameter(0.4, unit="m", source=OURS, low=0.001, doc="smallest distance of a head")
+    far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance of a head")
 
     def __post_init__(self) -> None:
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if self.near >= self.far:
             raise ValueError(f"near: expected under far, {self.far:g} m, got {self.near:g}")
-        if math.prod(self.bins) > MOST_BINS:
-            raise ValueError(f"bins: expected at most {MOST_BINS} in all, got {self.bins}")
+        if math.prod(self.bins) > MAX_COLOR_BINS:
+            raise ValueError(f"bins: expected at most {MAX_COLOR_BINS} in all, got {self.bins}")
         if self.window % 2 == 0:
             raise ValueError(f"window: expected an odd number, got {self.window}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A head that was lost is looked for in the whole picture, at every distance: by color and depth."""
+"""Re-detection: search the whole image, at every distance, for a lost head, by color and depth."""
 
 import math
 from typing import NamedTuple
@@ -8,95 +8,99 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.stereo_head.depth import span_between
+from tricue.track.stereo_head.disparity import limits_between
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.search import score
+from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, PreparedPair
+from tricue.track.stereo_head.search_local import score_matches
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
-from tricue.track.stereo_head.view import NO_CHECK, Ellipse, Pair
 
 Floats = NDArray[np.float64]
-Singles = NDArray[np.float32]
+Disparities = NDArray[np.float32]
 
-THIN = 3  # places from one to the next, of those looked at
-NEARER = 0.85  # from one distance to the next
-SMALLEST = 1.0  # semi-axis, of those places
+CELL_STRIDE = 3  # every third cell is searched, in both directions
+DISTANCE_RATIO = 0.85  # of one searched distance to the next farther one
+MIN_SEMI_AXIS = 1.0  # of an ellipse, in searched cells
 
 
-class Head(NamedTuple):
-    """What is looked for: its size, metres, its colors (L,), where it was last, (3,) metres, and how far from
-    there it can be.
+class LostHead(NamedTuple):
+    """What is searched for, and where it can be.
+
+    size: width and height, metres. histogram: (L,) its color model. last_seen: (3,) metres.
+    radius: metres from there within which it can be.
     """
 
     size: tuple[float, float]
     histogram: Floats
-    seen: Floats
-    reach: float
+    last_seen: Floats
+    radius: float
 
     def distances(self, p: StereoHeadParams) -> tuple[float, float]:
-        """The nearest and the farthest that it can be, metres."""
-        z = float(self.seen[2])
-        return max(z - self.reach, p.near), min(z + self.reach, p.far)
+        """The smallest and the greatest distance at which it can be, metres."""
+        z = float(self.last_seen[2])
+        return max(z - self.radius, p.near), min(z + self.radius, p.far)
 
 
-def find_again(
-    k: Kernels, pair: Pair, geometry: StereoGeometry, head: Head, p: StereoHeadParams
+def search_frame(
+    k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
 ) -> tuple[Ellipse, float] | None:
-    """The ellipse and the disparity, pixels, that are most like a head, wherever it can be in the picture."""
-    step = pair.step * THIN
-    found = _disparities(k, pair, geometry, head, p)
-    rows, columns = found.shape
-    bins = pair.bins(k, (0, 0, columns * THIN, rows * THIN), THIN, p)
+    """The ellipse and the disparity, pixels, most like the head; None where it can't be in the image."""
+    step = pair.step * CELL_STRIDE
+    disparities = _match_cells(k, pair, geometry, head, p)
+    rows, columns = disparities.shape
+    bins = pair.bins(k, (0, 0, columns * CELL_STRIDE, rows * CELL_STRIDE), CELL_STRIDE, p)
     best: tuple[float, Ellipse, float] | None = None
-    for z in _distances(*head.distances(p)):
+    for z in _sample_distances(*head.distances(p)):
         disparity = geometry.disparity(z)
         minor, major = (
             half / 2 * f / z for half, f in zip(head.size, geometry.rig[:2].tolist(), strict=True)
         )
-        if not SMALLEST <= min(minor, major) / step <= max(rows, columns):
+        if not MIN_SEMI_AXIS <= min(minor, major) / step <= max(rows, columns):
             continue
-        places = disparity / pair.step
-        within = max(p.coherent, (1 - NEARER) / 2 * places)
-        there = (np.abs(found - np.float32(places)) <= within).view(np.uint8)
+        cells = disparity / pair.step
+        tolerance = max(p.disparity_tolerance, (1 - DISTANCE_RATIO) / 2 * cells)
+        coherent = (np.abs(disparities - np.float32(cells)) <= tolerance).view(np.uint8)
         middle = np.array([columns / 2, rows / 2, minor / step, major / step])
         grid = (rows, columns, 1)
-        scores = score(k.ellipse_search(bins, middle, grid, head.histogram, p.ring, there), p)
-        x, y = _places(columns) * step, _places(rows) * step
-        scores[~_within_reach(head, geometry, x, y, z)] = -np.inf
+        scores = score_matches(k.ellipse_search(bins, middle, grid, head.histogram, p.ring, coherent), p)
+        x, y = _grid_centers(columns) * step, _grid_centers(rows) * step
+        scores[~_select_reachable(head, geometry, x, y, z)] = -np.inf
         row, column = divmod(int(np.argmax(scores)), columns)
         if scores[row, column] > (-np.inf if best is None else best[0]):
             best = float(scores[row, column]), (float(x[column]), float(y[row]), minor, major), disparity
     return None if best is None else best[1:]
 
 
-def _distances(near: float, far: float) -> list[float]:
-    """From near to far, each a little farther than the one before."""
-    count = max(1, math.ceil(math.log(far / near) / -math.log(NEARER)))
+def _sample_distances(near: float, far: float) -> list[float]:
+    """Distances from near to far, both included, in equal ratios."""
+    count = max(1, math.ceil(math.log(far / near) / -math.log(DISTANCE_RATIO)))
     return [float(z) for z in np.geomspace(near, far, count + 1)]
 
 
-def _places(count: int) -> Floats:
-    """Where the grid of ellipse_search puts the centre, which is in the middle of so many places."""
+def _grid_centers(count: int) -> Floats:
+    """(count,) the centers that ``ellipse_search`` tries around the middle of so many cells."""
     return np.arange(float(count)) + (count / 2 - count // 2)
 
 
-def _within_reach(head: Head, geometry: StereoGeometry, x: Floats, y: Floats, z: float) -> NDArray[np.bool_]:
-    """(rows, columns) whether the head can be at x and y, box coordinates, at a distance."""
+def _select_reachable(
+    head: LostHead, geometry: StereoGeometry, x: Floats, y: Floats, z: float
+) -> NDArray[np.bool_]:
+    """(rows, columns) whether the head can be at x and y, box coordinates, and a distance z, metres."""
     fx, fy, cx, cy, _ = geometry.rig.tolist()
-    aside = (x - 0.5 - cx) * z / fx - head.seen[0]
-    below = (y - 0.5 - cy) * z / fy - head.seen[1]
-    ahead = z - head.seen[2]
-    return np.asarray(aside**2 + below[:, None] ** 2 + ahead**2 <= head.reach**2)
+    dx = (x - 0.5 - cx) * z / fx - head.last_seen[0]
+    dy = (y - 0.5 - cy) * z / fy - head.last_seen[1]
+    dz = z - head.last_seen[2]
+    return np.asarray(dx**2 + dy[:, None] ** 2 + dz**2 <= head.radius**2)
 
 
-def _disparities(
-    k: Kernels, pair: Pair, geometry: StereoGeometry, head: Head, p: StereoHeadParams
-) -> Singles:
-    """Of every THIN-th place, in places; those that a head can have."""
-    height, width = pair.small[0].shape
-    first, last = span_between(geometry, *head.distances(p), pair.step)
+def _match_cells(
+    k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
+) -> Disparities:
+    """The disparity of every searched cell, in cells, within the range that the head can have."""
+    height, width = pair.reduced[0].shape
+    first, last = limits_between(geometry, *head.distances(p), pair.step)
     region = (0, 0, width, height)
-    found = k.sad_disparity(
-        *pair.small,
+    disparities = k.sad_disparity(
+        *pair.reduced,
         region,
         False,
         first - 1,
@@ -104,6 +108,6 @@ def _disparities(
         p.window,
         p.uniqueness,
         p.prefilter,
-        NO_CHECK,
+        NO_LEFT_RIGHT_CHECK,
     )
-    return found[THIN // 2 :: THIN, THIN // 2 :: THIN]
+    return disparities[CELL_STRIDE // 2 :: CELL_STRIDE, CELL_STRIDE // 2 :: CELL_STRIDE]

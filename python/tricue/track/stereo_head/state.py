@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.stereo_head.filter import HeadFilter
+from tricue.track.stereo_head.head_filter import HeadFilter
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
@@ -16,25 +16,27 @@ Floats = NDArray[np.float64]
 class HeadState(NamedTuple):
     """All that changes from frame to frame."""
 
-    shape: tuple[int, ...]
+    shape: tuple[int, ...]  # of the left image
     geometry: StereoGeometry
-    size: tuple[float, float]  # metres, width and height of the head
-    first: Floats  # (L,) its colors at first
-    learned: Floats  # M of (2)
+    size: tuple[float, float]  # width and height of the head, metres
+    first_histogram: Floats  # (L,) the color model of the first frame
+    learned_histogram: Floats  # (L,) M of (2)
     filter: HeadFilter
-    last_seen: Floats  # (3,) metres
-    score: float  # of its place
+    last_seen: Floats  # (3,) position, metres
+    score: float  # of the match in this frame, 0 where the head isn't recognized
     mean_score: float  # running mean
-    mean_intersection: float  # of (1), running mean
-    mean_share: float  # of the ellipse at the head's depth, running mean
-    light: Floats | None  # (3,) mean blue, green, red of the first picture
+    mean_intersection: float  # running mean of (1)
+    mean_share: float  # running mean of the share of the ellipse at the head's disparity
+    first_mean: Floats | None  # (3,) mean color of the first left image; None: light isn't compensated
     timestamp: float | None
-    missed: float = 0.0  # seconds for which it was not seen
+    missed: float = 0.0  # seconds since the head was last recognized
 
-    def histogram(self, p: StereoHeadParams) -> Floats:
-        """(L,) the model that is searched for."""
-        return p.anchor * self.first + (1 - p.anchor) * self.learned
+    def model(self, p: StereoHeadParams) -> Floats:
+        """(L,) the color model that is searched for: the first one mixed with the learned one."""
+        return (
+            p.first_frame_weight * self.first_histogram + (1 - p.first_frame_weight) * self.learned_histogram
+        )
 
     def lost(self, p: StereoHeadParams) -> bool:
-        """Whether it has been gone for long."""
+        """Whether the head has been missed for ``lost_after`` seconds."""
         return self.missed >= p.lost_after

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a rectified pair of cameras knows of depth: projection, its inverse, and the noise of that."""
+"""The geometry of a rectified stereo pair: projection, triangulation, and the noise of a position."""
 
 from typing import NamedTuple
 
@@ -12,70 +12,77 @@ from tricue.track.stereo_head.params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 
-LEAST_NOISE = 1e-4  # metres, where a polynomial has a zero
-SAMPLES = 64  # of the working range, that the cubic polynomials are fitted to
+MIN_POSITION_NOISE = 1e-4  # metres, where a polynomial has a zero
+POLYNOMIAL_SAMPLES = 64  # of the working range, to which the cubic polynomials are fitted
 
 
 class StereoGeometry(NamedTuple):
-    """rig: (5,) fx, fy, cx, cy, pixels, and the baseline, metres. shape: of its images."""
+    """rig: (5,) fx, fy, cx, cy, pixels, and the baseline, metres. shape: height and width of its images."""
 
     rig: Floats
     shape: tuple[int, ...]
 
     @classmethod
     def of(cls, rig: StereoRig) -> "StereoGeometry":
-        """The numbers of a rig."""
+        """The geometry of a rig."""
         camera = rig.intrinsics
         numbers = np.array([camera.fx, camera.fy, camera.cx, camera.cy, rig.baseline])
         return cls(numbers, (camera.height, camera.width))
 
     def disparity(self, z: float) -> float:
-        """Pixels, at a distance in metres."""
+        """The disparity at a distance z, pixels; z in metres."""
         return float(self.rig[0] * self.rig[4] / z)
 
     def project(self, position: Floats) -> tuple[float, float, float]:
-        """Box coordinates x, y and disparity, pixels, of a point (3,) in metres."""
+        """x, y in box coordinates and disparity, all in pixels, of a position (3,), metres."""
         x, y, z = position.tolist()
         fx, fy, cx, cy, baseline = self.rig.tolist()
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, fx * baseline / z
 
     def ellipse(self, position: Floats, size: tuple[float, float]) -> tuple[float, float, float, float]:
-        """Centre and semi-axes, pixels, of an upright ellipse of a size in metres at a point (3,)."""
+        """Center and semi-axes, pixels, of an upright ellipse of a size, metres, at a position (3,)."""
         x, y, _ = self.project(position)
         z = float(position[2])
         return x, y, size[0] / 2 * float(self.rig[0]) / z, size[1] / 2 * float(self.rig[1]) / z
 
     def size(self, minor: float, major: float, z: float) -> tuple[float, float]:
-        """Width and height in metres of an ellipse, semi-axes in pixels, at a distance."""
+        """Width and height, metres, of an ellipse at a distance z, metres; semi-axes in pixels."""
         return 2 * minor * z / float(self.rig[0]), 2 * major * z / float(self.rig[1])
 
-    def point(
+    def triangulate(
         self, k: Kernels, x: float, y: float, disparity: float, step: int, p: StereoHeadParams
     ) -> tuple[Floats, Floats]:
-        """(3,) metres of a place in box coordinates with a disparity, and its covariance (3, 3)."""
+        """The position (3,), metres, of x, y in box coordinates with a disparity, and its covariance (3, 3).
+
+        step: pixels of a cell, in which ``place_noise`` counts.
+        """
         place = p.place_noise * step
         variances = np.array([place**2, place**2, p.disparity_noise**2])
         points, covariances = k.back_project(
             np.array([[x - 0.5, y - 0.5, disparity]]), variances, self.rig[:4], float(self.rig[4])
         )
-        if p.noise == "polynomial":
+        if p.noise_model == "polynomial":
             return points[0], np.diag(_cubic_noise(self, points[0], p) ** 2)
         return points[0], covariances[0]
 
 
 def _cubic_noise(geometry: StereoGeometry, point: Floats, p: StereoHeadParams) -> Floats:
-    """e of (9), (3,) metres: what an error of the disparity does to each coordinate, by cubic polynomials."""
-    errors = [np.polyval(each, value) for each, value in zip(polynomials(geometry, p), point, strict=True)]
-    return np.asarray(np.abs(errors)) + LEAST_NOISE
+    """e of (9), (3,) metres: the error of each coordinate, by cubic polynomials of it."""
+    errors = [
+        np.polyval(each, value) for each, value in zip(fit_polynomials(geometry, p), point, strict=True)
+    ]
+    return np.asarray(np.abs(errors)) + MIN_POSITION_NOISE
 
 
-def polynomials(geometry: StereoGeometry, p: StereoHeadParams) -> list[Floats]:
-    """Three times four coefficients a_i0 .. a_i3 of (9), fitted to the back-projection in the working range.
+def fit_polynomials(geometry: StereoGeometry, p: StereoHeadParams) -> list[Floats]:
+    """The coefficients a_i0 .. a_i3 of (9) for X, Y and Z, (4,) each, the highest power first.
 
-    X and Y are those of the image's rim, in proportion to Z: what figure 2 shows.
+    They are fitted to the errors of the back-projection between near and far.
+
+    X and Y are those of the image's border, in proportion to Z, as in figure 2.
     """
     fx, fy, _, _, baseline = geometry.rig.tolist()
-    z = np.linspace(p.near, p.far, SAMPLES)
+    z = np.linspace(p.near, p.far, POLYNOMIAL_SAMPLES)
     error = z * z / (fx * baseline) * p.disparity_noise
     height, width = geometry.shape[:2]
     fits = []

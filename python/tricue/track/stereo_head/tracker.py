@@ -14,32 +14,32 @@ from tricue.track.base.face_detection import find_face
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.stereo_head import filter as head_filter
-from tricue.track.stereo_head.depth import first_depth, span_between
-from tricue.track.stereo_head.filter import HeadFilter
-from tricue.track.stereo_head.measure import Measured, measure
+from tricue.track.stereo_head import head_filter
+from tricue.track.stereo_head.disparity import find_initial_disparity, limits_between
+from tricue.track.stereo_head.head_filter import HeadFilter
+from tricue.track.stereo_head.measure import HeadMeasurement, measure
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.search_frame import Head, find_again
+from tricue.track.stereo_head.prepared_pair import Image, PreparedPair, mean_color
+from tricue.track.stereo_head.search_frame import LostHead, search_frame
 from tricue.track.stereo_head.state import HeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
-from tricue.track.stereo_head.view import Image, Pair, light_of
 
-SEARCH_RADIUS = 0.3  # metres, from where it was last seen, of a head that was just missed
-MIN_SHARE = 0.3  # of a head at its disparity; what is farther than `far` has chance matches
-MAX_SIDE = 4000  # pixels, of a box
+MIN_SEARCH_RADIUS = 0.3  # metres, from where a head that was just missed was last seen
+MIN_INITIAL_SHARE = 0.3  # of the box's ellipse at one disparity; what is beyond ``far`` has chance matches
+MAX_BOX_SIDE = 4000  # pixels
 MEAN_RATE = 0.05  # per frame, of running means
 
 
 class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     """Follows a head in the colors of a rectified stereo pair, in metres and in changing light.
 
-    An ellipse of the head's size is moved to where its colors are most like the model's, skin and hair, and
-    its disparity most like the expected; the depth in it is measured, and position, mean color and likeness
-    are filtered. The result predicts place, size and disparity in the next frame.
+    An ellipse of the head's size is moved to where its colors are most like the model of skin and hair, and
+    its disparity most like the predicted one. The disparity in it is measured. Position, mean color and
+    intersection are filtered. The filter predicts position, size and disparity in the next frame.
 
     ``StereoHeadTracker(rig=None, seed=0, kernels="native", **parameters)``: the parameters are those of
-    :attr:`Params`, one by one or all at once as ``params=``. Without ``rig`` a usual one is assumed, and
-    tracks have no position. There is no randomness in it: the seed changes nothing. Pickles with all of its
+    :attr:`Params`, one by one or all at once as ``params=``. Without ``rig`` a default rig is assumed, and
+    tracks have no position. The tracker isn't random: the seed changes nothing. Pickles with all of its
     state.
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu, "3D Real-Time Head Tracking Fusing Color Histograms and
@@ -69,58 +69,58 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         self.rig = validation.rig(rig)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
-        """Start, or start again, on the head in ``box``, (x, y, width, height) in pixels of the left image,
-        or, without one, on the largest frontal face.
+        """Start, or start again, on the head in ``box``, (x, y, width, height) in pixels of the left image.
 
+        Without a box it starts on the largest frontal face.
         ValueError where no part of the box is inside, where nothing in it has a disparity between near and
-        far, and, without a box, where no face is found. Warns (UserWarning) of a pair that isn't rectified,
-        or whose images are swapped, as far as that is seen.
+        far, and, without a box, where no face is found. Warns (UserWarning) where the pair seems not to be
+        rectified, or its images to be swapped.
         """
         left, right, timestamp = validation.stereo_pair(frame)
         geometry = StereoGeometry.of(validation.rig_for(self.rig, left.shape))
-        head = validation.box_in(_face(left) if box is None else as_box(box), left.shape)
-        if max(head.width, head.height) > MAX_SIDE:
-            raise BoxError(f"box: expected a head of at most {MAX_SIDE} pixels, got {tuple(head)}")
+        head = validation.box_in(_find_face(left) if box is None else as_box(box), left.shape)
+        if max(head.width, head.height) > MAX_BOX_SIDE:
+            raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
-        pair = Pair.of(left, right, None, self.params)
-        light = light_of(pair.colors) if self.params.light else None
-        first = self._first(pair, geometry, head)
+        pair = PreparedPair.of(left, right, None, self.params)
+        first_mean = mean_color(pair.colors) if self.params.compensate_light else None
+        first = self._measure_first(pair, geometry, head)
         self._state = state = HeadState(
             shape=left.shape,
             geometry=geometry,
             size=geometry.size(*head.ellipse[2:], float(first.values[2])),
-            first=first.colors,
-            learned=first.colors,
-            filter=head_filter.start(first.values, first.noise, self.params),
+            first_histogram=first.histogram,
+            learned_histogram=first.histogram,
+            filter=head_filter.initialize(first.values, first.noise, self.params),
             last_seen=first.values[:3],
-            score=first.place.score,
-            mean_score=first.place.score,
-            mean_intersection=first.place.intersection,
+            score=first.match.score,
+            mean_score=first.match.score,
+            mean_intersection=first.match.intersection,
             mean_share=first.depth.share,
-            light=light,
+            first_mean=first_mean,
             timestamp=timestamp,
         )
         return self._track(state)
 
     def update(self, frame: FrameLike) -> Track:
-        """Follow the head into the next pair, of the same size as the first.
+        """Follow the head into the next stereo pair, of the same size as the first.
 
-        Frames' timestamps tell the time between them, ``rate`` where there are none. RuntimeError before
-        ``init``. An error leaves the tracker as it was.
+        The time between frames is that of their timestamps, or 1 / ``rate`` where there are none.
+        RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.started(self._state)
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        pair = Pair.of(left, right, before.light, self.params)
+        pair = PreparedPair.of(left, right, before.first_mean, self.params)
         self._state = state = self._follow(before, pair, seconds)._replace(timestamp=timestamp)
         return self._track(state)
 
-    def _first(self, pair: Pair, geometry: StereoGeometry, head: Box) -> Measured:
-        """The head in a box; ValueError where nothing in it has a disparity."""
+    def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
+        """Measure the head in a box; NoDepthInBoxError where nothing in it has a disparity."""
         k, p = self._k, self.params
-        depth = first_depth(k, pair, head.ellipse, span_between(geometry, p.near, p.far, 1), p)
+        depth = find_initial_disparity(k, pair, head.ellipse, limits_between(geometry, p.near, p.far, 1), p)
         first = None
-        if depth is not None and depth.share > MIN_SHARE:
+        if depth is not None and depth.share > MIN_INITIAL_SHARE:
             first = measure(k, pair, geometry, head.ellipse, depth.disparity, None, p)
         if first is None:
             limits = f"near and far, {p.near:g} and {p.far:g} m"
@@ -129,67 +129,74 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             )
         return first
 
-    def _follow(self, state: HeadState, pair: Pair, seconds: float) -> HeadState:
-        """Predict, search, measure, correct; learn, or coast and search the frame while it isn't seen."""
+    def _follow(self, state: HeadState, pair: PreparedPair, seconds: float) -> HeadState:
+        """Predict, measure, correct and learn; or re-detect, or coast, where the head isn't recognized."""
         k, p, geometry = self._k, self.params, state.geometry
         predicted = head_filter.predict(k, state.filter, seconds, p)
         disparity = geometry.project(predicted.position)[2]
         ellipse = geometry.ellipse(predicted.position, state.size)
-        measured = measure(k, pair, geometry, ellipse, disparity, state.histogram(p), p)
+        measured = measure(k, pair, geometry, ellipse, disparity, state.model(p), p)
         if measured is not None:
-            measured = measured.doubted(state.mean_score, p)
-        if measured is not None and self._recognized(state, measured, predicted):
+            measured = measured.inflated(state.mean_score, p)
+        if measured is not None and self._recognizes(state, measured, predicted):
             corrected = head_filter.correct(k, predicted, measured.values, measured.noise)
-            return self._accepted(state, measured, corrected)
-        again = self._found_again(state, pair) if state.missed > p.again_after else None
-        if again is not None:
-            return self._accepted(state, again, head_filter.start(again.values, again.noise, p))
-        coasting = head_filter.coasted(predicted)  # neither size nor model learn
+            return self._learn(state, measured, corrected)
+        detected = self._redetect(state, pair) if state.missed > p.search_frame_after else None
+        if detected is not None:
+            return self._learn(state, detected, head_filter.initialize(detected.values, detected.noise, p))
+        coasting = head_filter.coast(predicted)  # neither size nor model changes
         return state._replace(filter=coasting, missed=state.missed + seconds, score=0.0)
 
-    def _found_again(self, state: HeadState, pair: Pair) -> Measured | None:
-        """The head somewhere else in the picture, as far as it can have gone."""
+    def _redetect(self, state: HeadState, pair: PreparedPair) -> HeadMeasurement | None:
+        """The head anywhere in the image, as far as it can have moved; None where it isn't recognized."""
         k, p = self._k, self.params
-        reach = SEARCH_RADIUS + p.fastest * state.missed
-        head = Head(state.size, state.histogram(p), state.last_seen, reach)
-        found = find_again(k, pair, state.geometry, head, p)
+        radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed
+        head = LostHead(state.size, state.model(p), state.last_seen, radius)
+        found = search_frame(k, pair, state.geometry, head, p)
         if found is None:
             return None
-        measured = measure(k, pair, state.geometry, *found, state.histogram(p), p)
-        return measured if measured is not None and self._alike(state, measured, p.again_above) else None
+        measured = measure(k, pair, state.geometry, *found, state.model(p), p)
+        if measured is None or not self._scores(state, measured, p.min_score_to_redetect):
+            return None
+        return measured
 
-    def _recognized(self, state: HeadState, measured: Measured, predicted: HeadFilter) -> bool:
-        """Whether it looks like the head, and is where that can be."""
-        off = head_filter.deviations(predicted, measured.values, measured.noise)
-        return off < self.params.surprise and self._alike(state, measured, self.params.seen_above)
+    def _recognizes(self, state: HeadState, measured: HeadMeasurement, predicted: HeadFilter) -> bool:
+        """Whether a measurement is like the head, and near the predicted position."""
+        distance = head_filter.mahalanobis_distance(predicted, measured.values, measured.noise)
+        if not distance < self.params.max_deviations:
+            return False
+        return self._scores(state, measured, self.params.min_score)
 
-    def _alike(self, state: HeadState, measured: Measured, least: float) -> bool:
+    def _scores(self, state: HeadState, measured: HeadMeasurement, minimum: float) -> bool:
+        """Whether score and share at the head's depth are at least ``minimum`` of their running means."""
         return (
-            measured.place.score >= least * state.mean_score
-            and measured.depth.share >= least * state.mean_share
+            measured.match.score >= minimum * state.mean_score
+            and measured.depth.share >= minimum * state.mean_share
         )
 
-    def _accepted(self, state: HeadState, measured: Measured, corrected: HeadFilter) -> HeadState:
-        """The state of a head that was seen; its colors are learned where they are like the model's."""
-        p, place = self.params, measured.place
-        head = corrected if p.fuse else head_filter.start(measured.values, measured.noise, p)
+    def _learn(self, state: HeadState, measured: HeadMeasurement, corrected: HeadFilter) -> HeadState:
+        """The state after a frame with the head; its colors are learned where they are like the model's."""
+        p, match = self.params, measured.match
+        head = corrected if p.fuse else head_filter.initialize(measured.values, measured.noise, p)
         state = state._replace(
             filter=head,
             last_seen=head.position,
-            score=place.score,
-            mean_score=state.mean_score + MEAN_RATE * (place.score - state.mean_score),
+            score=match.score,
+            mean_score=state.mean_score + MEAN_RATE * (match.score - state.mean_score),
             mean_share=state.mean_share + MEAN_RATE * (measured.depth.share - state.mean_share),
             missed=0.0,
         )
-        if place.intersection < p.gate * state.mean_intersection:
+        if match.intersection < p.min_intersection_to_learn * state.mean_intersection:
             return state
-        learned = state.learned + p.learning_rate * (measured.colors - state.learned)
+        old = state.learned_histogram
+        learned = old + p.learning_rate * (measured.histogram - old)
         if p.feedback:
-            learned = self._k.shift_histogram(learned, p.bins, p.chroma, head.color)
-        mean = state.mean_intersection + MEAN_RATE * (place.intersection - state.mean_intersection)
-        return state._replace(learned=learned, mean_intersection=mean)
+            learned = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
+        mean = state.mean_intersection + MEAN_RATE * (match.intersection - state.mean_intersection)
+        return state._replace(learned_histogram=learned, mean_intersection=mean)
 
     def _track(self, state: HeadState) -> Track:
+        """The track of a state; without a rig it has no position."""
         box = Box.from_ellipse(*state.geometry.ellipse(state.filter.position, state.size))
         if state.missed == 0:
             status = Status.TRACKED
@@ -198,11 +205,12 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         score = min(max(state.score, 0.0), 1.0)
         if self.rig is None:
             return Track(box, score, status)
-        return Track(box, score, status, state.filter.position.copy(), state.filter.uncertainty.copy())
+        position, covariance = state.filter.position, state.filter.position_covariance
+        return Track(box, score, status, position.copy(), covariance.copy())
 
 
-def _face(image: Image) -> Box:
-    """The largest face in an image; ValueError where there is none."""
+def _find_face(image: Image) -> Box:
+    """The largest face in an image; TargetNotFoundError where there is none."""
     face = find_face(image)
     if face is None:
         raise TargetNotFoundError("box: expected (x, y, width, height), as no face was found in this frame")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That frames are seen in places, depth as disparity, and a verged pair as a parallel one."""
+"""That frames are reduced to cells, depth is turned into disparity, and verged pairs into parallel ones."""
 
 import math
 
@@ -7,12 +7,13 @@ import cv2
 import numpy as np
 import pytest
 from tricue import Box, FlowDepthTracker, Frame, Intrinsics, Status, StereoRig
-from tricue.track.flow_depth.view import Lens, view_of
+from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
+from tricue.track.flow_depth.reduced_frame import reduce_frame
 
 Params = FlowDepthTracker.Params
 WIDTH, HEIGHT = SIZE = (128, 96)
 RIG = StereoRig(Intrinsics.from_fov(*SIZE, 60), 0.12)
-LENS = Lens.of(RIG, 0.0)
+GEOMETRY = DisparityGeometry.of(RIG, 0.0)
 BOX = (48, 29, 32, 38)
 OURS, FAR, MARGIN = 12, 4, 60  # disparities, and columns that a turned camera sees in addition
 
@@ -49,8 +50,8 @@ def verged(degrees: float, shift: int = 0) -> Frame:
 
 @pytest.mark.parametrize("degrees", [-4.0, 2.0, 5.0, 9.0])
 def test_positions_of_a_verged_pair_are_right(degrees):
-    """With the angle told the target of a verged pair is followed as that of a parallel one: its distance is
-    right to 3 %, its box on it and not larger.
+    """With the angle given, the target of a verged pair is followed as that of a parallel one: its distance
+    is right to 3 %, its box on it and not larger.
     """
     tracker = FlowDepthTracker(rig=RIG, vergence=degrees)
     tracks = [tracker.init(verged(degrees), BOX)]
@@ -75,33 +76,35 @@ def test_a_verged_pair_needs_its_angle():
 
 @pytest.mark.parametrize("degrees", [-4.0, 5.0])
 def test_a_verged_right_image_is_turned_back(degrees, kernels):
-    """Turned back and moved by the lens's shift the right image is the parallel camera's, where both saw
-    something: to 3 levels in the mean.
+    """Turned back and moved by the geometry's offset, the right image is the parallel camera's, where both
+    saw something: to 3 levels in the mean.
     """
-    lens = Lens.of(RIG, degrees)
+    geometry = DisparityGeometry.of(RIG, degrees)
     parallel = verged(0.0).right
-    view = view_of(kernels, verged(degrees), lens, Params(vergence=degrees))
-    moved = cv2.warpAffine(parallel, np.float32([[1, 0, lens.shift], [0, 1, 0]]), SIZE)
+    reduced = reduce_frame(kernels, verged(degrees), geometry, Params(vergence=degrees))
+    moved = cv2.warpAffine(parallel, np.float32([[1, 0, geometry.offset], [0, 1, 0]]), SIZE)
     inside = np.s_[5:-5, 20 : WIDTH - 20]
-    assert lens.shift == pytest.approx(RIG.intrinsics.fx * math.tan(math.radians(degrees)))
-    seen = (moved[inside] > 0) & (view.right[inside] > 0)
+    assert geometry.offset == pytest.approx(RIG.intrinsics.fx * math.tan(math.radians(degrees)))
+    seen = (moved[inside] > 0) & (reduced.right[inside] > 0)
     assert seen.mean() > 0.9
-    assert np.abs(moved[inside].astype(int) - view.right[inside])[seen].mean() < 3
+    assert np.abs(moved[inside].astype(int) - reduced.right[inside])[seen].mean() < 3
 
 
 @pytest.mark.parametrize("degrees", [0.0, 5.0])
 def test_depth_is_a_pairs_disparity(degrees, kernels):
-    """A depth image is read as the disparities that a pair of the lens has: the position is that of the
-    depth, whatever the angle; NaN stays NaN.
+    """A depth image is turned into the disparities that a pair of the geometry has: the position is that of
+    the depth, whatever the angle; NaN stays NaN.
     """
     depth = np.full((HEIGHT, WIDTH), 2.5, np.float32)
     depth[:9] = np.nan
     frame = Frame(np.rint(WALL[:, :WIDTH]).astype(np.uint8), depth=depth)
-    lens = Lens.of(RIG, degrees)
-    view = view_of(kernels, frame, lens, Params(vergence=degrees))
-    assert view.right is None
-    assert np.isnan(view.disparity[:9]).all()
-    np.testing.assert_allclose(view.disparity[9:] + lens.shift, lens.product / 2.5, rtol=1e-5)
+    geometry = DisparityGeometry.of(RIG, degrees)
+    reduced = reduce_frame(kernels, frame, geometry, Params(vergence=degrees))
+    assert reduced.right is None
+    assert np.isnan(reduced.disparity[:9]).all()
+    np.testing.assert_allclose(
+        reduced.disparity[9:] + geometry.offset, geometry.disparity_times_depth / 2.5, rtol=1e-5
+    )
     track = FlowDepthTracker(rig=RIG, vergence=degrees).init(frame, BOX)
     assert track.position[2] == pytest.approx(2.5, rel=1e-4)
 
@@ -130,20 +133,20 @@ def test_the_angle_does_not_change_how_it_grows():
     ("width", "resolution", "step"),
     [(160, 160, 1), (640, 160, 4), (640, 320, 2), (100, 320, 1), (400, 320, 1)],
 )
-def test_a_place_is_the_mean_of_its_square(width, resolution, step, kernels):
-    """About ``resolution`` places lie in a row, each the mean of a square of pixels; the disparity is in
-    places too, that of the square's middle.
+def test_a_cell_is_the_mean_of_its_square(width, resolution, step, kernels):
+    """About ``resolution`` cells lie in a row, each the mean of a square of pixels; the disparity is in
+    cells too, that of the square's middle.
     """
     gray = np.rint(texture(48, width, 3)).astype(np.uint8)
     depth = np.random.default_rng(0).uniform(1, 5, gray.shape).astype(np.float32)
-    pair = view_of(kernels, Frame(gray, right=gray[:, ::-1]), LENS, Params(resolution=resolution))
+    pair = reduce_frame(kernels, Frame(gray, right=gray[:, ::-1]), GEOMETRY, Params(resolution=resolution))
     assert pair.step == step
     assert pair.scale == width / step / 160
     for found, image in ((pair.gray, gray), (pair.right, gray[:, ::-1])):
         means = image.reshape(48 // step, step, width // step, step).mean(axis=(1, 3))
         assert np.abs(found - means).max() <= 0.5 + 1e-6
-    sensor = view_of(kernels, Frame(gray, depth=depth), LENS, Params(resolution=resolution))
-    expected = LENS.product / step / depth[step // 2 :: step, step // 2 :: step]
+    sensor = reduce_frame(kernels, Frame(gray, depth=depth), GEOMETRY, Params(resolution=resolution))
+    expected = GEOMETRY.disparity_times_depth / step / depth[step // 2 :: step, step // 2 :: step]
     np.testing.assert_allclose(sensor.disparity, expected, rtol=1e-6)
 
 
@@ -154,39 +157,41 @@ def test_sizes_that_step_does_not_divide(shape, kernels):
     """
     gray = np.rint(texture(*shape, 3)).astype(np.uint8)
     p = Params(resolution=160)
-    pair = view_of(kernels, Frame(gray, right=gray), LENS, p)
-    sensor = view_of(kernels, Frame(gray, depth=np.ones(shape, np.float32)), LENS, p)
+    pair = reduce_frame(kernels, Frame(gray, right=gray), GEOMETRY, p)
+    sensor = reduce_frame(kernels, Frame(gray, depth=np.ones(shape, np.float32)), GEOMETRY, p)
     assert pair.gray.shape == pair.right.shape == sensor.disparity.shape
     tracker = FlowDepthTracker(resolution=160)
     tracker.init(Frame(gray, depth=np.ones(shape, np.float32)), (9, 9, 25, 20))
     assert tracker.mask.shape == shape
 
 
-def test_color_is_seen_as_cv2_makes_it_gray(kernels):
+def test_color_is_turned_gray_as_by_cv2(kernels):
     """Color is turned to gray as cv2 does, in both pictures."""
     color = np.random.default_rng(0).integers(0, 256, (24, 32, 3)).astype(np.uint8)
-    view = view_of(kernels, Frame(color, right=color[::-1]), LENS, Params())
-    np.testing.assert_array_equal(view.gray, cv2.cvtColor(color, cv2.COLOR_BGR2GRAY))
-    np.testing.assert_array_equal(view.right, cv2.cvtColor(color[::-1], cv2.COLOR_BGR2GRAY))
+    reduced = reduce_frame(kernels, Frame(color, right=color[::-1]), GEOMETRY, Params())
+    np.testing.assert_array_equal(reduced.gray, cv2.cvtColor(color, cv2.COLOR_BGR2GRAY))
+    np.testing.assert_array_equal(reduced.right, cv2.cvtColor(color[::-1], cv2.COLOR_BGR2GRAY))
 
 
 @pytest.mark.parametrize("shape", [(24, 32), (24, 32, 3)], ids=str)
 def test_nothing_of_the_frame_is_kept(shape, kernels):
-    """What is written into the frame's array afterwards doesn't reach the left view, whose next frame needs
-    it.
+    """What is written into the frame's array afterwards doesn't reach the reduced left image, which the next
+    frame needs.
     """
     image = np.full(shape, 90, np.uint8)
-    view = view_of(kernels, Frame(image, right=image), LENS, Params())
+    reduced = reduce_frame(kernels, Frame(image, right=image), GEOMETRY, Params())
     image[:] = 7
-    assert (view.gray == 90).all()
+    assert (reduced.gray == 90).all()
 
 
 def test_flow_alone_leaves_the_rest(kernels):
-    """Without disparity neither right image nor depth is looked at; depth alone has a black picture."""
+    """Without disparity neither right image nor depth is used; depth alone has a black gray image."""
     gray = np.full((24, 32), 90, np.uint8)
     for frame in (Frame(gray), Frame(gray, right=gray), Frame(gray, depth=np.ones((3, 3), np.float32))):
-        view = view_of(kernels, frame, LENS, Params(cues=("flow",)))
-        assert (view.right, view.disparity) == (None, None)
-    alone = view_of(kernels, Frame(depth=np.ones((24, 32), np.float32)), LENS, Params(cues=("disparity",)))
+        reduced = reduce_frame(kernels, frame, GEOMETRY, Params(cues=("flow",)))
+        assert (reduced.right, reduced.disparity) == (None, None)
+    alone = reduce_frame(
+        kernels, Frame(depth=np.ones((24, 32), np.float32)), GEOMETRY, Params(cues=("disparity",))
+    )
     assert alone.gray.shape == (24, 32)
     assert not alone.gray.any()

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 from scipy import stats
 from tricue import StereoHeadTracker
-from tricue.track.stereo_head import filter as head_filter
-from tricue.track.stereo_head.filter import (
+from tricue.track.stereo_head import head_filter
+from tricue.track.stereo_head.head_filter import (
+    COASTING_FACTOR,
     COLOR_DRIFT,
     INTERSECTION_DRIFT,
-    MEASURED,
-    SLOWED,
+    MEASUREMENT_SIZE,
     HeadFilter,
-    coasted,
+    coast,
     correct,
-    deviations,
+    initialize,
+    mahalanobis_distance,
     predict,
-    start,
 )
 
 Params = StereoHeadTracker.Params
@@ -39,23 +39,23 @@ CHANCE = 1e-4  # of a test on simulated data to fail with another seed
 
 def simulated(kernels, seed: int) -> Iterator[tuple[np.ndarray, HeadFilter, float]]:
     """The true states, what the filter makes of them at the last frame, and the last measurement's deviation:
-    heads that move as the model says, measured with the noise that it is told.
+    heads that move as the model says, measured with the noise that it is given.
     """
     rng = np.random.default_rng(seed)
     gain = np.array([SECONDS**2 / 2, SECONDS])
     for _ in range(RUNS):
         truth = np.concatenate(
-            [MIDDLE - ROOT @ rng.standard_normal(7), WIDE.fastest / 3**0.5 * rng.normal(size=3)]
+            [MIDDLE - ROOT @ rng.standard_normal(7), WIDE.max_speed / 3**0.5 * rng.normal(size=3)]
         )
-        state = start(MIDDLE, NOISE, WIDE)
+        state = initialize(MIDDLE, NOISE, WIDE)
         for _ in range(FRAMES):
-            push = WIDE.agility * rng.standard_normal(3)
+            push = WIDE.acceleration_noise * rng.standard_normal(3)
             truth[:3] += SECONDS * truth[7:] + gain[0] * push
             truth[7:] += gain[1] * push
             truth[3:7] += DRIFTS * rng.standard_normal(4)
             measured = truth[:7] + ROOT @ rng.standard_normal(7)
             state = predict(kernels, state, SECONDS, WIDE)
-            off = deviations(state, measured, NOISE)
+            off = mahalanobis_distance(state, measured, NOISE)
             state = correct(kernels, state, measured, NOISE)
         yield truth, state, off
 
@@ -69,15 +69,15 @@ def test_starts_where_it_is_measured():
     """It starts at the measurement with its noise, at rest, with a velocity that a walk can have; the printed
     form has seven states and no velocity.
     """
-    state = start(VALUES, NOISE, P)
+    state = initialize(VALUES, NOISE, P)
     np.testing.assert_array_equal(state.mean, [*VALUES, 0, 0, 0])
     np.testing.assert_array_equal(state.covariance[:7, :7], NOISE)
-    np.testing.assert_allclose(state.covariance[7:, 7:], P.fastest**2 / 3 * np.eye(3))
+    np.testing.assert_allclose(state.covariance[7:, 7:], P.max_speed**2 / 3 * np.eye(3))
     assert not state.covariance[:7, 7:].any()
     np.testing.assert_array_equal(state.position, VALUES[:3])
     np.testing.assert_array_equal(state.color, VALUES[3:6])
-    np.testing.assert_array_equal(state.uncertainty, NOISE[:3, :3])
-    printed = start(VALUES, NOISE, CONSTANT)
+    np.testing.assert_array_equal(state.position_covariance, NOISE[:3, :3])
+    printed = initialize(VALUES, NOISE, CONSTANT)
     assert (printed.mean.shape, printed.covariance.shape) == ((7,), (7, 7))
 
 
@@ -88,9 +88,9 @@ def test_process_noise_is_that_of_an_acceleration(seconds, kernels):
     """
     certain = HeadFilter(np.concatenate([VALUES, np.zeros(3)]), np.zeros((10, 10)))
     _, added = predict(kernels, certain, seconds, P)
-    g = np.array([seconds**2 / 2, seconds]) * P.agility
+    g = np.array([seconds**2 / 2, seconds]) * P.acceleration_noise
     for axis in range(3):
-        own = [axis, MEASURED + axis]
+        own = [axis, MEASUREMENT_SIZE + axis]
         np.testing.assert_allclose(added[np.ix_(own, own)], np.outer(g, g), rtol=1e-12)
         added[np.ix_(own, own)] = 0
     np.testing.assert_allclose(np.diag(added)[3:7], DRIFTS**2, rtol=1e-12)
@@ -108,9 +108,9 @@ def test_a_velocity_moves_the_head(kernels):
 
 def test_printed_motion_only_spreads(kernels):
     """(6) leaves the mean, and adds to the position's variances the square of the greatest displacement."""
-    mean, covariance = predict(kernels, start(VALUES, NOISE, CONSTANT), 0.1, CONSTANT)
+    mean, covariance = predict(kernels, initialize(VALUES, NOISE, CONSTANT), 0.1, CONSTANT)
     np.testing.assert_array_equal(mean, VALUES)
-    expected = np.diag([(0.1 * CONSTANT.fastest) ** 2] * 3 + (DRIFTS**2).tolist())
+    expected = np.diag([(0.1 * CONSTANT.max_speed) ** 2] * 3 + (DRIFTS**2).tolist())
     np.testing.assert_allclose(covariance - NOISE, expected, rtol=0, atol=1e-14)
 
 
@@ -125,12 +125,12 @@ def test_deviations_have_their_closed_form():
     """With independent errors the deviation is the root of the sum of squares over the summed variances, and
     colors don't count.
     """
-    state = start(VALUES, np.diag([0.01, 0.04, 0.09, 1, 1, 1, 1]), P)
+    state = initialize(VALUES, np.diag([0.01, 0.04, 0.09, 1, 1, 1, 1]), P)
     off = np.array([0.3, -0.5, 1.1, 99.0, 99.0, 99.0, 9.0])
     noise = np.diag([0.08, 0.21, 0.16, 1, 1, 1, 1])
     expected = math.sqrt(0.3**2 / 0.09 + 0.5**2 / 0.25 + 1.1**2 / 0.25)
-    assert deviations(state, VALUES + off, noise) == pytest.approx(expected, rel=1e-12)
-    assert deviations(state, VALUES, noise) == 0
+    assert mahalanobis_distance(state, VALUES + off, noise) == pytest.approx(expected, rel=1e-12)
+    assert mahalanobis_distance(state, VALUES, noise) == 0
 
 
 @pytest.mark.parametrize("motion", ["velocity", "constant"])
@@ -138,7 +138,7 @@ def test_a_correction_weighs_by_noise(motion, kernels):
     """Equal variances meet half way with half of it; a useless measurement changes nothing, a perfect one
     all.
     """
-    state = start(VALUES, np.eye(7), Params(motion=motion))
+    state = initialize(VALUES, np.eye(7), Params(motion=motion))
     there = VALUES + 1
     half = correct(kernels, state, there, np.eye(7))
     np.testing.assert_allclose(half.mean[:7], VALUES + 0.5, rtol=1e-12)
@@ -153,11 +153,13 @@ def test_a_correction_weighs_by_noise(motion, kernels):
 def test_coasting_slows_down():
     """Without a measurement the velocity fades and nothing else changes, nor does the prediction itself."""
     moving = HeadFilter(np.concatenate([VALUES, [1.0, -2.0, 3.0]]), np.eye(10))
-    slowed = coasted(moving)
-    np.testing.assert_array_equal(slowed.mean, [*VALUES, SLOWED, -2 * SLOWED, 3 * SLOWED])
+    slowed = coast(moving)
+    np.testing.assert_array_equal(
+        slowed.mean, [*VALUES, COASTING_FACTOR, -2 * COASTING_FACTOR, 3 * COASTING_FACTOR]
+    )
     np.testing.assert_array_equal(slowed.covariance, moving.covariance)
     assert moving.mean[7] == 1
-    np.testing.assert_array_equal(coasted(start(VALUES, NOISE, CONSTANT)).mean, VALUES)
+    np.testing.assert_array_equal(coast(initialize(VALUES, NOISE, CONSTANT)).mean, VALUES)
 
 
 def test_errors_are_as_large_as_it_says(kernels):
@@ -185,14 +187,14 @@ def test_errors_have_no_bias(kernels):
 
 def test_wrong_noise_would_be_seen(kernels, monkeypatch):
     """The check above has teeth: a filter that thinks heads half as agile doesn't pass it."""
-    slow = Params(agility=P.agility / 2, far=WIDE.far)
+    slow = Params(acceleration_noise=P.acceleration_noise / 2, far=WIDE.far)
     monkeypatch.setattr(head_filter, "predict", lambda k, state, seconds, _: predict(k, state, seconds, slow))
     squares = []
     rng = np.random.default_rng(2)
     for _ in range(RUNS):
-        truth, state = np.concatenate([MIDDLE, np.zeros(3)]), start(MIDDLE, NOISE, WIDE)
+        truth, state = np.concatenate([MIDDLE, np.zeros(3)]), initialize(MIDDLE, NOISE, WIDE)
         for _ in range(FRAMES):
-            push = P.agility * rng.standard_normal(3)
+            push = P.acceleration_noise * rng.standard_normal(3)
             truth[:3] += SECONDS * truth[7:] + SECONDS**2 / 2 * push
             truth[7:] += SECONDS * push
             state = head_filter.predict(kernels, state, SECONDS, WIDE)
@@ -207,8 +209,8 @@ def test_a_steady_walk_is_followed_without_lag(kernels):
     printed constant position several frames with the same noise of the disparity.
     """
     lags = []
-    for p in (P, Params(motion="constant", fastest=0.3)):
-        state, speed = start(VALUES, NOISE, p), np.array([0.5, 0.2, 0.7])
+    for p in (P, Params(motion="constant", max_speed=0.3)):
+        state, speed = initialize(VALUES, NOISE, p), np.array([0.5, 0.2, 0.7])
         for frame in range(1, 61):
             measured = VALUES + np.concatenate([frame * SECONDS * speed, np.zeros(4)])
             state = correct(kernels, predict(kernels, state, SECONDS, p), measured, NOISE)
@@ -221,9 +223,9 @@ def test_a_steady_walk_is_followed_without_lag(kernels):
 def test_covariances_stay_covariances(motion, kernels):
     """Through 300 frames, seen and missed, a covariance is symmetric and positive definite."""
     p = Params(motion=motion)
-    state = start(VALUES, NOISE, p)
+    state = initialize(VALUES, NOISE, p)
     for frame in range(300):
         state = predict(kernels, state, SECONDS, p)
-        state = coasted(state) if frame // 40 % 2 else correct(kernels, state, VALUES, NOISE)
+        state = coast(state) if frame // 40 % 2 else correct(kernels, state, VALUES, NOISE)
         np.testing.assert_array_equal(state.covariance, state.covariance.T)
         assert np.linalg.eigvalsh(state.covariance).min() > 0

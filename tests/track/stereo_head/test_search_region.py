@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""That the stereo head tracker sees places in the first light, and what is at its head's depth."""
+"""That a stereo pair is prepared in the first frame's light, and cells at the head's depth are coherent."""
 
 import cv2
 import numpy as np
 import pytest
 from tricue import StereoHeadTracker
-from tricue.track.stereo_head.view import Pair, light_of, look
+from tricue.track.stereo_head.prepared_pair import PreparedPair, mean_color
+from tricue.track.stereo_head.search_region import crop_region
 
 Params = StereoHeadTracker.Params
 P = Params()
@@ -26,9 +27,9 @@ def shifted(image: np.ndarray, disparity: int) -> np.ndarray:
 
 
 def all_bins(k, image: np.ndarray, light: np.ndarray | None) -> np.ndarray:
-    """The bins of a picture's places, as in a light."""
+    """The bins of an image's cells, with the light compensated to a first mean color."""
     height, width = image.shape[:2]
-    return Pair.of(image, image, light, P).bins(k, (0, 0, width, height), 1, P)
+    return PreparedPair.of(image, image, light, P).bins(k, (0, 0, width, height), 1, P)
 
 
 @pytest.mark.parametrize("gains", [(2, 2, 2), (2, 1, 4), (1, 1, 1)], ids=str)
@@ -38,8 +39,8 @@ def test_another_light_is_taken_out_exactly(gains, kernels):
     """
     first = picture(24, 32) // 4
     lit = first * np.array(gains, np.uint8)
-    expected = kernels.color_bins(first, (0, 0, 32, 24), P.bins, P.chroma, 1)
-    np.testing.assert_array_equal(all_bins(kernels, lit, light_of(first)), expected)
+    expected = kernels.color_bins(first, (0, 0, 32, 24), P.bins, P.max_chroma, 1)
+    np.testing.assert_array_equal(all_bins(kernels, lit, mean_color(first)), expected)
 
 
 @pytest.mark.parametrize("gain", [0.5, 0.77, 1.3])
@@ -49,14 +50,14 @@ def test_gains_are_those_of_the_light(gain):
     """
     first = picture(60, 80) // 2 + 20
     lit = np.rint(first * gain).astype(np.uint8)
-    gains = Pair.of(lit, lit, light_of(first), P).gains
-    np.testing.assert_allclose(gains, 1 / gain, rtol=0.5 / light_of(lit).min())
+    gains = PreparedPair.of(lit, lit, mean_color(first), P).gains
+    np.testing.assert_allclose(gains, 1 / gain, rtol=0.5 / mean_color(lit).min())
 
 
 def test_without_light_nothing_is_changed(kernels):
     """Without the first frame's light bins are those of the picture's own colors."""
     image = picture(24, 32)
-    expected = kernels.color_bins(image, (0, 0, 32, 24), P.bins, P.chroma, 1)
+    expected = kernels.color_bins(image, (0, 0, 32, 24), P.bins, P.max_chroma, 1)
     np.testing.assert_array_equal(all_bins(kernels, image, None), expected)
 
 
@@ -69,54 +70,54 @@ def test_a_region_is_a_part_of_the_whole(region, step, light, kernels):
     """Bins of a region, over the edge too, are those of the whole picture in that light, and none outside."""
     image = picture(24, 32) // 4
     lit = 2 * image
-    pair = Pair.of(lit, lit, light_of(image) if light else None, P)
-    expected = kernels.color_bins(image if light else lit, region, P.bins, P.chroma, step)
+    pair = PreparedPair.of(lit, lit, mean_color(image) if light else None, P)
+    expected = kernels.color_bins(image if light else lit, region, P.bins, P.max_chroma, step)
     np.testing.assert_array_equal(pair.bins(kernels, region, step, P), expected)
 
 
 @pytest.mark.parametrize("level", [0, 255])
-def test_black_and_white_are_survived(level, kernels):
+def test_black_and_white_have_finite_gains(level, kernels):
     """A picture without light, or full of it, has finite gains, and one bin everywhere: black stays black."""
     image = np.full((24, 32, 3), level, np.uint8)
-    light = light_of(picture(24, 32))
-    assert np.isfinite(Pair.of(image, image, light, P).gains).all()
+    light = mean_color(picture(24, 32))
+    assert np.isfinite(PreparedPair.of(image, image, light, P).gains).all()
     bins = all_bins(kernels, image, light)
     assert (bins == bins[0, 0]).all()
     if level == 0:
         np.testing.assert_array_equal(bins, all_bins(kernels, image, None))
 
 
-def test_light_is_the_mean():
+def test_the_mean_color_is_the_mean():
     """It is the mean of each channel."""
     image = picture(24, 32)
-    np.testing.assert_allclose(light_of(image), image.mean(axis=(0, 1)), rtol=1e-12)
+    np.testing.assert_allclose(mean_color(image), image.mean(axis=(0, 1)), rtol=1e-12)
 
 
 @pytest.mark.parametrize(
     ("width", "resolution", "step"),
     [(160, 160, 1), (640, 160, 4), (320, 160, 2), (200, 160, 1), (100, 160, 1)],
 )
-def test_places_are_every_so_manieth_pixel(width, resolution, step):
-    """A place is the middle pixel of a square of step by step, and about ``resolution`` of them lie in a row;
-    the small grey pictures are those squares' means.
+def test_cells_are_squares_of_step_pixels(width, resolution, step):
+    """A cell has the color of the middle pixel of a square of step by step pixels, and its mean gray level.
+    About ``resolution`` cells lie in a row.
     """
     image = picture(48, width)
-    pair = Pair.of(image, shifted(image, 3), None, Params(resolution=resolution))
+    pair = PreparedPair.of(image, shifted(image, 3), None, Params(resolution=resolution))
     assert pair.step == step
     np.testing.assert_array_equal(pair.colors, image[step // 2 :: step, step // 2 :: step])
-    grey = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    np.testing.assert_array_equal(pair.grey[0], grey)
-    squares = grey.reshape(48 // step, step, width // step, step).mean(axis=(1, 3))
-    assert np.abs(pair.small[0] - squares).max() <= 0.5 + 1e-6
+    gray = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    np.testing.assert_array_equal(pair.gray[0], gray)
+    squares = gray.reshape(48 // step, step, width // step, step).mean(axis=(1, 3))
+    assert np.abs(pair.reduced[0] - squares).max() <= 0.5 + 1e-6
 
 
 @pytest.mark.parametrize("shape", [(37, 501), (50, 333), (45, 642)], ids=str)
 def test_sizes_that_step_does_not_divide_are_whole(shape, kernels):
-    """Where the step leaves a rest every place of the small pictures still has a color."""
+    """Where the step leaves a rest, every cell of the reduced images still has a color."""
     image = picture(*shape)
-    pair = Pair.of(image, image, None, P)
+    pair = PreparedPair.of(image, image, None, P)
     assert pair.step > 1
-    for color, small in zip(pair.colors.shape, pair.small[0].shape, strict=False):
+    for color, small in zip(pair.colors.shape, pair.reduced[0].shape, strict=False):
         assert small <= color <= small + 1
 
 
@@ -125,44 +126,45 @@ def test_the_images_stay_as_they_were():
     image = picture(48, 64)
     left, right = image.copy(), shifted(image, 2)
     kept = right.copy()
-    Pair.of(left, right, 2 * light_of(left), P)
+    PreparedPair.of(left, right, 2 * mean_color(left), P)
     np.testing.assert_array_equal(left, image)
     np.testing.assert_array_equal(right, kept)
 
 
 @pytest.mark.parametrize(("width", "expected"), [(160, 6.0), (640, 24.0)])
-def test_what_is_about_at_a_disparity_is_coherent(width, expected, kernels):
-    """Of a picture at one disparity nearly all places are coherent with it, and hardly any with one of three
-    places more or less.
+def test_cells_near_a_disparity_are_coherent(width, expected, kernels):
+    """Of a picture at one disparity nearly all cells are coherent with it, and hardly any with one of three
+    cells more or less.
     """
     image = picture(3 * width // 4, width)
-    pair = Pair.of(image, shifted(image, round(expected)), None, P)
+    pair = PreparedPair.of(image, shifted(image, round(expected)), None, P)
     ellipse = (width / 2, 3 * width / 8, 10.0 * pair.step, 12.0 * pair.step)
     shares = [
-        look(kernels, pair, ellipse, expected + off * pair.step, P).coherent.mean() for off in (-3, 0, 3)
+        crop_region(kernels, pair, ellipse, expected + off * pair.step, P).coherent.mean()
+        for off in (-3, 0, 3)
     ]
     assert shares[1] > 0.95
     assert max(shares[0], shares[2]) < 0.05
 
 
 @pytest.mark.parametrize("center", [(80.0, 60.0), (0.0, 0.0), (158.0, 3.0), (-400.0, 900.0)], ids=str)
-def test_a_view_holds_all_that_the_search_touches(center, kernels):
-    """A view reaches over ring and search to every side; its places outside the picture have no bin and no
+def test_a_region_covers_all_that_the_search_touches(center, kernels):
+    """A region reaches over ring and search to every side; its cells outside the image have no bin and no
     depth, those inside the bin of their color.
     """
     image = picture(120, 160)
-    pair = Pair.of(image, shifted(image, 5), None, P)
+    pair = PreparedPair.of(image, shifted(image, 5), None, P)
     x, y = center
-    view = look(kernels, pair, (x, y, 8.0, 10.0), 5.0, P)
-    assert view.bins.shape == view.coherent.shape
-    height, width = view.bins.shape
-    assert view.left <= x - P.ring * 8 - P.search[0]
-    assert view.top <= y - P.ring * 10 - P.search[1]
-    assert view.left + width >= x + P.ring * 8 + P.search[0]
-    assert view.top + height >= y + P.ring * 10 + P.search[1]
-    rows, columns = np.mgrid[view.top : view.top + height, view.left : view.left + width]
+    cropped = crop_region(kernels, pair, (x, y, 8.0, 10.0), 5.0, P)
+    assert cropped.bins.shape == cropped.coherent.shape
+    height, width = cropped.bins.shape
+    assert cropped.left <= x - P.ring * 8 - P.search[0]
+    assert cropped.top <= y - P.ring * 10 - P.search[1]
+    assert cropped.left + width >= x + P.ring * 8 + P.search[0]
+    assert cropped.top + height >= y + P.ring * 10 + P.search[1]
+    rows, columns = np.mgrid[cropped.top : cropped.top + height, cropped.left : cropped.left + width]
     inside = (rows >= 0) & (rows < 120) & (columns >= 0) & (columns < 160)
-    assert (view.bins[~inside] == NO_BIN).all()
-    assert not view.coherent[~inside].any()
-    whole = kernels.color_bins(image, (0, 0, 160, 120), P.bins, P.chroma, 1)
-    np.testing.assert_array_equal(view.bins[inside], whole[rows[inside], columns[inside]])
+    assert (cropped.bins[~inside] == NO_BIN).all()
+    assert not cropped.coherent[~inside].any()
+    whole = kernels.color_bins(image, (0, 0, 160, 120), P.bins, P.max_chroma, 1)
+    np.testing.assert_array_equal(cropped.bins[inside], whole[rows[inside], columns[inside]])

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""The disparity of a region where none is expected yet: the one that most of its cells share."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.flow_depth.rectangles import Region
+from tricue.track.flow_depth.reduced_frame import Plane, ReducedFrame
+
+MIN_DISPARITY_CELLS = 12  # of the region, with a disparity
+MIN_SHARED_PART = 0.25  # of them, that share one
+SHARED_TOLERANCE = 1.0  # cells, up to which disparities count as one
+MAX_DISPARITY_SHARE = 0.3  # of the columns, for parallel cameras; below 0 up to an eighth of that
+MATCHING_WINDOW, MATCHING_UNIQUENESS = 7, 10  # cells, percent; of the block matching
+
+
+def find_initial_disparity(k: Kernels, frame: ReducedFrame, region: Region) -> float | None:
+    """The disparity that most of a region shares, cells.
+
+    None where too few cells have a disparity, where too few share one, and in an empty region.
+    """
+    x0, y0, x1, y1 = region
+    if x0 >= x1 or y0 >= y1:
+        return None
+    disparities = _match(k, frame, region)
+    disparities = disparities[np.isfinite(disparities)]
+    if disparities.size < MIN_DISPARITY_CELLS:
+        return None
+    candidates = np.unique(np.round(disparities))
+    supports = [np.abs(disparities - candidate) <= SHARED_TOLERANCE for candidate in candidates]
+    best: NDArray[np.bool_] = max(supports, key=np.count_nonzero)
+    if np.count_nonzero(best) < MIN_SHARED_PART * disparities.size:
+        return None
+    return float(np.median(disparities[best]))
+
+
+def _match(k: Kernels, frame: ReducedFrame, region: Region) -> Plane:
+    """(h, w) disparities of a region, by block matching or from the depth image; NaN where there is none."""
+    if frame.disparity is not None:
+        x0, y0, x1, y1 = region
+        return frame.disparity[y0:y1, x0:x1]
+    assert frame.right is not None
+    highest = max(int(MAX_DISPARITY_SHARE * frame.gray.shape[1]), 1)
+    first, last = (bound - round(frame.offset) for bound in (-highest // 8, highest))
+    return k.sad_disparity(
+        frame.gray, frame.right, region, False, first, last, MATCHING_WINDOW, MATCHING_UNIQUENESS
+    )

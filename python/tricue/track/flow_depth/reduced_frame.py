@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: MIT
+"""A frame as it is measured: reduced, gray, with a right image or with depth turned into disparity."""
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.frame import Frame
+from tricue.kernels import Kernels
+from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
+from tricue.track.flow_depth.params import FlowDepthParams
+
+Image = NDArray[np.uint8]
+Plane = NDArray[np.float32]
+
+PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters refer
+
+
+class ReducedFrame(NamedTuple):
+    """A frame reduced to cells of ``step`` x ``step`` pixels; lengths and disparities are in cells.
+
+    gray, right: (h, w), mean gray levels; right is None without a right image.
+    disparity: (h, w) from a depth image, NaN where it has none; None without one.
+    offset: by which disparities are smaller than those of parallel cameras.
+    """
+
+    gray: Image
+    right: Image | None
+    disparity: Plane | None
+    step: int
+    offset: float = 0.0
+
+    @property
+    def scale(self) -> float:
+        """Cells here over those of the paper's images, of 160 columns."""
+        return float(self.gray.shape[1] / PAPER_COLUMNS)
+
+    def disparity_scale(self, p: FlowDepthParams) -> float:
+        """The same for lengths in disparity, which are smaller with a depth camera."""
+        return self.scale * (1.0 if self.disparity is None else p.depth_camera_scale)
+
+
+def reduce_frame(k: Kernels, frame: Frame, geometry: DisparityGeometry, p: FlowDepthParams) -> ReducedFrame:
+    """Reduce the channels of a checked frame that the cues need."""
+    image = frame.color if frame.color is not None else frame.depth
+    assert image is not None
+    height, width = image.shape[:2]
+    step = max(1, min(round(width / p.resolution), height, width))
+    gray = (
+        _reduce(_copy_gray(frame.color), step)
+        if frame.color is not None
+        else np.zeros((height // step, width // step), np.uint8)
+    )
+    if "disparity" not in p.cues:
+        return ReducedFrame(gray, None, None, step)
+    offset = geometry.offset / step
+    if frame.right is None:
+        assert frame.depth is not None
+        return ReducedFrame(gray, None, _depth_to_disparity(frame.depth, geometry, step), step, offset)
+    right = _copy_gray(frame.right)
+    if geometry.angle:
+        camera = geometry.camera
+        center = float(camera[2]), float(camera[3])
+        right = k.rectify_verged(right, geometry.angle, float(camera[0]), center, geometry.offset)
+    return ReducedFrame(gray, _reduce(right, step), None, step, offset)
+
+
+def _copy_gray(image: Image) -> Image:
+    """A gray copy: the flow of the next frame needs it, and the caller may reuse the array for that frame."""
+    if image.ndim == 2:
+        return np.array(image)
+    return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY).astype(np.uint8, copy=False)
+
+
+def _reduce(image: Image, step: int) -> Image:
+    if step == 1:
+        return image
+    height, width = (size // step for size in image.shape)
+    whole = image[: height * step, : width * step]
+    return cv2.resize(whole, (width, height), interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
+
+
+def _depth_to_disparity(depth: Plane, geometry: DisparityGeometry, step: int) -> Plane:
+    """(h, w) cells: the disparity that the geometry's stereo pair has at each cell's middle pixel."""
+    height, width = (size // step for size in depth.shape)
+    middle = depth[step // 2 :: step, step // 2 :: step][:height, :width]
+    with np.errstate(divide="ignore", over="ignore"):
+        disparity = np.float32(geometry.disparity_times_depth / step) / middle - np.float32(
+            geometry.offset / step
+        )
+    disparity[~np.isfinite(disparity)] = np.nan
+    return np.ascontiguousarray(disparity)

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""The disparity of a head: of the pixels in an ellipse, within a range (Moreno et al. 2002, section 3.2)."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.stereo_head.params import StereoHeadParams
+from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, PreparedPair
+from tricue.track.stereo_head.stereo_geometry import StereoGeometry
+
+Disparities = NDArray[np.float32]
+
+MAX_MATCHING_WINDOW = 31  # pixels, side of the window
+MIN_MATCHED_PIXELS = 8  # of an ellipse
+MAX_CANDIDATE_DISPARITIES = 4000  # of one search
+
+
+class EllipseDisparity(NamedTuple):
+    """The disparity of an ellipse, pixels (5), and the share of the ellipse's pixels that are near it."""
+
+    disparity: float
+    share: float
+
+
+def measure_disparity(
+    k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
+) -> EllipseDisparity | None:
+    """The disparity of an ellipse, by the median or the mean of its pixels (5).
+
+    limits: lowest and highest disparity, pixels, both included. None where too few pixels are matched.
+    """
+    matched, area = _match(k, pair, ellipse, limits, p)
+    if matched.size < MIN_MATCHED_PIXELS:
+        return None
+    disparity = _median(matched) if p.disparity_statistic == "median" else float(matched.mean())
+    return EllipseDisparity(disparity, np.count_nonzero(_near(matched, disparity, pair, p)) / area)
+
+
+def find_initial_disparity(
+    k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
+) -> EllipseDisparity | None:
+    """The disparity of an ellipse where none is expected yet: the one that most matches share.
+
+    Within wide limits, wrong matches pull even a median. None where too few pixels are matched.
+    """
+    matched, area = _match(k, pair, ellipse, limits, p)
+    if matched.size < MIN_MATCHED_PIXELS:
+        return None
+    candidates = np.unique(np.round(matched))
+    supports = [_near(matched, candidate, pair, p) for candidate in candidates.tolist()]
+    best = max(supports, key=np.count_nonzero)
+    shared = matched[best] if best.any() else matched
+    return EllipseDisparity(_median(shared), np.count_nonzero(best) / area)
+
+
+def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, int]:
+    """The limits of the search around an expected disparity, pixels (4)."""
+    below, above = p.disparities
+    return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
+
+
+def limits_between(geometry: StereoGeometry, near: float, far: float, step: int) -> tuple[int, int]:
+    """The disparities of the distances from far to near, metres, in units of ``step`` pixels.
+
+    They are limited to what the image is wide enough for.
+    """
+    highest = min(geometry.shape[1] // step, MAX_CANDIDATE_DISPARITIES)
+    first, last = (geometry.disparity(z) / step for z in (far, near))
+    begin = min(math.floor(first), highest)
+    return begin, max(begin, math.ceil(min(last, highest)))
+
+
+def _match(
+    k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
+) -> tuple[Disparities, float]:
+    """The disparities (N,) found in an ellipse without its margin, and how many pixels that ellipse has."""
+    window = min(p.window + 2 * (pair.step - 1), MAX_MATCHING_WINDOW)
+    x, y, minor, major = ellipse
+    minor, major = (max(half - p.ellipse_margin * window, half / 2) for half in (minor, major))
+    region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
+    disparities = k.sad_disparity(
+        *pair.gray, region, True, *limits, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
+    )
+    return disparities[np.isfinite(disparities)], math.pi * minor * major
+
+
+def _near(
+    matched: Disparities, disparity: float, pair: PreparedPair, p: StereoHeadParams
+) -> NDArray[np.bool_]:
+    """(N,) whether each matched disparity is within the tolerance of one disparity, pixels."""
+    tolerance = np.float32(p.disparity_tolerance * pair.step)
+    return np.asarray(np.abs(matched - np.float32(disparity)) <= tolerance)
+
+
+def _median(values: Disparities) -> float:
+    """The same as numpy.median, which takes five times as long for so few values."""
+    ordered, half = np.sort(values), values.size // 2
+    return float(ordered[half]) if values.size % 2 else float(ordered[half - 1] + ordered[half]) / 2

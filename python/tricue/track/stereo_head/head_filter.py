@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+"""The Kalman filter of Moreno et al. 2002, section 4: position, the model's mean color, the intersection."""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.stereo_head.params import StereoHeadParams
+
+Floats = NDArray[np.float64]
+
+MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; in a state the velocity comes after
+COLOR_DRIFT = 2.0  # levels a frame, standard deviation of the model's mean color
+INTERSECTION_DRIFT, INTERSECTION_NOISE = 1.0, 0.1  # section 4.1: unity; ours
+COASTING_FACTOR = 0.9  # of the velocity, for each frame without a measurement
+
+
+class HeadFilter(NamedTuple):
+    """A Gaussian state: its mean, (7,) or (10,), and its covariance.
+
+    The mean holds X, Y, Z, metres; the mean color, levels; the intersection (1); the velocity, m/s, if any.
+    """
+
+    mean: Floats
+    covariance: Floats
+
+    @property
+    def position(self) -> Floats:
+        """(3,) metres, in the left camera's frame."""
+        return self.mean[:3]
+
+    @property
+    def color(self) -> Floats:
+        """(3,) mean color of the model."""
+        return self.mean[3:6]
+
+    @property
+    def position_covariance(self) -> Floats:
+        """(3, 3) square metres."""
+        return self.covariance[:3, :3]
+
+
+def initialize(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilter:
+    """A filter at rest at a measurement (7,), with its covariance (7, 7)."""
+    if p.motion == "constant":
+        return HeadFilter(measured, noise)
+    covariance = np.zeros((10, 10))
+    covariance[:MEASUREMENT_SIZE, :MEASUREMENT_SIZE] = noise
+    covariance[MEASUREMENT_SIZE:, MEASUREMENT_SIZE:] = p.max_speed**2 / 3 * np.eye(3)
+    return HeadFilter(np.concatenate([measured, np.zeros(3)]), covariance)
+
+
+def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
+    """The prediction (6), or, with ``motion="velocity"``, by the velocity. Z stays between near and far."""
+    limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
+    dynamics = _dynamics(len(state.mean), seconds, limit)
+    mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
+    mean[2] = min(max(mean[2], p.near), p.far)
+    return HeadFilter(mean, covariance)
+
+
+def mahalanobis_distance(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
+    """The distance of a measured position, of (7,), from the predicted one, in standard deviations."""
+    off = (measured[:3] - predicted.position).tolist()
+    xx, xy, xz, _, yy, yz, _, _, zz = (predicted.position_covariance + noise[:3, :3]).ravel().tolist()
+    # The three steps of Cholesky written out: numpy.linalg takes longer than the whole correction.
+    a = xx**0.5
+    b, c = xy / a, xz / a
+    d = (yy - b * b) ** 0.5
+    e = (yz - b * c) / d
+    f = (zz - c * c - e * e) ** 0.5
+    u = off[0] / a
+    v = (off[1] - b * u) / d
+    w = (off[2] - c * u - e * v) / f
+    return math.sqrt(u * u + v * v + w * w)
+
+
+def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
+    """The correction (8) by a measurement (7,) and its covariance (7, 7)."""
+    selection = np.eye(MEASUREMENT_SIZE, len(predicted.mean))
+    mean, covariance, *_ = k.kalman_update(predicted.mean, predicted.covariance, measured, selection, noise)
+    return HeadFilter(mean, covariance)
+
+
+def coast(predicted: HeadFilter) -> HeadFilter:
+    """The state after a frame without a measurement: the prediction with a smaller velocity."""
+    mean = predicted.mean.copy()
+    mean[MEASUREMENT_SIZE:] *= COASTING_FACTOR
+    return HeadFilter(mean, predicted.covariance)
+
+
+@lru_cache(maxsize=16)
+def _dynamics(size: int, seconds: float, limit: float) -> tuple[Floats, Floats]:
+    """Transition F and process noise Q of a state of 7 or 10 numbers.
+
+    limit: with 7 numbers the maximum speed, m/s; with 10 the deviation of the acceleration, m/s².
+    """
+    transition, noise = np.eye(size), np.zeros((size, size))
+    positions, velocities = np.arange(3), np.arange(MEASUREMENT_SIZE, size)
+    others = range(3, MEASUREMENT_SIZE)
+    noise[others, others] = [COLOR_DRIFT**2] * 3 + [INTERSECTION_DRIFT**2]
+    if size == MEASUREMENT_SIZE:
+        noise[positions, positions] = (limit * seconds) ** 2  # "the maximum displacement that we expect"
+        return transition, noise
+    transition[positions, velocities] = seconds
+    power = limit**2
+    noise[positions, positions] = power * seconds**4 / 4
+    noise[positions, velocities] = noise[velocities, positions] = power * seconds**3 / 2
+    noise[velocities, velocities] = power * seconds**2
+    return transition, noise

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""The cells that the local search touches: their color bins, and whether they are at the head's depth."""
+
+import math
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.stereo_head.params import StereoHeadParams
+from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, Image, PreparedPair
+
+FILL_WINDOW = 7  # cells, side of the square by which gaps in the disparity are filled
+
+
+class SearchRegion(NamedTuple):
+    """A rectangle of cells, which may reach over the image's edge.
+
+    left, top: of its first cell. bins: (h, w) color bins. coherent: (h, w) 1 at the head's depth, else 0.
+    """
+
+    left: int
+    top: int
+    bins: NDArray[np.uint16]
+    coherent: Image
+
+    def to_cells(self, ellipse: Ellipse, step: int) -> NDArray[np.float64]:
+        """(4,) an ellipse in pixels of the image as center and semi-axes in cells of the region."""
+        x, y, minor, major = ellipse
+        return np.array([x / step - self.left, y / step - self.top, minor / step, major / step])
+
+
+def crop_region(
+    k: Kernels, pair: PreparedPair, ellipse: Ellipse, disparity: float, p: StereoHeadParams
+) -> SearchRegion:
+    """The region that the search around an ellipse touches, for a head at about a disparity, pixels."""
+    step, (across, down) = pair.step, p.search
+    x, y, minor, major = (each / step for each in ellipse)
+    left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
+    right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
+    region = (left, top, right, bottom)
+    bins = pair.bins(k, region, 1, p)
+    expected = min(disparity / step, float(pair.reduced[0].shape[1]))
+    first, last = round(expected) - p.disparities[0], round(expected) + p.disparities[1]
+    disparities = k.sad_disparity(
+        *pair.reduced, region, False, first, last, p.window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
+    )
+    coherent = _select_coherent(disparities, expected, p.disparity_tolerance)
+    height, width = pair.reduced[0].shape  # cells outside the image aren't the head's
+    coherent[: max(-top, 0)] = coherent[max(height - top, 0) :] = 0
+    coherent[:, : max(-left, 0)] = coherent[:, max(width - left, 0) :] = 0
+    return SearchRegion(left, top, bins, coherent)
+
+
+def _select_coherent(disparities: NDArray[np.float32], expected: float, tolerance: float) -> Image:
+    """(h, w) 1 where disparities are within the tolerance of the expected one, else 0.
+
+    A cell without a disparity, as in hair of one color, gets the majority of the cells around it.
+    """
+    off = np.abs(disparities - np.float32(expected))
+    near, beyond = off <= np.float32(tolerance), off > np.float32(tolerance)  # both False without a disparity
+    votes = (near.view(np.int8) - beyond.view(np.int8)).astype(np.int16)
+    window = (FILL_WINDOW, FILL_WINDOW)
+    majority = cv2.boxFilter(votes, -1, window, normalize=False, borderType=cv2.BORDER_CONSTANT)
+    return np.asarray(near | ((majority > 0) > beyond)).view(np.uint8)
