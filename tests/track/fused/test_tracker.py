@@ -224,7 +224,7 @@ def test_pickled_with_depth(until, name, drawn, shoot, follow):
 def test_pickled_before_init(drawn, shoot, follow):
     """A tracker can be pickled before its init; cameras, seed, parameters and kernels come back."""
     scene, frames = drawn("plain"), shoot("plain", 3 * ["rgbd"])
-    tracker = FusedTracker(rig=scene.rig, seed=7, kernels="reference", drift=0.25)
+    tracker = FusedTracker(rig=scene.rig, seed=7, kernels="reference", velocity_gain=0.25)
     restored = pickle.loads(pickle.dumps(tracker))
     assert (restored.seed, restored.kernels, restored.params) == (7, "reference", tracker.params)
     assert restored.rig == scene.rig
