@@ -66,7 +66,7 @@ def test_a_slanted_plane():
     distribution over the part that counts.
     """
     x = np.indices((160, 200))[1] + 0.5
-    slope = 0.004  # metres a pixel
+    slope = 0.004  # meters per pixel
     z, spread, share = measure_depth(observation(Z + slope * (x - TARGET.x)), TARGET, None)
     assert z == pytest.approx(Z, abs=2 * slope)
     assert share == 1

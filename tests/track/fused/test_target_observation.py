@@ -11,9 +11,9 @@ from tricue.track.fused.target_observation import PICTURE_DEPTH_RANGE, TargetObs
 CAMERA = Intrinsics.from_fov(250, 200, 60)
 
 
-def depths(*metres: float) -> np.ndarray:
+def depths(*values: float) -> np.ndarray:
     """A depth image of one row."""
-    return np.array([metres], np.float32)
+    return np.array([values], np.float32)
 
 
 def test_render_depth_by_hand():

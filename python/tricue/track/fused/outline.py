@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
-MIN_FILLED = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
-CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
+MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
+OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
 MIN_OUTLINE_SIDE, MAX_OUTLINE_SIDE = 0.3, 3.0  # of half the width or height
 
@@ -53,7 +53,7 @@ def measure_outline(window: Window, right: float, down: float, covered: float) -
     if covered > MAX_COVERED_BY_OCCLUDER:
         return None
     posterior = window.depth[0]
-    rows, columns = window.inner(right, down, CENTER_SHARE)
+    rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
     across, along = posterior[rows].mean(axis=0), posterior[:, columns].mean(axis=1)
     sides = (*_extent(across, x), *_extent(along, y))
@@ -73,7 +73,7 @@ def _extent(filled: NDArray[np.floating], center: float) -> tuple[float | None, 
     None if it starts outside of it, or reaches the window's edge.
     """
     start = min(max(int(center), 0), len(filled) - 1)
-    empty = np.flatnonzero(filled < MIN_FILLED)
+    empty = np.flatnonzero(filled < MIN_FILLED_POSTERIOR)
     before, after = empty[empty <= start], empty[empty > start]
     if not len(before) or not len(after) or before[-1] == start:
         return None, None
@@ -81,6 +81,6 @@ def _extent(filled: NDArray[np.floating], center: float) -> tuple[float | None, 
 
 
 def _crossing(filled: NDArray[np.floating], index: int) -> float:
-    """Where MIN_FILLED is crossed between the centers of a pixel and the next."""
+    """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
     first, second = float(filled[index]), float(filled[index + 1])
-    return index + 0.5 + (MIN_FILLED - first) / (second - first)
+    return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)

@@ -15,8 +15,11 @@ from tricue.track.fused.window import Window
 DEPTH_SAMPLES = 48  # on a side of the part in which the target's depth is measured
 MIN_MEASURED_SHARE = 0.1  # of the samples
 MIN_DEPTH_SPREAD, MAX_DEPTH_SPREAD = 0.04, 0.4  # meters
-CENTRAL_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
-MIN_DEPTH, MAX_DEPTH = 0.001, 1000.0  # meters; what is nearer or farther counts as not measured
+DEPTH_CENTER_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
+MIN_MEASURED_DEPTH, MAX_MEASURED_DEPTH = (
+    0.001,
+    1000.0,
+)  # meters; what is nearer or farther counts as not measured
 MAX_DEPTH_OFFSET = 0.5  # meters from the median of that part
 MAD_TO_SIGMA = 1.4826  # from the median absolute deviation to normal noise's standard deviation
 
@@ -66,12 +69,12 @@ def measure_depth(
         return None
     if expected is not None and expected.sigma > MAX_EXPECTED_SIGMA:
         expected = None
-    side = CENTRAL_SHARE * target.side if expected is None else max(target.width, target.height)
+    side = DEPTH_CENTER_SHARE * target.side if expected is None else max(target.width, target.height)
     pixel_size = side / DEPTH_SAMPLES
     corner = target.x - side / 2, target.y - side / 2
     depths = observation.depth_source.sample((*corner, pixel_size), DEPTH_SAMPLES, expected)
     if expected is None:
-        inside = (depths > MIN_DEPTH) & (depths < MAX_DEPTH)
+        inside = (depths > MIN_MEASURED_DEPTH) & (depths < MAX_MEASURED_DEPTH)
         center = float(np.median(depths[inside])) if inside.any() else math.nan
         max_offset = MAX_DEPTH_OFFSET
     else:
