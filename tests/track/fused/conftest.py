@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Stress scenes, each drawn once, with whatever channels a test asks for."""
+"""Stress scenes, each rendered once, with whatever channels a test asks for."""
 
 from collections.abc import Callable, Sequence
 from functools import cache

@@ -16,7 +16,7 @@ PAIRS = [
 ]
 KINDS = ("plain", "camera")
 CHANGE, END = 20, 50  # frames
-BOUND = 0.2  # metres, a tenth of the target's distance
+BOUND = 0.2  # meters, a tenth of the target's distance
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def run(drawn, shoot) -> Callable[..., list[Track]]:
 
 @pytest.fixture(scope="module")
 def errors(drawn) -> Callable[[str, Sequence[Track]], NDArray[np.float64]]:
-    """Metres from the truth (N,), NaN without a position."""
+    """Errors in meters (N,), NaN without a position."""
 
     def off(kind: str, tracks: Sequence[Track]) -> NDArray[np.float64]:
         true = zip(tracks, drawn(kind).positions, strict=False)
@@ -51,11 +51,11 @@ def errors(drawn) -> Callable[[str, Sequence[Track]], NDArray[np.float64]]:
 def follows(drawn) -> Callable[[str, Sequence[Track]], bool]:
     """Whether it is TRACKED in the last frame, where the target is."""
 
-    def told(kind: str, tracks: Sequence[Track]) -> bool:
+    def on_target(kind: str, tracks: Sequence[Track]) -> bool:
         true = Box(*drawn(kind).boxes[len(tracks) - 1])
         return tracks[-1].status is Status.TRACKED and tracks[-1].box.iou(true) > 0.5
 
-    return told
+    return on_target
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -84,7 +84,7 @@ def test_positions_come_with_depth_and_stay(before, after, kind, run, errors):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_channels_change_in_every_frame(kind, run, follows, errors):
-    """Color, color with depth, a pair and depth by turns, a frame each, are followed for 80 frames."""
+    """It follows for 80 frames whose channels are, in turn, color, color and depth, a stereo pair, depth."""
     tracks = run(kind, 20 * ["color", "rgbd", "pair", "depth"])
     assert follows(kind, tracks)
     assert errors(kind, tracks)[-1] < BOUND
@@ -107,9 +107,9 @@ def test_depth_that_comes_late(depth, kind, run, follows, errors):
 @pytest.mark.parametrize("without", ["color", "blank"])
 @pytest.mark.parametrize("depth", ["rgbd", "pair"])
 def test_depth_that_is_lost_for_a_while(depth, without, kind, shoot, run, follows, errors):
-    """In 20 frames without depth, or with a channel that measures nothing, it follows by color and gets less
-    sure of the position from frame to frame; five frames after depth is back the position is right, and as
-    sure as before to a half.
+    """In 20 frames without depth, or with a channel that measures nothing, it follows by color and the
+    covariance of the position grows from frame to frame. Five frames after depth is back the position is
+    right, and its covariance that from before to a half.
     """
     frames = shoot(kind, 20 * [depth] + 20 * ["color"] + 20 * [depth])
     if without == "blank":
@@ -133,7 +133,7 @@ def test_color_that_is_lost_for_a_while(kind, run, follows, errors):
     assert follows(kind, tracks)
 
 
-def test_what_is_not_asked_is_not_seen(run):
+def test_without_the_cue_depth_is_not_read(run):
     """Without the cue depth it gives the tracks of color alone, bit for bit, whatever else frames have."""
     cues = ("filter", "color", "ranks", "edges", "flow")
     color, *others = (run("plain", 25 * [name], cues=cues) for name in ("color", "rgbd", "pair", "all"))
@@ -141,6 +141,6 @@ def test_what_is_not_asked_is_not_seen(run):
     assert all(track.position is None for track in color)
 
 
-def test_depth_comes_before_a_pair(run):
+def test_depth_comes_before_a_stereo_pair(run):
     """A frame with color, depth and right is measured by its depth."""
     assert run("plain", 20 * ["all"]) == run("plain", 20 * ["rgbd"]) != run("plain", 20 * ["pair"])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""How right the fused tracker is in metres, and what it makes of what hides, leaves and looks alike: with
-color and depth, with a pair, and with depth alone.
+"""The fused tracker's error in meters, and occlusion, leaving and look-alikes: with color and depth, with a
+stereo pair, and with depth alone.
 """
 
 from collections.abc import Callable
@@ -14,11 +14,11 @@ from tricue import Box, Frame, FusedTracker, Intrinsics, Status, Track
 from tricue.scenes.stress.scene import StressScene
 
 CHANNELS = ("rgbd", "pair", "depth")
-SLOW = {"rgbd": 0.02, "pair": 0.04, "depth": 0.02}  # of the distance, bound of the median error
-CERTAIN = 16.3  # the 99.9 % quantile of chi-square with 3 degrees of freedom
+MAX_MEDIAN_ERROR = {"rgbd": 0.02, "pair": 0.04, "depth": 0.02}  # of the distance, bound of the median error
+CHI_SQUARE_LIMIT = 16.3  # the 99.9 % quantile of chi-square with 3 degrees of freedom
 STILL = ("plain", "scale")
-SHOWN = [(name, kind) for name in CHANNELS for kind in (*STILL, "hidden")]
-SHOWN += [("rgbd", "leaving"), ("depth", "leaving")]
+RUNS = [(name, kind) for name in CHANNELS for kind in (*STILL, "hidden")]
+RUNS += [("rgbd", "leaving"), ("depth", "leaving")]
 
 
 class Run:
@@ -40,7 +40,7 @@ class Run:
 
     @property
     def errors(self) -> NDArray[np.float64]:
-        """(N, 3) metres from the truth."""
+        """(N, 3) meters from the truth."""
         return np.array([track.position for track in self.tracks]) - self.scene.positions
 
     @property
@@ -49,8 +49,8 @@ class Run:
         return np.array([track.covariance for track in self.tracks])
 
     @property
-    def surprises(self) -> NDArray[np.float64]:
-        """(N,) normalised squared errors, 3 on average of one who is as sure as he is right."""
+    def normalized_errors(self) -> NDArray[np.float64]:
+        """(N,) normalized squared errors, 3 on average if the covariances are those of the errors."""
         off = self.errors[..., None]
         return np.asarray(off.transpose(0, 2, 1) @ np.linalg.solve(self.covariances, off)).ravel()
 
@@ -70,19 +70,19 @@ def failing(reason: str) -> pytest.MarkDecorator:
 @pytest.mark.parametrize("name", CHANNELS)
 def test_positions_are_right(name, kind, run):
     """Every position is within 5 % of the distance, at least 5 cm, and half of them within 2 % by a depth
-    image, 4 % by a pair.
+    image, 4 % by a stereo pair.
     """
     done = run(kind, name)
     off = np.linalg.norm(done.errors, axis=1)
     z = done.scene.positions[:, 2]
     assert (off < np.maximum(0.05 * z, 0.05)).all()
-    assert np.median(off / z) < SLOW[name]
+    assert np.median(off / z) < MAX_MEDIAN_ERROR[name]
 
 
-@pytest.mark.parametrize(("name", "kind"), SHOWN)
-def test_covariances_are_ones(name, kind, run):
-    """In every frame, seen or not, they are symmetric to the last bit and positive definite, and below a
-    thousand kilometres.
+@pytest.mark.parametrize(("name", "kind"), RUNS)
+def test_covariances_are_valid(name, kind, run):
+    """In every frame, TRACKED or not, they are symmetric to the last bit and positive definite, and below a
+    thousand kilometers.
     """
     covariances = run(kind, name).covariances
     np.testing.assert_array_equal(covariances, covariances.transpose(0, 2, 1))
@@ -92,27 +92,31 @@ def test_covariances_are_ones(name, kind, run):
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_it_is_not_surer_than_right(name, run):
-    """While it is TRACKED the mean normalised squared error is at most 6, twice what chi-square asks for, and
+def test_covariances_are_not_too_small(name, run):
+    """While it is TRACKED the mean normalized squared error is at most 6, twice what chi-square asks for, and
     one frame of fifty, at most, is beyond its 99.9 % quantile.
     """
-    surprises = np.concatenate([run(kind, name).surprises[run(kind, name).tracked] for kind in STILL])
-    assert surprises.mean() < 6
-    assert np.mean(surprises > CERTAIN) < 0.02
+    normalized_errors = np.concatenate(
+        [run(kind, name).normalized_errors[run(kind, name).tracked] for kind in STILL]
+    )
+    assert normalized_errors.mean() < 6
+    assert np.mean(normalized_errors > CHI_SQUARE_LIMIT) < 0.02
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_it_is_not_much_less_sure_than_right(name, run):
-    """While it is TRACKED the mean normalised squared error is above 0.12: the standard deviations are at
+def test_covariances_are_not_much_too_large(name, run):
+    """While it is TRACKED the mean normalized squared error is above 0.12: the standard deviations are at
     most five times the errors.
     """
-    surprises = np.concatenate([run(kind, name).surprises[run(kind, name).tracked] for kind in STILL])
-    assert surprises.mean() > 3 / 5**2
+    normalized_errors = np.concatenate(
+        [run(kind, name).normalized_errors[run(kind, name).tracked] for kind in STILL]
+    )
+    assert normalized_errors.mean() > 3 / 5**2
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_it_gets_less_sure_while_nothing_is_seen(name, run):
-    """The covariance grows in every frame in which the target isn't recognised."""
+def test_covariances_grow_while_it_is_missed(name, run):
+    """The covariance grows in every frame in which the target isn't recognized."""
     done = run("hidden", name)
     assert (~done.tracked).sum() > 10
     grows = np.diff(np.trace(done.covariances, axis1=1, axis2=2)) > 0
@@ -131,8 +135,8 @@ def test_the_size_follows_the_distance(name, run):
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_the_hidden_is_not_tracked(name, run):
-    """Of the 20 frames in which it is wholly hidden none is TRACKED but the first two."""
+def test_an_occluded_target_is_not_tracked(name, run):
+    """Of the 20 frames in which it is wholly occluded none is TRACKED but the first two."""
     done = run("hidden", name)
     gone = np.flatnonzero(done.scene.visible == 0)
     assert len(gone) == 20
@@ -140,7 +144,7 @@ def test_the_hidden_is_not_tracked(name, run):
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_the_hidden_is_occluded(name, run):
+def test_an_occluded_target_is_occluded(name, run):
     """Behind something nearer it is OCCLUDED, not LOST, in four of five frames at least."""
     done = run("hidden", name)
     gone = np.flatnonzero(done.scene.visible == 0)
@@ -149,8 +153,8 @@ def test_the_hidden_is_occluded(name, run):
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_it_gets_surer_when_it_is_seen_again(name, run):
-    """Ten frames after it was hidden it is as sure of the position as before, to a half."""
+def test_covariances_shrink_when_it_is_visible_again(name, run):
+    """Ten frames after the occlusion the covariance is that from before, to a half."""
     done = run("hidden", name)
     spread = np.trace(done.covariances, axis1=1, axis2=2)
     last = np.flatnonzero(done.scene.visible == 0)[-1]
@@ -159,8 +163,8 @@ def test_it_gets_surer_when_it_is_seen_again(name, run):
 
 
 @pytest.mark.parametrize("name", CHANNELS)
-def test_the_hidden_is_found_again(name, run):
-    """Within 10 frames of its being seen again it is TRACKED where it is, and stays so."""
+def test_an_occluded_target_is_found_again(name, run):
+    """Within 10 frames of its being visible again it is TRACKED where it is, and stays so."""
     done = run("hidden", name)
     back = np.flatnonzero(done.scene.visible == 0)[-1] + 10
     assert done.tracked[back:].all()
@@ -182,7 +186,7 @@ def test_what_left_is_lost(name, run):
 
 LATE = failing(
     "by depth alone log-odds are at most 2.3, and coming back 1.9 m away takes off more until the position's"
-    " doubt has grown: found in its first frame, it is refused for 24"
+    " covariance has grown: found in its first frame, it is refused for 24"
 )
 
 
@@ -199,7 +203,7 @@ def test_what_left_is_found_again(name, run):
 @pytest.mark.parametrize("seed", [0, 1])
 @pytest.mark.parametrize("name", ["rgbd", "depth"])
 def test_a_lookalike_is_not_tracked(name, seed, run):
-    """Nobody who looks like the target is TRACKED in its place for over 5 frames in a row."""
+    """No look-alike is TRACKED in its place for over 5 frames in a row."""
     done = run("lookalike", name, seed)
     for boxes in done.scene.lookalikes:
         other = done.overlaps(boxes)
@@ -232,7 +236,7 @@ def test_positions_are_in_the_cameras_frame(name, drawn, shoot):
 
 @pytest.mark.parametrize("name", CHANNELS)
 def test_positions_scale_with_the_baseline(name, drawn, shoot):
-    """With twice the baseline a pair's target is twice as far away; a depth image's isn't."""
+    """With twice the baseline a stereo pair's target is twice as far away; a depth image's isn't."""
     scene, frames = drawn("plain"), shoot("plain", name)[:10]
     wide = replace(scene.rig, baseline=2 * scene.rig.baseline)
     here, there = (last_position(frames, scene, rig) for rig in (scene.rig, wide))
@@ -240,7 +244,7 @@ def test_positions_scale_with_the_baseline(name, drawn, shoot):
 
 
 def last_position(frames: list[Frame], scene: StressScene, rig) -> NDArray[np.float64]:
-    """(3,) metres, after the last of the frames."""
+    """(3,) meters, after the last of the frames."""
     tracker = FusedTracker(rig=rig)
     tracker.init(frames[0], scene.boxes[0])
     return [tracker.update(frame) for frame in frames[1:]][-1].position
@@ -248,7 +252,7 @@ def last_position(frames: list[Frame], scene: StressScene, rig) -> NDArray[np.fl
 
 @pytest.mark.parametrize("name", ["rgbd", "depth"])
 def test_intrinsics_are_as_good_as_a_rig(name, drawn, shoot):
-    """A depth image's camera may be described by ``intrinsics`` alone, and the usual one sees 60 degrees."""
+    """A depth image's camera may be described by ``intrinsics`` alone, the default one has 60 degrees."""
     scene, frames = drawn("plain"), shoot("plain", name)[:10]
     assert scene.intrinsics == Intrinsics.from_fov(320, 240, 60)
     runs = []
@@ -258,8 +262,8 @@ def test_intrinsics_are_as_good_as_a_rig(name, drawn, shoot):
     assert runs[0] == runs[1] == runs[2]
 
 
-def test_longer_gaps_are_less_sure(drawn, shoot):
-    """After half a second without a measurement it is less sure of the position than after a thirtieth."""
+def test_covariances_grow_with_the_gap(drawn, shoot):
+    """After half a second without a measurement the covariance is larger than after a thirtieth."""
     spreads = []
     for seconds in (1 / 30, 0.5):
         tracker = FusedTracker(rig=drawn("plain").rig)
@@ -272,8 +276,8 @@ def test_longer_gaps_are_less_sure(drawn, shoot):
     assert spreads[1] > 10 * spreads[0]
 
 
-def test_what_is_given_out_is_the_callers(drawn, shoot):
-    """What is done to a track's arrays doesn't reach the tracker."""
+def test_tracks_are_copies(drawn, shoot):
+    """Writing into a track's arrays doesn't change the tracker."""
     frames, kept = shoot("plain", 10 * ["rgbd"]), []
     for spoil in (False, True):
         tracker = FusedTracker(rig=drawn("plain").rig)

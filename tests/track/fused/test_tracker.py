@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""That the fused tracker follows, says when it has lost its target, finds it again, and hides no state."""
+"""That the fused tracker follows, reports a lost target, finds it again, and has no hidden state."""
 
 import copy
 import pickle
@@ -59,7 +59,7 @@ def test_follows_a_change_of_size(factor, stage, follow):
 
 
 @pytest.mark.parametrize("blank", BLANK)
-def test_a_frame_without_target_is_told(blank, stage, follow):
+def test_a_frame_without_target_is_lost(blank, stage, follow):
     """In frames of one color or of noise it is never TRACKED, LOST from the third, and scores under 0.3."""
     tracker = FusedTracker()
     follow(tracker, stage(HERE), START)
@@ -103,7 +103,7 @@ CUES = [
 
 @pytest.mark.parametrize("cues", CUES, ids=" ".join)
 def test_experts_can_be_switched_off(cues, stage, follow):
-    """With any of the experts left that say where the target is, a slow face is followed."""
+    """With any of the experts left that localize the target, a slow face is followed."""
     last = follow(FusedTracker(cues=cues), stage(HERE), START)[-1]
     assert last.box.iou(Box(*HERE[-1], 50, 63)) > 0.5
 
@@ -111,7 +111,7 @@ def test_experts_can_be_switched_off(cues, stage, follow):
 WHITE = pytest.mark.xfail(
     strict=True,
     raises=AssertionError,
-    reason="without the cue depth a picture of depth is white: it is drawn round 0 m",
+    reason="without the cue depth a picture of depth is white: it is drawn around 0 m",
 )
 FEW = [
     pytest.param(cues, name, marks=WHITE if (cues, name) == (("filter",), "depth") else ())
@@ -129,8 +129,8 @@ def test_few_experts_are_enough_in_any_channels(cues, name, film, drawn):
 
 
 @pytest.mark.parametrize("expert", FusedTracker.Params().cues)
-def test_every_expert_has_a_say(expert, film):
-    """Without any one of the experts the tracks are others; flow is asked where depth says nothing."""
+def test_every_expert_matters(expert, film):
+    """Without any one of the experts the tracks are others; flow is read where there is no depth."""
     name = "color" if expert == "flow" else "rgbd"
     others = tuple(each for each in FusedTracker.Params().cues if each != expert)
     assert film(name, 25, cues=others) != film(name, 25)
@@ -148,7 +148,7 @@ def test_both_sets_of_kernels_agree(stage, follow):
 
 @pytest.mark.parametrize("name", ["rgbd", "pair", "depth"])
 def test_both_sets_of_kernels_agree_on_depth(name, film):
-    """With depth, too, to a tenth of a pixel, a millimetre, and a thousandth of the covariance; the statuses
+    """With depth, too, to a tenth of a pixel, a millimeter, and a thousandth of the covariance; the statuses
     are the same.
     """
     native, reference = (film(name, 5, kernels=each) for each in ("native", "reference"))
@@ -163,13 +163,13 @@ UNKNOWN = pytest.mark.xfail(
     strict=True,
     raises=AssertionError,
     reason="in other surroundings the face's own structure has log-odds of -0.3 to 0.6, less than the"
-    " 0.85 that are asked of what is elsewhere",
+    " 0.85 that are needed elsewhere",
 )
 
 
 @pytest.mark.parametrize("seen", [pytest.param(2, marks=UNKNOWN), pytest.param(6, marks=UNKNOWN), 12])
 def test_found_again_after_few_frames(seen, stage, follow):
-    """A face that was seen in so few frames before it was lost is found within 10 where it comes back."""
+    """A face that was visible in so few frames before it was lost is found within 10 where it comes back."""
     frames = stage(HERE[:seen]) + 3 * [BLANK["black"]] + stage(10 * [THERE])
     last = follow(FusedTracker(), frames, START)[-1]
     assert last.status is Status.TRACKED
@@ -177,7 +177,7 @@ def test_found_again_after_few_frames(seen, stage, follow):
 
 
 def test_both_sets_of_kernels_search_alike(stage, follow):
-    """Lost, they look at the same places: after three blank frames both find the face where it came back."""
+    """A search with either finds the same: after three blank frames both find the face where it came back."""
     frames = stage(HERE) + 3 * [BLANK["black"]] + stage(3 * [THERE])
     native, reference = (
         follow(FusedTracker(kernels=each), frames, START) for each in ("native", "reference")
@@ -224,7 +224,7 @@ def test_pickled_with_depth(until, name, drawn, shoot, follow):
 def test_pickled_before_init(drawn, shoot, follow):
     """A tracker can be pickled before its init; cameras, seed, parameters and kernels come back."""
     scene, frames = drawn("plain"), shoot("plain", 3 * ["rgbd"])
-    tracker = FusedTracker(rig=scene.rig, seed=7, kernels="reference", drift=0.25)
+    tracker = FusedTracker(rig=scene.rig, seed=7, kernels="reference", velocity_gain=0.25)
     restored = pickle.loads(pickle.dumps(tracker))
     assert (restored.seed, restored.kernels, restored.params) == (7, "reference", tracker.params)
     assert restored.rig == scene.rig

@@ -63,7 +63,15 @@ def _scene(kind: str = "normal", camera: str = "160x120", noise: float = 0.0) ->
     return partial(Trial.make, kind=kind, camera=camera, noise=noise)
 
 
-PAPERS_FILTER_PARAMS: dict[str, Any] = {"motion": "constant", "noise_model": "polynomial", "disparity_noise": 1.0}
+PAPERS_FILTER_PARAMS: dict[str, Any] = {
+    "motion": "constant",
+    "noise_model": "polynomial",
+    "disparity_noise": 1.0,
+}
+    "motion": "constant",
+    "noise_model": "polynomial",
+    "disparity_noise": 1.0,
+}
 PRINTED_PARAMS: dict[str, Any] = {
     **PAPERS_FILTER_PARAMS,
     "ring_weight": 0.0,
@@ -77,7 +85,10 @@ PRINTED_PARAMS: dict[str, Any] = {
     "feedback": True,
 }
 
-COLOR_ONLY_PARAMS: dict[str, Any] = {"compensate_light": False, "depth_weight": 0.0}  # of the search for the head
+COLOR_ONLY_PARAMS: dict[str, Any] = {
+    "compensate_light": False,
+    "depth_weight": 0.0,
+}  # of the search for the head
 
 EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
     "moreno-fig3": Experiment(

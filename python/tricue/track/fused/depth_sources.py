@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How far away pixels are: from a depth image, or from a stereo pair by matching."""
+"""The depth of pixels: read from a depth image, or measured by matching a stereo pair."""
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import cv2
 import numpy as np
@@ -9,49 +9,98 @@ from numpy.typing import NDArray
 
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
-from tricue.track.fused.sight import Expected, Grid, Image, Plane
+from tricue.track.fused.arrays import Image, Plane
 
-WINDOW = 7  # samples a side, compared in both images of a pair
-NEARER, FARTHER = 16, 8  # samples of disparity round the expected one
-WIDEST = 0.25  # of the image's width, the largest disparity that is looked for
-MATCHING = 0.15  # samples, standard deviation of a disparity
-COMMON = 0.005  # of the distance, standard deviation of a depth camera's pixel
+GATE_SIGMAS = 3  # standard deviations from the expected depth within which a pixel may be the target's
+MAX_EXPECTED_SIGMA = 0.5  # meters; a vaguer expectation is no help
+MAX_OCCLUDER_MARGIN = 0.5  # meters
+MIN_OCCLUDER_MARGIN = MAX_OCCLUDER_MARGIN / 2
+
+SAD_WINDOW = 7  # samples, side of the windows that are compared
+SAD_UNIQUENESS = 15  # percent
+SAD_TOLERANCE = 1  # samples between the disparities from left to right and back
+MAX_DISPARITY_ABOVE_EXPECTED = 16  # samples
+MAX_DISPARITY_BELOW_EXPECTED = 8  # samples
+MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, where no depth is expected
+DISPARITY_NOISE = 0.15  # samples, standard deviation
+DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
+
+Grid = tuple[float, float, float]  # pixels: x and y of the top left corner, side of a square of the grid
 
 
-class DepthImage(NamedTuple):
-    """A depth camera's, (H, W) metres, NaN where nothing was measured."""
+class ExpectedDepth(NamedTuple):
+    """z: depth at which the target should be. sigma: standard deviation of its pixels' depths. Meters."""
+
+    z: float
+    sigma: float
+
+    @property
+    def occluder_margin(self) -> float:
+        """Meters: what is nearer than expected by more than this is an occluder.
+
+        A vague expectation has no occluders: the margin reaches to the camera.
+        """
+        if self.sigma < MAX_EXPECTED_SIGMA:
+            return max(min(GATE_SIGMAS * self.sigma, MAX_OCCLUDER_MARGIN), MIN_OCCLUDER_MARGIN)
+        return self.z
+
+
+class DepthSource(Protocol):
+    """Measures the depth of pixels."""
+
+    @property
+    def has_sharp_edges(self) -> bool:
+        """Whether depth changes at the same pixels as the picture."""
+
+    def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
+        """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
+
+        A stereo pair finds only depths near the expected one; where none is expected, all.
+        """
+
+    def posterior(
+        self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
+    ) -> tuple[Plane, NDArray[np.uint8]]:
+        """(side, side) P(target | depth), and 1 where it is nearer than expected by more than the margin."""
+
+    def noise(self, z: float, pixel_size: float) -> float:
+        """Standard deviation in meters of a depth z that is sampled in squares of so many image pixels."""
+
+
+class DepthImageSource(NamedTuple):
+    """A depth camera's image, (H, W) in meters, NaN where nothing was measured."""
 
     depth: Plane
 
     @property
-    def sharp(self) -> bool:
-        """As in Ranger."""
+    def has_sharp_edges(self) -> bool:
+        """True: each pixel is measured by itself."""
         return True
 
-    def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
-        """The pixels nearest to the middles of the squares."""
-        x, y, unit = grid
-        steps = (np.arange(side) + 0.5) * unit
-        rows, columns = np.floor(y + steps).astype(int), np.floor(x + steps).astype(int)
+    def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
+        """The depths of the pixels under the centers of the squares, whatever is expected."""
+        x, y, step = grid
+        centers = (np.arange(side) + 0.5) * step
+        rows, columns = np.floor(y + centers).astype(int), np.floor(x + centers).astype(int)
         height, width = self.depth.shape
         inside = ((rows >= 0) & (rows < height))[:, None] & ((columns >= 0) & (columns < width))
         sampled = self.depth[rows.clip(0, height - 1)[:, None], columns.clip(0, width - 1)]
-        metres: Plane = np.where(inside, sampled, np.float32(np.nan))
-        return metres
+        depths: Plane = np.where(inside, sampled, np.float32(np.nan))
+        return depths
 
     def posterior(
-        self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float
+        self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
     ) -> tuple[Plane, NDArray[np.uint8]]:
-        """As in Ranger."""
+        """As of every DepthSource."""
         return k.depth_posterior(self.depth, *grid, side, side, *expected, margin)
 
-    def noise(self, z: float, unit: float) -> float:
-        """Grows with the distance."""
-        return COMMON * z
+    def noise(self, z: float, pixel_size: float) -> float:
+        """Proportional to the depth."""
+        return DEPTH_IMAGE_NOISE * z
 
 
-class Pair(NamedTuple):
-    """A rectified pair, (H, W, 3) BGR each, and its rig."""
+class StereoSource(NamedTuple):
+    """A rectified stereo pair, (H, W, 3) BGR each, and its rig."""
 
     k: Kernels
     left: Image
@@ -59,43 +108,45 @@ class Pair(NamedTuple):
     rig: StereoRig
 
     @property
-    def sharp(self) -> bool:
-        """Its windows reach over edges."""
+    def has_sharp_edges(self) -> bool:
+        """False: matching windows extend beyond edges."""
         return False
 
-    def metres(self, grid: Grid, side: int, around: Expected | None) -> Plane:
-        """By sums of absolute differences (Moreno et al. 2002, section 3.2), between samples of both images.
+    def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
+        """By sums of absolute differences (Moreno et al. 2002, section 3.2) between samples of both images.
 
-        The right one is sampled where what is expected has the disparity 0.
+        The right image is sampled farther left by the expected disparity, so that this becomes 0.
         """
-        x, y, unit = grid
-        product = self.rig.intrinsics.fx * self.rig.baseline
-        shift = 0.0 if around is None else product / around.z
-        most = WIDEST * self.left.shape[1]
-        first = 0 if around is None else -FARTHER
-        last = int(np.ceil(most / unit)) if around is None else NEARER
+        x, y, step = grid
+        focal_baseline = self.rig.intrinsics.fx * self.rig.baseline
+        shift = 0.0 if expected is None else focal_baseline / expected.z
+        max_disparity = MAX_DISPARITY_OF_WIDTH * self.left.shape[1]
+        first = 0 if expected is None else -MAX_DISPARITY_BELOW_EXPECTED
+        last = int(np.ceil(max_disparity / step)) if expected is None else MAX_DISPARITY_ABOVE_EXPECTED
         last = min(last, 4 * side)
         width = side + last
-        place = np.array([[x - last * unit, y, width * unit, side * unit]])
-        left = _gray(self.k.sample_windows(self.left, place, side, width)[0])
-        right = _gray(self.k.sample_windows(self.right, place - [[shift, 0, 0, 0]], side, width)[0])
+        part = np.array([[x - last * step, y, width * step, side * step]])
+        left = _gray(self.k.sample_windows(self.left, part, side, width)[0])
+        right = _gray(self.k.sample_windows(self.right, part - [[shift, 0, 0, 0]], side, width)[0])
         region = (last, 0, width, side)
-        found = self.k.sad_disparity(left, right, region, False, first, last, WINDOW, 15, True, 1)
-        disparity = found * np.float32(unit) + np.float32(shift)
+        found = self.k.sad_disparity(
+            left, right, region, False, first, last, SAD_WINDOW, SAD_UNIQUENESS, True, SAD_TOLERANCE
+        )
+        disparity = found * np.float32(step) + np.float32(shift)
         disparity[~(disparity > 0)] = np.nan  # beyond infinity, or not found
-        metres: Plane = np.float32(product) / disparity
-        return metres
+        depths: Plane = np.float32(focal_baseline) / disparity
+        return depths
 
     def posterior(
-        self, k: Kernels, grid: Grid, side: int, expected: Expected, margin: float
+        self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
     ) -> tuple[Plane, NDArray[np.uint8]]:
-        """As in Ranger."""
-        metres = self.metres(grid, side, expected)
-        return k.depth_posterior(metres, 0.0, 0.0, 1.0, side, side, *expected, margin)
+        """As of every DepthSource."""
+        depths = self.sample(grid, side, expected)
+        return k.depth_posterior(depths, 0.0, 0.0, 1.0, side, side, *expected, margin)
 
-    def noise(self, z: float, unit: float) -> float:
-        """Of a disparity that is a share of a sample off."""
-        return MATCHING * unit * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
+    def noise(self, z: float, pixel_size: float) -> float:
+        """Proportional to the squared depth, by the noise of a disparity."""
+        return DISPARITY_NOISE * pixel_size * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
 
 
 def _gray(samples: Image) -> Image:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The place in a view for which there is most evidence."""
+"""Localize: the place in a window with most evidence for the target."""
 
 import math
 from typing import NamedTuple
@@ -7,103 +7,109 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.fused.experts import PixelExpert, posterior
+from tricue.track.fused.arrays import Plane
+from tricue.track.fused.experts import PixelExpert, combine_posteriors
 from tricue.track.fused.experts.depth import DepthExpert
-from tricue.track.fused.experts.flow import Glance
+from tricue.track.fused.experts.flow import FlowPatch
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.sight import Plane
-from tricue.track.fused.state import Models
-from tricue.track.fused.view import CELLS, Target, View, look
+from tricue.track.fused.state import AppearanceModels
+from tricue.track.fused.target import Target
+from tricue.track.fused.window import CELL_PIXELS, WINDOW_CELLS, Window, extract_windows
 
-OFF = 6  # cells from a window's middle beyond which it is looked at again, from nearer
-MIDDLE = CELLS // 2
+CENTER_CELL = WINDOW_CELLS // 2
+MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window of its own
 
 
-class Known(NamedTuple):
-    """What the search goes by. glance: at the target in the last frame."""
+class TargetModel(NamedTuple):
+    """All that the target is searched by. flow_patch: of the last frame."""
 
-    models: Models
+    appearance: AppearanceModels
     depth: DepthExpert | None
-    glance: Glance | None
+    flow_patch: FlowPatch | None
     first_side: float
-    p: FusedParams
+    params: FusedParams
 
 
-class Place(NamedTuple):
-    """Where something like the target was found, and the evidence for it.
+class Candidate(NamedTuple):
+    """A place that may be the target's.
 
-    right, down: patch pixels off the view's middle. answers: of the learnt and the first frame's filter.
+    right, down: patch pixels from the window's center. evidence: what it was chosen by. responses: of the
+    learned and of the first frame's filter. posterior: (64, 64) P(target | pixel), None without such experts.
     """
 
     target: Target
-    view: View
+    window: Window
     right: float
     down: float
     evidence: float
-    answers: tuple[float, float]
-    sharpness: float
+    responses: tuple[float, float]
+    peak_sharpness: float
     contrast: float
-    own: Plane | None
+    posterior: Plane | None
 
 
-def best_place(known: Known, view: View) -> Place:
-    """The place in a view that has most evidence, between cells by a parabola."""
-    models, p = known.models, known.p
-    answers = models.filter.evidence(view)
-    total = (p.filter_weight if "filter" in p.cues else 0.0) * answers[0]
-    own = posterior([each.opinion(view) for each in _pixel_experts(known)])
+def localize(model: TargetModel, window: Window) -> Candidate:
+    """The place in a window with most evidence, to a part of a cell."""
+    appearance, p = model.appearance, model.params
+    responses = appearance.filter.responses(window)
+    evidence = (p.filter_weight if "filter" in p.cues else 0.0) * responses[0]
+    posterior = combine_posteriors([each.posterior(window) for each in _pixel_experts(model)])
     contrast = None
-    if own is not None:
-        contrast = view.sight.k.box_contrast(own, *view.size, p.frame, p.around)
-        total += p.color_weight * contrast
-    i, j = divmod(int(total.argmax()), CELLS)
-    down, right = i + peak(total[:, j], i) - MIDDLE, j + peak(total[i], j) - MIDDLE
-    target = _inside(view.target.moved(2 * view.unit * right, 2 * view.unit * down), view)
+    if posterior is not None:
+        k = window.observation.k
+        contrast = k.box_contrast(posterior, *window.size, p.surround_size, p.surround_weight)
+        evidence += p.color_weight * contrast
+    i, j = divmod(int(evidence.argmax()), WINDOW_CELLS)
+    down = i + peak_offset(evidence[:, j], i) - CENTER_CELL
+    right = j + peak_offset(evidence[i], j) - CENTER_CELL
+    cell = CELL_PIXELS * window.pixel_size
+    target = _clamp(window.target.shift(cell * right, cell * down), window)
     near = slice(max(i - 1, 0), i + 2), slice(max(j - 1, 0), j + 2)
-    answer = answers[0]
-    return Place(
+    response = responses[0]
+    return Candidate(
         target,
-        view,
-        2 * right,
-        2 * down,
-        float(total[i, j]),
-        (float(answer[i, j]), float(answers[1][near].max())),
-        _sharpness(answer, float(answer[near].max())),
+        window,
+        CELL_PIXELS * right,
+        CELL_PIXELS * down,
+        float(evidence[i, j]),
+        (float(response[i, j]), float(responses[1][near].max())),
+        _peak_sharpness(response, float(response[near].max())),
         0.0 if contrast is None else float(contrast[i, j]),
-        own,
+        posterior,
     )
 
 
-def _sharpness(answer: Plane, top: float) -> float:
-    """Standard deviations by which the top of an answer stands above its mean."""
-    mean = float(answer.sum()) / answer.size
-    power = float(np.vdot(answer, answer)) / answer.size
-    return (top - mean) / max(math.sqrt(max(power - mean * mean, 0.0)), 1e-6)
+def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
+    """The candidate itself, or localized again in a window around it, if it was near its window's edge."""
+    if max(abs(candidate.right), abs(candidate.down)) <= CELL_PIXELS * MAX_PEAK_CELLS:
+        return candidate
+    observation = candidate.window.observation
+    return localize(model, extract_windows(observation, [candidate.target], model.params.context)[0])
 
 
-def _pixel_experts(known: Known) -> list[PixelExpert]:
-    experts: list[PixelExpert] = [known.models.color] if "color" in known.p.cues else []
-    return [*experts, known.depth] if known.depth is not None else experts
-
-
-def _inside(target: Target, view: View) -> Target:
-    height, width = view.sight.picture.shape[:2]
-    return Target(
-        min(max(target.x, 0.0), width), min(max(target.y, 0.0), height), target.width, target.height
-    )
-
-
-def closer(known: Known, place: Place) -> Place:
-    """The place itself, or what is there seen from nearer, if it was at the edge of its view."""
-    if max(abs(place.right), abs(place.down)) <= 2 * OFF:
-        return place
-    return best_place(known, look(place.view.sight, [place.target], known.p.context)[0])
-
-
-def peak(values: NDArray[np.floating], index: int) -> float:
-    """Offset from the largest value of the top of the parabola through it and its neighbours."""
+def peak_offset(values: NDArray[np.floating], index: int) -> float:
+    """Offset of a peak from the largest value, by a parabola through it and its neighbors."""
     if not 0 < index < len(values) - 1:
         return 0.0
     before, top, after = values[index - 1 : index + 2].tolist()
     bend = before - 2 * top + after
     return 0.5 * (before - after) / bend if bend < 0 else 0.0
+
+
+def _pixel_experts(model: TargetModel) -> list[PixelExpert]:
+    experts: list[PixelExpert] = [model.appearance.color] if "color" in model.params.cues else []
+    return [*experts, model.depth] if model.depth is not None else experts
+
+
+def _clamp(target: Target, window: Window) -> Target:
+    """The target with its center moved into the image."""
+    height, width = window.observation.picture.shape[:2]
+    x, y = min(max(target.x, 0.0), width), min(max(target.y, 0.0), height)
+    return Target(x, y, target.width, target.height)
+
+
+def _peak_sharpness(response: Plane, peak: float) -> float:
+    """Standard deviations by which a response's peak stands above its mean."""
+    mean = float(response.sum()) / response.size
+    power = float(np.vdot(response, response)) / response.size
+    return (peak - mean) / max(math.sqrt(max(power - mean * mean, 0.0)), 1e-6)

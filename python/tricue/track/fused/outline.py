@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""How far the target reaches from its middle, by what is at its depth: the box that is told, not the one that
-its look is measured in.
+"""How far the target extends from its center, by what is at its depth.
+
+The outline gives the box that a track reports. The target's own box, in which its appearance is measured,
+keeps its aspect ratio.
 """
 
 from typing import NamedTuple
@@ -8,68 +10,77 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.fused.view import PIXELS, Target, View
+from tricue.track.fused.target import Target
+from tricue.track.fused.window import PATCH_PIXELS, Window
 
-FILLED = 0.45  # mean P(target | depth) along a line through it, as far as it reaches: half of its most
-CENTRAL = 0.25  # of the box, whose rows and columns are followed outwards
-COVERED = 0.05  # of the box, by what is nearer: then its outline isn't seen
-LEAST, MOST = 0.3, 3.0  # of the half width or height
+MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
+OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
+MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
+MIN_OUTLINE_SIDE, MAX_OUTLINE_SIDE = 0.3, 3.0  # of half the width or height
 
 
 class Outline(NamedTuple):
-    """Distances of the sides from the target's middle, in halves of its width and height."""
+    """Distances of the sides from the target's center, in halves of its width and height."""
 
     left: float = 1.0
     top: float = 1.0
     right: float = 1.0
     bottom: float = 1.0
 
-    def around(self, target: Target) -> Target:
+    def apply_to(self, target: Target) -> Target:
         """The target with these sides."""
-        across, down = target.width / 2, target.height / 2
-        left, right = target.x - self.left * across, target.x + self.right * across
-        top, bottom = target.y - self.top * down, target.y + self.bottom * down
+        half_width, half_height = target.width / 2, target.height / 2
+        left, right = target.x - self.left * half_width, target.x + self.right * half_width
+        top, bottom = target.y - self.top * half_height, target.y + self.bottom * half_height
         return Target((left + right) / 2, (top + bottom) / 2, right - left, bottom - top)
 
-    def moved(self, seen: "Outline", rate: float) -> "Outline":
-        """With what was seen blended in."""
-        return Outline(*(old + rate * (new - old) for old, new in zip(self, seen, strict=True)))
+    def blend(self, measured: "Outline", rate: float) -> "Outline":
+        """The outline moved towards a measured one by a share of their difference."""
+        return Outline(*(old + rate * (new - old) for old, new in zip(self, measured, strict=True)))
 
 
-WHOLE = Outline()
+BOX_OUTLINE = Outline()
 
 
-def outline(view: View, right: float, down: float, hidden: float) -> Outline | None:
-    """What depth shows so many patch pixels off a view's middle; None where it doesn't, or something nearer
-    hides a part of the box.
+def measure_outline(window: Window, right: float, down: float, covered: float) -> Outline | None:
+    """The outline of the target, so many patch pixels off a window's center.
+
+    covered: the share of its box that an occluder covers. None where depth doesn't show it, or it is covered.
     """
-    ranger = view.sight.ranger
-    if view.depth is None or ranger is None or not ranger.sharp or hidden > COVERED:
+    source = window.observation.depth_source
+    if window.depth is None or source is None or not source.has_sharp_edges:
         return None
-    own = view.depth[0]
-    rows, columns = view.inner(right, down, CENTRAL)
-    x, y = PIXELS / 2 + right, PIXELS / 2 + down
-    sides = (*_reach(own[rows].mean(axis=0), x), *_reach(own[:, columns].mean(axis=1), y))
+    if covered > MAX_COVERED_BY_OCCLUDER:
+        return None
+    posterior = window.depth[0]
+    rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
+    x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
+    across, along = posterior[rows].mean(axis=0), posterior[:, columns].mean(axis=1)
+    sides = (*_extent(across, x), *_extent(along, y))
     if None in sides:
         return None
-    half = [each / 2 for each in (view.size[0], view.size[0], view.size[1], view.size[1])]
+    halves = [each / 2 for each in (window.size[0], window.size[0], window.size[1], window.size[1])]
     left, far, top, bottom = (
-        min(max(float(side or 0) / length, LEAST), MOST) for side, length in zip(sides, half, strict=True)
+        min(max(float(side or 0) / half, MIN_OUTLINE_SIDE), MAX_OUTLINE_SIDE)
+        for side, half in zip(sides, halves, strict=True)
     )
     return Outline(left, top, far, bottom)
 
 
-def _reach(filled: NDArray[np.floating], middle: float) -> tuple[float | None, float | None]:
-    """How far it goes on filled before and after a place; None up to the edge, or where it doesn't start."""
-    at = min(max(int(middle), 0), len(filled) - 1)
-    empty = np.flatnonzero(filled < FILLED)
-    before, after = empty[empty <= at], empty[empty > at]
-    if not len(before) or not len(after) or before[-1] == at:
+def _extent(filled: NDArray[np.floating], center: float) -> tuple[float | None, float | None]:
+    """How far the filled part reaches before and after a place.
+
+    None if it starts outside of it, or reaches the window's edge.
+    """
+    start = min(max(int(center), 0), len(filled) - 1)
+    empty = np.flatnonzero(filled < MIN_FILLED_POSTERIOR)
+    before, after = empty[empty <= start], empty[empty > start]
+    if not len(before) or not len(after) or before[-1] == start:
         return None, None
-    return middle - _crossing(filled, before[-1]), _crossing(filled, after[0] - 1) - middle
+    return center - _crossing(filled, before[-1]), _crossing(filled, after[0] - 1) - center
 
 
 def _crossing(filled: NDArray[np.floating], index: int) -> float:
-    """Where it is half filled between the middles of a pixel and the next."""
+    """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
     first, second = float(filled[index]), float(filled[index + 1])
-    return index + 0.5 + (FILLED - first) / (second - first)
+    return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)

@@ -13,113 +13,254 @@ Cue = Literal["filter", "color", "ranks", "edges", "depth", "flow"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FusedParams(Params):
-    """Sizes are in pixels, "target" is the side of the square as large as the target."""
+    """Units: "target" is the side of the square with the target's area, "box" a side of its box."""
 
     cues: tuple[Cue, ...] = parameter(
         ("filter", "color", "ranks", "edges", "depth", "flow"),
         unit="-",
         source="fused.md",
-        doc="the experts that are asked",
+        doc="the experts that are used",
     )
+    # the window that experts read
     context: float = parameter(3.0, unit="target", source=OURS, low=1.5, high=8, doc="side of the window")
 
-    label_width: float = parameter(0.1, unit="target", source="Danelljan et al. 2014", above=0, high=1)
-    ridge: float = parameter(1e-2, unit="of the mean energy", source=OURS, above=0)
-    filter_rate: float = parameter(0.025, unit="per frame", source="Danelljan et al. 2014", low=0, high=0.5)
-    anchor: float = parameter(0.1, unit="-", source=OURS, low=0, high=1, doc="of the first frame's filter")
-    filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0)
+    # correlation filter: cue "filter"
+    label_width: float = parameter(
+        0.1,
+        unit="target",
+        source="Danelljan et al. 2014",
+        above=0,
+        high=1,
+        doc="standard deviation of the desired response",
+    )
+    ridge: float = parameter(
+        1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of both filters"
+    )
+    filter_learning_rate: float = parameter(
+        0.025,
+        unit="per frame",
+        source="Danelljan et al. 2014",
+        low=0,
+        high=0.5,
+        doc="of both filters and of the ranks",
+        was="filter_rate",
+    )
+    first_frame_weight: float = parameter(
+        0.1, unit="-", source=OURS, low=0, high=1, doc="share of the first frame's filter", was="anchor"
+    )
+    filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="of its response")
+    filter_mask_size: float = parameter(
+        2.0,
+        unit="box",
+        source=FAST,
+        above=1,
+        high=99,
+        doc="outer size of the part to respond to; it fades out from the box on",
+        was="focus",
+    )
+    background_weight: float = parameter(
+        1.0, unit="-", source=FAST, low=0, doc="of the rest, to respond to by 0", was="background"
+    )
 
-    focus: float = parameter(
-        2.0, unit="of the box", source=FAST, above=1, high=99, doc="outer size of what the filter learns"
+    # colors: cue "color"
+    color_weight: float = parameter(0.3, unit="-", source=OURS, low=0, doc="of the posterior's contrast")
+    color_learning_rate: float = parameter(
+        0.04,
+        unit="per frame",
+        source="Bertinetto et al. 2016",
+        low=0,
+        high=0.5,
+        doc="of the histograms",
+        was="color_rate",
     )
-    background: float = parameter(
-        1.0, unit="-", source=FAST, low=0, doc="weight of the rest, to be answered by 0"
+    surround_size: float = parameter(
+        1.5, unit="box", source=OURS, above=1, doc="outer size of the contrast's surround", was="frame"
+    )
+    surround_weight: float = parameter(
+        0.5, unit="-", source=OURS, low=0, doc="of the surround in the contrast", was="around"
     )
 
-    color_weight: float = parameter(0.3, unit="-", source=OURS, low=0)
-    color_rate: float = parameter(0.04, unit="per frame", source="Bertinetto et al. 2016", low=0, high=0.5)
-    frame: float = parameter(1.5, unit="of the box", source=OURS, above=1, doc="the surround in the evidence")
-    around: float = parameter(0.5, unit="-", source=OURS, low=0, doc="weight of the surround")
+    # size: cues "ranks" and "edges"
+    scales: int = parameter(11, unit="steps", source=OURS, low=3, high=99, doc="sizes that are compared; odd")
+    scale_step: float = parameter(
+        1.04, unit="-", source=OURS, above=1, high=2, doc="ratio of a size to the one before"
+    )
+    scale_window: float = parameter(
+        1.5, unit="box", source=OURS, above=0, doc="size of the part that is sampled", was="scale_reach"
+    )
+    scale_label_width: float = parameter(
+        1.0,
+        unit="steps",
+        source=OURS,
+        above=0,
+        doc="standard deviation of the desired response",
+        was="scale_label",
+    )
+    scale_prior: float = parameter(
+        0.02, unit="per step²", source=OURS, low=0, doc="cost of another size than predicted"
+    )
+    scale_first_frame_weight: float = parameter(
+        0.4,
+        unit="-",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="share of the first frame's filter",
+        was="scale_anchor",
+    )
+    rank_weight: float = parameter(1.0, unit="-", source=OURS, low=0, doc="of the filter over sizes")
+    edge_weight: float = parameter(1.0, unit="-", source=OURS, low=0, doc="of the posterior's edges")
+    size_range: tuple[float, float] = parameter(
+        (0.2, 5.0), unit="of the first size", source=OURS, above=0, doc="limits of the size"
+    )
 
-    scales: int = parameter(11, unit="steps", source=OURS, low=3, high=99)
-    scale_step: float = parameter(1.04, unit="-", source=OURS, above=1, high=2)
-    scale_reach: float = parameter(1.5, unit="of the box", source=OURS, above=0)
-    scale_label: float = parameter(1.0, unit="steps", source=OURS, above=0)
-    scale_prior: float = parameter(0.02, unit="per step²", source=OURS, low=0)
-    scale_anchor: float = parameter(
-        0.4, unit="-", source=OURS, low=0, high=1, doc="of the first frame's ranks"
+    # depth: cue "depth", the outline, and the position in meters
+    depth_learning_rate: float = parameter(
+        0.02,
+        unit="per frame",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="of the target's depth spread and length",
+        was="depth_rate",
     )
-    rank_weight: float = parameter(1.0, unit="-", source=OURS, low=0)
-    edge_weight: float = parameter(1.0, unit="-", source=OURS, low=0)
-    size_range: tuple[float, float] = parameter((0.2, 5.0), unit="of the first size", source=OURS, above=0)
-
-    depth_rate: float = parameter(
-        0.02, unit="per frame", source=OURS, low=0, high=1, doc="of relief and length"
+    outline_time_constant: float = parameter(
+        0.5,
+        unit="s",
+        source=OURS,
+        above=0,
+        doc="with which the box's sides follow the outline",
+        was="outline_time",
     )
-    outline_time: float = parameter(
-        0.5, unit="s", source=OURS, above=0, doc="in which the box's sides follow"
-    )
-    hidden_above: float = parameter(
+    max_covered: float = parameter(
         0.5,
         unit="of the box",
         source=OURS,
         low=0,
         high=1,
-        doc="covered by what is nearer, it counts as hidden",
+        doc="with more covered by an occluder, the target is occluded",
+        was="hidden_above",
     )
-    continuity: float = parameter(
-        8.0, unit="log-odds", source=OURS, low=0, doc="for what stands apart at the depth that is expected"
+    depth_continuity_weight: float = parameter(
+        8.0,
+        unit="log-odds",
+        source=OURS,
+        low=0,
+        doc="for what stands apart at the expected depth",
+        was="continuity",
     )
-    agility: float = parameter(4.0, unit="m/s²", source=OURS, above=0, doc="standard deviation")
-    fastest: float = parameter(2.0, unit="m/s", source=OURS, above=0)
+    acceleration_noise: float = parameter(
+        4.0, unit="m/s²", source=OURS, above=0, doc="standard deviation", was="agility"
+    )
+    max_speed: float = parameter(
+        2.0, unit="m/s", source=OURS, above=0, doc="of a target that is measured first", was="fastest"
+    )
     rate: float = parameter(30.0, unit="frames/s", source=OURS, above=0, doc="where timestamps tell nothing")
 
-    velocity_rate: float = parameter(0.5, unit="-", source=OURS, low=0, high=1)
-    drift: float = parameter(0.5, unit="of the velocity", source=OURS, low=0, high=1)
-    doubt: float = parameter(0.6, unit="of the usual", source=OURS, low=0, high=1)
-    far: float = parameter(0.2, unit="-", source=OURS, low=0)
+    # motion in the image, and the search around the predicted place
+    velocity_rate: float = parameter(
+        0.5, unit="-", source=OURS, low=0, high=1, doc="share of the last shift in the smoothed velocity"
+    )
+    velocity_gain: float = parameter(
+        0.5, unit="of the velocity", source=OURS, low=0, high=1, doc="predicted shift", was="drift"
+    )
+    min_response_share: float = parameter(
+        0.6,
+        unit="of the mean response",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="under it the neighboring windows are searched too",
+        was="doubt",
+    )
+    distance_penalty: float = parameter(
+        0.2,
+        unit="per squared half window",
+        source=OURS,
+        low=0,
+        doc="on the evidence of neighboring windows",
+        was="far",
+    )
 
+    # identity: learning, losing and finding the target
     learn_every: int = parameter(
-        3, unit="frames", source=OURS, low=1, high=30, doc="from one in which looks are learnt to the next"
+        3, unit="frames", source=OURS, low=1, high=30, doc="between two in which appearance is learned"
     )
-    learn_above: float = parameter(
-        0.4, unit="score", source=OURS, low=0, high=1, doc="no learning under this score"
+    min_score_to_learn: float = parameter(
+        0.4,
+        unit="score",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="under it appearance isn't learned",
+        was="learn_above",
     )
-    learn_odd: float = parameter(
-        0.2, unit="of the rates", source=OURS, low=0, high=1, doc="where its structure is another"
+    uncertain_learning_factor: float = parameter(
+        0.2,
+        unit="of the learning rates",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="where its structure is another",
+        was="learn_odd",
     )
-    lost_below: float = parameter(
-        0.3, unit="score", source=OURS, low=0, high=1, doc="a frame under it counts as missed"
+    min_score: float = parameter(
+        0.3,
+        unit="score",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="under it a frame counts as missed",
+        was="lost_below",
     )
-    hopeless: float = parameter(
-        0.02, unit="score", source=OURS, low=0, high=1, doc="under it the box isn't moved to what was found"
+    min_score_to_move: float = parameter(
+        0.02,
+        unit="score",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="under it the box stays where it was",
+        was="hopeless",
     )
     lost_after: float = parameter(
         0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
     )
-    collapse: float = parameter(
+    max_structure_drop: float = parameter(
         5.0,
         unit="log-odds",
         source=OURS,
         low=0,
-        doc="of its structure, at which what is there may be another",
+        doc="of its structure under their mean, above which it counts as missed",
+        was="collapse",
     )
-    again: float = parameter(
+    min_recovery_share: float = parameter(
         0.4,
-        unit="of the usual log-odds",
+        unit="of the mean log-odds",
         source=OURS,
         low=0,
         high=1,
-        doc="of a missed target, to be taken up",
+        doc="that a missed target needs to be TRACKED again",
+        was="again",
     )
-    reach: float = parameter(
-        0.5, unit="target per frame", source=OURS, above=0, doc="standard deviation of where a lost target is"
+    lost_position_noise: float = parameter(
+        0.5,
+        unit="target per frame",
+        source=OURS,
+        above=0,
+        doc="standard deviation of a missed target's place",
+        was="reach",
     )
-    found_above: float = parameter(
-        0.7, unit="score", source=OURS, low=0, high=1, doc="of something far away, to be taken for the target"
+    min_score_to_redetect: float = parameter(
+        0.7,
+        unit="score",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="that is needed elsewhere in the frame",
+        was="found_above",
     )
     candidates: int = parameter(
-        2, unit="places", source=OURS, low=1, high=99, doc="of the whole frame, examined in a frame"
+        2, unit="places", source=OURS, low=1, high=99, doc="measured in a search of the whole frame"
     )
 
     def __post_init__(self) -> None:
@@ -127,7 +268,7 @@ class FusedParams(Params):
         object.__setattr__(self, "lost_after", seconds)
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if not {"filter", "color"} & set(self.cues):
-            raise ValueError(f"cues: expected filter or color, which say where it is, among {self.cues}")
+            raise ValueError(f"cues: expected filter or color, which localize the target, among {self.cues}")
         if self.scales % 2 == 0:
             raise ValueError(f"scales: expected an odd number, got {self.scales}")
         if self.size_range[0] > self.size_range[1]:

@@ -4,55 +4,58 @@
 from typing import NamedTuple
 
 from tricue.track.fused.experts.color import ColorExpert
+from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
 from tricue.track.fused.experts.depth import DepthExpert
-from tricue.track.fused.experts.filter import FilterExpert
-from tricue.track.fused.experts.flow import Glance
+from tricue.track.fused.experts.flow import FlowPatch
 from tricue.track.fused.experts.size import SizeExpert
-from tricue.track.fused.identity import Identity, Marks
-from tricue.track.fused.outline import WHOLE, Outline
+from tricue.track.fused.identity import IdentityFeatures, IdentityModel
+from tricue.track.fused.outline import BOX_OUTLINE, Outline
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.sight import Kind
-from tricue.track.fused.space import Space
-from tricue.track.fused.view import Target
+from tricue.track.fused.position_filter import PositionFilter
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import PictureKind
 
-MIN_MISSED = 3  # frames in a row, at least, until the target is LOST
+MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
 
-class Models(NamedTuple):
-    """What is known of the target's look in one kind of picture; learning gives others."""
+class AppearanceModels(NamedTuple):
+    """The target's appearance in one kind of picture.
 
-    filter: FilterExpert
+    edge_level: P(target | pixel) along the target's edge in the first frame.
+    """
+
+    filter: CorrelationFilterExpert
     color: ColorExpert
     size: SizeExpert
-    identity: Identity
-    edge: float  # P(target | pixel) along the target's edge, in the first frame
+    identity: IdentityModel
+    edge_level: float
 
 
 class State(NamedTuple):
-    """After a frame. models: by the kind of picture that they are of."""
+    """The tracker after a frame; nothing changes it."""
 
-    shape: tuple[int, int]
-    models: dict[Kind, Models]
+    shape: tuple[int, int]  # of the first frame
+    models: dict[PictureKind, AppearanceModels]
     target: Target
     first_side: float  # pixels, of the first box
-    side: float  # the same when it was last recognised
-    usual: float  # the filter's answer where the target is
-    marks: Marks | None = None
+    recognized_side: float  # pixels, when it was last recognized
+    mean_response: float  # running mean of the filter's response on the target
+    features: IdentityFeatures | None = None
     score: float = 1.0
-    sure: float = 0.0  # log-odds of its being the target, usually
-    structure: float = 0.0  # the same by its structure alone
-    velocity: tuple[float, float] = (0.0, 0.0)  # pixels a frame
-    depth: DepthExpert | None = None
-    space: Space | None = None
-    glance: Glance | None = None
-    outline: Outline = WHOLE
-    hidden: bool = False  # behind something nearer
-    missed: int = 0  # frames in a row in which it was not recognized
-    unseen: float = 0.0  # seconds of them
+    mean_log_odds: float = 0.0  # running mean of its log-odds by appearance
+    mean_structure_log_odds: float = 0.0  # the same by its structure alone
+    velocity: tuple[float, float] = (0.0, 0.0)  # pixels per frame, smoothed
+    depth: DepthExpert | None = None  # None until depth was measured
+    position: PositionFilter | None = None  # None until depth was measured
+    flow_patch: FlowPatch | None = None  # of the last frame, None if it was missed there
+    outline: Outline = BOX_OUTLINE
+    occluded: bool = False  # by something nearer
+    missed_frames: int = 0  # in a row, in which it was not recognized
+    missed_seconds: float = 0.0  # of these frames
     seconds: float = 0.0  # since the frame before
     frames: int = 0  # since init
     timestamp: float | None = None
 
-    def lost(self, p: FusedParams) -> bool:
-        """Whether it hasn't been recognized for long."""
-        return self.missed >= MIN_MISSED and self.unseen >= p.lost_after
+    def is_lost(self, p: FusedParams) -> bool:
+        """Whether it was missed for long enough to be LOST."""
+        return self.missed_frames >= MIN_LOST_FRAMES and self.missed_seconds >= p.lost_after

@@ -15,33 +15,35 @@ from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.fused import learn
-from tricue.track.fused.depth_sources import Pair
-from tricue.track.fused.examine import Found
-from tricue.track.fused.localize import Known
-from tricue.track.fused.observation import Seen, read
+from tricue.track.fused.depth_sources import ExpectedDepth, StereoSource
+from tricue.track.fused.frame_observation import FrameObservation, observe_frame
+from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth
+from tricue.track.fused.learn import update_models
+from tricue.track.fused.localize import TargetModel
+from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.search import Lost, anywhere, near
-from tricue.track.fused.sight import Expected, Sight
+from tricue.track.fused.position_filter import MIN_POSITION_Z
+from tricue.track.fused.proposals import LostTarget
+from tricue.track.fused.search import search_frame, search_local
 from tricue.track.fused.state import State
-from tricue.track.fused.verify import judged
-from tricue.track.fused.view import Target
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.verify import verify
 
-UNSURE = 3.0  # metres, at most, of the depth that is expected
+MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 
 
 class FusedTracker(TrackerBase[FusedParams, State]):
-    """Follows any target by experts whose opinions add up, in whatever channels a frame has, and says when
-    it isn't the target.
+    """Follows any target by experts whose evidence adds up, in whatever channels a frame has.
 
-    A correlation filter, the target's colors and its depth say where it is; its ranks at eleven sizes, the
-    edge of its colors and its distance how large; models that keep the first frame whether it is the target.
-    Where it isn't, nothing is learnt, and the search widens to the whole frame.
+    A correlation filter, the target's colors and its depth localize it. Its ranks at eleven sizes, the edges
+    of its colors and its distance give its size. Models that keep the first frame verify that it is the
+    target: where it isn't, nothing is learned, and the search widens to the whole frame.
 
     Frames have ``color`` (BGR or gray), alone or with registered ``depth`` or with ``right``, or ``depth``
-    alone; channels may come and go. ``position`` and ``covariance`` are there once depth was measured, in the
-    frame of the camera that ``intrinsics=``, or ``rig=`` for a pair, describes. Nothing is random: ``seed``
-    is taken as by every tracker and not used.
+    alone; channels may come and go. ``position`` and ``covariance`` are given once depth was measured, in the
+    frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes. Nothing is random:
+    ``seed`` is taken as by every tracker and not used.
 
         tracker = tricue.FusedTracker()
         track = tracker.init(frame, box=(x, y, width, height))
@@ -81,66 +83,72 @@ class FusedTracker(TrackerBase[FusedParams, State]):
 
         UserWarning where left and right seem to be swapped, or not rectified.
         """
-        seen = self._read(frame, None)
-        target = Target.of(validation.initial_box(box, seen.shape))
-        if isinstance(seen.ranger, Pair):
+        observed = self._observe(frame, None)
+        target = Target.of(validation.initial_box(box, observed.shape))
+        if isinstance(observed.depth_source, StereoSource):
             warn_of_stereo(as_frame(frame))
-        self._state = state = learn.begin(self._k, seen, target, self.params)
+        self._state = state = initialize(self._k, observed, target, self.params)
         return self._track(state)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
-        Timestamps tell the 3-D filter how long it was, ``rate`` where there are none. RuntimeError before
-        ``init``. An error leaves the tracker as it was.
+        Timestamps give the position filter the time since the last frame, ``rate`` where there are none.
+        RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.started(self._state)
-        seen = self._read(frame, before.shape)
-        state = learn.located(self._ahead(before, seen), seen, self._k, self.params)
-        sight = seen.sight(self._k, _expected(state), state.target.around)
-        state = learn.met(state, sight, self.params)
-        found = self._found(state, sight)
-        state = judged(state, found, self.params)
-        self._state = state = learn.learnt(before, state, sight, found, self.params)
+        observed = self._observe(frame, before.shape)
+        state = self._predict(before, observed)
+        state = initialize_depth(state, observed, self._k, self.params)
+        observation = observed.for_target(self._k, _expected_depth(state), state.target.search_region)
+        state = ensure_models(state, observation, self.params)
+        match = self._localize(state, observation)
+        state = verify(state, match, self.params)
+        self._state = state = update_models(before, state, observation, match, self.params)
         return self._track(state)
 
-    def _read(self, frame: FrameLike, shape: tuple[int, int] | None) -> Seen:
-        return read(self._k, frame, shape, (self.rig, self.intrinsics), "depth" in self.params.cues)
+    def _observe(self, frame: FrameLike, shape: tuple[int, int] | None) -> FrameObservation:
+        cameras = self.rig, self.intrinsics
+        return observe_frame(self._k, frame, shape, cameras, "depth" in self.params.cues)
 
-    def _ahead(self, state: State, seen: Seen) -> State:
-        """The state when this frame was taken."""
-        seconds = validation.elapsed(state.timestamp, seen.timestamp, self.params.rate)
-        space = state.space
-        if space is not None:
-            space = (space.slowed() if state.missed else space).predicted(self._k, seconds, self.params)
-        frames = state.frames + 1
-        return state._replace(space=space, timestamp=seen.timestamp, seconds=seconds, frames=frames)
+    def _predict(self, state: State, observed: FrameObservation) -> State:
+        """The state when the frame was taken."""
+        seconds = validation.elapsed(state.timestamp, observed.timestamp, self.params.rate)
+        position = state.position
+        if position is not None:
+            position = position.slow_down() if state.missed_frames else position
+            position = position.predict(self._k, seconds, self.params)
+        frames, timestamp = state.frames + 1, observed.timestamp
+        return state._replace(position=position, timestamp=timestamp, seconds=seconds, frames=frames)
 
-    def _found(self, state: State, sight: Sight) -> Found:
-        """The target near where it should be; if it wasn't there in the last frame, anywhere."""
-        known = Known(state.models[sight.kind], state.depth, state.glance, state.first_side, self.params)
-        share = self.params.drift
-        guess = state.target.moved(share * state.velocity[0], share * state.velocity[1])
-        found = near(known, sight, guess, None if state.missed else state.usual)
-        if not state.missed:
-            return found
-        target = state.target.scaled(state.side / state.target.side)
-        return anywhere(known, sight, Lost(target, state.space, state.missed, state.frames), found)
+    def _localize(self, state: State, observation: TargetObservation) -> Match:
+        """The target near its predicted place; if it was missed in the last frame, in the whole frame."""
+        models, p = state.models[observation.kind], self.params
+        model = TargetModel(models, state.depth, state.flow_patch, state.first_side, p)
+        u, v = state.velocity
+        predicted = state.target.shift(p.velocity_gain * u, p.velocity_gain * v)
+        if not state.missed_frames:
+            return search_local(model, observation, predicted, state.mean_response)
+        local = search_local(model, observation, predicted, None)
+        last = state.target.scale(state.recognized_side / state.target.side)
+        lost = LostTarget(last, state.position, state.missed_frames, state.frames)
+        return search_frame(model, observation, lost, local)
 
     def _track(self, state: State) -> Track:
-        if state.missed == 0:
+        if state.missed_frames == 0:
             status = Status.TRACKED
-        elif state.hidden or not state.lost(self.params):
+        elif state.occluded or not state.is_lost(self.params):
             status = Status.OCCLUDED
         else:
             status = Status.LOST
-        space = state.space
-        where = (None, None) if space is None else (space.position, space.uncertainty)
-        return Track(state.outline.around(state.target).box, state.score, status, *where)
+        position = state.position
+        estimate = (None, None) if position is None else (position.position, position.position_covariance)
+        return Track(state.outline.apply_to(state.target).box, state.score, status, *estimate)
 
 
-def _expected(state: State) -> Expected | None:
-    if state.space is None or state.depth is None:
+def _expected_depth(state: State) -> ExpectedDepth | None:
+    if state.position is None or state.depth is None:
         return None
-    sigma = min(math.sqrt(float(state.space.covariance[2, 2])), UNSURE)
-    return Expected(max(float(state.space.mean[2]), 0.05), float(np.hypot(sigma, state.depth.relief)))
+    sigma = min(math.sqrt(float(state.position.covariance[2, 2])), MAX_POSITION_SIGMA)
+    z = max(float(state.position.mean[2]), MIN_POSITION_Z)
+    return ExpectedDepth(z, float(np.hypot(sigma, state.depth.depth_spread)))

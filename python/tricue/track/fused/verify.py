@@ -1,62 +1,69 @@
 # SPDX-License-Identifier: MIT
-"""Whether what was found is the target, and what follows from that for the state."""
+"""Verify: whether a match is the target, and the state that follows from it."""
 
 import math
 
-from tricue.track.fused.examine import Found
+from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import State
-from tricue.track.fused.view import Target
+from tricue.track.fused.target import Target
 
-USUAL_RATE = 0.05  # per frame, of what is usual where the target is
-SLOWING = 0.5  # of the velocity, a frame in which the target isn't where it should be
+VERIFIED_MEAN_RATE = 0.05  # per frame, of the running means over frames in which the target is recognized
+MISSED_VELOCITY_FACTOR = 0.5  # per frame in which the box isn't moved
 
 
-def judged(state: State, found: Found, p: FusedParams) -> State:
-    """Make what was found the state; what is surely something else, or hidden, only counts as missed."""
-    hidden = found.hidden > p.hidden_above
-    recognised = not hidden and _recognised(state, found, p)
-    score = found.score if recognised else min(found.score, p.lost_below)
-    state = state._replace(marks=found.marks, score=score, hidden=hidden, glance=None)
-    if hidden or score < p.hopeless:
+def verify(state: State, match: Match, p: FusedParams) -> State:
+    """Move the target to the match if that may be it; count the frame as missed unless it is recognized."""
+    occluded = match.covered > p.max_covered
+    recognized = not occluded and _is_recognized(state, match, p)
+    score = match.score if recognized else min(match.score, p.min_score)
+    state = state._replace(features=match.features, score=score, occluded=occluded, flow_patch=None)
+    if occluded or score < p.min_score_to_move:
         u, v = state.velocity
-        return _missed(state._replace(velocity=(SLOWING * u, SLOWING * v)))
-    jumped = _far(state.target, found.target, p)
-    state = state._replace(target=found.target, velocity=_velocity(state, found.target, jumped, p))
-    if not recognised:
-        return _missed(state)
+        velocity = MISSED_VELOCITY_FACTOR * u, MISSED_VELOCITY_FACTOR * v
+        return _count_missed(state._replace(velocity=velocity))
+    jumped = _has_jumped(state.target, match.target, p)
+    state = state._replace(target=match.target, velocity=_smooth_velocity(state, match.target, jumped, p))
+    if not recognized:
+        return _count_missed(state)
+    structure = match.features.structure_log_odds
     return state._replace(
-        missed=0,
-        unseen=0.0,
-        side=found.target.side,
-        usual=_blended(state.usual, found.answer),
-        sure=_blended(state.sure, found.by_look),
-        structure=_blended(state.structure, found.marks.by_structure),
-        glance=None if jumped else found.glance,
+        missed_frames=0,
+        missed_seconds=0.0,
+        recognized_side=match.target.side,
+        mean_response=_update_mean(state.mean_response, match.response),
+        mean_log_odds=_update_mean(state.mean_log_odds, match.appearance_log_odds),
+        mean_structure_log_odds=_update_mean(state.mean_structure_log_odds, structure),
+        flow_patch=None if jumped else match.flow_patch,
     )
 
 
-def _recognised(state: State, found: Found, p: FusedParams) -> bool:
-    """By its score; without depth also by its structure, which does not go at once; and, when it was missed,
-    only if it is about as sure as it used to be, which a look-alike never is.
+def _is_recognized(state: State, match: Match, p: FusedParams) -> bool:
+    """By its score; without depth also by its structure, which doesn't change at once.
+
+    After a missed frame only with a share of the log-odds that it had, which a look-alike never reaches.
     """
-    if found.score < p.lost_below:
+    if match.score < p.min_score:
         return False
-    if found.measured is None and found.marks.by_structure < state.structure - p.collapse:
+    min_structure = state.mean_structure_log_odds - p.max_structure_drop
+    if match.depth is None and match.features.structure_log_odds < min_structure:
         return False
-    return state.missed == 0 or found.log_odds >= p.again * state.sure
+    return state.missed_frames == 0 or match.log_odds >= p.min_recovery_share * state.mean_log_odds
 
 
-def _missed(state: State) -> State:
-    """One more frame without it."""
-    return state._replace(missed=state.missed + 1, unseen=state.unseen + state.seconds)
+def _count_missed(state: State) -> State:
+    return state._replace(
+        missed_frames=state.missed_frames + 1, missed_seconds=state.missed_seconds + state.seconds
+    )
 
 
-def _far(before: Target, after: Target, p: FusedParams) -> bool:
+def _has_jumped(before: Target, after: Target, p: FusedParams) -> bool:
+    """Whether it was found outside of the window around its last place."""
     return math.hypot(after.x - before.x, after.y - before.y) > p.context / 2 * before.side
 
 
-def _velocity(state: State, target: Target, jumped: bool, p: FusedParams) -> tuple[float, float]:
+def _smooth_velocity(state: State, target: Target, jumped: bool, p: FusedParams) -> tuple[float, float]:
+    """Pixels per frame; 0 after a jump."""
     if jumped:
         return 0.0, 0.0
     (u, v), rate = state.velocity, p.velocity_rate
@@ -64,5 +71,5 @@ def _velocity(state: State, target: Target, jumped: bool, p: FusedParams) -> tup
     return u + rate * (right - u), v + rate * (down - v)
 
 
-def _blended(usual: float, now: float) -> float:
-    return usual + USUAL_RATE * (now - usual)
+def _update_mean(mean: float, value: float) -> float:
+    return mean + VERIFIED_MEAN_RATE * (value - mean)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Those who say where the target is and how large: one cue's model of it each, behind two small interfaces.
+"""The experts: one cue's model of the target each, behind two small interfaces.
 
-All are immutable: learning gives another. What a view's pixels tell is brought together by Bayes' rule
-(:func:`posterior`); what places tell adds up in :mod:`tricue.track.fused.search`.
+All are immutable: learning returns another. What they tell of pixels is combined by Bayes' rule
+(:func:`combine_posteriors`); what they tell of places is added up in :mod:`tricue.track.fused.localize`.
 """
 
 from collections.abc import Sequence
@@ -10,34 +10,34 @@ from typing import Protocol
 
 import numpy as np
 
-from tricue.track.fused.sight import Plane
-from tricue.track.fused.view import View
+from tricue.track.fused.arrays import Plane
+from tricue.track.fused.window import Window
 
 
 class PixelExpert(Protocol):
     """Tells the target's pixels from the others."""
 
-    def opinion(self, view: View) -> Plane | None:
-        """(64, 64) P(target | what the pixel shows), 0.5 where that tells nothing; None where all is so."""
+    def posterior(self, window: Window) -> Plane | None:
+        """(64, 64) P(target | the pixel's cue), 0.5 where that tells nothing; None where it never does."""
 
 
 class PlaceExpert(Protocol):
     """Tells the target's place from the others."""
 
-    def evidence(self, view: View) -> Plane:
-        """(n, 32, 32) of n models, for the target's centre at each cell: about 1 on it, 0 elsewhere."""
+    def responses(self, window: Window) -> Plane:
+        """(n, 32, 32) of n models, for the target's center at each cell: about 1 on it, 0 elsewhere."""
 
 
-def posterior(opinions: Sequence[Plane | None]) -> Plane | None:
-    """(64, 64) what independent opinions of equal priors come to: their odds multiply.
+def combine_posteriors(posteriors: Sequence[Plane | None]) -> Plane | None:
+    """(64, 64) posterior by independent cues of equal priors, whose odds multiply; None of none.
 
     Okada, Shirai and Miura 1996, (10), for the two classes target and rest.
     """
-    heard = [each for each in opinions if each is not None]
-    if len(heard) < 2:
-        return heard[0] if heard else None
-    for_it, against = heard[0], 1 - heard[0]
-    for each in heard[1:]:
-        for_it, against = for_it * each, against * (1 - each)
-    share: Plane = for_it / np.maximum(for_it + against, np.float32(1e-9))
-    return share
+    given = [each for each in posteriors if each is not None]
+    if len(given) < 2:
+        return given[0] if given else None
+    target, rest = given[0], 1 - given[0]
+    for each in given[1:]:
+        target, rest = target * each, rest * (1 - each)
+    combined: Plane = target / np.maximum(target + rest, np.float32(1e-9))
+    return combined

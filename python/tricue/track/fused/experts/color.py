@@ -7,59 +7,67 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.fused.sight import Plane
-from tricue.track.fused.view import PIXELS, View
+from tricue.track.fused.arrays import Plane
+from tricue.track.fused.window import PATCH_PIXELS, Window
 
-BINS = 16  # a color channel, of the histograms
-RARE = 1e-4  # a color's share under which it says little about either side
-SURROUND = 1.1  # of the box: colors outside of it are the surround's
-SURELY, HARDLY = 0.4, 0.1  # P(target | depth) of what is learnt for the target, and against it
+HISTOGRAM_BINS = 16  # per color channel
+MIN_COLOR_SHARE = 1e-4  # of a histogram; rarer colors tell little about either side
+MIN_SURROUND_SIZE = 1.1  # of the box: colors outside of it are the surround's
+MIN_TARGET_POSTERIOR = 0.4  # P(target | depth) of pixels that are learned as the target's
+MAX_SURROUND_POSTERIOR = 0.1  # P(target | depth) of pixels that are learned as the surround's
 
 
 class ColorExpert(NamedTuple):
-    """Colors of the target and of its surround, (16, 16, 16) each, and P(target | color)."""
+    """Histograms of the target's and the surround's colors, (16, 16, 16) each.
+
+    table: (16, 16, 16) P(target | color).
+    """
 
     target: Plane
     surround: Plane
     table: Plane
 
     @classmethod
-    def start(cls, view: View) -> "ColorExpert":
-        """Learnt from the first frame."""
-        none = np.zeros((BINS, BINS, BINS), np.float32)
-        return cls(none, none, none).learnt(view, 1.0)
+    def from_window(cls, window: Window) -> "ColorExpert":
+        """Learned from the first frame."""
+        empty = np.zeros((HISTOGRAM_BINS, HISTOGRAM_BINS, HISTOGRAM_BINS), np.float32)
+        return cls(empty, empty, empty).learn(window, 1.0)
 
-    def opinion(self, view: View) -> Plane:
+    def posterior(self, window: Window) -> Plane:
         """(64, 64) P(target | color) of the patch's pixels."""
-        return view.sight.k.color_lookup(view.colors, self.table).reshape(PIXELS, PIXELS)
+        colors = window.observation.k.color_lookup(window.colors, self.table)
+        return colors.reshape(PATCH_PIXELS, PATCH_PIXELS)
 
-    def learnt(self, view: View, rate: float) -> "ColorExpert":
-        """With the view, whose middle is the target, blended in; what is farther or nearer than the target
-        is learnt against it.
+    def learn(self, window: Window, rate: float) -> "ColorExpert":
+        """The expert with a window blended in, whose center is the target's.
+
+        Pixels in the box that are farther or nearer than the target are learned as its surround.
         """
-        inside, around = _sides(view)
-        colors = view.colors[0]
-        own, other = (colors.take(each, axis=1)[None] for each in (inside, around))
-        return ColorExpert(*view.sight.k.learn_contrast(own, other, self.target, self.surround, rate, RARE))
+        inside, outside = _target_and_surround(window)
+        colors, k = window.colors[0], window.observation.k
+        own, other = (colors.take(each, axis=1)[None] for each in (inside, outside))
+        return ColorExpert(*k.learn_contrast(own, other, self.target, self.surround, rate, MIN_COLOR_SHARE))
 
 
-def _sides(view: View) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Which of the 4096 pixels are the target's, and which its surround's."""
-    inside, around = masks(round(view.size[0], 1), round(view.size[1], 1))
-    if view.depth is None:
-        return inside, around
-    at_depth = view.depth[0].ravel()
-    own = inside[at_depth[inside] > SURELY]
-    behind = inside[at_depth[inside] < HARDLY]
-    return (own, np.concatenate([around, behind])) if 2 * len(own) > len(inside) else (inside, around)
+def _target_and_surround(window: Window) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Indices of the 4096 pixels that are the target's, and of the surround's."""
+    inside, outside = ellipse_and_surround(round(window.size[0], 1), round(window.size[1], 1))
+    if window.depth is None:
+        return inside, outside
+    by_depth = window.depth[0].ravel()
+    own = inside[by_depth[inside] > MIN_TARGET_POSTERIOR]
+    behind = inside[by_depth[inside] < MAX_SURROUND_POSTERIOR]
+    if 2 * len(own) > len(inside):
+        return own, np.concatenate([outside, behind])
+    return inside, outside
 
 
 @lru_cache(maxsize=64)
-def masks(width: float, height: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Indices of a patch's pixels in the ellipse of a target's size, and of those outside of its box."""
-    offset = np.abs(np.arange(PIXELS) + 0.5 - PIXELS / 2)
+def ellipse_and_surround(width: float, height: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Indices of the patch's pixels in the ellipse of a target's size, and of those outside of its box."""
+    offset = np.abs(np.arange(PATCH_PIXELS) + 0.5 - PATCH_PIXELS / 2)
     u, v = offset[None] / max(width / 2, 1.0), offset[:, None] / max(height / 2, 1.0)
-    inside, around = u * u + v * v <= 1, np.maximum(u, v) > SURROUND
-    if not around.any():
-        around = ~inside
-    return np.flatnonzero(inside), np.flatnonzero(around)
+    inside, outside = u * u + v * v <= 1, np.maximum(u, v) > MIN_SURROUND_SIZE
+    if not outside.any():
+        outside = ~inside
+    return np.flatnonzero(inside), np.flatnonzero(outside)

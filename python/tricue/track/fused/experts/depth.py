@@ -1,75 +1,91 @@
 # SPDX-License-Identifier: MIT
-"""How far away the target is: its pixels are told by that, its size, and what hides it."""
+"""The target's depth: it tells its pixels, its size, and its occluders."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.fused.sight import Expected, Plane, Sight
-from tricue.track.fused.view import Target, View
+from tricue.track.fused.arrays import Plane
+from tricue.track.fused.depth_sources import GATE_SIGMAS, MAX_EXPECTED_SIGMA, ExpectedDepth
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import Window
 
-GRID = 48  # samples a side, of which a target's depth is measured
-LEAST = 0.1  # of them have to be measured
-NARROW, WIDE = 0.04, 0.4  # metres, of a target's relief
-CENTRAL = 0.5  # of the box, which a target that isn't known yet surely fills
-NEAREST, FARTHEST = 0.001, 1000.0  # metres; beyond them nothing is measured, whatever is said
-REACH = 0.5  # metres round the most common depth there
-TO_SIGMA = 1.4826  # from the median of distances, of normal noise
+DEPTH_SAMPLES = 48  # on a side of the part in which the target's depth is measured
+MIN_MEASURED_SHARE = 0.1  # of the samples
+MIN_DEPTH_SPREAD, MAX_DEPTH_SPREAD = 0.04, 0.4  # meters
+DEPTH_CENTER_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
+MIN_MEASURED_DEPTH, MAX_MEASURED_DEPTH = (
+    0.001,
+    1000.0,
+)  # meters; what is nearer or farther counts as not measured
+MAX_DEPTH_OFFSET = 0.5  # meters from the median of that part
+MAD_TO_SIGMA = 1.4826  # from the median absolute deviation to normal noise's standard deviation
 
 
 class DepthExpert(NamedTuple):
-    """relief: metres, standard deviation of the target's surface. length: metres, side of the square as large
-    as it, if it is flat.
+    """What is known of the target's shape in meters.
+
+    depth_spread: standard deviation of its surface's depth. length: side of the square with its area, if it
+    is flat and faces the camera.
     """
 
-    relief: float
+    depth_spread: float
     length: float
 
-    def opinion(self, view: View) -> Plane | None:
+    def posterior(self, window: Window) -> Plane | None:
         """(64, 64) P(target | depth)."""
-        return None if view.depth is None else view.depth[0]
+        return None if window.depth is None else window.depth[0]
 
-    def learnt(self, measured: "Measured", length: float, rate: float) -> "DepthExpert":
-        """With what was measured blended in."""
-        relief = min(max(measured.spread, NARROW), WIDE)
+    def learn(self, depth: "DepthMeasurement", length: float, rate: float) -> "DepthExpert":
+        """The expert with a measurement blended in, the length by the geometric mean."""
+        spread = min(max(depth.spread, MIN_DEPTH_SPREAD), MAX_DEPTH_SPREAD)
         return DepthExpert(
-            self.relief + rate * (relief - self.relief), self.length * (length / self.length) ** rate
+            self.depth_spread + rate * (spread - self.depth_spread),
+            self.length * (length / self.length) ** rate,
         )
 
 
-class Measured(NamedTuple):
-    """Metres: median depth of a target's pixels, their spread; share: of its box, that is measured."""
+class DepthMeasurement(NamedTuple):
+    """z: median depth of a target's pixels, spread: their standard deviation, in meters.
+
+    share: of the samples in its box, that are measured and near z.
+    """
 
     z: float
     spread: float
     share: float
 
 
-def measure(sight: Sight, target: Target, expected: Expected | None) -> Measured | None:
-    """The depth of what is in a target's box, near what is expected; where that is nothing or unsure, of
-    its middle.
+def measure_depth(
+    observation: TargetObservation, target: Target, expected: ExpectedDepth | None
+) -> DepthMeasurement | None:
+    """The depth of what is in a target's box, near the expected depth.
+
+    Where that is None or vague, the depth of the box's center. None where too little is measured.
     """
-    if sight.ranger is None:
+    if observation.depth_source is None:
         return None
-    if expected is not None and expected.sigma > REACH:
+    if expected is not None and expected.sigma > MAX_EXPECTED_SIGMA:
         expected = None
-    side = CENTRAL * target.side if expected is None else max(target.width, target.height)
-    unit = side / GRID
-    metres = sight.ranger.metres((target.x - side / 2, target.y - side / 2, unit), GRID, expected)
+    side = DEPTH_CENTER_SHARE * target.side if expected is None else max(target.width, target.height)
+    pixel_size = side / DEPTH_SAMPLES
+    corner = target.x - side / 2, target.y - side / 2
+    depths = observation.depth_source.sample((*corner, pixel_size), DEPTH_SAMPLES, expected)
     if expected is None:
-        inside = (metres > NEAREST) & (metres < FARTHEST)
-        middle = float(np.median(metres[inside])) if inside.any() else math.nan
-        around, reach = middle, REACH
+        inside = (depths > MIN_MEASURED_DEPTH) & (depths < MAX_MEASURED_DEPTH)
+        center = float(np.median(depths[inside])) if inside.any() else math.nan
+        max_offset = MAX_DEPTH_OFFSET
     else:
-        steps = np.abs((np.arange(GRID) + 0.5) / GRID - 0.5) * 2 * side
-        inside = (steps[:, None] / target.height) ** 2 + (steps / target.width) ** 2 <= 1
-        around = expected.z
-        reach = 3 * math.hypot(expected.sigma, sight.ranger.noise(expected.z, unit))
-    chosen = metres[inside & (np.abs(metres - np.float32(around)) < reach)]
-    if len(chosen) < LEAST * np.count_nonzero(inside) or not len(chosen):
+        offset = np.abs((np.arange(DEPTH_SAMPLES) + 0.5) / DEPTH_SAMPLES - 0.5) * 2 * side
+        inside = (offset[:, None] / target.height) ** 2 + (offset / target.width) ** 2 <= 1
+        center = expected.z
+        noise = observation.depth_source.noise(expected.z, pixel_size)
+        max_offset = GATE_SIGMAS * math.hypot(expected.sigma, noise)
+    chosen = depths[inside & (np.abs(depths - np.float32(center)) < max_offset)]
+    if len(chosen) < MIN_MEASURED_SHARE * np.count_nonzero(inside) or not len(chosen):
         return None
     z = float(np.median(chosen))
-    return Measured(
-        z, TO_SIGMA * float(np.median(np.abs(chosen - z))), len(chosen) / np.count_nonzero(inside)
-    )
+    spread = MAD_TO_SIGMA * float(np.median(np.abs(chosen - z)))
+    return DepthMeasurement(z, spread, len(chosen) / np.count_nonzero(inside))

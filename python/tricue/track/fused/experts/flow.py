@@ -1,48 +1,62 @@
 # SPDX-License-Identifier: MIT
-"""How the target's own pixels moved since the last frame: how much it grew."""
+"""How much the target grew since the last frame, by the optical flow of its pixels."""
 
 from typing import NamedTuple
 
 import cv2
 
-from tricue.track.fused.sight import Image
-from tricue.track.fused.view import PIXELS, View
+from tricue.track.fused.arrays import Image
+from tricue.track.fused.window import INNER_SHARE, PATCH_PIXELS, Window
 
-HALF = 20  # patch pixels, of the part round the target that flow is measured in
-SIGMA, LEVELS, POOL = 1.0, 2, 2  # of the flow: pixels, of its filters; levels; radius of its windows
-MIN_ANGLE, MIN_CONTRAST = 0.05, 4.0  # its least reliability
-LEAST = 30  # pixels of the target that flow has to be measured at
-INNER = 0.8  # of the box, whose pixels are the target's
-OUTLIERS = 2.5  # standard deviations
-LOOSE = 0.15  # patch pixels, standard deviation beyond which the motion isn't a rigid one
+FLOW_REACH = 20  # patch pixels from the target's center, of the part in which flow is measured
+FLOW_SIGMA = 1.0  # pixels, of the derivative filters
+FLOW_LEVELS = 2  # of the pyramid
+FLOW_POOL_RADIUS = 2  # pixels
+MIN_FLOW_ANGLE, MIN_FLOW_CONTRAST = 0.05, 4.0  # of reliable flow
+MIN_FLOW_PIXELS = 30
+MAX_FLOW_RESIDUAL = 2.5  # standard deviations; pixels with a larger one are outliers
+MAX_RIGID_RESIDUAL = 0.15  # patch pixels, standard deviation; with more the motion is no similarity
+MAX_FLOW_GROWTH = 2  # times; more is no reliable measurement
 
 
-class Glance(NamedTuple):
-    """What flow remembers of a frame: (41, 41) gray round the target, and image pixels a pixel of it."""
+class FlowPatch(NamedTuple):
+    """(41, 41) gray around the target, which the next frame's flow starts from.
+
+    pixel_size: image pixels per pixel of it.
+    """
 
     gray: Image
-    unit: float
+    pixel_size: float
 
     @classmethod
-    def at(cls, view: View, right: float, down: float) -> "Glance":
-        """Of a target so many patch pixels off the view's middle."""
-        i, j = (PIXELS // 2 - HALF + round(each) for each in (down, right))
-        reach = PIXELS - 2 * HALF - 1
-        i, j = min(max(i, 0), reach), min(max(j, 0), reach)
-        part = view.patch[i : i + 2 * HALF + 1, j : j + 2 * HALF + 1]
-        return cls(cv2.cvtColor(part, cv2.COLOR_BGR2GRAY), view.unit)  # type: ignore[arg-type]
+    def cut(cls, window: Window, right: float, down: float) -> "FlowPatch":
+        """The part around a target so many patch pixels off the window's center, moved into the patch."""
+        i, j = (PATCH_PIXELS // 2 - FLOW_REACH + round(each) for each in (down, right))
+        last = PATCH_PIXELS - 2 * FLOW_REACH - 1
+        i, j = min(max(i, 0), last), min(max(j, 0), last)
+        part = window.patch[i : i + 2 * FLOW_REACH + 1, j : j + 2 * FLOW_REACH + 1]
+        return cls(cv2.cvtColor(part, cv2.COLOR_BGR2GRAY), window.pixel_size)  # type: ignore[arg-type]
 
 
-def growth(before: Glance, now: Glance, view: View) -> float | None:
-    """How many times as large as in the last frame the target is, by a similarity fitted to the flow of its
-    pixels; None where that tells nothing.
+def measure_growth(before: FlowPatch, now: FlowPatch, window: Window) -> float | None:
+    """The ratio of the target's size to that in the last frame, by a similarity fitted to its pixels' flow.
+
+    None where flow isn't reliable.
     """
-    width, height = (min(INNER * each / 2, HALF - 1.0) for each in view.size)
-    left, top = max(HALF - round(width), 0), max(HALF - round(height), 0)
-    region = left, top, 2 * HALF + 1 - left, 2 * HALF + 1 - top
-    u, v, _, _ = view.sight.k.pyramid_flow(
-        before.gray, now.gray, SIGMA, LEVELS, MIN_ANGLE, MIN_CONTRAST, region, POOL
+    width, height = (min(INNER_SHARE * each / 2, FLOW_REACH - 1.0) for each in window.size)
+    left, top = max(FLOW_REACH - round(width), 0), max(FLOW_REACH - round(height), 0)
+    region = left, top, 2 * FLOW_REACH + 1 - left, 2 * FLOW_REACH + 1 - top
+    k = window.observation.k
+    u, v, _, _ = k.pyramid_flow(
+        before.gray,
+        now.gray,
+        FLOW_SIGMA,
+        FLOW_LEVELS,
+        MIN_FLOW_ANGLE,
+        MIN_FLOW_CONTRAST,
+        region,
+        FLOW_POOL_RADIUS,
     )
-    shrunk, spread, _ = view.sight.k.flow_scale(u, v, OUTLIERS, LEAST)
-    rigid = 0.5 < shrunk < 2 and spread < 2 * LOOSE**2
-    return now.unit / before.unit / shrunk if rigid else None
+    shrunk, residual, _ = k.flow_scale(u, v, MAX_FLOW_RESIDUAL, MIN_FLOW_PIXELS)
+    rigid = 1 / MAX_FLOW_GROWTH < shrunk < MAX_FLOW_GROWTH and residual < 2 * MAX_RIGID_RESIDUAL**2
+    return now.pixel_size / before.pixel_size / shrunk if rigid else None

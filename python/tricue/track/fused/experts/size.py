@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How large the target is: its spatial ranks at eleven sizes, and where its colors end."""
+"""The target's size: its spatial ranks at eleven scales, and the edges of its posterior."""
 
 from functools import lru_cache
 from typing import NamedTuple
@@ -8,19 +8,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.fused.experts.filter import Filter, mixed
+from tricue.track.fused.arrays import Floats, Plane
+from tricue.track.fused.experts.correlation_filter import Filter, blend_filters
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.sight import Plane, Sight
-from tricue.track.fused.view import Target
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
 
-GRID = 12  # samples a side
-COLORED = np.float32(0.5)  # what the posterior counts for beside a channel's ranks
-HALF = np.float32(0.5)
+SCALE_SAMPLES = 12  # on a side of the target's part
+POSTERIOR_WEIGHT = np.float32(0.5)  # of the posterior beside a channel's ranks
+CHANNEL_MEAN = np.float32(0.5)  # of ranks and posterior, subtracted
 
 
-class Looks(NamedTuple):
-    """What S steps of scale show: ranks (S, 3, n) and the filter's channels (S, 4 n), which are ranks and
-    posterior.
+class ScaleSamples(NamedTuple):
+    """A target's place sampled at S scales.
+
+    ranks: (S, 3, n) of n samples. channels: (S, 4 n) that the filter reads, ranks and posterior.
     """
 
     ranks: Plane
@@ -28,97 +30,105 @@ class Looks(NamedTuple):
 
 
 class SizeExpert(NamedTuple):
-    """A correlation filter over scales (Danelljan et al. 2014), on spatial ranks, which light doesn't change
-    (Sabeti, Parvizi and Wu 2008).
+    """A correlation filter over scales (Danelljan et al. 2014).
 
-    model, first, asked: numerator (S // 2 + 1, 4 n) and denominator (S // 2 + 1,), as they are learnt, of the
-    first frame, and of both, which answer.
+    It reads spatial ranks, which monotonic changes of light don't change (Sabeti, Parvizi and Wu 2008).
+    learned, first, applied: numerator (S // 2 + 1, 4 n) and denominator (S // 2 + 1,), as they are learned,
+    of the first frame, and a blend of both. label: spectrum of the desired response.
     """
 
-    model: Filter
+    learned: Filter
     first: Filter
-    asked: Filter
+    applied: Filter
     label: NDArray[np.complex64]
     params: FusedParams
 
     @classmethod
-    def start(cls, k: Kernels, looks: Looks, p: FusedParams) -> "SizeExpert":
-        """Learnt from the first frame."""
-        channels = looks.channels.shape[1]
+    def from_samples(cls, k: Kernels, samples: ScaleSamples, p: FusedParams) -> "SizeExpert":
+        """Learned from the first frame."""
+        channels = samples.channels.shape[1]
         offset = np.fft.fftfreq(p.scales, 1 / p.scales)
-        label = np.fft.rfft(np.exp(-0.5 * (offset / p.scale_label) ** 2)).astype(np.complex64)
-        none = np.zeros((len(label), channels), np.complex64), np.zeros(len(label), np.float32)
-        first = k.scale_train(looks.channels, label, *none, 1.0)
+        label = np.fft.rfft(np.exp(-0.5 * (offset / p.scale_label_width) ** 2)).astype(np.complex64)
+        empty = np.zeros((len(label), channels), np.complex64), np.zeros(len(label), np.float32)
+        first = k.scale_train(samples.channels, label, *empty, 1.0)
         return cls(first, first, first, label, p)
 
-    def evidence(self, k: Kernels, looks: Looks) -> Plane:
-        """(S,), about 1 at the right one."""
-        return k.scale_response(looks.channels, *self.asked, self.params.ridge)
+    def response(self, k: Kernels, samples: ScaleSamples) -> Plane:
+        """(S,), about 1 at the target's scale."""
+        return k.scale_response(samples.channels, *self.applied, self.params.ridge)
 
-    def learnt(self, k: Kernels, looks: Looks, rate: float) -> "SizeExpert":
-        """With the looks, the middle one right, blended in."""
-        now = k.scale_train(looks.channels, self.label, *self.model, rate)
-        asked = mixed(now, self.first, self.params.scale_anchor)
-        return SizeExpert(now, self.first, asked, self.label, self.params)
+    def learn(self, k: Kernels, samples: ScaleSamples, rate: float) -> "SizeExpert":
+        """The expert with samples blended in, of which the middle scale is the target's."""
+        learned = k.scale_train(samples.channels, self.label, *self.learned, rate)
+        applied = blend_filters(learned, self.first, self.params.scale_first_frame_weight)
+        return SizeExpert(learned, self.first, applied, self.label, self.params)
 
 
-class _Steps(NamedTuple):
-    """Of S steps of scale: factors of the size, 1 in the middle, and of the area; windows (S, 4) of a target
-    of width and height 1 at (0, 0); the prior.
+class ScaleSteps(NamedTuple):
+    """S steps of scale, the middle one with factor 1.
+
+    factors: of the sides. areas: factors of the area. windows: (S, 4) sampled parts of a target of width and
+    height 1 at (0, 0). prior: evidence against another size than predicted.
     """
 
-    factors: NDArray[np.float64]
-    areas: NDArray[np.float64]
-    windows: NDArray[np.float64]
-    prior: NDArray[np.float64]
+    factors: Floats
+    areas: Floats
+    windows: Floats
+    prior: Floats
 
 
 @lru_cache(maxsize=8)
-def _steps(count: int, step: float, reach: float, prior: float) -> _Steps:
+def _scale_steps(count: int, step: float, window: float, prior: float) -> ScaleSteps:
     offset = np.arange(count) - count // 2.0
-    factors: NDArray[np.float64] = np.power(step, offset)
-    sides = reach * factors
+    factors: Floats = np.power(step, offset)
+    sides = window * factors
     windows = np.stack([-sides / 2, -sides / 2, sides, sides], axis=1)
-    return _Steps(factors, factors * factors, windows, -prior * offset * offset)
+    return ScaleSteps(factors, factors * factors, windows, -prior * offset * offset)
 
 
-def steps(p: FusedParams) -> _Steps:
+def scale_steps(p: FusedParams) -> ScaleSteps:
     """The steps of scale of some parameters."""
-    return _steps(p.scales, p.scale_step, p.scale_reach, p.scale_prior)
+    return _scale_steps(p.scales, p.scale_step, p.scale_window, p.scale_prior)
 
 
-def looks(sight: Sight, target: Target, table: Plane, p: FusedParams) -> Looks:
-    """A target's place at every step of scale; table: (16, 16, 16) P(target | color)."""
-    k, sizes = sight.k, (target.width, target.height)
-    windows = steps(p).windows * (*sizes, *sizes)
+def sample_scales(
+    observation: TargetObservation, target: Target, table: Plane, p: FusedParams
+) -> ScaleSamples:
+    """Sample a target's place at every scale; table: (16, 16, 16) P(target | color)."""
+    k, size = observation.k, (target.width, target.height)
+    windows = scale_steps(p).windows * (*size, *size)
     windows += (target.x, target.y, 0, 0)
-    samples = k.sample_windows(sight.picture, windows, GRID, GRID)
+    samples = k.sample_windows(observation.picture, windows, SCALE_SAMPLES, SCALE_SAMPLES)
     flat = np.ascontiguousarray(samples.reshape(p.scales, -1, 3).transpose(0, 2, 1))
     ranks = k.color_ranks(flat)
-    channels = np.empty((p.scales, 4 * GRID * GRID), np.float32)
-    np.subtract(ranks.reshape(p.scales, -1), HALF, out=channels[:, : 3 * GRID * GRID])
-    colored = np.subtract(k.color_lookup(flat, table), HALF, out=channels[:, 3 * GRID * GRID :])
-    colored *= COLORED
-    return Looks(ranks, channels)
+    count = 3 * SCALE_SAMPLES * SCALE_SAMPLES
+    channels = np.empty((p.scales, 4 * SCALE_SAMPLES * SCALE_SAMPLES), np.float32)
+    np.subtract(ranks.reshape(p.scales, -1), CHANNEL_MEAN, out=channels[:, :count])
+    posterior = np.subtract(k.color_lookup(flat, table), CHANNEL_MEAN, out=channels[:, count:])
+    posterior *= POSTERIOR_WEIGHT
+    return ScaleSamples(ranks, channels)
 
 
-def edges(
+def edge_evidence(
     k: Kernels,
     posterior: Plane,
-    middle: tuple[float, float],
+    center: tuple[float, float],
     size: tuple[float, float],
     p: FusedParams,
     level: float,
-) -> NDArray[np.float64]:
-    """(S,) what the posterior adds up to above a level in boxes of every scale, of the first's area."""
-    factors, areas, _, _ = steps(p)
-    means = k.box_means(posterior, *middle, size[0] * factors, size[1] * factors)
-    sums: NDArray[np.float64] = (means - level) * areas
+) -> Floats:
+    """(S,) sums of the posterior less a level in the boxes of every scale, in areas of the middle box.
+
+    It is largest where the box ends at the posterior's edge. center, size: pixels of the posterior.
+    """
+    factors, areas, _, _ = scale_steps(p)
+    means = k.box_means(posterior, *center, size[0] * factors, size[1] * factors)
+    sums: Floats = (means - level) * areas
     return sums
 
 
 def edge_level(k: Kernels, posterior: Plane, size: tuple[float, float], step: float) -> float:
-    """The posterior along the target's edge, where boxes of both sizes next to it differ."""
+    """The posterior's mean along the target's edge: between the boxes one step smaller and larger."""
     factors = np.array([1 / step, step])
     rows, columns = posterior.shape
     inner, outer = k.box_means(posterior, columns / 2, rows / 2, size[0] * factors, size[1] * factors)

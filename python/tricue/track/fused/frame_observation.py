@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a frame brings: checked, and made into a picture and a way to measure depth."""
+"""A frame's channels, checked and prepared once: a picture and a source of depth."""
 
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -12,40 +12,56 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.errors import UnregisteredDepthError
 from tricue.kernels import Kernels
 from tricue.track.base import validation
-from tricue.track.fused.depth_sources import DepthImage, Pair
-from tricue.track.fused.sight import Around, Expected, Image, Plane, Ranger, Sight, shades
+from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.depth_sources import DepthImageSource, DepthSource, ExpectedDepth, StereoSource
+from tricue.track.fused.target import SearchRegion
+from tricue.track.fused.target_observation import TargetObservation, render_depth
 
 
-class Seen(NamedTuple):
-    """A checked frame. color: (H, W, 3) BGR. camera: of the color, or left, or depth image."""
+class FrameObservation(NamedTuple):
+    """A checked frame.
+
+    color: (H, W, 3) BGR. depth: (H, W) meters. camera: of the color, left or depth image.
+    depth_source: None without depth. timestamp: seconds.
+    """
 
     shape: tuple[int, int]
     color: Image | None
     depth: Plane | None
-    ranger: Ranger | None
+    depth_source: DepthSource | None
     camera: Intrinsics
     timestamp: float | None
 
-    def sight(self, k: Kernels, expected: Expected | None, around: Around | None = None) -> Sight:
-        """What the experts see of it. Without color a picture of the depth stands in, round the depth that is
-        expected, and around a place.
+    def for_target(
+        self, k: Kernels, expected: ExpectedDepth | None, region: SearchRegion | None = None
+    ) -> TargetObservation:
+        """What the experts read of the frame, given the target's expected depth.
+
+        Without color they read a picture of depth, drawn in a region alone; it is black where no depth is
+        expected.
         """
         if self.color is not None:
-            return Sight(k, self.color, "color", self.camera, self.ranger, expected)
+            return TargetObservation(k, self.color, "color", self.camera, self.depth_source, expected)
         assert self.depth is not None, "a frame has color or depth"
-        picture = shades(self.depth, expected.z, around) if expected else np.zeros((*self.shape, 3), np.uint8)
-        return Sight(k, picture, "depth", self.camera, self.ranger, expected, self.depth)
+        if expected:
+            picture = render_depth(self.depth, expected.z, region)
+        else:
+            picture = np.zeros((*self.shape, 3), np.uint8)
+        return TargetObservation(k, picture, "depth", self.camera, self.depth_source, expected, self.depth)
 
 
-def read(
+def observe_frame(
     k: Kernels,
     frame: FrameLike,
     shape: tuple[int, int] | None,
     cameras: tuple[StereoRig | None, Intrinsics | None],
     with_depth: bool,
-) -> Seen:
-    """The frame's channels. ValueError for another size than the first frame's or the camera's, and for a
-    depth of another size than the color image's, to which it has to be registered.
+) -> FrameObservation:
+    """Check and prepare a frame's channels.
+
+    shape: the first frame's, None for the first. with_depth: whether to read depth beside color.
+    ValueError for another size than the first frame's or the camera's. UnregisteredDepthError, a ValueError,
+    for depth of another size than color.
     """
     given = as_frame(frame)
     image: Any = given.depth if given.color is None else given.color
@@ -61,27 +77,27 @@ def read(
         if known is not None and (known.height, known.width) != size:
             expected = f"the camera's size, {known.width}x{known.height}"
             raise ValueError(f"frame.{name}: expected {expected}, got {size[1]}x{size[0]}")
-    rig, camera = _described(*cameras, size)
-    ranger = _ranger(k, given, rig) if with_depth or given.color is None else None
+    rig, camera = _rig_and_camera(*cameras, size)
+    depth_source = _depth_source(k, given, rig) if with_depth or given.color is None else None
     color = None if given.color is None else _bgr(given.color)
-    return Seen(size, color, given.depth, ranger, camera, given.timestamp)
+    return FrameObservation(size, color, given.depth, depth_source, camera, given.timestamp)
 
 
 @lru_cache(maxsize=8)
-def _described(
+def _rig_and_camera(
     rig: StereoRig | None, camera: Intrinsics | None, size: tuple[int, int]
 ) -> tuple[StereoRig, Intrinsics]:
-    """The rig and its camera; usual ones where nothing is known."""
+    """The stereo rig and its left camera; default ones where none is given."""
     if rig is None:
         rig = StereoRig(validation.camera_for(camera, size), validation.USUAL_BASELINE)
     return rig, rig.intrinsics
 
 
-def _ranger(k: Kernels, frame: Frame, rig: StereoRig) -> Ranger | None:
+def _depth_source(k: Kernels, frame: Frame, rig: StereoRig) -> DepthSource | None:
     if frame.depth is not None:
-        return DepthImage(frame.depth)
+        return DepthImageSource(frame.depth)
     if frame.right is not None and frame.color is not None:
-        return Pair(k, _bgr(frame.color), _bgr(frame.right), rig)
+        return StereoSource(k, _bgr(frame.color), _bgr(frame.right), rig)
     return None
 
 

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+"""The arrays that the modules of the fused tracker give each other."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Image = NDArray[np.uint8]  # (H, W, 3) BGR, or (H, W) gray
+Plane = NDArray[np.float32]
+Floats = NDArray[np.float64]

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: MIT
+"""The models of the first frame, of a kind of picture that is new, and of the first depth."""
+
+from tricue.kernels import Kernels
+from tricue.track.fused.depth_sources import ExpectedDepth
+from tricue.track.fused.experts import combine_posteriors, size
+from tricue.track.fused.experts.color import ColorExpert
+from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
+from tricue.track.fused.experts.depth import DepthExpert, DepthMeasurement, measure_depth
+from tricue.track.fused.experts.size import SizeExpert
+from tricue.track.fused.frame_observation import FrameObservation
+from tricue.track.fused.identity import IdentityModel
+from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.params import FusedParams
+from tricue.track.fused.position_filter import PositionFilter, back_project
+from tricue.track.fused.state import AppearanceModels, State
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import extract_windows
+
+INITIAL_DEPTH_SPREAD = 0.1  # meters, of a target that was never measured
+
+
+def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedParams) -> State:
+    """The state after the first frame."""
+    measured = measure_depth(frame.for_target(k, None), target, None)
+    expected = None if measured is None else ExpectedDepth(measured.z, INITIAL_DEPTH_SPREAD)
+    observation = frame.for_target(k, expected)
+    depth, position = _depth_models(observation, target, measured, p)
+    appearance = _appearance_models(observation, target, p)
+    model = TargetModel(appearance, depth, None, target.side, p)
+    window = extract_windows(observation, [target], p.context)[0]
+    return State(
+        shape=frame.shape,
+        models={observation.kind: appearance},
+        target=target,
+        first_side=target.side,
+        recognized_side=target.side,
+        mean_response=localize(model, window).responses[0],
+        depth=depth,
+        position=position,
+        timestamp=frame.timestamp,
+    )
+
+
+def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: FusedParams) -> State:
+    """The state with the depth at the target's last place, if it was never measured before."""
+    if state.depth is not None or frame.depth_source is None or state.missed_frames:
+        return state
+    observation = frame.for_target(k, None)
+    measured = measure_depth(observation, state.target, None)
+    depth, position = _depth_models(observation, state.target, measured, p)
+    return state._replace(depth=depth, position=position)
+
+
+def ensure_models(state: State, observation: TargetObservation, p: FusedParams) -> State:
+    """The state with models of the picture's kind; if they are new, of where the target should be now."""
+    if observation.kind in state.models:
+        return state
+    appearance = _appearance_models(observation, state.target, p)
+    return state._replace(models={**state.models, observation.kind: appearance})
+
+
+def _appearance_models(observation: TargetObservation, target: Target, p: FusedParams) -> AppearanceModels:
+    """Learned from one window."""
+    window = extract_windows(observation, [target], p.context)[0]
+    color = ColorExpert.from_window(window)
+    samples = size.sample_scales(observation, target, color.table, p)
+    by_depth = None if window.depth is None else window.depth[0]
+    posterior = combine_posteriors([color.posterior(window), by_depth])
+    assert posterior is not None, "colors have a posterior"
+    return AppearanceModels(
+        CorrelationFilterExpert.from_window(window, p),
+        color,
+        SizeExpert.from_samples(observation.k, samples, p),
+        IdentityModel.from_window(window, samples.ranks[p.scales // 2]),
+        size.edge_level(observation.k, posterior, window.size, p.scale_step),
+    )
+
+
+def _depth_models(
+    observation: TargetObservation, target: Target, measured: DepthMeasurement | None, p: FusedParams
+) -> tuple[DepthExpert, PositionFilter] | tuple[None, None]:
+    """The depth expert and the position filter after the first measurement; None without one."""
+    if measured is None:
+        return None, None
+    length = target.side * measured.z
+    expert = DepthExpert(INITIAL_DEPTH_SPREAD, length).learn(measured, length, 1.0)
+    return expert, PositionFilter.at_rest(*back_project(observation, target, measured), p)

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: MIT
+"""The target's position in meters: a Kalman filter over position and velocity in the camera's frame."""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.kernels import Kernels
+from tricue.track.fused.arrays import Floats
+from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
+from tricue.track.fused.params import FusedParams
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+
+LATERAL_NOISE = 0.02  # of the target's side, standard deviation of its center
+MIN_POSITION_Z = 0.05  # meters in front of the camera
+MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
+POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
+MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
+
+
+class PositionFilter(NamedTuple):
+    """mean (6,): X, Y, Z in meters, x right, y down, z forward, and their velocities in m/s.
+
+    covariance (6, 6) of the mean.
+    """
+
+    mean: Floats
+    covariance: Floats
+
+    @classmethod
+    def at_rest(cls, point: Floats, noise: Floats, p: FusedParams) -> "PositionFilter":
+        """At rest at a measured point (3,) with covariance ``noise`` (3, 3)."""
+        covariance = np.zeros((6, 6))
+        covariance[:3, :3] = noise
+        covariance[3:, 3:] = p.max_speed**2 / 3 * np.eye(3)
+        return cls(np.concatenate([point, np.zeros(3)]), covariance)
+
+    @property
+    def position(self) -> Floats:
+        """(3,) meters; a copy."""
+        return np.array(self.mean[:3])
+
+    @property
+    def position_covariance(self) -> Floats:
+        """(3, 3) m²; a copy."""
+        return np.array(self.covariance[:3, :3])
+
+    def slow_down(self) -> "PositionFilter":
+        """With less velocity: after a frame in which the target was missed."""
+        return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)
+
+    def predict(self, k: Kernels, seconds: float, p: FusedParams) -> "PositionFilter":
+        """The state after some seconds of white acceleration.
+
+        Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2.
+        """
+        dynamics = _dynamics(seconds, p.acceleration_noise)
+        mean, covariance = k.kalman_predict(self.mean, self.covariance, *dynamics)
+        if mean[2] < MIN_POSITION_Z:
+            mean[2], mean[5] = MIN_POSITION_Z, 0.0
+        return PositionFilter(mean, covariance)
+
+    def distance(self, point: Floats, noise: Floats) -> float:
+        """Standard deviations to a measured point (3,) with covariance ``noise`` (3, 3)."""
+        off = point - self.mean[:3]
+        return float(np.sqrt(off @ np.linalg.solve(self.covariance[:3, :3] + noise, off)))
+
+    def correct(self, k: Kernels, point: Floats, noise: Floats) -> "PositionFilter":
+        """The state after a measured point (3,) with covariance ``noise`` (3, 3).
+
+        A large innovation shows that the motion model failed: the covariance is widened to it first.
+        """
+        widening = max(self.distance(point, noise) / MAX_INNOVATION, 1.0) ** 2
+        widened = widening * self.covariance
+        mean, covariance, *_ = k.kalman_update(self.mean, widened, point, POSITION_MATRIX, noise)
+        return PositionFilter(mean, covariance)
+
+
+@lru_cache(maxsize=64)
+def _dynamics(seconds: float, acceleration_noise: float) -> tuple[Floats, Floats]:
+    """The transition matrix F and the process noise Q, (6, 6)."""
+    transition, one = np.eye(6), np.eye(3)
+    transition[:3, 3:] = seconds * one
+    quarter, half = seconds**4 / 4 * one, seconds**3 / 2 * one
+    noise = acceleration_noise**2 * np.block([[quarter, half], [half, seconds**2 * one]])
+    return transition, noise
+
+
+def back_project(
+    observation: TargetObservation, target: Target, depth: DepthMeasurement
+) -> tuple[Floats, Floats]:
+    """A target's position (3,), meters in the camera's frame, and its covariance (3, 3)."""
+    assert observation.depth_source is not None, "it was measured"
+    camera, z = observation.camera, depth.z
+    disparity = camera.fx / z  # of a stereo pair with a baseline of 1 m, which is equivalent to z
+    depth_noise = disparity / z * observation.depth_source.noise(z, target.side / DEPTH_SAMPLES)
+    lateral_noise = LATERAL_NOISE * target.side
+    k, place = observation.k, np.array([[target.x - 0.5, target.y - 0.5, disparity]])
+    variances = np.array([lateral_noise**2, lateral_noise**2, depth_noise**2])
+    intrinsics = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
+    points, covariances = k.back_project(place, variances, intrinsics, 1.0)
+    return points[0], covariances[0].reshape(3, 3)

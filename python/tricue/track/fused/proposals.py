@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: MIT
+"""The windows that a search of the whole frame looks at."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.track.depth_objects.floor import NO_FLOOR
+from tricue.track.depth_objects.foreground import extract_foreground
+from tricue.track.depth_objects.objects import segment
+from tricue.track.depth_objects.params import SegmentationParams
+from tricue.track.depth_objects.projection import camera_vector
+from tricue.track.fused.depth_sources import ExpectedDepth
+from tricue.track.fused.experts.depth import measure_depth
+from tricue.track.fused.localize import TargetModel
+from tricue.track.fused.params import FusedParams
+from tricue.track.fused.position_filter import PositionFilter
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import WINDOW_CELLS, Window, extract_windows
+
+SEGMENTATION = SegmentationParams()
+MAX_CUE_PROPOSALS = 3  # per frame, by the target's colors or by objects in depth
+MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
+SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
+MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
+PROPOSED_SCALES = 1.0, 0.7, 1.0, 1.4  # of the target's last size, one per frame in turn, without depth
+
+
+class LostTarget(NamedTuple):
+    """A target that wasn't recognized in the last frame.
+
+    target: where it may be, as large as when it was last recognized: what was seen since needn't be it.
+    missed_frames: since then. frame: number of the current one, by which proposals take turns.
+    """
+
+    target: Target
+    position: PositionFilter | None
+    missed_frames: int
+    frame: int
+
+
+def propose_windows(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Window]:
+    """Windows where the target's colors are, or objects in depth, and a part of a grid over the frame.
+
+    With depth each is as large as the target would be there.
+    """
+    propose = _color_proposals if observation.depth_image is None else _object_proposals
+    targets = propose(model, observation, lost.target) + _grid_proposals(observation, lost, model.params)
+    context = model.params.context
+    if model.depth is None or observation.depth_source is None:
+        factor = PROPOSED_SCALES[lost.frame % len(PROPOSED_SCALES)]
+        return extract_windows(observation, [each.scale(factor) for each in targets], context)
+    windows = []
+    for each in targets:
+        windows += extract_windows(*_at_measured_depth(model, observation, each), context)
+    return windows
+
+
+def _at_measured_depth(
+    model: TargetModel, observation: TargetObservation, target: Target
+) -> tuple[TargetObservation, list[Target]]:
+    """The target as large as at the depth that its place has, and the frame with that depth expected."""
+    measured = measure_depth(observation, target, None)
+    if measured is None or model.depth is None:
+        return observation, [target]
+    low, high = (bound * model.first_side / target.side for bound in model.params.size_range)
+    factor = model.depth.length / (measured.z * target.side)
+    expected = ExpectedDepth(measured.z, model.depth.depth_spread)
+    scaled = target.scale(min(max(factor, low), high))
+    return observation.expect(expected, scaled.search_region), [scaled]
+
+
+def _object_proposals(model: TargetModel, observation: TargetObservation, target: Target) -> list[Target]:
+    """The target at the objects of a depth image, those of its size in meters first.
+
+    Sabeti, Parvizi and Wu 2008, section IV.A.
+    """
+    assert observation.depth_image is not None, "the picture is made of depth"
+    camera, rng = camera_vector(observation.camera), np.random.default_rng(0)
+    depth = observation.depth_image
+    pixels, plane = extract_foreground(observation.k, depth, camera, NO_FLOOR, rng, SEGMENTATION)
+    objects = segment(observation.k, pixels, plane, SEGMENTATION)
+    found = []
+    for state, box in zip(objects.states.tolist(), objects.boxes(camera), strict=True):
+        side = Target.of(box).side
+        mismatch = abs(math.log(side * state[2] / model.depth.length)) if model.depth else 0.0
+        x, y = box.center
+        found.append((mismatch, target._replace(x=x, y=y)))
+    found.sort(key=lambda each: each[0])
+    return [each for _, each in found[:MAX_CUE_PROPOSALS]]
+
+
+def _color_proposals(model: TargetModel, observation: TargetObservation, target: Target) -> list[Target]:
+    """The target where its colors stand out most, at places at least its side apart."""
+    height, width = observation.picture.shape[:2]
+    k = observation.k
+    step = max(target.side / SAMPLES_PER_TARGET, max(height, width) / MAX_FRAME_SAMPLES)
+    rows, columns = (max(2 * round(length / step / 2), 2) for length in (height, width))
+    whole = np.array([[0.0, 0.0, width, height]])
+    samples = k.sample_windows(observation.picture, whole, rows, columns)
+    flat = np.ascontiguousarray(samples.reshape(1, -1, 3).transpose(0, 2, 1))
+    posterior = k.color_lookup(flat, model.appearance.color.table).reshape(rows, columns)
+    across, down = width / columns, height / rows
+    size = target.width / across, target.height / down
+    contrast = k.box_contrast(posterior, *size, model.params.surround_size, 1.0)
+    y = down * (rows // 2 + 2.0 * (np.arange(rows // 2) - rows // 4))[:, None]
+    x = across * (columns // 2 + 2.0 * (np.arange(columns // 2) - columns // 4))[None]
+    targets = []
+    for _ in range(MAX_CUE_PROPOSALS):
+        i, j = np.unravel_index(np.argmax(contrast), contrast.shape)
+        targets.append(target._replace(x=float(x[0, j]), y=float(y[i, 0])))
+        near = (np.abs(x - x[0, j]) < target.side) & (np.abs(y - y[i, 0]) < target.side)
+        contrast = np.where(near, -np.inf, contrast)
+    return targets
+
+
+def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedParams) -> list[Target]:
+    """The target at the next places of a grid over the whole frame, half a window apart."""
+    target = lost.target
+    half = p.context * target.side / 2
+    height, width = observation.picture.shape[:2]
+    rows, columns = (min(max(int(np.ceil(length / half)), 1), WINDOW_CELLS) for length in (height, width))
+    grid = [
+        target._replace(x=(j + 0.5) * width / columns, y=(i + 0.5) * height / rows)
+        for i in range(rows)
+        for j in range(columns)
+    ]
+    first = lost.frame * MAX_GRID_PROPOSALS
+    return [grid[(first + i) % len(grid)] for i in range(min(MAX_GRID_PROPOSALS, len(grid)))]

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""Square windows of a frame around a target: the part that the experts read."""
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.track.fused.arrays import Floats, Image, Plane
+from tricue.track.fused.target import Target
+from tricue.track.fused.target_observation import TargetObservation
+
+WINDOW_CELLS = 32  # on a side
+CELL_PIXELS = 2  # patch pixels on a side
+PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
+INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
+
+
+class Window:
+    """A square window around a target; what the experts read of it is computed once, on demand.
+
+    patch: (64, 64, 3) BGR samples. pixel_size: image pixels per patch pixel. target: the one that the window
+    is centered on. size: the target's width and height in patch pixels.
+    """
+
+    def __init__(
+        self, observation: TargetObservation, target: Target, patch: Image, pixel_size: float
+    ) -> None:
+        self.observation, self.target, self.patch, self.pixel_size = observation, target, patch, pixel_size
+        self.size = target.width / pixel_size, target.height / pixel_size
+
+    @cached_property
+    def cells(self) -> Plane:
+        """(11, 32, 32) orientations and colors of the cells, weighted by a Hann window."""
+        return self.observation.k.gradient_color_cells(self.patch, HANN_WINDOW)
+
+    @cached_property
+    def colors(self) -> Image:
+        """(1, 3, 4096) colors of the patch's pixels."""
+        return np.ascontiguousarray(self.patch.reshape(-1, 3).T)[None]
+
+    @cached_property
+    def depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
+        """(64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0.
+
+        None without depth or where none is expected.
+        """
+        half = PATCH_PIXELS / 2 * self.pixel_size
+        x, y = self.target.x - half, self.target.y - half
+        return self.observation.depth_posterior(x, y, self.pixel_size, PATCH_PIXELS)
+
+    def inner(self, right: float = 0.0, down: float = 0.0, share: float = 1.0) -> tuple[slice, slice]:
+        """Rows and columns of the patch that a box of the target's size covers, at least one of each.
+
+        right, down: patch pixels from the window's center to the box's. share: of the box's sides.
+        """
+        rows = _span(PATCH_PIXELS / 2 + down, share * self.size[1])
+        return rows, _span(PATCH_PIXELS / 2 + right, share * self.size[0])
+
+
+def extract_windows(observation: TargetObservation, targets: list[Target], context: float) -> list[Window]:
+    """The windows around targets; context: a window's side in sides of its target."""
+    sides = [context * each.side for each in targets]
+    squares = np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in zip(targets, sides, strict=True)])
+    patches = observation.k.sample_windows(observation.picture, squares, PATCH_PIXELS, PATCH_PIXELS)
+    pixel_sizes = [side / PATCH_PIXELS for side in sides]
+    return [Window(observation, *each) for each in zip(targets, patches, pixel_sizes, strict=True)]
+
+
+def _span(center: float, length: float) -> slice:
+    first = min(max(round(center - length / 2), 0), PATCH_PIXELS - 1)
+    return slice(first, max(min(round(center + length / 2), PATCH_PIXELS), first + 1))
+
+
+def _hann_window() -> Plane:
+    """(32, 32), so that the cells fade out towards the window's edge."""
+    profile: Floats = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS) ** 2
+    return np.outer(profile, profile).astype(np.float32)
+
+
+HANN_WINDOW = _hann_window()
