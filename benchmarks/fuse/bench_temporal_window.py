@@ -13,13 +13,13 @@ from tricue import _core, reference
 
 Mask = NDArray[np.uint8]
 AROUND = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]], np.float32)
-NEIGHBOURS, SHARE, TRIM = 3, 0.2, 0.02
+NEIGHBORS, SHARE, TRIM = 3, 0.2, 0.02
 
 
-def script(mask: Mask, neighbours: int, share: float, trim: float) -> tuple[Any, int, Mask]:
+def script(mask: Mask, neighbors: int, share: float, trim: float) -> tuple[Any, int, Mask]:
     """The baseline: filter2D for the neighbors, connected components, cumulative sums of rows, columns."""
     counts = cv2.filter2D(mask, cv2.CV_8U, AROUND, borderType=cv2.BORDER_CONSTANT)
-    enough = mask * (counts >= neighbours)
+    enough = mask * (counts >= neighbors)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(enough, ltype=cv2.CV_32S)
     large = stats[:, cv2.CC_STAT_AREA] >= share * stats[1:, cv2.CC_STAT_AREA].max()
     large[0] = False
@@ -46,8 +46,8 @@ def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> N
     """
     wrong = np.random.default_rng(1).random(target.mask.shape) < target.mask.mean()
     mask = target.mask | wrong.astype(np.uint8)
-    box, count, left = benchmark(temporal_window, mask, NEIGHBOURS, SHARE, TRIM)
-    expected = reference.temporal_window(mask, NEIGHBOURS, SHARE, TRIM)
+    box, count, left = benchmark(temporal_window, mask, NEIGHBORS, SHARE, TRIM)
+    expected = reference.temporal_window(mask, NEIGHBORS, SHARE, TRIM)
     assert tuple(box) == expected[0]
     assert count == expected[1] == np.count_nonzero(left)
     assert_array_equal(left, expected[2])

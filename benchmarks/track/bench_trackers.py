@@ -133,7 +133,7 @@ FUSED = Case(
     },
     cameras=SEES,
     slow=8,
-    within=0.1,  # a sample that is rounded to another level of 255 changes what is learnt
+    within=0.1,  # a sample that is rounded to another level of 255 changes what is learned
 )
 RUNS = [
     pytest.param(case, name, id=f"{case}-{name}")

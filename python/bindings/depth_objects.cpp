@@ -35,10 +35,10 @@ std::tuple<Array<double>, Array<float>, Array<float>, Array<float>, Array<std::i
 depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& depth, double near, double far,
                         int levels, int bins, int min_area, bool image) {
     const auto regions = label_image(labels);
-    const auto metres = depth_image(depth, "depth");
+    const auto meters = depth_image(depth, "depth");
     const Signature signature{near, far, levels, bins};
-    auto found = unlocked(std::ptrdiff_t{metres.rows} * metres.cols,
-                          [&] { return depth_components(regions, metres, signature, min_area, image); });
+    auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols,
+                          [&] { return depth_components(regions, meters, signature, min_area, image); });
     return {give(std::move(found.table)), give(std::move(found.histograms)), give(std::move(found.columns)),
             give(std::move(found.rows)), give(std::move(found.image))};
 }
@@ -46,45 +46,45 @@ depth_components_arrays(const Array<std::uint8_t>& labels, const Array<float>& d
 Array<double> depth_distance_arrays(const Array<float>& depth, const Array<double>& rectangles,
                                     const Array<double>& model, const Array<double>& pattern, double reach,
                                     double nearer) {
-    const auto metres = depth_image(depth, "depth");
+    const auto meters = depth_image(depth, "depth");
     const auto each = states(rectangles, "rectangles");
     const DepthModel target{vector(model, "model"), reach};
     const auto places = states(pattern, "pattern");
     return give(unlocked(each.rows() * places.rows(),
-                         [&] { return depth_distance(metres, each, target, places, nearer); }));
+                         [&] { return depth_distance(meters, each, target, places, nearer); }));
 }
 
 Array<double> rectangle_histogram_arrays(const Array<float>& depth, const Array<double>& rectangle,
                                          int levels, const Array<double>& pattern, double reach) {
-    const auto metres = depth_image(depth, "depth");
+    const auto meters = depth_image(depth, "depth");
     const auto numbers = vector(rectangle, "rectangle");
     const auto places = states(pattern, "pattern");
     return give(
-        unlocked(places.rows(), [&] { return rectangle_histogram(metres, numbers, levels, places, reach); }));
+        unlocked(places.rows(), [&] { return rectangle_histogram(meters, numbers, levels, places, reach); }));
 }
 
 Array<double> depth_contrast_arrays(const Array<float>& depth, const Array<double>& camera,
                                     const Array<double>& states_, const Array<double>& model,
                                     std::pair<int, int> grid, std::pair<double, int> ring, double reach,
                                     double nearer) {
-    const auto metres = depth_image(depth, "depth");
+    const auto meters = depth_image(depth, "depth");
     const auto lens = vector(camera, "camera");
     const auto each = states(states_, "states");
     const DepthModel target{vector(model, "model"), reach};
     const Places places{grid.first, grid.second, ring.first, ring.second};
     const auto work = std::ptrdiff_t{grid.first} * grid.second * each.rows();
-    return give(unlocked(work, [&] { return depth_contrast(metres, lens, each, target, places, nearer); }));
+    return give(unlocked(work, [&] { return depth_contrast(meters, lens, each, target, places, nearer); }));
 }
 
 Array<bool> cut_sides_arrays(const Array<float>& depth, const Array<double>& table,
                              const Array<double>& camera, int border, double beside, double nearer,
                              double share) {
-    const auto metres = depth_image(depth, "depth");
+    const auto meters = depth_image(depth, "depth");
     const auto boxes = states(table, "table");
     const auto lens = vector(camera, "camera");
     const auto work = boxes.rows() * 48;  // places
     return give(
-        unlocked(work, [&] { return cut_sides(metres, boxes, lens, {border, beside, nearer, share}); }));
+        unlocked(work, [&] { return cut_sides(meters, boxes, lens, {border, beside, nearer, share}); }));
 }
 
 Eigen::Map<const Flags> flags(const Array<bool>& object, const char* name, int columns) {

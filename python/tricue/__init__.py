@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Track one person or object by color, depth and motion, on a CPU, with its position in metres."""
+"""Track one person or object by color, depth and motion, on a CPU, with its position in meters."""
 
 import importlib
 from typing import TYPE_CHECKING, Any

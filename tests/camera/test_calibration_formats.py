@@ -46,8 +46,8 @@ def test_the_rectified_camera_comes_first(tmp_path: Path) -> None:
     assert Intrinsics.from_opencv(path, key="M1", size=SIZE).fx == 1000
 
 
-def test_opencv_rig_in_millimetres(tmp_path: Path) -> None:
-    """It proves that the baseline is -P2[0,3] / f, brought to metres by the board's unit."""
+def test_opencv_rig_in_millimeters(tmp_path: Path) -> None:
+    """It proves that the baseline is -P2[0,3] / f, brought to meters by the board's unit."""
     path = opencv_file(tmp_path / "c.yml", P1=LEFT, P2=right(-500 * 62.5))
     assert StereoRig.from_opencv(path, unit=0.001, size=SIZE).baseline == pytest.approx(0.0625)
 

@@ -15,12 +15,12 @@ from tricue.camera.frame import as_frame
 
 PICTURE = np.random.default_rng(0).integers(0, 256, (24, 32, 3), np.uint8)
 GRAY = np.ascontiguousarray(PICTURE[:, :, 0])
-METRES = np.full((12, 16), 2.5, np.float32)
+METERS = np.full((12, 16), 2.5, np.float32)
 
 
 def test_a_frame_names_its_channels() -> None:
     """It proves that each channel is found under its name and that absent ones are None."""
-    frame = Frame(PICTURE, METRES, timestamp=2)
+    frame = Frame(PICTURE, METERS, timestamp=2)
     assert frame.channels == ("color", "depth")
     assert frame.right is None
     assert frame.timestamp == 2.0
@@ -30,7 +30,7 @@ def test_a_frame_names_its_channels() -> None:
 def test_a_bare_array_is_color() -> None:
     """It proves that an image alone becomes a frame's color, and a frame passes as it is."""
     assert as_frame(PICTURE).color is PICTURE
-    frame = Frame(depth=METRES)
+    frame = Frame(depth=METERS)
     assert as_frame(frame) is frame
 
 
@@ -83,7 +83,7 @@ def test_one_channel_is_gray() -> None:
 def test_invalid_depth_becomes_nan(depth: NDArray[np.float64]) -> None:
     """It proves that zero, negative, NaN and infinite depths, and no others, become NaN in float32."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of values that look like millimetres
+        warnings.simplefilter("ignore")  # of values that look like millimeters
         stored = Frame(depth=depth).depth
     assert stored is not None
     assert stored.dtype == np.float32
@@ -92,8 +92,8 @@ def test_invalid_depth_becomes_nan(depth: NDArray[np.float64]) -> None:
 
 
 @pytest.mark.parametrize("dtype", [np.uint16, np.int16, np.int32, np.int64, ">u2", np.float32])
-def test_depth_scale_gives_metres(dtype: Any) -> None:
-    """It proves that integers (and floats) in other units become metres, with 0 as no measurement."""
+def test_depth_scale_gives_meters(dtype: Any) -> None:
+    """It proves that integers (and floats) in other units become meters, with 0 as no measurement."""
     frame = Frame(depth=np.array([[0, 500], [1000, 8000]], dtype), depth_scale=0.001)
     assert frame.depth is not None
     np.testing.assert_allclose(frame.depth, np.array([[np.nan, 0.5], [1, 8]]), rtol=1e-6)
@@ -106,38 +106,38 @@ def test_the_callers_depth_is_not_written_to() -> None:
     assert np.array_equal(depth, np.zeros((4, 4)))
 
 
-def test_millimetres_as_metres_warn() -> None:
-    """It proves that a depth image in millimetres, passed as metres, is warned of at the caller's line."""
-    with pytest.warns(UserWarning, match="looks like millimetres") as caught:
+def test_millimeters_as_meters_warn() -> None:
+    """It proves that a depth image in millimeters, passed as meters, is warned of at the caller's line."""
+    with pytest.warns(UserWarning, match="looks like millimeters") as caught:
         Frame(depth=np.full((480, 640), 1500.0))
     assert caught[0].filename == __file__
 
 
 @pytest.mark.parametrize(
-    ("metres", "scale", "message"),
+    ("meters", "scale", "message"),
     [
-        (1500.0, None, "1500 m, which looks like millimetres; pass depth_scale=0.001"),
-        (50.1, None, "50.1 m, which looks like millimetres"),
-        (12_500.0, 0.1, "1250 m, which looks like a wrong depth_scale, 0.1 metres per unit"),
-        (2.5, 0.001, "0.0025 m, which looks like a wrong depth_scale, 0.001 metres per unit"),
-        (0.0025, None, "0.0025 m, which looks like another unit than metres; pass depth_scale"),
+        (1500.0, None, "1500 m, which looks like millimeters; pass depth_scale=0.001"),
+        (50.1, None, "50.1 m, which looks like millimeters"),
+        (12_500.0, 0.1, "1250 m, which looks like a wrong depth_scale, 0.1 meters per unit"),
+        (2.5, 0.001, "0.0025 m, which looks like a wrong depth_scale, 0.001 meters per unit"),
+        (0.0025, None, "0.0025 m, which looks like another unit than meters; pass depth_scale"),
     ],
 )
-def test_a_wrong_unit_warns(metres: float, scale: float | None, message: str) -> None:
+def test_a_wrong_unit_warns(meters: float, scale: float | None, message: str) -> None:
     """It proves that a median depth that no camera measures is warned of, with what is likely wrong."""
-    depth = np.full((24, 32), metres)
+    depth = np.full((24, 32), meters)
     depth[::2] = 0
     with pytest.warns(UserWarning, match=f"^depth: its median is {message}") as caught:
         Frame(depth=depth, depth_scale=scale)
     assert caught[0].filename == __file__
 
 
-@pytest.mark.parametrize("metres", [0.05, 0.4, 8.0, 49.9])
-def test_usual_depths_do_not_warn(metres: float) -> None:
+@pytest.mark.parametrize("meters", [0.05, 0.4, 8.0, 49.9])
+def test_usual_depths_do_not_warn(meters: float) -> None:
     """It proves that no warning comes from a hand before the camera to a street's end, a few odd pixels, or
     where nothing is measured.
     """
-    depth = np.full((24, 32), metres, np.float32)
+    depth = np.full((24, 32), meters, np.float32)
     depth[:4], depth[4:8] = 65.535, 0.001
     Frame(depth=depth)
     Frame(depth=np.zeros((24, 32)))
@@ -145,7 +145,7 @@ def test_usual_depths_do_not_warn(metres: float) -> None:
 
 def test_masked_pixels_are_not_measured() -> None:
     """It proves that a masked array's masked pixels become NaN, of floats as of integers."""
-    far = METRES.copy()
+    far = METERS.copy()
     far[2:5] = 7
     for masked, scale in (
         (np.ma.masked_greater(far, 5), None),
@@ -159,10 +159,10 @@ def test_masked_pixels_are_not_measured() -> None:
 
 def test_a_frame_can_be_pickled_and_replaced() -> None:
     """It proves that frames go through pickle and dataclasses.replace unchanged."""
-    frame = dataclasses.replace(Frame(PICTURE, METRES * 1000, depth_scale=0.001), timestamp=1.5)
+    frame = dataclasses.replace(Frame(PICTURE, METERS * 1000, depth_scale=0.001), timestamp=1.5)
     copy = pickle.loads(pickle.dumps(frame))
     assert np.array_equal(copy.color, PICTURE)
-    np.testing.assert_allclose(copy.depth, METRES, rtol=1e-6)
+    np.testing.assert_allclose(copy.depth, METERS, rtol=1e-6)
     assert copy.timestamp == 1.5
 
 
@@ -192,7 +192,7 @@ BAD = [
     ({"color": PICTURE[0, 0]}, ValueError, r"color: expected BGR .*, got uint8 \(3,\)"),
     ({"color": PICTURE[:0]}, ValueError, "color: expected an image with pixels"),
     ({"color": PICTURE[:, :0]}, ValueError, "color: expected an image with pixels"),
-    ({"depth": METRES, "right": PICTURE}, ValueError, "right: expected together with color"),
+    ({"depth": METERS, "right": PICTURE}, ValueError, "right: expected together with color"),
     (
         {"color": PICTURE, "right": PICTURE[1:]},
         ValueError,
@@ -205,23 +205,23 @@ BAD = [
     ),
     ({"color": PICTURE, "right": FLOATS}, TypeError, "right: expected uint8"),
     (
-        {"depth": METRES.astype(np.uint16)},
+        {"depth": METERS.astype(np.uint16)},
         ValueError,
-        "depth: .*uint16 .*pass depth_scale, 0.001 for millimetres",
+        "depth: .*uint16 .*pass depth_scale, 0.001 for millimeters",
     ),
     ({"depth": GRAY}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
     ({"depth": GRAY, "depth_scale": 0.01}, TypeError, "depth: .*; 8 bits are a picture of the depth"),
     ({"depth": PICTURE}, ValueError, "depth: expected one value a pixel.*; a colored depth picture"),
-    ({"depth": METRES > 1}, TypeError, "depth: expected float32"),
-    ({"depth": METRES.astype(np.complex64)}, TypeError, "depth: expected float32"),
-    ({"depth": METRES.astype(np.float16)}, TypeError, "depth: expected float32"),
-    ({"depth": METRES[:0]}, ValueError, "depth: expected one value a pixel"),
-    ({"depth": METRES[0]}, ValueError, "depth: expected one value a pixel"),
-    ({"depth": METRES.tolist()}, TypeError, "depth: expected a NumPy array, got list"),
-    ({"depth": METRES, "depth_scale": 0}, ValueError, "depth_scale: expected metres per unit above 0, got 0"),
-    ({"depth": METRES, "depth_scale": -1.0}, ValueError, "depth_scale: expected metres per unit above 0"),
-    ({"depth": METRES, "depth_scale": np.nan}, ValueError, "depth_scale: expected a finite number"),
-    ({"depth": METRES, "depth_scale": "mm"}, TypeError, "depth_scale: expected a number"),
+    ({"depth": METERS > 1}, TypeError, "depth: expected float32"),
+    ({"depth": METERS.astype(np.complex64)}, TypeError, "depth: expected float32"),
+    ({"depth": METERS.astype(np.float16)}, TypeError, "depth: expected float32"),
+    ({"depth": METERS[:0]}, ValueError, "depth: expected one value a pixel"),
+    ({"depth": METERS[0]}, ValueError, "depth: expected one value a pixel"),
+    ({"depth": METERS.tolist()}, TypeError, "depth: expected a NumPy array, got list"),
+    ({"depth": METERS, "depth_scale": 0}, ValueError, "depth_scale: expected meters per unit above 0, got 0"),
+    ({"depth": METERS, "depth_scale": -1.0}, ValueError, "depth_scale: expected meters per unit above 0"),
+    ({"depth": METERS, "depth_scale": np.nan}, ValueError, "depth_scale: expected a finite number"),
+    ({"depth": METERS, "depth_scale": "mm"}, TypeError, "depth_scale: expected a number"),
     ({"color": PICTURE, "depth_scale": 0.001}, ValueError, "depth_scale: expected together with depth"),
     (
         {"color": PICTURE, "timestamp": np.inf},
@@ -247,9 +247,9 @@ def test_bad_channels_are_refused(channels: dict[str, Any], error: type[Exceptio
         ([1, 2], TypeError, "image: expected a BGR image or a tricue.Frame, got list"),
         (FLOATS, TypeError, "image.color: expected uint8"),
         (PICTURE[:0], ValueError, "image.color: expected an image with pixels"),
-        (METRES, TypeError, r"image.color: .* got float32 .*; depth comes as tricue.Frame\(depth=image\)$"),
+        (METERS, TypeError, r"image.color: .* got float32 .*; depth comes as tricue.Frame\(depth=image\)$"),
         (
-            (1000 * METRES).astype(np.uint16),
+            (1000 * METERS).astype(np.uint16),
             TypeError,
             "image.color: .* got uint16 .*; depth comes as tricue.Frame",
         ),

@@ -89,10 +89,10 @@ def test_points_come_where_the_rig_projects_them() -> None:
 
 
 def test_the_baseline_is_the_distance_of_the_cameras() -> None:
-    """It proves that the rig's baseline is the translation's length, in metres by the board's unit."""
+    """It proves that the rig's baseline is the translation's length, in meters by the board's unit."""
     assert Rectification(RAW, SIZE).rig.baseline == pytest.approx(np.linalg.norm(RAW.translation))
-    millimetres = RAW._replace(translation=RAW.translation * 1000)
-    assert Rectification(millimetres, SIZE, unit=0.001).rig.baseline == pytest.approx(
+    millimeters = RAW._replace(translation=RAW.translation * 1000)
+    assert Rectification(millimeters, SIZE, unit=0.001).rig.baseline == pytest.approx(
         np.linalg.norm(RAW.translation)
     )
 

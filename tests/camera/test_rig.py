@@ -75,9 +75,9 @@ def test_cameras_compare_and_pickle() -> None:
     assert StereoRig(CAMERA, 0.13) != rig
 
 
-def test_a_baseline_in_millimetres_warns() -> None:
-    """It proves that a baseline of 120 "metres" is warned of."""
-    with pytest.warns(UserWarning, match="is it in metres"):
+def test_a_baseline_in_millimeters_warns() -> None:
+    """It proves that a baseline of 120 "meters" is warned of."""
+    with pytest.warns(UserWarning, match="is it in meters"):
         StereoRig(CAMERA, 120.0)
 
 
@@ -121,7 +121,7 @@ def test_bad_rigs_and_points_are_refused() -> None:
     """It proves that a rig needs Intrinsics and a positive baseline, and project points of three numbers."""
     with pytest.raises(TypeError, match=r"^intrinsics: expected tricue.Intrinsics, got dict"):
         StereoRig(GOOD, 0.1)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match=r"^baseline: expected metres above 0, got -0.1"):
+    with pytest.raises(ValueError, match=r"^baseline: expected meters above 0, got -0.1"):
         StereoRig(CAMERA, -0.1)
     with pytest.raises(ValueError, match=r"^points: expected \(..., 3\), got \(2,\)"):
         CAMERA.project([1.0, 2.0])

@@ -14,7 +14,7 @@ from tricue.track.base import registry
 from tricue.track.base.params import Params
 from tricue.track.base.traits import Channels, Traits
 
-WALL, PERSON = 4.0, 2.0  # metres
+WALL, PERSON = 4.0, 2.0  # meters
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +84,7 @@ def nearest_tracker(monkeypatch: pytest.MonkeyPatch) -> str:
 
 
 def person_at(left: int | None) -> NDArray[np.uint16]:
-    """Depth in millimetres, 80x60: a wall, in front of it a person of 10x30 px, and no measurement above."""
+    """Depth in millimeters, 80x60: a wall, in front of it a person of 10x30 px, and no measurement above."""
     image = np.full((60, 80), round(WALL * 1000), np.uint16)
     if left is not None:
         image[20:50, left : left + 10] = round(PERSON * 1000)

@@ -71,7 +71,7 @@ def has_positions(content: dict[str, Any]) -> bool:
     return content["tracks"][-1]["Z_m"] is not None
 
 
-def test_every_tracker_in_metres_is_tried_below() -> None:
+def test_every_tracker_in_meters_is_tried_below() -> None:
     """It proves that a new tracker doesn't come without a look at what it does without a calibration."""
     assert {*PAIR, *RGBD, "color-particle"} == set(names())
 
@@ -88,9 +88,9 @@ def test_what_an_unknown_pair_costs_is_true(
     assert error.startswith("tricue track: warning: the pair's calibration isn't known; ")
     assert has_positions(content) == traits(tracker).guesses
     if traits(tracker).guesses:
-        assert "any position in metres is a guess, by a usual pair, 60 degrees wide and 0.12 m apart" in error
+        assert "any position in meters is a guess, by a usual pair, 60 degrees wide and 0.12 m apart" in error
     else:
-        assert "tracks will have no position in metres" in error
+        assert "tracks will have no position in meters" in error
     assert "give --calibration FILE" in error
     assert content["intrinsics"] is None
     assert content["baseline"] is None
@@ -107,13 +107,13 @@ def test_what_an_unknown_depth_camera_costs_is_true(
     assert has_positions(content) == traits(tracker).guesses
     if traits(tracker).guesses:
         assert printed.err.count("\n") == 1
-        assert "the depth camera's intrinsics aren't known; how far a position in metres is beside the" in (
+        assert "the depth camera's intrinsics aren't known; how far a position in meters is beside the" in (
             printed.err
         )
         assert "a guess, by a usual camera, 60 degrees wide; give --calibration FILE or --fov" in printed.err
     else:
         assert not printed.err
-        assert "intrinsics aren't known; tracks have no position in metres; give --calib" in printed.out
+        assert "intrinsics aren't known; tracks have no position in meters; give --calib" in printed.out
 
 
 @pytest.mark.filterwarnings("default")  # they are to be printed
@@ -136,7 +136,7 @@ def test_color_alone_needs_no_camera(rgbd: Path, tracker: str, capsys: pytest.Ca
 
 DEPTH = Intrinsics(60.0, 60.0, 39.5, 29.5, 80, 60)
 COLOR = Intrinsics(180.0, 180.0, 84.5, 54.5, 160, 120)  # of twice the pixels, longer, and off to the right
-NEAR, WALL = 2000, 4000  # millimetres
+NEAR, WALL = 2000, 4000  # millimeters
 PERSON = Box(34, 20, 10, 22)  # in the depth image, going right by a pixel a frame
 
 
@@ -181,7 +181,7 @@ def test_depth_of_another_camera_comes_into_the_color_image(
     two_cameras: Path, tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It proves that a tracker of both gets depth where the color is: boxes are the color image's, and the
-    person is at its true place in metres, by the color camera.
+    person is at its true place in meters, by the color camera.
     """
     start = box_option(seen_by(COLOR, 0))
     content = tracked(two_cameras, "--tracker", tracker, *MM, start)

@@ -8,7 +8,7 @@ from tricue.scenes import crossing, walker
 
 
 def test_errors_are_the_distance_from_the_truth() -> None:
-    """It proves that errors are in metres, and not a number where there is no position."""
+    """It proves that errors are in meters, and not a number where there is no position."""
     scene = walker(seed=1, frames=2)
     places = [scene.positions[0] + [0.03, 0, 0.04], None]
     tracks = [Track(box, 1.0, Status.TRACKED, place) for box, place in zip(scene.boxes, places, strict=True)]

@@ -112,7 +112,7 @@ def test_demo_writes_a_table_a_video_and_a_plot(
 
 
 def check_depth(row: list[str]) -> None:
-    """Errors in centimetres."""
+    """Errors in centimeters."""
     _, error, _, high, *_ = row
     assert float(error) < 15
     assert float(error) <= float(high)

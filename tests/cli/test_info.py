@@ -162,7 +162,7 @@ def test_assumed_times(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
 @pytest.mark.parametrize(("shift", "warned"), [(500, False), (0.01, True), (50_000, True)])
 @pytest.mark.filterwarnings("ignore:baseline")
 def test_pairs(tmp_path: Path, capsys: pytest.CaptureFixture[str], shift: float, warned: bool) -> None:
-    """It proves that a pair's baseline is told, and one that can't be in metres is warned of."""
+    """It proves that a pair's baseline is told, and one that can't be in meters is warned of."""
     left, right = color(tmp_path / "a", 2), color(tmp_path / "b", 2)
     file = tmp_path / "calib.txt"
     file.write_text(f"P2: 500 0 32 0 0 500 24 0 0 0 1 0\nP3: 500 0 32 {-shift} 0 500 24 0 0 0 1 0\n")

@@ -81,7 +81,7 @@ def test_files_are_whole_after_an_error(tmp_path: Path) -> None:
 
 
 def depth(near: float) -> NDArray[np.float32]:
-    """A ramp of depth from ``near`` to a metre behind it, 480x480."""
+    """A ramp of depth from ``near`` to a meter behind it, 480x480."""
     return np.tile(np.linspace(near, near + 1, 480, dtype=np.float32), (480, 1))
 
 

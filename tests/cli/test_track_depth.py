@@ -22,7 +22,7 @@ def read_csv(path: Path) -> list[dict[str, str]]:
 
 
 def color_images(folder: Path, count: int = 6) -> Path:
-    """A folder of grey-blue images, larger than the depth images."""
+    """A folder of gray-blue images, larger than the depth images."""
     folder.mkdir(parents=True, exist_ok=True)
     for index in range(count):
         cv2.imwrite(str(folder / f"{index}.png"), np.full((120, 160, 3), (120, 90, 80), np.uint8))
@@ -39,7 +39,7 @@ def test_a_depth_tracker_starts_by_itself(
     recording: Path, nearest_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It proves that without a box the tracker starts on the first frame with somebody in it, and that table,
-    JSON, video and plot have the position in metres that the angles of view give.
+    JSON, video and plot have the position in meters that the angles of view give.
     """
     pytest.importorskip("matplotlib")
     out = {name: tmp_path / f"o.{name}" for name in ("csv", "json", "avi", "png")}
@@ -138,14 +138,14 @@ def test_a_found_calibration_of_another_size_is_left_out(
     assert re.search(
         r"left out the calibration .*intrinsics.toml: .* 80x60 pixels, got one for 640x480", printed
     )
-    assert f"{path}: not written, no track has a position in metres" in printed
+    assert f"{path}: not written, no track has a position in meters" in printed
     assert not path.exists()
 
 
 def test_a_wrong_unit_warns_once(
     recording: Path, nearest_tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that depth that looks like millimetres is one line of warning, not one a frame."""
+    """It proves that depth that looks like millimeters is one line of warning, not one a frame."""
     with warnings.catch_warnings():
         warnings.simplefilter("always")
         assert (
@@ -180,14 +180,14 @@ def test_the_frame_rate_of_images_can_be_given(recording: Path, nearest_tracker:
 
 
 BAD = [
-    (["{depth}"], "{depth}: expected --depth-scale, the metres per unit of these 16-bit images"),
+    (["{depth}"], "{depth}: expected --depth-scale, the meters per unit of these 16-bit images"),
     (
         ["{color}"],
         "frame: expected the channel depth, .*, got color; give its depth images with --depth FOLDER",
     ),
     (["{root}"], "frame: expected the channel depth.*; left out {depth}: --depth-scale"),
     (["{color}", "--depth", "{nobody}", *MM], "color: expected as many .*, got 6 color and 2 depth"),
-    (["{color}", "--depth", "{color}", *MM], "{color}/0.png: expected depth, 16 bits .* not metres"),
+    (["{color}", "--depth", "{color}", *MM], "{color}/0.png: expected depth, 16 bits .* not meters"),
     (
         ["{nobody}", *MM],
         "nobody: the tracker started in none of 2 frames: box: found nobody in this frame; give --box",
@@ -201,7 +201,7 @@ BAD = [
     (["{depth}", *MM, "--fps", "0"], "--fps: expected frames per second above 0, got 0.0"),
     (["{depth}", *MM, "--fps", "fast"], "argument --fps: invalid float value: 'fast'"),
     (["{depth}", "--depth-scale", "mm"], "argument --depth-scale: invalid float value: 'mm'"),
-    (["{depth}", "--depth-scale", "-1"], "depth_scale: expected metres per unit above 0, got -1.0"),
+    (["{depth}", "--depth-scale", "-1"], "depth_scale: expected meters per unit above 0, got -1.0"),
     (["{depth}", *MM, "--plot", "o.txt"], "o.txt: expected a picture's name that ends in .png"),
     (["{depth}", *MM, *FOV, "--plot", "{toml}"], ".*toml: expected a picture's name"),
     (["{depth}", *MM, "--calibration", "{good}", "--json", "{good}"], ".* another file than the input"),

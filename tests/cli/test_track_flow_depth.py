@@ -29,7 +29,7 @@ def measured() -> WalkScene:
 
 
 def written(scene: WalkScene, place: Path) -> Path:
-    """A scene as left/ and right/, or color/ and depth/ in millimetres, with the rig."""
+    """A scene as left/ and right/, or color/ and depth/ in millimeters, with the rig."""
     sides = ("left", "right") if scene.frames[0].right is not None else ("color", "depth")
     for side in sides:
         (place / side).mkdir(parents=True)
@@ -40,8 +40,8 @@ def written(scene: WalkScene, place: Path) -> Path:
             cv2.imwrite(str(place / "right" / f"{index:04}.png"), frame.right)
         else:
             assert frame.depth is not None
-            millimetres = np.nan_to_num(1000 * frame.depth).astype(np.uint16)
-            cv2.imwrite(str(place / "depth" / f"{index:04}.png"), millimetres)
+            millimeters = np.nan_to_num(1000 * frame.depth).astype(np.uint16)
+            cv2.imwrite(str(place / "depth" / f"{index:04}.png"), millimeters)
     camera = scene.rig.intrinsics
     values = {name: getattr(camera, name) for name in ("fx", "fy", "cx", "cy", "width", "height")}
     lines = [f"{name} = {value}" for name, value in values.items()]

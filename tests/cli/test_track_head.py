@@ -45,7 +45,7 @@ def calibrated(folder: Path) -> list[str]:
     return ["track", str(folder), *HEAD, "--calibration", str(folder / "rig.toml")]
 
 
-def test_a_head_is_tracked_in_metres(
+def test_a_head_is_tracked_in_meters(
     folder: Path, scene: StereoScene, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It proves that the true first box and a rig are enough: every file is written, positions are within 4 %
@@ -86,7 +86,7 @@ def test_a_head_without_a_rig(folder: Path, capsys: pytest.CaptureFixture[str]) 
     files = ["--output", str(folder / "o.mp4"), "--json", str(folder / "o.json"), "--plot"]
     assert main(["track", str(folder), *HEAD, *files, str(folder / "o.png")]) == 0
     printed = capsys.readouterr()
-    assert "tracks will have no position in metres" in printed.err
+    assert "tracks will have no position in meters" in printed.err
     assert printed.err.count("\n") == 1
     assert f"{FRAMES} tracked" in printed.out
     assert "not written, no track has a position" in printed.out
@@ -134,7 +134,7 @@ def untrue(folder: Path) -> None:
     [
         (small, [], "right: expected the shape of color"),
         (blank, [], "expected a head with a disparity between near and far"),
-        (blank, [], "--set near=METRES and --set far=METRES change what is looked for"),
+        (blank, [], "--set near=METERS and --set far=METERS change what is looked for"),
         (shortened, [], "expected as many color as right images"),
         (untrue, ["--box", "500,500,20,20"], "expected a part inside the image of 160x120 pixels"),
         (untrue, ["--detect", "person"], "--detect person: stereo-head doesn't look for people"),

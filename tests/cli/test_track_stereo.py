@@ -99,14 +99,14 @@ def test_the_rig_reaches_the_tracker(pair: list[str], tmp_path: Path) -> None:
 
 
 def test_the_boards_unit(pair: list[str], tmp_path: Path) -> None:
-    """It proves that --unit brings an OpenCV calibration in millimetres to metres."""
+    """It proves that --unit brings an OpenCV calibration in millimeters to meters."""
     file = rectified(tmp_path / "c.yml", tx=-60000.0)
     content = tracked([*pair, "--calibration", str(file), "--unit", "0.001"], tmp_path / "o.json")
     assert content["baseline"] == pytest.approx(0.12)
 
 
 def test_toml_and_kitti_rigs(pair: list[str], tmp_path: Path) -> None:
-    """It proves that the other formats of a rig are read, and have no other unit than metres."""
+    """It proves that the other formats of a rig are read, and have no other unit than meters."""
     (tmp_path / "c.toml").write_text("fx = 500.0\nfy = 500.0\ncx = 32.0\ncy = 24.0\nbaseline = 0.12\n")
     (tmp_path / "c.txt").write_text(
         "P2: 500 0 32 0 0 500 24 0 0 0 1 0\nP3: 500 0 32 -60 0 500 24 0 0 0 1 0\n"
@@ -159,7 +159,7 @@ def test_raw_pairs_are_rectified(pair: list[str], tmp_path: Path, monkeypatch: p
         (["--unit", "0.001"], "--unit: expected with --calibration FILE"),
         (["--calibration", "raw.yml"], "raw.yml: expected P1 and P2 of a rectified rig"),
         (["--calibration", "rig.yml", "--rectify"], "found no M1 and M2"),
-        (["--calibration", "rig.yml", "--unit", "0"], "unit: expected metres above 0"),
+        (["--calibration", "rig.yml", "--unit", "0"], "unit: expected meters above 0"),
         (["--calibration", "big.yml"], "expected a calibration for the color images of 64x48 pixels"),
         (["--calibration", "swapped.yml"], "swap the two cameras"),
         (["--calibration", "nowhere.yml"], "nowhere.yml"),
@@ -195,7 +195,7 @@ def test_without_a_calibration_there_is_no_position(
     assert [track["Z_m"] for track in content["tracks"]] == [None] * 3
     assert content["baseline"] is None
     expected = (
-        "the pair's calibration isn't known; tracks will have no position in metres; give --calibration"
+        "the pair's calibration isn't known; tracks will have no position in meters; give --calibration"
     )
     error = capsys.readouterr().err
     assert error.startswith(f"tricue track: warning: {expected}")

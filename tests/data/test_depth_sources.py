@@ -41,7 +41,7 @@ def color_folder(folder: Path, count: int) -> Path:
     return folder
 
 
-def metres(source: Source) -> list[float]:
+def meters(source: Source) -> list[float]:
     """The depth in the middle of each frame."""
     return [float(frame.depth[15, 20]) for frame in source if frame.depth is not None]
 
@@ -52,7 +52,7 @@ def levels(source: Source) -> list[int]:
 
 
 def test_a_folder_of_depth_alone(tmp_path: Path) -> None:
-    """It proves that 16-bit images come as metres by the scale, NaN where they are 0, without color."""
+    """It proves that 16-bit images come as meters by the scale, NaN where they are 0, without color."""
     source = open_source(depth_folder(tmp_path / "walk", [1000, 2500]), depth_scale=0.001)
     assert (source.name, source.length, source.size) == ("walk", 2, (40, 30))
     first, second = source
@@ -61,13 +61,13 @@ def test_a_folder_of_depth_alone(tmp_path: Path) -> None:
     assert first.depth.dtype == np.float32
     assert np.isnan(first.depth[0, 0])
     assert np.isnan(first.depth).sum() == 1
-    assert metres(source) == pytest.approx([1.0, 2.5])
+    assert meters(source) == pytest.approx([1.0, 2.5])
 
 
 def test_a_real_unit_is_kept(tmp_path: Path) -> None:
-    """It proves that the scale is what the metres are computed with, to float32's last bit."""
+    """It proves that the scale is what the meters are computed with, to float32's last bit."""
     source = open_source(depth_folder(tmp_path, [54321]), depth_scale=0.00025)
-    assert metres(source) == [float(np.float32(54321) * np.float32(0.00025))]
+    assert meters(source) == [float(np.float32(54321) * np.float32(0.00025))]
 
 
 @pytest.mark.parametrize("sub", ["img", "color", "left", "rgb"])
@@ -77,7 +77,7 @@ def test_depth_beside_color(tmp_path: Path, sub: str) -> None:
     depth_folder(tmp_path / "depth", [1500, 3000])
     source = open_source(tmp_path, depth_scale=0.001)
     assert levels(source) == [10, 20]
-    assert metres(source) == pytest.approx([1.5, 3.0])
+    assert meters(source) == pytest.approx([1.5, 3.0])
     frame = next(iter(source))
     assert frame.color is not None
     assert frame.depth is not None
@@ -101,7 +101,7 @@ def test_a_second_folder_of_depth(tmp_path: Path) -> None:
     (tmp_path / "b" / "intrinsics.toml").touch()
     source = open_source(tmp_path / "a", depth=depth, depth_scale=0.001)
     assert levels(source) == [10, 20]
-    assert metres(source) == pytest.approx([0.7, 0.9])
+    assert meters(source) == pytest.approx([0.7, 0.9])
     assert source.calibration == tmp_path / "b" / "intrinsics.toml"
 
 
@@ -122,7 +122,7 @@ def test_depth_beside_a_video(tmp_path: Path) -> None:
     source = open_source(color_video(tmp_path / "v.avi", 3), depth=depth, depth_scale=0.001)
     assert source.length == 3
     assert [frame.timestamp for frame in source] == pytest.approx([0.0, 0.1, 0.2])
-    assert metres(source) == pytest.approx([0.7, 0.9, 1.1])
+    assert meters(source) == pytest.approx([0.7, 0.9, 1.1])
     for frames, message in ((2, "got 2 color and more depth"), (4, "got 3 depth and more color")):
         longer = open_source(color_video(tmp_path / "w.avi", frames), depth=depth, depth_scale=0.001)
         with pytest.raises(ValueError, match=f"w: expected as many color as depth images, {message}"):
@@ -140,21 +140,21 @@ def vot(folder: Path, lines: str) -> Path:
 CHANNELS = "channels.color=color/%08d.png\nchannels.depth=depth/%08d.png\n"
 
 
-def test_vot_depth_is_millimetres(tmp_path: Path) -> None:
-    """It proves that VOT's depth channel comes in metres without being told its unit, or by the one told."""
+def test_vot_depth_is_millimeters(tmp_path: Path) -> None:
+    """It proves that VOT's depth channel comes in meters without being told its unit, or by the one told."""
     folder = vot(tmp_path, f"channel.default=color\n{CHANNELS}")
     source = open_source(folder)
     assert (source.fps, list(source.channels)) == (4.0, ["color", "depth"])
     assert levels(source) == [10, 20]
-    assert metres(source) == pytest.approx([1.234, 2.345])
-    assert metres(open_source(folder, depth_scale=0.0001)) == pytest.approx([0.1234, 0.2345])
+    assert meters(source) == pytest.approx([1.234, 2.345])
+    assert meters(open_source(folder, depth_scale=0.0001)) == pytest.approx([0.1234, 0.2345])
 
 
 def test_vot_depth_alone(tmp_path: Path) -> None:
     """It proves that a VOT sequence whose only, default channel is depth isn't read as color."""
     source = open_source(vot(tmp_path, "channel.default=depth\nchannels.depth=depth/%08d.png\n"))
     assert list(source.channels) == ["depth"]
-    assert metres(source) == pytest.approx([1.234, 2.345])
+    assert meters(source) == pytest.approx([1.234, 2.345])
 
 
 def vot_rgbd(folder: Path) -> Path:
@@ -167,16 +167,16 @@ def vot_rgbd(folder: Path) -> Path:
 
 
 def test_vot_rgbd_is_known_without_its_sequence_file(tmp_path: Path) -> None:
-    """It proves that color/ and depth/ of eight-digit names beside VOT's true boxes are in millimetres, that
+    """It proves that color/ and depth/ of eight-digit names beside VOT's true boxes are in millimeters, that
     their frame rate can be given, and that folders of other names still ask for the unit.
     """
     source = open_source(vot_rgbd(tmp_path), fps=20)
-    assert (levels(source), metres(source)) == ([10, 20], pytest.approx([1.0, 2.0]))
+    assert (levels(source), meters(source)) == ([10, 20], pytest.approx([1.0, 2.0]))
     assert [frame.timestamp for frame in source] == [0.0, 0.05]
     assert source.first_box == Box(1, 2, 3, 4)
     assert source.truth is not None
     assert np.isnan(source.truth[1]).all()
-    assert metres(open_source(tmp_path, depth_scale=0.0001)) == pytest.approx([0.1, 0.2])
+    assert meters(open_source(tmp_path, depth_scale=0.0001)) == pytest.approx([0.1, 0.2])
     for index in (1, 2):
         (tmp_path / "depth" / f"{index:08}.png").rename(tmp_path / "depth" / f"frame{index}.png")
     (note,) = open_source(tmp_path).notes
@@ -214,7 +214,7 @@ def test_tum_pairs_by_time(tmp_path: Path) -> None:
     source = open_source(tum(tmp_path, color, depth))
     assert levels(source) == [10, 20, 30, 50]
     assert [frame.timestamp for frame in source] == [100.000, 100.033, 100.066, 100.300]
-    assert [round(5000 * z) - 5000 for z in metres(source)] == [0, 1, 2, 5]
+    assert [round(5000 * z) - 5000 for z in meters(source)] == [0, 1, 2, 5]
     assert source.fps == pytest.approx(1 / 0.033)
     assert source.notes == ("left out 1 of 5 color images, with no depth image within 0.02 s",)
 
@@ -236,7 +236,7 @@ def test_tum_channels_alone(tmp_path: Path) -> None:
     """It proves that a TUM folder with one of its lists is a source of that channel, in the order of time."""
     depth = open_source(tum(tmp_path / "d", [], [2.0, 1.0]))
     assert (list(depth.channels), [f.timestamp for f in depth]) == (["depth"], [1.0, 2.0])
-    assert metres(depth) == pytest.approx([5001 / 5000, 1.0])
+    assert meters(depth) == pytest.approx([5001 / 5000, 1.0])
     color = open_source(tum(tmp_path / "c", [1.0, 2.0], []))
     assert (list(color.channels), levels(color)) == (["color"], [10, 20])
 
@@ -248,7 +248,7 @@ def test_tum_lists_may_be_parted_by_commas(tmp_path: Path, apart: str) -> None:
     (tmp_path / "depth.txt").write_text(f"# depth maps\n\n1305031102.160407{apart}depth/a b.png\r\n")
     source = open_source(tmp_path)
     assert [frame.timestamp for frame in source] == [1305031102.160407]
-    assert metres(source) == pytest.approx([1.0])
+    assert meters(source) == pytest.approx([1.0])
 
 
 def test_times_of_their_own_go_before_those_of_other_channels(tmp_path: Path) -> None:
@@ -294,7 +294,7 @@ def test_princeton_depth_is_turned_back(tmp_path: Path) -> None:
     """
     source = open_source(ptb(tmp_path))
     assert levels(source) == [10, 20, 30]
-    assert metres(source) == pytest.approx([9.0, 1.5, 1.5])
+    assert meters(source) == pytest.approx([9.0, 1.5, 1.5])
     assert [frame.timestamp for frame in source] == pytest.approx([0.0, 0.033, 0.066])
 
 
@@ -304,20 +304,20 @@ def test_princeton_bits(tmp_path: Path, units: int) -> None:
     folder = ptb(tmp_path)
     for path in (folder / "depth").iterdir():
         write_depth(path, rotated(units))
-    assert metres(open_source(folder)) == pytest.approx(3 * [units / 1000])
+    assert meters(open_source(folder)) == pytest.approx(3 * [units / 1000])
 
 
 def test_princeton_folders_alone(tmp_path: Path) -> None:
     """It proves that Princeton's rgb/ or depth/ alone is known by its names: order, times, bits and unit."""
     folder = ptb(tmp_path)
     depth = open_source(folder / "depth")
-    assert (list(depth.channels), metres(depth)) == (["depth"], pytest.approx([9.0, 1.5]))
+    assert (list(depth.channels), meters(depth)) == (["depth"], pytest.approx([9.0, 1.5]))
     assert [frame.timestamp for frame in depth] == pytest.approx([0.001, 0.06])
     color = open_source(folder / "rgb")
     assert levels(color) == [10, 20, 30]
     assert [frame.timestamp for frame in color] == pytest.approx([0.0, 0.033, 0.066])
     beside = open_source(color_folder(tmp_path / "c", 2), depth=folder / "depth")
-    assert metres(beside) == pytest.approx([9.0, 1.5])
+    assert meters(beside) == pytest.approx([9.0, 1.5])
 
 
 def frames_mat(folder: Path) -> None:
@@ -450,7 +450,7 @@ def uneven_vot(folder: Path) -> Source:
     [
         (
             lambda f: open_source(depth_folder(f / "walk", [1])),
-            r"walk: expected --depth-scale, the metres per unit .*; 0\.001 where they are millimetres",
+            r"walk: expected --depth-scale, the meters per unit .*; 0\.001 where they are millimeters",
         ),
         (
             lambda f: open_source(color_folder(f / "c", 1), depth=depth_folder(f / "d", [1])),
@@ -458,7 +458,7 @@ def uneven_vot(folder: Path) -> Source:
         ),
         (
             lambda f: open_source(depth_folder(f, [1]), depth_scale=0),
-            "depth_scale: expected metres per unit above 0, got 0",
+            "depth_scale: expected meters per unit above 0, got 0",
         ),
         (
             lambda f: open_source(color_folder(f / "c", 3), depth=depth_folder(f / "d", [1]), depth_scale=1),
@@ -469,8 +469,8 @@ def uneven_vot(folder: Path) -> Source:
             lambda f: open_source(color_folder(f, 1), depth_scale=0.001),
             "expected depth images where --depth-scale is given, found only color",
         ),
-        (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not metres"),
-        (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not metres"),
+        (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not meters"),
+        (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not meters"),
         (beside(wide_bits), r"1.png: expected depth, 16 bits of one channel, got uint16 \(30, 40, 3\)"),
         (eight_bits_in_the_middle, "2.png: expected depth, 16 bits of one channel, got uint8"),
         (cut_off, "2.png: expected an image, this file can't be read as one"),

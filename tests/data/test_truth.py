@@ -76,7 +76,7 @@ def test_absent_is_not_unknown(tmp_path: Path) -> None:
 
 
 def test_depths_beside_the_boxes(tmp_path: Path) -> None:
-    """It proves that position_z_mm.txt gives Z in metres, NaN where it says 0 or NaN, and nothing else."""
+    """It proves that position_z_mm.txt gives Z in meters, NaN where it says 0 or NaN, and nothing else."""
     (tmp_path / VOT_TRUTH).write_text("1,2,3,4\n")
     (tmp_path / "position_z_mm.txt").write_text("1500\n0\nnan\n 2250.5\n\n")
     truth = find_truth(tmp_path)
@@ -92,7 +92,7 @@ def test_depths_beside_the_boxes(tmp_path: Path) -> None:
         (VOT_TRUTH, "1,2,3,4\n1,2,inf,4\n", "line 2: expected four numbers"),
         ("absent.tag", "0\n2\n", "line 2: expected 0, or 1 for an absent target, got '2'"),
         ("absent.tag", "0\n\n1\n", "line 2: expected 0, or 1"),
-        ("position_z_mm.txt", "1\n-5\n", "line 2: expected a depth in millimetres, 0 if unknown, got '-5'"),
+        ("position_z_mm.txt", "1\n-5\n", "line 2: expected a depth in millimeters, 0 if unknown, got '-5'"),
         ("position_z_mm.txt", "1\ninf\n", "line 2: expected a depth"),
         ("position_z_mm.txt", "1\n\n5\n", "line 2: expected a depth"),
         ("position_z_mm.txt", "1 2\n", "line 1: expected a depth"),

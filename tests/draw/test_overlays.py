@@ -121,7 +121,7 @@ def test_scattered_depth_has_a_range() -> None:
 @pytest.mark.parametrize(("near", "far"), [(2.0, 2.0), (3.0, 1.0), (math.nan, 1.0)])
 def test_a_bad_range_is_refused(near: float, far: float) -> None:
     """It proves that a near that isn't below far is an error that names both."""
-    with pytest.raises(ValueError, match="near, far: expected near below far, metres, got"):
+    with pytest.raises(ValueError, match="near, far: expected near below far, meters, got"):
         depth_picture(ramp(), near, far)
 
 

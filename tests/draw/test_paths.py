@@ -23,7 +23,7 @@ def walk() -> list[Track]:
 
 
 def test_points_are_where_the_target_was() -> None:
-    """It proves that x is drawn against z in metres at one scale, each point in the color of its status."""
+    """It proves that x is drawn against z in meters at one scale, each point in the color of its status."""
     axes = path_from_above(walk(), CAMERA).axes[0]
     points = {line.get_color(): line.get_xydata().tolist() for line in axes.lines if line.get_marker() == "o"}
     assert points == {
@@ -81,5 +81,5 @@ def test_bad_input_is_named() -> None:
     flat = [Track(Box(1, 2, 3, 4), 0.5, Status.TRACKED)]
     with pytest.raises(ValueError, match="tracks: expected one with a position, got none"):
         path_from_above(flat, CAMERA)
-    with pytest.raises(ValueError, match=r"truth: expected positions \(N, 3\), metres, got \(2, 2\)"):
+    with pytest.raises(ValueError, match=r"truth: expected positions \(N, 3\), meters, got \(2, 2\)"):
         path_from_above(walk(), CAMERA, [[1, 2], [3, 4]])

@@ -24,7 +24,7 @@ def color(index):
 
 
 def depth(index):
-    """Somebody 2 m away before a wall at 4 m, in millimetres."""
+    """Somebody 2 m away before a wall at 4 m, in millimeters."""
     image = np.full((36, 48), 4000, np.uint16)
     image[6:26, 8 + index : 24 + index] = 2000
     return image
@@ -144,7 +144,7 @@ def test_peers_see_depth_as_a_picture_with_steady_shades(tmp_path):
     assert pictures[0][15, 16].tolist() != pictures[0][0, 0].tolist()
 
 
-def test_a_depth_tracker_is_judged_in_metres(tmp_path):
+def test_a_depth_tracker_is_judged_in_meters(tmp_path):
     """The position's error along z against the median depth of the target."""
     folder = write_rgbd(tmp_path / "walk", count=8, cameras=TWO, positions=True)
     entry = Entry("walk", folder)

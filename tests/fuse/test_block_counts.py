@@ -97,7 +97,7 @@ def test_agrees_with_integral_images(kernels: Kernels) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """A block counts the pixels whose centres it holds, and none outside the image."""
+    """A block counts the pixels whose centers it holds, and none outside the image."""
     mask = np.array([[1, 0, 255], [0, 0, 1]], np.uint8)
     disparity = np.array([[1, 2, np.nan], [-4, np.inf, 8]], np.float32)
     blocks = np.array(

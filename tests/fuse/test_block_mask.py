@@ -56,7 +56,7 @@ def test_agrees_with_opencv(kernels: Kernels) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """A block marks the pixels whose centres it holds, its left and upper edge included, and none else."""
+    """A block marks the pixels whose centers it holds, its left and upper edge included, and none else."""
     blocks = np.array([[0.5, 0, 1.5, 1], [2.6, 0, 9, 0.6], [3, 1.5, 3.6, 9], [1, 1, 0, 3], [2, 2, 2.5, 3]])
     assert_array_equal(kernels.block_mask(blocks, 3, 5), [[1, 0, 0, 1, 1], [0, 0, 0, 1, 0], [0, 0, 0, 1, 0]])
 

@@ -99,7 +99,7 @@ def test_is_scipys_correlation(kernels: Kernels, shape: tuple[int, int, int]) ->
 
 
 def test_finds_a_shift(kernels: Kernels) -> None:
-    """What was learnt answers 1 in the middle, and shifted cells where they went."""
+    """What was learned answers 1 in the middle, and shifted cells where they went."""
     for rows, columns in ((32, 32), (15, 22)):
         cells = cells_of((11, rows, columns))
         offsets = (np.fft.fftfreq(n, 1 / n) for n in (rows, columns))
@@ -107,8 +107,8 @@ def test_finds_a_shift(kernels: Kernels) -> None:
         label = np.fft.rfft2(np.exp(-(x**2 + y**2) / 4)).astype(np.complex64)
         none = np.zeros((11, *label.shape), np.complex64), np.zeros(label.shape, np.float32)
         focus = np.ones((rows, columns), np.float32)
-        learnt = kernels.correlation_train(cells, focus, label, *none, 1.0, 0.0)
-        filters = [each[None] for each in learnt]
+        learned = kernels.correlation_train(cells, focus, label, *none, 1.0, 0.0)
+        filters = [each[None] for each in learned]
         for down, across in ((0, 0), (3, -5), (-7, 2)):
             (answer,) = kernels.correlation_response(np.roll(cells, (down, across), (1, 2)), *filters, 1e-4)
             peak = np.unravel_index(answer.argmax(), answer.shape)
@@ -144,7 +144,7 @@ def test_filters_answer_by_themselves(kernels: Kernels, shape: tuple[int, int, i
 
 
 def test_an_empty_filter_answers_nothing(kernels: Kernels) -> None:
-    """Where nothing was learnt yet the ridge keeps from dividing by 0."""
+    """Where nothing was learned yet the ridge keeps from dividing by 0."""
     answer = kernels.correlation_response(
         cells_of((2, 4, 6)), np.zeros((1, 2, 4, 4), np.complex64), np.zeros((1, 4, 4), np.float32), 0.01
     )

@@ -171,7 +171,7 @@ def test_without_noise_it_is_believed(kernels: Kernels) -> None:
 
 
 def test_units_do_not_matter(kernels: Kernels) -> None:
-    """Metres and pixels in one measurement: a scale of 1e8 between them is no singular matrix."""
+    """Meters and pixels in one measurement: a scale of 1e8 between them is no singular matrix."""
     unit = np.array([1e-4, 1e4])
     plain, scaled = case(7), case(7)
     scaled["measurement"] = plain["measurement"] * unit

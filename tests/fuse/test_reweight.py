@@ -91,7 +91,7 @@ def test_posterior_of_a_gaussian(kernels: Kernels) -> None:
 
 @pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.99])
 def test_no_weight_exceeds_its_likelihood_by_much(kernels: Kernels, share: float) -> None:
-    """Before normalising w <= L / (1 - share): the mixture's promise."""
+    """Before normalizing w <= L / (1 - share): the mixture's promise."""
     arguments = case(500, share=share)
     weights, log_evidence = kernels.reweight(**arguments)
     with np.errstate(divide="ignore"):

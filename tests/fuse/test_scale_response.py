@@ -54,19 +54,19 @@ def test_is_a_circular_correlation(kernels: Kernels, shape: tuple[int, int]) -> 
 
 
 def test_finds_a_step(kernels: Kernels) -> None:
-    """What was learnt answers 1 in the middle, and shifted looks where they went."""
+    """What was learned answers 1 in the middle, and shifted looks where they went."""
     looks = looks_of((11, 64))
     label = np.fft.rfft(np.exp(-(np.fft.fftfreq(11, 1 / 11) ** 2) / 2)).astype(np.complex64)
     none = np.zeros((6, 64), np.complex64), np.zeros(6, np.float32)
-    learnt = kernels.scale_train(looks, label, *none, 1.0)
+    learned = kernels.scale_train(looks, label, *none, 1.0)
     for step in (0, 3, -4):
-        answer = kernels.scale_response(np.roll(looks, step, axis=0), *learnt, 1e-4)
+        answer = kernels.scale_response(np.roll(looks, step, axis=0), *learned, 1e-4)
         assert answer.argmax() == 5 + step
         assert answer.max() == pytest.approx(1, abs=1e-3)
 
 
 def test_adds_up_channels(kernels: Kernels) -> None:
-    """The answer is linear in the looks, and nothing learnt answers nothing."""
+    """The answer is linear in the looks, and nothing learned answers nothing."""
     looks, (numerator, denominator) = looks_of((9, 40)), filter_of((9, 40))
     whole = kernels.scale_response(looks, numerator, denominator, 0.1)
     parts = [

@@ -18,7 +18,7 @@ from tricue.kernels import Kernels
 Mask = NDArray[np.uint8]
 
 masks = arrays(np.uint8, st.tuples(st.integers(0, 12), st.integers(0, 20)), elements=st.integers(0, 2))
-neighbours = st.integers(0, 8)
+neighbors = st.integers(0, 8)
 shares = st.sampled_from([0.0, 0.2, 0.5, 1.0]) | st.floats(0, 1)
 trims = st.sampled_from([0.0, 0.02, 0.25]) | st.floats(0, 0.5, exclude_max=True)
 
@@ -40,10 +40,10 @@ def assert_same(mask: Mask, *parameters: Any) -> None:
     assert_array_equal(ours[2], theirs[2], strict=True)
 
 
-@given(masks, neighbours, shares, trims)
-def test_twin_leaves_the_same(mask: Mask, neighbours: int, share: float, trim: float) -> None:
+@given(masks, neighbors, shares, trims)
+def test_twin_leaves_the_same(mask: Mask, neighbors: int, share: float, trim: float) -> None:
     """Native and reference agree exactly, for any mask and parameters."""
-    assert_same(mask, neighbours, share, trim)
+    assert_same(mask, neighbors, share, trim)
 
 
 @pytest.mark.parametrize("cols", [1, 7, 8, 9, 63, 64, 65, 200])
@@ -51,24 +51,24 @@ def test_twin_leaves_the_same(mask: Mask, neighbours: int, share: float, trim: f
 def test_twin_leaves_the_same_in_rows_of_any_length(cols: int, density: float) -> None:
     """They agree on rows shorter than a vector, as long, and longer, cut from a wider mask."""
     mask = noise((25, cols + 7), density, cols)[2:22, 3 : cols + 3]
-    for neighbours in (0, 3, 8):
-        assert_same(mask, neighbours, 0.3, 0.02)
+    for neighbors in (0, 3, 8):
+        assert_same(mask, neighbors, 0.3, 0.02)
 
 
 @pytest.mark.parametrize("density", [0.3, 0.5, 0.7])
-@pytest.mark.parametrize("neighbours", [0, 2, 4, 6])
-def test_agrees_with_opencv(kernels: Kernels, density: float, neighbours: int) -> None:
-    """OpenCV counts the same neighbours and finds the same regions; SciPy trims to the same box."""
-    mask = noise((90, 110), density, neighbours)
+@pytest.mark.parametrize("neighbors", [0, 2, 4, 6])
+def test_agrees_with_opencv(kernels: Kernels, density: float, neighbors: int) -> None:
+    """OpenCV counts the same neighbors and finds the same regions; SciPy trims to the same box."""
+    mask = noise((90, 110), density, neighbors)
     set_ = (mask > 0).astype(np.uint8)
     around = np.ones((3, 3))
     around[1, 1] = 0
     counts = cv2.filter2D(set_, cv2.CV_8U, around, borderType=cv2.BORDER_CONSTANT)
-    enough = set_ * (counts >= neighbours).astype(np.uint8)
+    enough = set_ * (counts >= neighbors).astype(np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(enough)
     large = np.flatnonzero(stats[:, 4] >= 0.25 * stats[1:, 4].max())
     expected = np.isin(labels, large[large > 0])
-    (x0, y0, x1, y1), count, left = kernels.temporal_window(mask, neighbours, 0.25, 0.1)
+    (x0, y0, x1, y1), count, left = kernels.temporal_window(mask, neighbors, 0.25, 0.1)
     assert_array_equal(left, expected)
     assert count == expected.sum() > 10
     rows, columns = (trimboth(np.sort(each), 0.1) for each in np.nonzero(expected))
@@ -85,7 +85,7 @@ def test_finds_a_rectangle_in_noise(kernels: Kernels) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """A lone pixel goes by its neighbours, a small region by its size; corners connect."""
+    """A lone pixel goes by its neighbors, a small region by its size; corners connect."""
     mask = draw(
         "#....##.",
         ".....#..",
@@ -106,22 +106,22 @@ def test_example_by_hand(kernels: Kernels) -> None:
     assert box == (2, 0, 7, 5)
 
 
-def test_neighbours_beyond_the_edge(kernels: Kernels) -> None:
-    """Beyond the edge nothing is set: of a full mask corners have 3 neighbours, edges 5, the rest 8."""
+def test_neighbors_beyond_the_edge(kernels: Kernels) -> None:
+    """Beyond the edge nothing is set: of a full mask corners have 3 neighbors, edges 5, the rest 8."""
     full = np.ones((4, 6), np.uint8)
-    for neighbours, expected in ((3, (0, 0, 6, 4)), (5, (0, 0, 6, 4)), (6, (1, 1, 5, 3)), (8, (1, 1, 5, 3))):
-        box, count, left = kernels.temporal_window(full, neighbours, 0.0, 0.0)
+    for neighbors, expected in ((3, (0, 0, 6, 4)), (5, (0, 0, 6, 4)), (6, (1, 1, 5, 3)), (8, (1, 1, 5, 3))):
+        box, count, left = kernels.temporal_window(full, neighbors, 0.0, 0.0)
         assert box == expected
-        assert count == left.sum() == {3: 24, 5: 20, 6: 8, 8: 8}[neighbours]
+        assert count == left.sum() == {3: 24, 5: 20, 6: 8, 8: 8}[neighbors]
 
 
-@given(masks, neighbours, shares, trims)
-def test_mirror_and_turn(mask: Mask, neighbours: int, share: float, trim: float) -> None:
+@given(masks, neighbors, shares, trims)
+def test_mirror_and_turn(mask: Mask, neighbors: int, share: float, trim: float) -> None:
     """A mirrored mask has the mirrored window, a transposed one the transposed."""
     width = mask.shape[1]
-    (x0, y0, x1, y1), count, left = _core.temporal_window(mask, neighbours, share, trim)
-    mirrored = _core.temporal_window(np.ascontiguousarray(mask[:, ::-1]), neighbours, share, trim)
-    turned = _core.temporal_window(np.ascontiguousarray(mask.T), neighbours, share, trim)
+    (x0, y0, x1, y1), count, left = _core.temporal_window(mask, neighbors, share, trim)
+    mirrored = _core.temporal_window(np.ascontiguousarray(mask[:, ::-1]), neighbors, share, trim)
+    turned = _core.temporal_window(np.ascontiguousarray(mask.T), neighbors, share, trim)
     if count:
         assert mirrored[:2] == ((width - x1, y0, width - x0, y1), count)
         assert turned[:2] == ((y0, x0, y1, x1), count)
@@ -129,10 +129,10 @@ def test_mirror_and_turn(mask: Mask, neighbours: int, share: float, trim: float)
     assert_array_equal(turned[2].T, left)
 
 
-@given(masks, neighbours, shares, trims)
-def test_box_holds_what_is_left(mask: Mask, neighbours: int, share: float, trim: float) -> None:
+@given(masks, neighbors, shares, trims)
+def test_box_holds_what_is_left(mask: Mask, neighbors: int, share: float, trim: float) -> None:
     """Nothing is added; with nothing trimmed the box fits exactly, with more it only shrinks."""
-    box, count, left = _core.temporal_window(mask, neighbours, share, 0.0)
+    box, count, left = _core.temporal_window(mask, neighbors, share, 0.0)
     assert not left[mask == 0].any()
     assert count == left.sum()
     if count == 0:
@@ -140,7 +140,7 @@ def test_box_holds_what_is_left(mask: Mask, neighbours: int, share: float, trim:
         return
     assert box == (*(int(each.min()) for each in np.nonzero(left)[::-1]), box[2], box[3])
     assert left[box[1] : box[3], box[0] : box[2]].sum() == count
-    x0, y0, x1, y1 = _core.temporal_window(mask, neighbours, share, trim)[0]
+    x0, y0, x1, y1 = _core.temporal_window(mask, neighbors, share, trim)[0]
     assert box[0] <= x0 < x1 <= box[2]
     assert box[1] <= y0 < y1 <= box[3]
 
@@ -160,13 +160,13 @@ def test_nothing_there(kernels: Kernels, shape: tuple[int, int]) -> None:
 
 
 def test_nothing_left(kernels: Kernels) -> None:
-    """So it is where no pixel has enough neighbours."""
+    """So it is where no pixel has enough neighbors."""
     box, count, left = kernels.temporal_window(draw("#.#.#", ".....", "#.#.#"), 1, 0.0)
     assert (box, count, left.any()) == ((0, 0, 0, 0), 0, False)
 
 
 @pytest.mark.parametrize(
-    ("neighbours", "share", "trim", "message"),
+    ("neighbors", "share", "trim", "message"),
     [
         (-1, 0.2, 0.02, "neighbors: expected 0 to 8, got -1"),
         (9, 0.2, 0.02, "neighbors: expected 0 to 8, got 9"),
@@ -178,10 +178,10 @@ def test_nothing_left(kernels: Kernels) -> None:
         (3, 0.2, np.nan, r"trim: expected a number in \[0, 0.5\), got nan"),
     ],
 )
-def test_refuses(kernels: Kernels, neighbours: int, share: float, trim: float, message: str) -> None:
+def test_refuses(kernels: Kernels, neighbors: int, share: float, trim: float, message: str) -> None:
     """Parameters out of their range are named."""
     with pytest.raises(ValueError, match=message):
-        kernels.temporal_window(np.ones((2, 3), np.uint8), neighbours, share, trim)
+        kernels.temporal_window(np.ones((2, 3), np.uint8), neighbors, share, trim)
 
 
 BAD: list[tuple[Any, type[Exception], str]] = [

@@ -128,7 +128,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
     ],
 )
 def test_region(kernels: Kernels, region: Any, expected: list[int]) -> None:
-    """Pixels count whose centres lie in the region, its left and top edge included, and in the plane."""
+    """Pixels count whose centers lie in the region, its left and top edge included, and in the plane."""
     values = np.arange(4, dtype=np.float32)[None]
     histogram = kernels.weighted_histogram(values, np.ones_like(values), region, 0.0, 4.0, 4)
     assert_array_equal(histogram, expected)

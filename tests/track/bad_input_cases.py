@@ -28,8 +28,8 @@ OTHER_SHAPES = [(48, 64), (192, 256), (96, 127), (128, 96)]
 ANY_SHAPES = [(1, 1), (1, 2), (3, 3), (1, 300), (300, 1), (16, 16), (1500, 2000), (4, 5000)]
 
 LEFT, RIGHT = np.random.default_rng(0).integers(0, 256, (2, HEIGHT, WIDTH, 3), np.uint8)
-METRES = np.full((HEIGHT, WIDTH), 2.0, np.float32)
-MILLIMETRES = (1000 * METRES).astype(np.uint16)
+METERS = np.full((HEIGHT, WIDTH), 2.0, np.float32)
+MILLIMETERS = (1000 * METERS).astype(np.uint16)
 
 NO_FRAMES: BadFrames = {
     "None": (lambda: None, TypeError, r"^frame: expected a BGR image .*NoneType.*cv2.imread"),
@@ -62,9 +62,9 @@ NO_IMAGES: BadFrames = {
 """Bare arrays, for a tracker that takes a bare image."""
 
 BARE_DEPTHS: BadFrames = {
-    "float depth": (lambda: METRES, TypeError, r"^frame.color: .*float32.*; depth comes as .*\(depth=image"),
+    "float depth": (lambda: METERS, TypeError, r"^frame.color: .*float32.*; depth comes as .*\(depth=image"),
     "16-bit depth": (
-        lambda: MILLIMETRES,
+        lambda: MILLIMETERS,
         TypeError,
         r"^frame.color: .*uint16.*; depth comes as .*\(depth=image",
     ),
@@ -78,7 +78,7 @@ NO_PAIRS: BadFrames = {
         r"^frame: expected color or depth, got right alone",
     ),
     "right without color": (
-        lambda: Frame(depth=METRES, right=RIGHT),
+        lambda: Frame(depth=METERS, right=RIGHT),
         ValueError,
         r"^right: expected together with color",
     ),
@@ -87,7 +87,7 @@ NO_PAIRS: BadFrames = {
         ValueError,
         r"^right: expected the shape of color, \(96, 128, 3\), got \(96, 127, 3\)",
     ),
-    "right grey": (
+    "right gray": (
         lambda: Frame(LEFT, right=RIGHT[..., 0]),
         ValueError,
         r"^right: expected the shape of color, \(96, 128, 3\), got \(96, 128\)",
@@ -131,7 +131,7 @@ ONE_IMAGE: BadFrames = {
     "no right image": (lambda: Frame(LEFT), ValueError, r"^frame: expected the channel right.*got color"),
     "side by side": (lambda: np.hstack([LEFT, RIGHT]), ValueError, r"^frame: expected the channel right"),
     "depth alone": (
-        lambda: Frame(depth=METRES),
+        lambda: Frame(depth=METERS),
         ValueError,
         r"^frame: expected the channel color.*got depth",
     ),
@@ -140,41 +140,41 @@ ONE_IMAGE: BadFrames = {
 
 NO_DEPTHS: BadFrames = {
     "depth of integers": (
-        lambda: Frame(depth=MILLIMETRES),
+        lambda: Frame(depth=MILLIMETERS),
         ValueError,
         r"^depth: expected depth_scale with integers",
     ),
     "depth of 8 bits": (lambda: Frame(depth=LEFT[..., 0]), TypeError, r"^depth: expected float32 .*uint8"),
     "depth in color": (lambda: Frame(LEFT, depth=LEFT), ValueError, r"^depth: expected one value a pixel"),
-    "depth of bools": (lambda: Frame(depth=METRES > 3), TypeError, r"^depth: expected float32 .*bool"),
+    "depth of bools": (lambda: Frame(depth=METERS > 3), TypeError, r"^depth: expected float32 .*bool"),
     "complex depth": (
-        lambda: Frame(depth=METRES.astype(complex)),
+        lambda: Frame(depth=METERS.astype(complex)),
         TypeError,
         r"^depth: expected .*complex",
     ),
-    "half floats": (lambda: Frame(depth=METRES.astype(np.float16)), TypeError, r"^depth: .*float16"),
-    "depth of objects": (lambda: Frame(depth=METRES.astype(object)), TypeError, r"^depth: .*object"),
+    "half floats": (lambda: Frame(depth=METERS.astype(np.float16)), TypeError, r"^depth: .*float16"),
+    "depth of objects": (lambda: Frame(depth=METERS.astype(object)), TypeError, r"^depth: .*object"),
     "depth of lists": (
-        lambda: Frame(depth=METRES.tolist()),
+        lambda: Frame(depth=METERS.tolist()),
         TypeError,
         r"^depth: expected a NumPy array, got list",
     ),
-    "empty depth": (lambda: Frame(depth=METRES[:0]), ValueError, r"^depth: expected one value a pixel"),
+    "empty depth": (lambda: Frame(depth=METERS[:0]), ValueError, r"^depth: expected one value a pixel"),
     "depth without columns": (
-        lambda: Frame(depth=METRES[:, :0]),
+        lambda: Frame(depth=METERS[:, :0]),
         ValueError,
         r"^depth: expected one value a pixel",
     ),
-    "batch of depths": (lambda: Frame(depth=METRES[None]), ValueError, r"^depth: expected one value a pixel"),
-    "scale -1": (lambda: Frame(depth=MILLIMETRES, depth_scale=-1), ValueError, r"^depth_scale: expected"),
-    "scale 0": (lambda: Frame(depth=MILLIMETRES, depth_scale=0), ValueError, r"^depth_scale: expected"),
+    "batch of depths": (lambda: Frame(depth=METERS[None]), ValueError, r"^depth: expected one value a pixel"),
+    "scale -1": (lambda: Frame(depth=MILLIMETERS, depth_scale=-1), ValueError, r"^depth_scale: expected"),
+    "scale 0": (lambda: Frame(depth=MILLIMETERS, depth_scale=0), ValueError, r"^depth_scale: expected"),
     "scale NaN": (
-        lambda: Frame(depth=MILLIMETRES, depth_scale=np.nan),
+        lambda: Frame(depth=MILLIMETERS, depth_scale=np.nan),
         ValueError,
         r"^depth_scale: expected",
     ),
     "scale in words": (
-        lambda: Frame(depth=MILLIMETRES, depth_scale="mm"),
+        lambda: Frame(depth=MILLIMETERS, depth_scale="mm"),
         TypeError,
         r"^depth_scale: expected",
     ),
@@ -183,7 +183,7 @@ NO_DEPTHS: BadFrames = {
 
 UNREGISTERED: BadFrames = {
     "depth of another size": (
-        lambda: Frame(LEFT, depth=METRES[::2, ::2]),
+        lambda: Frame(LEFT, depth=METERS[::2, ::2]),
         ValueError,
         r"^frame.depth: expected shape \(96, 128\), got \(48, 64\); .*color image's pixels",
     )
@@ -293,7 +293,7 @@ def odd_pairs(left: Image, right: Image) -> dict[str, tuple[Image, Image]]:
     return {
         "black": (black, black),
         "white": (white, white),
-        "grey": (np.full_like(left, 127), np.full_like(left, 127)),
+        "gray": (np.full_like(left, 127), np.full_like(left, 127)),
         "left black": (black, right),
         "right black": (left, black),
         "right white": (left, white),
@@ -311,7 +311,7 @@ def odd_pairs(left: Image, right: Image) -> dict[str, tuple[Image, Image]]:
 
 
 def odd_depths(depth: Depth) -> dict[str, Depth]:
-    """Depth images with nothing in them, or nonsense, and what can be made of a good one, metres."""
+    """Depth images with nothing in them, or nonsense, and what can be made of a good one, meters."""
     far, columns = depth > 2, np.arange(depth.shape[1])
     return {
         "NaN": np.full_like(depth, np.nan),

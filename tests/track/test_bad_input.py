@@ -15,7 +15,7 @@ from tricue import (
 PAIR = Frame(cases.LEFT, right=cases.RIGHT)
 FRAMES = {
     ColorParticleTracker: cases.LEFT,
-    DepthParticleTracker: Frame(depth=cases.METRES),
+    DepthParticleTracker: Frame(depth=cases.METERS),
     StereoHeadTracker: PAIR,
     FlowDepthTracker: PAIR,
     FusedTracker: cases.LEFT,

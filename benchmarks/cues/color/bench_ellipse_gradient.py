@@ -15,13 +15,13 @@ Floats = NDArray[np.float64]
 Grid = tuple[int, int, int]
 
 
-def script(grey: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:
+def script(gray: NDArray[np.uint8], ellipse: Floats, grid: Grid, pattern: Floats) -> Floats:
     """The baseline: Sobel of a part of the picture, and one fancy index for all places."""
     rows, cols, step = grid
     reach = np.ceil(ellipse[2:] + step * np.array([cols, rows])).astype(int) + 1
     left, top = ellipse[:2].astype(int) - reach
     right, bottom = ellipse[:2].astype(int) + reach
-    part = grey[top:bottom, left:right]
+    part = gray[top:bottom, left:right]
     gx, gy = (cv2.Sobel(part, cv2.CV_32F, *order, ksize=1, scale=0.5) for order in ((1, 0), (0, 1)))
     normals = pattern / ellipse[2:]
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
@@ -42,8 +42,8 @@ def bench_ellipse_gradient(
 ) -> None:
     """All find the same, within sums of float32."""
     angles = (np.arange(64) + 0.5) * np.pi / 32
-    grey = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY)
+    gray = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY)
     pattern = np.column_stack([np.cos(angles), np.sin(angles)])
-    arguments = (grey, np.array([130.3, 107.8, 15, 18]), (4, 16, 1), pattern)
+    arguments = (gray, np.array([130.3, 107.8, 15, 18]), (4, 16, 1), pattern)
     found = benchmark(ellipse_gradient, *arguments)
     assert_allclose(found, reference.ellipse_gradient(*arguments), rtol=0, atol=1e-3)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""144 places of 100 ellipses: native, reference, and OpenCV's remap with nearest neighbours."""
+"""144 places of 100 ellipses: native, reference, and OpenCV's remap with nearest neighbors."""
 
 from collections.abc import Callable
 from typing import Any

@@ -26,8 +26,8 @@ def script(
     b, g, r = cv2.split(cv2.absdiff(part, np.array([*color, 0.0])))
     boundary = cv2.subtract(eta, cv2.max(cv2.max(b, g), r), dtype=cv2.CV_16S)
     m = cv2.moments((boundary > 255 * threshold).view(np.uint8), binaryImage=True)
-    centre = [x0 + m["m10"] / m["m00"] + 0.5, y0 + m["m01"] / m["m00"] + 0.5]
-    return np.array([m["m00"], *centre, *(m[name] / m["m00"] for name in ("mu20", "mu02", "mu11"))])
+    center = [x0 + m["m10"] / m["m00"] + 0.5, y0 + m["m01"] / m["m00"] + 0.5]
+    return np.array([m["m00"], *center, *(m[name] / m["m00"] for name in ("mu20", "mu02", "mu11"))])
 
 
 @pytest.mark.benchmark(group="skin_moments")

@@ -40,10 +40,10 @@ def script(
     for k, (x, y, width, height, area, label, inside) in enumerate(found):
         box = inside[y : y + height, x : x + width]
         seen = (box & (depth[y : y + height, x : x + width] > 0)).view(np.uint8)
-        metres = depth[y : y + height, x : x + width]
-        histogram = cv2.calcHist([metres], [0], seen, [levels], [near, far]).ravel()
+        meters = depth[y : y + height, x : x + width]
+        histogram = cv2.calcHist([meters], [0], seen, [levels], [near, far]).ravel()
         histograms.append(histogram / max(histogram.sum(), 1))
-        table[k] = x, y, width, height, area, metres[seen > 0].mean(dtype=np.float64), label
+        table[k] = x, y, width, height, area, meters[seen > 0].mean(dtype=np.float64), label
         for axis in (0, 1):
             counts = box.sum(axis=axis)
             places = (2 * np.arange(len(counts)) + 1) * bins // (2 * len(counts))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Distances and contrasts of 100 rectangles in metres: native, reference, and a script on OpenCV."""
+"""Distances and contrasts of 100 rectangles in meters: native, reference, and a script on OpenCV."""
 
 from collections.abc import Callable
 from typing import Any

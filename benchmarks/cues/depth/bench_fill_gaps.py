@@ -32,9 +32,9 @@ def script(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -
         padded = cv2.copyMakeBorder(far, 1, 1, 1, 1, cv2.BORDER_CONSTANT, value=float(FAR))
         total, votes = np.zeros((2, height, width), np.float32)
         for y, x in np.argwhere(RING):
-            neighbour = padded[y : y + height, x : x + width]
-            on_it = neighbour <= reach
-            cv2.add(total, neighbour, total, on_it.view(np.uint8))
+            neighbor = padded[y : y + height, x : x + width]
+            on_it = neighbor <= reach
+            cv2.add(total, neighbor, total, on_it.view(np.uint8))
             votes += on_it
         filled = total / np.maximum(votes, 1)
         depth = np.where(known, depth, np.where(votes >= 2, filled, np.float32(np.nan)))

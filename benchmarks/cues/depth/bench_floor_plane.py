@@ -53,7 +53,7 @@ def script(
     "floor_plane", [_core.floor_plane, reference.floor_plane, script], ids=["native", "reference", "baseline"]
 )
 def bench_floor_plane(benchmark: Any, floor_plane: Callable[..., Any], room: Depth, camera: Floats) -> None:
-    """Twins find the same floor; the script, all in float32, to a millimetre."""
+    """Twins find the same floor; the script, all in float32, to a millimeter."""
     thin, lens = np.ascontiguousarray(room[::2, ::2]), camera / 2
     triples = np.random.default_rng(0).integers(0, thin.size, (100, 3))
     arguments = thin, lens, triples, TOLERANCE, UP, LEAST_COSINE

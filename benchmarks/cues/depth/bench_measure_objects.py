@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Eight objects of a depth image in metres: native, reference, and a script on NumPy."""
+"""Eight objects of a depth image in meters: native, reference, and a script on NumPy."""
 
 from collections.abc import Callable
 from typing import Any
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 Shares = NDArray[np.float32]
 random = np.random.default_rng(0)
 DEPTH, SIZE = random.uniform(2, 6, 8), random.integers(8, 60, (8, 2))
-LOW = (2 - 0.28 * DEPTH) / 0.96 - random.uniform(0, 0.5, 8)  # metres: above the floor below
+LOW = (2 - 0.28 * DEPTH) / 0.96 - random.uniform(0, 0.5, 8)  # meters: above the floor below
 ARGUMENTS = (
     np.column_stack(
         [

@@ -24,8 +24,8 @@ def script(u: Plane, v: Plane, outliers: float, least: int) -> tuple[float, floa
         count = points.shape[1]
         if count < least:
             return np.nan, np.nan, count
-        centred = points - points.mean(axis=1, keepdims=True)
-        place, moved = centred[:2], centred[2:]
+        centerd = points - points.mean(axis=1, keepdims=True)
+        place, moved = centerd[:2], centerd[2:]
         a = np.vdot(place, moved) / np.vdot(place, place)
         squares = ((moved - a * place) ** 2).sum(axis=0)
         spread = squares.mean()

@@ -34,7 +34,7 @@ class PinholeParameters(NamedTuple):
 
 
 class RigParameters(NamedTuple):
-    """A rectified stereo rig: the camera matrix of both cameras, and the baseline in metres."""
+    """A rectified stereo rig: the camera matrix of both cameras, and the baseline in meters."""
 
     camera: PinholeParameters
     baseline: float
@@ -58,7 +58,7 @@ def read_opencv_camera(
 def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> RigParameters:
     """The rectified rig in a file of ``cv2.FileStorage`` with P1 and P2 of ``cv2.stereoRectify``.
 
-    unit: metres per unit of the calibration board, 0.001 where its squares were given in millimetres.
+    unit: meters per unit of the calibration board, 0.001 where its squares were given in millimeters.
     """
     with OpenCVFile(path) as file:
         left, right = file.matrix("P1"), file.matrix("P2")
@@ -66,7 +66,7 @@ def read_opencv_rig(path: PathLike, *, unit: float = 1.0, size: Size | None = No
             raise ValueError(
                 f"{path}: expected P1 and P2 of a rectified rig, as cv2.stereoRectify gives them"
             )
-        return rig_of_projections(left, right, positive(unit, "unit", "metres"), size or file.size(), path)
+        return rig_of_projections(left, right, positive(unit, "unit", "meters"), size or file.size(), path)
 
 
 def read_kitti_camera(path: PathLike, *, camera: int = 2, size: Size | None = None) -> PinholeParameters:
@@ -89,7 +89,7 @@ def read_kitti_rig(
 
 
 def read_kitti_offset(path: PathLike, *, camera: int = 2) -> Matrix:
-    """The translation (3,), metres, from camera 0's frame to a rectified camera's frame.
+    """The translation (3,), meters, from camera 0's frame to a rectified camera's frame.
 
     KITTI's labels are in the frame of camera 0. The camera's projection matrix is K [I | offset].
     """
@@ -129,11 +129,11 @@ def read_toml_camera(
 
 
 def read_toml_rig(path: PathLike, *, table: str | None = None, size: Size | None = None) -> RigParameters:
-    """The keys of :func:`read_toml_camera` and ``baseline`` in metres."""
+    """The keys of :func:`read_toml_camera` and ``baseline`` in meters."""
     values = _toml_table(path, table)
     camera = _toml_camera(values, size, path)
     baseline = _required(values, "baseline", path)
-    return RigParameters(camera, _name_file(path, lambda: positive(baseline, "baseline", "metres")))
+    return RigParameters(camera, _name_file(path, lambda: positive(baseline, "baseline", "meters")))
 
 
 def rig_of_projections(
@@ -141,7 +141,7 @@ def rig_of_projections(
 ) -> RigParameters:
     """The rig of two rectified cameras, from their projection matrices (3, 4).
 
-    unit: metres per unit of the matrices' last column. path: named in errors. ValueError unless both cameras
+    unit: meters per unit of the matrices' last column. path: named in errors. ValueError unless both cameras
     have one camera matrix and stand side by side, left first.
     """
     camera = _camera_of_matrix(left, size, path)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tricue.camera.numbers import finite, positive
 from tricue.errors import MissingChannelError
 
-MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # metres; a median outside is most likely in another unit
+MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # meters; a median outside is most likely in another unit
 _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
 
@@ -21,16 +21,16 @@ class Frame:
     """The images of one moment; color or depth, or both.
 
     color: uint8, (H, W, 3) in BGR order or gray (H, W). Of a stereo pair it is the left image.
-    depth: (H, W), metres along the optical axis. float32 and float64 are metres; integers need
+    depth: (H, W), meters along the optical axis. float32 and float64 are meters; integers need
         ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, infinite or
         masked. Its size may differ from the color image's.
     right: the right image of a rectified stereo pair, of the same shape as ``color``.
     timestamp: seconds.
-    depth_scale: metres per unit of ``depth``, 0.001 for millimetres.
+    depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
 
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
     other layout (mirrored, channels reversed, Fortran order) is copied once. A TypeError or ValueError
-    names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimetres,
+    names the channel. Warns (UserWarning) where the median depth is above 50 m, which looks like millimeters,
     or below 5 cm.
     """
 
@@ -126,12 +126,12 @@ def _right(value: Any, color: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
 
 
 def _depth(value: Any, scale: float | None) -> NDArray[np.float32]:
-    metres: NDArray[np.float32] = _measurements(value, scale).astype(np.float32, order="C")
+    meters: NDArray[np.float32] = _measurements(value, scale).astype(np.float32, order="C")
     if scale is not None:
-        metres *= np.float32(positive(scale, "depth_scale", "metres per unit"))
-    metres[~((metres > 0) & (metres < np.inf))] = np.nan
-    _warn_of_unit(metres, scale)
-    return metres
+        meters *= np.float32(positive(scale, "depth_scale", "meters per unit"))
+    meters[~((meters > 0) & (meters < np.inf))] = np.nan
+    _warn_of_unit(meters, scale)
+    return meters
 
 
 def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
@@ -140,38 +140,38 @@ def _measurements(value: Any, scale: float | None) -> NDArray[Any]:
     if not isinstance(value, np.ndarray):
         raise TypeError(f"depth: expected a NumPy array, got {type(value).__name__}")
     if value.ndim != 2 or value.size == 0:
-        picture = "; a colored depth picture holds no metres" if value.ndim == 3 else ""
+        picture = "; a colored depth picture holds no meters" if value.ndim == 3 else ""
         raise ValueError(f"depth: expected one value a pixel, (H, W), got {_described(value)}{picture}")
     if value.dtype.kind in "iu" and value.dtype.itemsize > 1:
         if scale is None:
-            hint = "pass depth_scale, 0.001 for millimetres"
+            hint = "pass depth_scale, 0.001 for millimeters"
             raise ValueError(
                 f"depth: expected depth_scale with integers, got {_described(value)} alone; {hint}"
             )
     elif value.dtype.kind != "f" or value.dtype.itemsize not in (4, 8):
         eight = (
-            "; 8 bits are a picture of the depth, not metres"
+            "; 8 bits are a picture of the depth, not meters"
             if value.dtype.itemsize == 1 and value.dtype.kind != "b"
             else ""
         )
-        expected = "float32 or float64 metres, or integers with depth_scale"
+        expected = "float32 or float64 meters, or integers with depth_scale"
         raise TypeError(f"depth: expected {expected}, got {_described(value)}{eight}")
     return value
 
 
-def _warn_of_unit(metres: NDArray[np.float32], scale: float | None) -> None:
-    rows, columns = (max(1, n // 32) for n in metres.shape)
-    sample = metres[::rows, ::columns]
+def _warn_of_unit(meters: NDArray[np.float32], scale: float | None) -> None:
+    rows, columns = (max(1, n // 32) for n in meters.shape)
+    sample = meters[::rows, ::columns]
     measured = sample[np.isfinite(sample)]
     median = float(np.median(measured)) if measured.size else MAX_MEDIAN_DEPTH
     if MIN_MEDIAN_DEPTH <= median <= MAX_MEDIAN_DEPTH:
         return
     if scale is not None:
-        why = f"a wrong depth_scale, {scale:g} metres per unit"
+        why = f"a wrong depth_scale, {scale:g} meters per unit"
     elif median > MAX_MEDIAN_DEPTH:
-        why = "millimetres; pass depth_scale=0.001"
+        why = "millimeters; pass depth_scale=0.001"
     else:
-        why = "another unit than metres; pass depth_scale, the metres per unit"
+        why = "another unit than meters; pass depth_scale, the meters per unit"
     message = (
         f"depth: its median is {median:.{4 if median > MAX_MEDIAN_DEPTH else 2}g} m, which looks like {why}"
     )

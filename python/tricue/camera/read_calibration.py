@@ -52,13 +52,13 @@ def read_registration(path: Path, depth: Size, color: Size) -> Registration | No
 def read_rig(path: Path, size: Size, unit: float | None = None) -> StereoRig:
     """The rectified rig in a file by OpenCV (YAML, XML, JSON) with P1 and P2, by KITTI (.txt), or in TOML.
 
-    size: width and height of the images, pixels. unit: metres per unit of the board of OpenCV's calibration,
+    size: width and height of the images, pixels. unit: meters per unit of the board of OpenCV's calibration,
     1 by default. ValueError or OSError names the file, as :func:`read_intrinsics` does; ValueError also for a
-    unit with the other formats, which are in metres.
+    unit with the other formats, which are in meters.
     """
     kind = _format(path)
     if unit is not None and kind != OPENCV:
-        raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in metres")
+        raise ValueError(f"--unit: expected with a calibration by OpenCV, got {path}, which is in meters")
     if kind == PRINCETON:
         raise ValueError(f"{path}: expected the calibration of a stereo pair, got one camera's")
     read_intrinsics(path, size, "color")  # refuses a calibration for images of another size

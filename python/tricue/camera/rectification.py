@@ -46,7 +46,7 @@ class Rectification:
     """Rectifies the stereo pairs of one calibrated rig; made once, called for each pair.
 
     raw: the calibrated cameras. size: width and height of the raw images, pixels; the rectified images are as
-        large, and black where the raw ones saw nothing. unit: metres per unit of the translation. rectified:
+        large, and black where the raw ones saw nothing. unit: meters per unit of the translation. rectified:
         the transforms to apply; by default those that nearly keep focal length and principal point.
     rig: the rig of the rectified images.
     """
@@ -68,7 +68,7 @@ class Rectification:
         """From files of ``cv2.FileStorage``: M1, D1, M2, D2 with R1, R2, P1, P2 or, without these, with R, T.
 
         paths: one file, or several that together hold all, as intrinsics.yml and extrinsics.yml of OpenCV's
-            sample. unit: metres per unit of the board, 0.001 for millimetres. size: of the raw images, needed
+            sample. unit: meters per unit of the board, 0.001 for millimeters. size: of the raw images, needed
             where the files don't hold it.
         ValueError or OSError names the file and what it lacks.
         """
@@ -111,7 +111,7 @@ class Rectification:
         names: str,
     ) -> None:
         rotations, projections = rectified or _rectify(raw, size)
-        camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "metres"), size, names)
+        camera, baseline = rig_of_projections(*projections, positive(unit, "unit", "meters"), size, names)
         self.rig = StereoRig(Intrinsics(*camera), baseline)
         self._maps = [
             # Fixed point: cv2.remap's own resolution, 1/32 px, at a third of the memory of floats.

@@ -14,7 +14,7 @@ _OUTSIDE_IMAGE = -2.0  # a pixel coordinate that is in no image
 
 
 class Extrinsics(NamedTuple):
-    """Depth to color camera: x_color = rotation @ x_depth + translation; (3, 3), and (3,) in metres."""
+    """Depth to color camera: x_color = rotation @ x_depth + translation; (3, 3), and (3,) in meters."""
 
     rotation: NDArray[np.float64] = np.eye(3)
     translation: NDArray[np.float64] = np.zeros(3)
@@ -32,9 +32,9 @@ def color_in_depth(
     It is black where the point isn't in the color image (H, W, 3). Occlusion isn't handled: a point that the
     color camera can't see gets the color of what hides it.
 
-    depth: metres, NaN or 0 where nothing was measured; such a pixel is assumed infinitely far.
+    depth: meters, NaN or 0 where nothing was measured; such a pixel is assumed infinitely far.
     extrinsics: by default both cameras are assumed to have one center and orientation, so that they differ
-        in their intrinsics alone. A real baseline of b metres then shifts the color by fx b / z pixels.
+        in their intrinsics alone. A real baseline of b meters then shifts the color by fx b / z pixels.
     ValueError where an image has another size than its camera.
     """
     points = np.asarray(depth, np.float64)
@@ -56,7 +56,7 @@ def color_in_depth(
 class Registration:
     """Brings depth images into a color camera's pixels.
 
-    Both cameras are assumed to have one center and orientation. A real baseline of b metres shifts the depth
+    Both cameras are assumed to have one center and orientation. A real baseline of b meters shifts the depth
     by fx b / z pixels.
     depth, color: the intrinsics of the two cameras.
     """
@@ -64,15 +64,15 @@ class Registration:
     depth: Intrinsics
     color: Intrinsics
 
-    def __call__(self, metres: NDArray[Any]) -> NDArray[np.float32]:
-        """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in metres.
+    def __call__(self, meters: NDArray[Any]) -> NDArray[np.float32]:
+        """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
 
         It is that of the nearest depth pixel, for a mean over an edge would be the depth of no surface. NaN
         outside of the depth image. As the cameras share one center and orientation, z stays the same, and
         columns map to columns and rows to rows. ValueError where the depth image has another size than its
         camera.
         """
-        image = np.asarray(metres, np.float32)
+        image = np.asarray(meters, np.float32)
         _check("depth", image.shape, self.depth)
         color, depth = self.color, self.depth
         columns = _nearest(

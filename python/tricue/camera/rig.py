@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Pinhole intrinsics and rectified stereo rigs. Camera frame: x right, y down, z forward, metres."""
+"""Pinhole intrinsics and rectified stereo rigs. Camera frame: x right, y down, z forward, meters."""
 
 import math
 import warnings
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from tricue.camera.numbers import finite, pinhole, positive, positive_whole
 from tricue.camera.types import PathLike, Size
 
-MAX_PLAUSIBLE_BASELINE = 2.0  # metres; a larger one is most likely in another unit
+MAX_PLAUSIBLE_BASELINE = 2.0  # meters; a larger one is most likely in another unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class Intrinsics:
         return np.array([[self.fx, 0, self.cx], [0, self.fy, self.cy], [0, 0, 1]], np.float64)
 
     def back_project(self, u: ArrayLike, v: ArrayLike, z: ArrayLike) -> NDArray[np.float64]:
-        """Points (..., 3), metres in the camera frame, at pixel coordinates u, v and depths z.
+        """Points (..., 3), meters in the camera frame, at pixel coordinates u, v and depths z.
 
         The arguments broadcast; NaN stays NaN.
         """
@@ -87,7 +87,7 @@ class Intrinsics:
         return np.stack([(u - self.cx) * z / self.fx, (v - self.cy) * z / self.fy, z], axis=-1)
 
     def project(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Pixel coordinates (..., 2) of points (..., 3) in metres, camera frame; NaN behind the camera."""
+        """Pixel coordinates (..., 2) of points (..., 3) in meters, camera frame; NaN behind the camera."""
         points = np.asarray(points, np.float64)
         if points.ndim == 0 or points.shape[-1] != 3:
             raise ValueError(f"points: expected (..., 3), got {points.shape}")
@@ -100,7 +100,7 @@ class Intrinsics:
 class StereoRig:
     """Two rectified cameras side by side, of the same intrinsics, and their baseline.
 
-    baseline: metres between the optical centers. Disparity is positive: x_right = x_left - d.
+    baseline: meters between the optical centers. Disparity is positive: x_right = x_left - d.
     Warns (UserWarning) where the baseline is above 2 m, which looks like another unit.
     """
 
@@ -110,15 +110,15 @@ class StereoRig:
     def __post_init__(self) -> None:
         if not isinstance(self.intrinsics, Intrinsics):
             raise TypeError(f"intrinsics: expected tricue.Intrinsics, got {type(self.intrinsics).__name__}")
-        object.__setattr__(self, "baseline", positive(self.baseline, "baseline", "metres"))
+        object.__setattr__(self, "baseline", positive(self.baseline, "baseline", "meters"))
         if self.baseline > MAX_PLAUSIBLE_BASELINE:
-            warnings.warn(f"baseline: {self.baseline:g} m is wide; is it in metres?", stacklevel=3)
+            warnings.warn(f"baseline: {self.baseline:g} m is wide; is it in meters?", stacklevel=3)
 
     @classmethod
     def from_opencv(cls, path: PathLike, *, unit: float = 1.0, size: Size | None = None) -> "StereoRig":
         """From P1 and P2 of ``cv2.stereoRectify`` in a file of ``cv2.FileStorage``.
 
-        unit: metres per unit of the calibration board.
+        unit: meters per unit of the calibration board.
         """
         from tricue.camera.calibration_formats import read_opencv_rig
 
@@ -137,14 +137,14 @@ class StereoRig:
 
     @classmethod
     def from_toml(cls, path: PathLike, *, table: str | None = None, size: Size | None = None) -> "StereoRig":
-        """As :meth:`Intrinsics.from_toml`, with the key ``baseline`` in metres."""
+        """As :meth:`Intrinsics.from_toml`, with the key ``baseline`` in meters."""
         from tricue.camera.calibration_formats import read_toml_rig
 
         camera, baseline = read_toml_rig(path, table=table, size=size)
         return cls(Intrinsics(*camera), baseline)
 
     def depth(self, disparity: ArrayLike) -> NDArray[np.float64]:
-        """Depth z = fx b / d in metres, of the disparity's shape; NaN where the disparity isn't above 0."""
+        """Depth z = fx b / d in meters, of the disparity's shape; NaN where the disparity isn't above 0."""
         disparity = np.asarray(disparity, np.float64)
         return self.intrinsics.fx * self.baseline / np.where(disparity > 0, disparity, np.nan)
 

@@ -109,10 +109,10 @@ def _found_rig(tracker: str, source: Source) -> Calibration:
         else:
             return Calibration(rig=rig, note=f"calibration found: {source.calibration}")
     if "right" in source.channels:  # else it is the right images that are missed first
-        then = "tracks will have no position in metres"
+        then = "tracks will have no position in meters"
         if traits(tracker).guesses:
             usual = f"a usual pair, {USUAL_VIEW:g} degrees wide and {USUAL_BASELINE:g} m apart"
-            then = f"any position in metres is a guess, by {usual}"
+            then = f"any position in meters is a guess, by {usual}"
         warnings.warn(f"{why}; {then}; give {STEREO_FILE}", stacklevel=2)
     return Calibration()
 
@@ -150,8 +150,8 @@ def _found(tracker: str, source: Source, taken: Collection[str]) -> Calibration:
         return Calibration(note="" if source.calibration is None else why)
     give = "give --calibration FILE or --fov H,V"
     if not traits(tracker).guesses:
-        return Calibration(note=f"{why}; tracks have no position in metres; {give}")
+        return Calibration(note=f"{why}; tracks have no position in meters; {give}")
     usual = f"a usual camera, {USUAL_VIEW:g} degrees wide"
-    aside = "how far a position in metres is beside the optical axis is a guess"
+    aside = "how far a position in meters is beside the optical axis is a guess"
     warnings.warn(f"{why}; {aside}, by {usual}; {give}", stacklevel=2)
     return Calibration()

@@ -19,8 +19,8 @@ DEMOS = (
 EXAMPLES = """\
 examples:
   tricue demo
-  tricue demo depth-particle                                  people before a depth camera, in metres
-  tricue demo stereo-head                                     a head before a stereo pair, in metres
+  tricue demo depth-particle                                  people before a depth camera, in meters
+  tricue demo stereo-head                                     a head before a stereo pair, in meters
   tricue demo flow-depth                                      a walker who is overtaken, before a panning pair
   tricue demo fused                                           a target in all troubles, before three cameras
   tricue demo color-particle --kernels reference --output here

@@ -24,7 +24,7 @@ examples:
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
-  tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimetres, no times
+  tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimeters, no times
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
 FAILED = 1
@@ -76,11 +76,11 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--depth-scale",
         type=float,
         metavar="M",
-        help="metres per unit of depth, where the format doesn't say",
+        help="meters per unit of depth, where the format doesn't say",
     )
     command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
     command.add_argument(
-        "--unit", type=float, metavar="M", help="metres per unit of the board in OpenCV's calibrations"
+        "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's calibrations"
     )
     command.add_argument(
         "--truth",

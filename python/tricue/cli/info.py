@@ -36,7 +36,7 @@ COLUMN = 13  # characters, where the values begin
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument("place", metavar="PLACE", help="video file, sequence folder, or folder of sequences")
-    command.add_argument("--depth-scale", type=float, metavar="M", help="metres per unit of depth")
+    command.add_argument("--depth-scale", type=float, metavar="M", help="meters per unit of depth")
     command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
     command.add_argument("--right", metavar="PLACE", help="the right camera's; PLACE is the left one's")
     command.add_argument("--target", metavar="NAME", help="one of a folder's several targets")
@@ -137,8 +137,8 @@ def _truth_lines(truth: Summary | None) -> Iterator[str]:
         width, height = (f"{low:.4g} to {high:.4g} px" for low, high in (truth["width"], truth["height"]))
         yield _line("", f"{width} wide, {height} high")
     if positions := truth["positions"]:
-        metres = f"{positions['near_m']:.2f} m to {positions['far_m']:.2f} m"
-        yield _line("", f"{positions['known']} positions, {positions['depth_known']} depths, {metres}")
+        meters = f"{positions['near_m']:.2f} m to {positions['far_m']:.2f} m"
+        yield _line("", f"{positions['known']} positions, {positions['depth_known']} depths, {meters}")
     if truth["behind_the_end"]:
         yield _line("", f"{truth['behind_the_end']} rows more than there are frames")
 

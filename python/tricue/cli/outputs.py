@@ -56,8 +56,8 @@ class Output(AbstractContextManager[Any], Protocol):
 def row(step: Step) -> list[Any]:
     """The values of COLUMNS, None where absent; six decimals, of covariances six digits."""
     track, position = step.track, step.track.position
-    metres = [None] * 3 if position is None else np.asarray(position).tolist()
-    numbers = [step.frame.timestamp, track.score, *track.box, *metres]
+    meters = [None] * 3 if position is None else np.asarray(position).tolist()
+    numbers = [step.frame.timestamp, track.score, *track.box, *meters]
     time, *others = [None if number is None else round(float(number), 6) for number in numbers]
     return [step.number, time, str(track.status), *others, *_covariance(track)]
 
@@ -155,7 +155,7 @@ class VideoOutput:
         return overlay(color, step.track, particles=step.particles, note=note)
 
     def _shades(self, depth: NDArray[np.float32]) -> tuple[float, float]:
-        """The range of depths shown, metres; it follows the frames' slowly, so that nothing flickers."""
+        """The range of depths shown, meters; it follows the frames' slowly, so that nothing flickers."""
         now = depth_range(depth) or self._range or (0.0, 1.0)
         before = self._range or now
         near, far = (b + CALM * (n - b) for b, n in zip(before, now, strict=True))

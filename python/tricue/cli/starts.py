@@ -46,7 +46,7 @@ def advice(error: ValueError, source: Source, tracker: Tracker) -> str:
     """What to do about an error on the first frame; "" where the error says enough."""
     if isinstance(error, NoDepthInBoxError) and tracker.traits.disparity_range is not None:
         near, far = tracker.traits.disparity_range
-        return f"; --set {near}=METRES and --set {far}=METRES change what is looked for"
+        return f"; --set {near}=METERS and --set {far}=METERS change what is looked for"
     if isinstance(error, BoxError):
         return f"; {BOX}" if tracker.traits.detects else f"; {BOX} or {FACE}"
     if isinstance(error, UnregisteredDepthError):

@@ -76,7 +76,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
     )
-    command.add_argument("--plot", type=Path, metavar="FILE", help="the path in metres from above, .png")
+    command.add_argument("--plot", type=Path, metavar="FILE", help="the path in meters from above, .png")
     command.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
     )
@@ -92,7 +92,7 @@ def _add_stereo(command: argparse.ArgumentParser) -> None:
         "--rectify", action="store_true", help="the pairs are raw: rectify them by OpenCV's --calibration"
     )
     command.add_argument(
-        "--unit", type=float, metavar="M", help="metres per unit of the board in OpenCV's --calibration"
+        "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's --calibration"
     )
 
 
@@ -101,7 +101,7 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
         "--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images beside a color INPUT"
     )
     command.add_argument(
-        "--depth-scale", type=float, metavar="M", help="metres per unit of depth, 0.001 for millimetres"
+        "--depth-scale", type=float, metavar="M", help="meters per unit of depth, 0.001 for millimeters"
     )
     camera = command.add_mutually_exclusive_group()
     camera.add_argument(
@@ -266,6 +266,6 @@ def _plot(path: Path, run: Run, tracks: Mapping[int, Track]) -> str:
     from tricue.draw.paths import save_path
 
     if all(track.position is None for track in tracks.values()):
-        return f"{path}: not written, no track has a position in metres"
+        return f"{path}: not written, no track has a position in meters"
     save_path(path, tracks.values(), run.intrinsics)
     return f"wrote {path}"

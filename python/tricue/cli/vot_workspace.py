@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def commands(folder: Path, trackers: list[str], sequence: str) -> list[str]:
-    """The toolkit's, to test the first tracker on a sequence, to evaluate all, and to analyse."""
+    """The toolkit's, to test the first tracker on a sequence, to evaluate all, and to analyze."""
     place, every = shlex.quote(str(folder)), " ".join(trackers)
     registry, recording = (shlex.quote(str(folder / name)) for name in (TRACKERS, f"sequences/{sequence}"))
     return [

@@ -148,7 +148,7 @@ def _frames(rows: list[_Row]) -> list[int]:
 
 
 def _positions(rows: list[_Row], frames: list[int], length: int) -> NDArray[np.float64] | None:
-    """The positions (length, 3) in metres; None where no row has one."""
+    """The positions (length, 3) in meters; None where no row has one."""
     given = np.array([[row.number(name) for name in _POSITION_COLUMNS] for row in rows]).reshape(-1, 3)
     if np.isnan(given).all():
         return None

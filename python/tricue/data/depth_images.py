@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 from tricue.camera.numbers import positive
 from tricue.data.streams import read_image
 
-METRES_PER_MILLIMETRE = 0.001
+METERS_PER_MILLIMETER = 0.001
 
 
 @dataclass(frozen=True)
 class DepthReader:
-    """Reads a 16-bit image as metres, (H, W) float32; 0 stays 0.
+    """Reads a 16-bit image as meters, (H, W) float32; 0 stays 0.
 
-    scale: metres per unit. rotated: whether the bits are rotated left by three, as in the Princeton Tracking
+    scale: meters per unit. rotated: whether the bits are rotated left by three, as in the Princeton Tracking
     Benchmark: the true value is ``value >> 3 | value << 13``.
     ValueError names a file that can't be read or isn't 16 bits of one channel.
     """
@@ -27,19 +27,19 @@ class DepthReader:
     rotated: bool = False
 
     def __post_init__(self) -> None:
-        positive(self.scale, "depth_scale", "metres per unit")
+        positive(self.scale, "depth_scale", "meters per unit")
 
     def __call__(self, path: Path) -> NDArray[np.float32]:
         units = read_image(path, cv2.IMREAD_UNCHANGED)
         if units.dtype != np.uint16 or units.ndim != 2:
-            picture = "; 8 bits are a picture of the depth, not metres" if units.dtype == np.uint8 else ""
+            picture = "; 8 bits are a picture of the depth, not meters" if units.dtype == np.uint8 else ""
             raise ValueError(
                 f"{path}: expected depth, 16 bits of one channel, got {units.dtype} {units.shape}{picture}"
             )
         if self.rotated:
             units = (units >> 3) | (units << 13)
-        metres: NDArray[np.float32] = units * np.float32(self.scale)
-        return metres
+        meters: NDArray[np.float32] = units * np.float32(self.scale)
+        return meters
 
 
 def is_depth(path: Path) -> bool:
@@ -52,10 +52,10 @@ def is_depth(path: Path) -> bool:
 
 
 def require_scale(place: Path, scale: float | None) -> float:
-    """The scale, metres per unit; ValueError where it isn't given, for it is never guessed."""
+    """The scale, meters per unit; ValueError where it isn't given, for it is never guessed."""
     if scale is None:
         raise ValueError(
-            f"{place}: expected --depth-scale, the metres per unit of these 16-bit images; "
-            "0.001 where they are millimetres, 0.0002 for TUM's"
+            f"{place}: expected --depth-scale, the meters per unit of these 16-bit images; "
+            "0.001 where they are millimeters, 0.0002 for TUM's"
         )
     return scale

@@ -19,15 +19,15 @@ from tricue.data.truth import MAX_FRAME_NUMBER, Truth, truth_from_rows
 RIGHT_FOLDERS = {"image_02": "image_03", "image_2": "image_3"}
 LABEL_WORDS = 17  # in a line of a tracking label
 IGNORED_TYPE = "DontCare"
-MAX_LABEL_VALUE = 1e9  # pixels, metres; a larger value can be neither
+MAX_LABEL_VALUE = 1e9  # pixels, meters; a larger value can be neither
 
 
 class LabeledTarget(NamedTuple):
     """A target of a tracking sequence, with a row for each of the M frames in which it is labeled.
 
     frames: (M,) numbers from 0, increasing. boxes: (M, 4) x, y, width, height, pixels of the left image.
-    front_depths: (M,) metres, the smallest depth of its cuboid in the left camera's frame. positions: (M, 3)
-    the cuboid's center X, Y, Z, metres in the frame of camera 0.
+    front_depths: (M,) meters, the smallest depth of its cuboid in the left camera's frame. positions: (M, 3)
+    the cuboid's center X, Y, Z, meters in the frame of camera 0.
     """
 
     name: str
@@ -39,7 +39,7 @@ class LabeledTarget(NamedTuple):
     def truth(self, offset: NDArray[np.float64]) -> Truth:
         """One row per frame from the first label to the last; frames without a label are unknown.
 
-        offset: (3,) metres, the translation from camera 0's frame to the left color camera's.
+        offset: (3,) meters, the translation from camera 0's frame to the left color camera's.
         """
         rows = self.frames - self.frames[0]
         known = truth_from_rows(self.boxes)
@@ -101,7 +101,7 @@ def _line(line: str) -> _Line | None:
 
 def _label(name: str, rows: dict[int, list[float]]) -> LabeledTarget:
     frames = np.array(sorted(rows), np.int64)
-    # alpha, the box's corners, height, width, length, the cuboid's x, y, z in metres, its rotation about y
+    # alpha, the box's corners, height, width, length, the cuboid's x, y, z in meters, its rotation about y
     columns = np.array([rows[frame] for frame in sorted(rows)]).T
     _, x0, y0, x1, y1, height, width, length, x, y, z, yaw = columns
     half = (np.abs(np.sin(yaw)) * length + np.abs(np.cos(yaw)) * width) / 2

@@ -35,7 +35,7 @@ class Layout(NamedTuple):
 def read_layout(folder: Path, scale: float | None, target: str | None = None) -> Layout:
     """The folder's channels and truth.
 
-    scale: metres per unit of depth, where the format doesn't define it or the files don't follow it. target:
+    scale: meters per unit of depth, where the format doesn't define it or the files don't follow it. target:
     one that :func:`list_targets` lists; a KITTI sequence is cut to the frames in which it is labeled.
     ValueError names the folder or the file in it, and what was expected.
     """
@@ -118,7 +118,7 @@ def _read_plain_layout(folder: Path, scale: float | None, target: str | None) ->
     elif video := _video(folder, optional=bool(depth)):
         channels["color"] = video
     if depth and channels and scale is None:
-        unit = "--depth-scale gives its metres per unit, 0.001 for millimetres"
+        unit = "--depth-scale gives its meters per unit, 0.001 for millimeters"
         notes = (f"left out {folder / 'depth'}: {unit}",)
     elif depth:
         channels["depth"] = depth_images(depth, scale)

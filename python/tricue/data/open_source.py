@@ -34,7 +34,7 @@ def open_source(
 
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
-    depth_scale: metres per unit of depth; required unless the format defines it (VOT, TUM, Princeton).
+    depth_scale: meters per unit of depth; required unless the format defines it (VOT, TUM, Princeton).
     fps: frames per second of images without times, 30 by default; ValueError for images with times.
     right: the right camera's video, folder or number, where ``place`` is the left one's; paired by order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is

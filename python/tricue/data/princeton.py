@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
+from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.streams import Images, Stream, TimedPaths, timed_images
 
 SECONDS_PER_TICK = 1e-6  # seconds per unit of the times in the files' names
@@ -31,8 +31,8 @@ def find_timestamped_images(folder: Path) -> TimedPaths:
 
 
 def depth_images(images: TimedPaths, scale: float | None) -> Images:
-    """A stream of depth images with rotated bits. scale: metres per unit, 0.001 by default."""
-    return timed_images(images, DepthReader(METRES_PER_MILLIMETRE if scale is None else scale, rotated=True))
+    """A stream of depth images with rotated bits. scale: meters per unit, 0.001 by default."""
+    return timed_images(images, DepthReader(METERS_PER_MILLIMETER if scale is None else scale, rotated=True))
 
 
 def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:

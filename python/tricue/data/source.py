@@ -35,7 +35,7 @@ class Source:
     register: brings depth into the color image's pixels.
     absent: (M,) whether the target is known to be out of sight; other frames without a box, and frames after
         the last row, are unknown.
-    positions: (K, 3) the target's true X, Y, Z in the camera's frame, metres, NaN where unknown.
+    positions: (K, 3) the target's true X, Y, Z in the camera's frame, meters, NaN where unknown.
     format: the name of the layout, such as "VOT RGB-D".
 
     ValueError where the channels differ in length, which may show only while iterating, and for a ``rate``

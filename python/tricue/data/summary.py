@@ -16,7 +16,7 @@ from tricue.data.streams import Images, Stream, Video
 
 MAX_SAMPLED_FRAMES = 100  # whose depth is summarized
 DEPTH_LEVELS = 1 << 16  # values of a 16-bit image
-PLAUSIBLE_BASELINES = 0.001, 10.0  # metres, a baseline
+PLAUSIBLE_BASELINES = 0.001, 10.0  # meters, a baseline
 Summary = dict[str, Any]
 
 
@@ -43,7 +43,7 @@ def summarize_channel(stream: Stream) -> Summary:
 
 
 def summarize_depth(stream: Stream, source: str) -> Summary | None:
-    """The unit, the 5th and 95th percentile of the depth in metres, and the share of pixels without depth.
+    """The unit, the 5th and 95th percentile of the depth in meters, and the share of pixels without depth.
 
     They are taken over all frames, or over MAX_SAMPLED_FRAMES evenly spaced ones. The percentiles are None
     where no pixel has a depth; the summary is None where the stream has no unit. source: where the unit is
@@ -56,8 +56,8 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
         np.linspace(0, stream.length - 1, min(MAX_SAMPLED_FRAMES, stream.length)).round().astype(int)
     )
     counts = np.zeros(DEPTH_LEVELS, np.int64)
-    for _, metres in stream.at(chosen.tolist()):
-        counts += np.bincount(np.rint(metres.ravel() / scale).astype(np.int64), minlength=DEPTH_LEVELS)[
+    for _, meters in stream.at(chosen.tolist()):
+        counts += np.bincount(np.rint(meters.ravel() / scale).astype(np.int64), minlength=DEPTH_LEVELS)[
             :DEPTH_LEVELS
         ]
     near, far = (_percentile(counts, share, scale) for share in (0.05, 0.95))
@@ -107,7 +107,7 @@ def summarize_calibration(source: Source, given: Path | None) -> Summary | None:
 
 
 def _percentile(counts: NDArray[np.int64], share: float, scale: float) -> float | None:
-    """The quantile of the depth, metres, of the pixels with depth; None without any."""
+    """The quantile of the depth, meters, of the pixels with depth; None without any."""
     total = np.cumsum(counts[1:])
     if total[-1] == 0:
         return None

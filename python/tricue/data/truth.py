@@ -17,7 +17,7 @@ OTB_TRUTH, VOT_TRUTH, PRINCETON_FIRST_BOX = "groundtruth_rect.txt", "groundtruth
 ABSENT_TAG = "absent.tag"  # VOT's: one line per frame, 1 where the target can't be seen
 MAX_FRAME_NUMBER = 10_000_000  # a day at 100 frames per second; a larger number can't be a frame's
 DEPTHS_FILE = (
-    "position_z_mm.txt"  # one line per frame: the target's median depth in millimetres, 0 or NaN if unknown
+    "position_z_mm.txt"  # one line per frame: the target's median depth in millimeters, 0 or NaN if unknown
 )
 _OTB_TARGET_TRUTH = re.compile(r"groundtruth_rect\.(\d+)\.txt")  # in folders with several targets
 
@@ -26,7 +26,7 @@ class Truth(NamedTuple):
     """What is known of the target, one row per frame; frames after the last row are unknown.
 
     boxes: (M, 4) x, y, width, height, pixels from 0, NaN where absent or unknown. absent: (M,) whether the
-    target is known to be out of sight. positions: (K, 3) X, Y, Z in metres in the camera's frame, NaN where
+    target is known to be out of sight. positions: (K, 3) X, Y, Z in meters in the camera's frame, NaN where
     unknown; None without any.
     """
 
@@ -161,7 +161,7 @@ def _read_tag(path: Path) -> NDArray[np.bool_]:
 
 
 def _read_depths(path: Path) -> NDArray[np.float64]:
-    """Depths (M,) in metres, NaN where unknown."""
+    """Depths (M,) in meters, NaN where unknown."""
     depths = []
     for number, line in enumerate(read_lines(path), 1):
         try:
@@ -170,7 +170,7 @@ def _read_depths(path: Path) -> NDArray[np.float64]:
             depth = -1.0
         if depth < 0 or np.isinf(depth):
             raise ValueError(
-                f"{path}, line {number}: expected a depth in millimetres, 0 if unknown, got {line!r:.60}"
+                f"{path}, line {number}: expected a depth in millimeters, 0 if unknown, got {line!r:.60}"
             )
         depths.append(depth / 1000 if depth > 0 else np.nan)
     return np.array(depths, np.float64)

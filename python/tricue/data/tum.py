@@ -14,7 +14,7 @@ import numpy as np
 from tricue.data.depth_images import DepthReader
 from tricue.data.streams import Stream, TimedPaths, timed_images
 
-TUM_METRES_PER_UNIT = 1 / 5000  # by the format's definition, as the next
+TUM_METERS_PER_UNIT = 1 / 5000  # by the format's definition, as the next
 MAX_TIME_DIFFERENCE = 0.02  # seconds between a color and a depth image of one frame
 LIST_FILES = {"color": "rgb.txt", "depth": "depth.txt"}
 
@@ -27,10 +27,10 @@ def is_tum(folder: Path) -> bool:
 def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream], tuple[str, ...]]:
     """Color and depth images paired by time, or those of the only list, and notes on what was left out.
 
-    scale: metres per unit of depth, where the files don't follow the format.
+    scale: meters per unit of depth, where the files don't follow the format.
     """
     color, depth = (_read_list(folder / name) for name in LIST_FILES.values())
-    reader = DepthReader(TUM_METRES_PER_UNIT if scale is None else scale)
+    reader = DepthReader(TUM_METERS_PER_UNIT if scale is None else scale)
     if not (color and depth):
         return {"color": timed_images(color)} if color else {"depth": timed_images(depth, reader)}, ()
     matches = _match_times([time for time, _ in color], [time for time, _ in depth], MAX_TIME_DIFFERENCE)

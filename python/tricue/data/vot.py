@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
+from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.files import image_paths
 from tricue.data.streams import Images, Stream, plausible_fps
 from tricue.data.truth import VOT_TRUTH
@@ -14,13 +14,13 @@ SEQUENCE_FILE = "sequence"
 
 
 def read_channels(folder: Path, scale: float | None) -> dict[str, Stream] | None:
-    """The folder's channels; None where it isn't VOT's. scale: metres per unit of depth, 0.001 by default."""
+    """The folder's channels; None where it isn't VOT's. scale: meters per unit of depth, 0.001 by default."""
     if (folder / SEQUENCE_FILE).is_file():
-        return _listed(folder, DepthReader(METRES_PER_MILLIMETRE if scale is None else scale))
+        return _listed(folder, DepthReader(METERS_PER_MILLIMETER if scale is None else scale))
     if (folder / VOT_TRUTH).is_file() and all(
         _has_numbered_images(folder / channel) for channel in ("color", "depth")
     ):
-        reader = DepthReader(METRES_PER_MILLIMETRE if scale is None else scale)
+        reader = DepthReader(METERS_PER_MILLIMETER if scale is None else scale)
         color, depth = (image_paths(folder / channel) for channel in ("color", "depth"))
         return {"color": Images(color), "depth": Images(depth, read=reader)}
     return None

@@ -11,13 +11,13 @@ _DEPTH_COLORMAP = cv2.COLORMAP_CIVIDIS  # even in lightness, and readable with r
 
 
 def depth_picture(depth: NDArray[np.float32], near: float | None = None, far: float | None = None) -> Image:
-    """A depth image (H, W), metres, as a BGR image (H, W, 3): near is bright, far is dark, NaN is black.
+    """A depth image (H, W), meters, as a BGR image (H, W, 3): near is bright, far is dark, NaN is black.
 
-    near, far: the depths of the brightest and of the darkest color, metres; by default the 2nd and the 98th
+    near, far: the depths of the brightest and of the darkest color, meters; by default the 2nd and the 98th
     percentile of the image. ValueError where near isn't below far.
     """
     if near is not None and far is not None and not near < far:
-        raise ValueError(f"near, far: expected near below far, metres, got {near} and {far}")
+        raise ValueError(f"near, far: expected near below far, meters, got {near} and {far}")
     low, high = depth_range(depth) or (0.0, 1.0)
     low, high = low if near is None else near, high if far is None else far
     with np.errstate(invalid="ignore"):
@@ -29,7 +29,7 @@ def depth_picture(depth: NDArray[np.float32], near: float | None = None, far: fl
 
 
 def depth_range(depth: NDArray[np.float32]) -> tuple[float, float] | None:
-    """The 2nd and the 98th percentile of the measured depths, metres; None where nothing was measured."""
+    """The 2nd and the 98th percentile of the measured depths, meters; None where nothing was measured."""
     rows, columns = (max(1, n // 120) for n in depth.shape)  # some ten thousand pixels suffice
     sample = depth[::rows, ::columns]
     measured = sample[np.isfinite(sample)]

@@ -68,7 +68,7 @@ def depth_overlay(
     near: float | None = None,
     far: float | None = None,
 ) -> Image:
-    """A depth image (H, W), metres, as colors (see :func:`depth_picture`), with the track in it.
+    """A depth image (H, W), meters, as colors (see :func:`depth_picture`), with the track in it.
 
     A small image is enlarged by a whole number. particles: (N, 2 or more), their centers x, y in pixels.
     objects: the boxes of the segmented objects, drawn thin and gray. truth: the true box, thin and white.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Paths of targets in metres, seen from above (matplotlib, from the ``demo`` extra)."""
+"""Paths of targets in meters, seen from above (matplotlib, from the ``demo`` extra)."""
 
 import math
 from collections.abc import Iterable
@@ -21,10 +21,10 @@ _SHOWN_DEPTH = 1.1  # of the farthest point: how deep the field of view is drawn
 def path_from_above(
     tracks: Iterable[Track], intrinsics: Intrinsics | None = None, truth: ArrayLike | None = None
 ) -> Any:
-    """A matplotlib figure of the tracks' positions from above: x against z in metres, at equal scale.
+    """A matplotlib figure of the tracks' positions from above: x against z in meters, at equal scale.
 
     The camera is at (0, 0) and looks up the page; with ``intrinsics`` its field of view is drawn. The color
-    of a point is its status. truth: (N, 3) true positions, metres in the camera frame, NaN where unknown,
+    of a point is its status. truth: (N, 3) true positions, meters in the camera frame, NaN where unknown,
     drawn as a thin line. ValueError where no track has a position.
     """
     require()
@@ -77,7 +77,7 @@ def check_format(path: Path) -> None:
 def _positions(truth: ArrayLike) -> NDArray[np.float64]:
     positions = np.asarray(truth, np.float64)
     if positions.ndim != 2 or positions.shape[1] != 3:
-        raise ValueError(f"truth: expected positions (N, 3), metres, got {positions.shape}")
+        raise ValueError(f"truth: expected positions (N, 3), meters, got {positions.shape}")
     return positions
 
 

@@ -34,7 +34,7 @@ BOUNDED = ("VOT", "VOT RGB-D", "KITTI tracking")
 class Reading:
     """How a data set's files are read, where they don't tell it themselves.
 
-    depth_scale: metres per unit of depth. fps: frames a second of images without times. unit: metres per
+    depth_scale: meters per unit of depth. fps: frames a second of images without times. unit: meters per
     unit of OpenCV's stereo calibrations. truth: the channel, "color" or "depth", whose pixels the true boxes
     count; None for color, but for depth where it isn't registered to the color and positions of the target
     were measured in it.
@@ -46,7 +46,7 @@ class Reading:
     truth: str | None = None
 
     def __post_init__(self) -> None:
-        units = {"depth_scale": "metres per unit", "fps": "frames a second", "unit": "metres per unit"}
+        units = {"depth_scale": "meters per unit", "fps": "frames a second", "unit": "meters per unit"}
         for name, unit in units.items():
             if (value := getattr(self, name)) is not None:
                 positive(value, name, unit)
@@ -168,7 +168,7 @@ class Opened:
         return _rows(np.empty(0, np.bool_) if known is None else known, frames, False)
 
     def positions(self, frames: int) -> NDArray[np.float64]:
-        """(frames, 3) true positions, metres, NaN where unknown."""
+        """(frames, 3) true positions, meters, NaN where unknown."""
         known = self.source.positions
         return _rows(np.empty((0, 3)) if known is None else known, frames, np.nan)
 
@@ -187,7 +187,7 @@ class Opened:
 
 
 def find_entries(root: Path, reading: Reading = Reading()) -> list[Entry]:
-    """The sequences at or under a folder, one for each labelled target, by name.
+    """The sequences at or under a folder, one for each labeled target, by name.
 
     ValueError where there is none, and for what can't be opened: a folder that looks like a sequence but is
     malformed is told, not left out. Targets that are never visible are left out.
@@ -195,8 +195,8 @@ def find_entries(root: Path, reading: Reading = Reading()) -> list[Entry]:
     entries = []
     for place in find_sequences(root):
         name = _name(root, place)
-        labelled = list_targets(place) if place.is_dir() else ()
-        each = [Entry(f"{name}/{target}", place, target, reading) for target in labelled]
+        labeled = list_targets(place) if place.is_dir() else ()
+        each = [Entry(f"{name}/{target}", place, target, reading) for target in labeled]
         entries += each or [Entry(name, place, None, reading)]
     if not entries:
         raise ValueError(f"{root}: expected sequences with true boxes, found none")

@@ -68,7 +68,7 @@ def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
 
 
 def position_errors(found: ArrayLike, true: ArrayLike) -> Array:
-    """Distance between positions in the camera frame, row by row, (M,), metres; both arguments are (M, 3).
+    """Distance between positions in the camera frame, row by row, (M,), meters; both arguments are (M, 3).
 
     The error along z alone where of the truth only the depth is known, x or y being NaN. NaN where the truth
     has no depth, and where the tracker gave no position.

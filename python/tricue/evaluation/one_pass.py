@@ -37,9 +37,9 @@ class Run:
     """(M,) confidences."""
     statuses: tuple[Status, ...]
     positions: NDArray[np.float64]
-    """(M, 3) metres in the camera frame; NaN where the tracker gave none."""
+    """(M, 3) meters in the camera frame; NaN where the tracker gave none."""
     covariances: NDArray[np.float64]
-    """(M, 3, 3) of the positions, square metres; NaN where the tracker gave none."""
+    """(M, 3, 3) of the positions, square meters; NaN where the tracker gave none."""
     seconds: NDArray[np.float64]
     """(U,) one per update, M - 1 in one pass; neither init nor decoding is in it."""
 

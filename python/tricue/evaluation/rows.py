@@ -62,7 +62,7 @@ class Row:
     ok_while_lost: float
     """Share of the frames that are TRACKED with an overlap under 0.1, or no target."""
     position_error: float
-    """Median, metres."""
+    """Median, meters."""
     failures: float
     """Of the run with restarts; NaN without one."""
     accuracy: float

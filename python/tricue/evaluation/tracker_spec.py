@@ -208,7 +208,7 @@ def _keywords(traits: Traits, opened: Offer) -> dict[str, Any]:
 
 
 def _range(rig: StereoRig) -> tuple[float, float]:
-    """Between which distances, metres, a target is looked for: where its disparity is as large and as small
+    """Between which distances, meters, a target is looked for: where its disparity is as large and as small
     as it may be.
     """
     product = rig.intrinsics.fx * rig.baseline

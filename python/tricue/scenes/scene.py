@@ -29,7 +29,7 @@ class Bystander(NamedTuple):
     """Another person in a frame; box and position are defined as the target's."""
 
     box: Box
-    position: NDArray[np.float64]  # (3,) metres, camera frame
+    position: NDArray[np.float64]  # (3,) meters, camera frame
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,15 +41,15 @@ class DepthScene:
 
     name: str
     frames: tuple[Frame, ...]
-    """Each with ``depth`` (H, W), metres, and ``timestamp``, seconds from 0."""
+    """Each with ``depth`` (H, W), meters, and ``timestamp``, seconds from 0."""
     boxes: tuple[Box, ...]
     """Around the target's whole body, pixels, hidden parts included; it may reach beyond the image."""
     visible_boxes: tuple[Box | None, ...]
     """Around the target's visible pixels; None where none is visible."""
     positions: NDArray[np.float64]
-    """(M, 3) metres in the camera frame (x right, y down, z forward): the mean of the surface points at the
+    """(M, 3) meters in the camera frame (x right, y down, z forward): the mean of the surface points at the
     target's pixels when it is rendered alone, pixels beyond the image included. It lies on the surface that
-    faces the camera, some centimetres in front of the body's axis, and moves slightly with the limbs."""
+    faces the camera, some centimeters in front of the body's axis, and moves slightly with the limbs."""
     visible: NDArray[np.float64]
     """(M,) share of the target's pixels that are visible, of those in the image when it is rendered alone."""
     intrinsics: Intrinsics
@@ -71,7 +71,7 @@ class StereoScene:
     boxes: tuple[Box, ...]
     """Around the whole head's outline in the left image, pixels, hidden parts included."""
     positions: NDArray[np.float64]
-    """(M, 3) metres in the left camera's frame: the mean of the surface points at the head's pixels in the
+    """(M, 3) meters in the left camera's frame: the mean of the surface points at the head's pixels in the
     left image, as if nothing hid it. Stereo measures this point: some 7 cm in front of the head's center, on
     nearly the same line of sight."""
     visible: NDArray[np.float64]
@@ -108,13 +108,13 @@ class WalkScene:
 
     name: str
     frames: tuple[Frame, ...]
-    """Each with ``color``, ``right`` or ``depth`` (H, W), metres, and ``timestamp``, seconds from 0."""
+    """Each with ``color``, ``right`` or ``depth`` (H, W), meters, and ``timestamp``, seconds from 0."""
     boxes: tuple[Box, ...]
     """Around the target's whole body, pixels, hidden parts included; it may reach beyond the image."""
     visible_boxes: tuple[Box | None, ...]
     """Around the target's visible pixels; None where none is visible."""
     positions: NDArray[np.float64]
-    """(M, 3) metres in the left camera's frame: the mean of the surface points at the target's pixels, as
+    """(M, 3) meters in the left camera's frame: the mean of the surface points at the target's pixels, as
     if nothing hid it, as in :class:`DepthScene`."""
     visible: NDArray[np.float64]
     """(M,) share of the target's pixels that are visible, of those it has when rendered alone."""

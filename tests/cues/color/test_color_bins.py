@@ -61,7 +61,7 @@ def test_agrees_with_opencv(kernels: Kernels, picture: Image) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """Grey, blue by 64 and red by 63 over 8 x 8 x 4 bins of ±64: the ends of the axes and their middle."""
+    """Gray, blue by 64 and red by 63 over 8 x 8 x 4 bins of ±64: the ends of the axes and their middle."""
     image = np.array(
         [[[0, 0, 0], [255, 255, 255], [164, 100, 100], [100, 100, 163], [99, 100, 100]]], np.uint8
     )

@@ -55,7 +55,7 @@ def test_order_does_not_matter(kernels: Kernels, samples: Image) -> None:
 
 
 def test_bins_nest(kernels: Kernels, samples: Image) -> None:
-    """Half as many bins hold what two neighbours of the finer histogram hold together."""
+    """Half as many bins hold what two neighbors of the finer histogram hold together."""
     fine, coarse = kernels.color_histogram(samples, 64), kernels.color_histogram(samples, 32)
     assert_allclose(fine[:, ::2] + fine[:, 1::2], coarse, rtol=1e-6)
 

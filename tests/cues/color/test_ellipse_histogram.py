@@ -79,7 +79,7 @@ def test_area(kernels: Kernels) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """A pixel's own circle and the four neighbours at a distance of exactly 1, which is inside."""
+    """A pixel's own circle and the four neighbors at a distance of exactly 1, which is inside."""
     bins = np.arange(25, dtype=np.uint16).reshape(5, 5)
     inside, around = kernels.ellipse_histogram(bins, np.array([[2.5, 2.5, 1, 1]]), 25, 1.5)
     assert_array_equal(np.flatnonzero(inside), [7, 11, 12, 13, 17])
@@ -88,7 +88,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
 
 @given(st.integers(0, 2**32), st.integers(-20, 20), st.integers(-20, 20))
 def test_moved_by_whole_pixels(seed: int, right: int, down: int) -> None:
-    """Ellipses moved along with the picture count the same, wherever in a pixel their centres are."""
+    """Ellipses moved along with the picture count the same, wherever in a pixel their centers are."""
     bins = some_bins(seed, (40, 60))
     ellipses = np.ceil(some_ellipses(seed, 3) * 64) / 64  # so that no sum is rounded
     moved = ellipses + np.array([100 + right, 100 + down, 0, 0])

@@ -136,7 +136,7 @@ def test_steps_are_a_choice_of_places(seed: int, step: int) -> None:
     assert_array_equal(dense[::step, ::step], sparse)
 
 
-def test_finds_what_it_learnt(kernels: Kernels) -> None:
+def test_finds_what_it_learned(kernels: Kernels) -> None:
     """An ellipse of its own colors is found where it is, with an intersection of 1 and none around."""
     rng = np.random.default_rng(5)
     bins = rng.integers(6, SIZE, (60, 80)).astype(np.uint16)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Colors of a target and of its surround, learnt frame by frame."""
+"""Colors of a target and of its surround, learned frame by frame."""
 
 from typing import Any
 
@@ -64,12 +64,12 @@ def test_blends_linearly(seed: int) -> None:
     """A rate of 0 changes nothing, a rate in between lies between, and sums stay 1."""
     inside, around, target, surround, rate, rare = case(seed)
     for k in (_core, reference):
-        kept, learnt, new = (
+        kept, learned, new = (
             k.learn_contrast(inside, around, target, surround, each, rare)[0] for each in (0.0, rate, 1.0)
         )
         assert_array_equal(kept, target)
-        assert_allclose(learnt, target + rate * (new - target), rtol=0, atol=4 * EPS)
-        assert learnt.sum(dtype=float) == pytest.approx(1, abs=512 * EPS)
+        assert_allclose(learned, target + rate * (new - target), rtol=0, atol=4 * EPS)
+        assert learned.sum(dtype=float) == pytest.approx(1, abs=512 * EPS)
 
 
 def test_arguments_stay_as_they_are(kernels: Kernels) -> None:

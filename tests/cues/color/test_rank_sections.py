@@ -45,8 +45,8 @@ def test_twin_sums_the_same_at_every_size(samples: Image, sections: int) -> None
 def printed(levels: Image, sections: int) -> list[Fraction]:
     """(17), (19)-(28) on fractions, one level after the other."""
     ranks = [Fraction(sum(int(level) <= limit for level in levels), len(levels)) for limit in range(256)]
-    quantised = [min((abs(r - Fraction(n, sections)), r) for r in ranks)[1] for n in range(sections + 1)]
-    sums = [sum(rank for rank in ranks if quantised[n] <= rank <= quantised[n + 1]) for n in range(sections)]
+    quantized = [min((abs(r - Fraction(n, sections)), r) for r in ranks)[1] for n in range(sections + 1)]
+    sums = [sum(rank for rank in ranks if quantized[n] <= rank <= quantized[n + 1]) for n in range(sections)]
     return [Fraction(a) / sum(sums) for a in sums]
 
 

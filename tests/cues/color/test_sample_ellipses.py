@@ -36,7 +36,7 @@ def test_twin_reads_the_same(seed: int, ellipses: int, n: int) -> None:
 
 
 def test_agrees_with_opencv(kernels: Kernels, picture: Image) -> None:
-    """OpenCV's remap with nearest neighbours and a replicated border reads the same pixels; crops with padded
+    """OpenCV's remap with nearest neighbors and a replicated border reads the same pixels; crops with padded
     rows too.
     """
     if picture.size == 0:
@@ -98,11 +98,11 @@ def test_refuses_an_empty_image(kernels: Kernels) -> None:
 
 def test_native_refuses_other_images() -> None:
     """Another type, shape or layout is named, not converted."""
-    grey = np.zeros((6, 8), np.uint8)
+    gray = np.zeros((6, 8), np.uint8)
     with pytest.raises(
         ValueError, match=r"image: expected a uint8 BGR image \(H, W, 3\), got uint8 \(6, 8\)"
     ):
-        _core.sample_ellipses(grey, ONE, CENTER)
+        _core.sample_ellipses(gray, ONE, CENTER)
     with pytest.raises(TypeError, match="image: expected a uint8 BGR image"):
         _core.sample_ellipses(np.zeros((6, 8, 3), np.float32), ONE, CENTER)
     with pytest.raises(ValueError, match="image: expected packed pixels"):

@@ -15,7 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def noise(rows: int, columns: int, seed: int = 0) -> Image:
-    """An image whose every pixel differs from its neighbours."""
+    """An image whose every pixel differs from its neighbors."""
     return np.random.default_rng(seed).integers(0, 256, (rows, columns, 3), np.uint8)
 
 

@@ -32,7 +32,7 @@ def draw(*rows: str) -> Image:
     return paint(np.array([[character == "#" for character in row] for row in rows]))
 
 
-def labelled(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+def labeled(mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     """What OpenCV says of all regions, in no particular order."""
     _, _, stats, centroids = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
     return np.hstack([stats, centroids + 0.5])[1:]
@@ -63,12 +63,12 @@ def test_agrees_with_opencv(kernels: Kernels, density: float) -> None:
     """OpenCV finds the same boxes, areas and centroids in noise below, at and above percolation."""
     mask = np.random.default_rng(1).random((70, 90)) < density
     assert_allclose(
-        in_order(kernels.skin_blobs(paint(mask), SKIN, BINARY, 1)), in_order(labelled(mask)), rtol=1e-12
+        in_order(kernels.skin_blobs(paint(mask), SKIN, BINARY, 1)), in_order(labeled(mask)), rtol=1e-12
     )
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """Diagonal neighbours and arms that meet below are one region; the smallest is left out."""
+    """Diagonal neighbors and arms that meet below are one region; the smallest is left out."""
     image = draw(
         "#.#...#",
         "#.#....",

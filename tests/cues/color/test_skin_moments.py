@@ -57,9 +57,9 @@ def test_agrees_with_opencv(kernels: Kernels, picture: Image, color: Image) -> N
     baseline = cv2.moments(binary, binaryImage=True)
     assert moments[0] == baseline["m00"]
     if baseline["m00"] > 0:
-        centre = [baseline["m10"] / baseline["m00"] + 0.5, baseline["m01"] / baseline["m00"] + 0.5]
+        center = [baseline["m10"] / baseline["m00"] + 0.5, baseline["m01"] / baseline["m00"] + 0.5]
         spread = [baseline[name] / baseline["m00"] for name in ("mu20", "mu02", "mu11")]
-        assert_allclose(moments[1:], centre + spread, rtol=1e-12, atol=tolerance(picture))
+        assert_allclose(moments[1:], center + spread, rtol=1e-12, atol=tolerance(picture))
 
 
 @pytest.mark.parametrize("corner", [(0, 0), (37, 5), (1500, 1030)])

@@ -53,7 +53,7 @@ def test_borders(kernels: Kernels, color: tuple[int, int, int], expected: int) -
 
 
 def test_decides_sample_by_sample(kernels: Kernels, samples: Image) -> None:
-    """A sample's neighbours don't matter: read the other way round, the decisions turn round too."""
+    """A sample's neighbors don't matter: read the other way round, the decisions turn round too."""
     turned = np.ascontiguousarray(samples[:, :, ::-1])
     assert_array_equal(kernels.skin_rule(turned), kernels.skin_rule(samples)[:, ::-1])
 

@@ -10,7 +10,7 @@ Floats = NDArray[np.float64]
 
 STRANGE = np.array([np.nan, 0, -0.0, -1, np.inf, -np.inf, 1e-45, 3e38], np.float32)
 CAMERA = np.array([190.0, 192.0, 87.0, 70.5])
-HEIGHT, WALL, PERSON = 1.6, 5.0, 2.5  # metres: of the camera, and how far ahead the others are
+HEIGHT, WALL, PERSON = 1.6, 5.0, 2.5  # meters: of the camera, and how far ahead the others are
 
 
 def _patches(height: int, width: int, seed: int) -> Depth:

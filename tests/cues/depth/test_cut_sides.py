@@ -75,7 +75,7 @@ def test_twin_flags_the_same_in_pictures(picture: Depth, camera: Floats, count: 
 
 
 def shown_nearer(depth: Depth, box: Floats, camera: Floats, beside: float, nearer: float) -> list[float]:
-    """How much of each side is nearer: points of the box in space, `beside` metres larger all round, which
+    """How much of each side is nearer: points of the box in space, `beside` meters larger all round, which
     OpenCV projects.
     """
     x, y, width, height, _, z, _ = box

@@ -20,7 +20,7 @@ EPS = float(np.finfo(np.float64).eps)
 NEAR, FAR, LEVELS, BINS = 0.3, 7.5, 16, 5
 
 # Few labels make large regions, and runs of two labels that end in the same column.
-labelled = arrays(np.uint8, st.tuples(st.integers(0, 12), st.integers(0, 20)), elements=st.integers(0, 3))
+labeled = arrays(np.uint8, st.tuples(st.integers(0, 12), st.integers(0, 20)), elements=st.integers(0, 3))
 
 
 def depths(shape: tuple[int, ...], seed: int) -> Depth:
@@ -58,7 +58,7 @@ def assert_same(native: Any, twin: Any) -> None:
         assert_array_equal(ours, theirs)
 
 
-@given(labelled, st.integers(0, 2**32), st.integers(1, 6))
+@given(labeled, st.integers(0, 2**32), st.integers(1, 6))
 def test_twin_finds_the_same(labels: Labels, seed: int, min_area: int) -> None:
     """Native and reference describe the same regions in the same order, in noise of every shape."""
     depth = depths(labels.shape, seed)
@@ -117,7 +117,7 @@ def test_agrees_with_numpy(kernels: Kernels, levels: int) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """Diagonal neighbours are one region, another label is another; a hole counts for area and box only."""
+    """Diagonal neighbors are one region, another label is another; a hole counts for area and box only."""
     labels = draw(
         "1.122",
         "1.122",
@@ -175,7 +175,7 @@ def test_order_and_size(kernels: Kernels) -> None:
     assert_array_equal(larger[4], np.where(found[4] <= 2, found[4], 0))
 
 
-@given(labelled, st.integers(0, 2**32))
+@given(labeled, st.integers(0, 2**32))
 def test_every_pixel_in_one_region(labels: Labels, seed: int) -> None:
     """The image of components has the areas of the table, its labels, and nothing where there is no label."""
     table, histograms, columns, rows, components = describe(_core, labels, depths(labels.shape, seed))
@@ -188,7 +188,7 @@ def test_every_pixel_in_one_region(labels: Labels, seed: int) -> None:
     assert_array_equal(histograms[np.isnan(table[:, 5])], 0)
 
 
-@given(labelled)
+@given(labeled)
 def test_mirror(labels: Labels) -> None:
     """Mirrored labels have mirrored columns: no pixel's middle is on the edge of one of an odd
     number of bins.

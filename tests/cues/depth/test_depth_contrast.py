@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The depths in and round rectangles in metres."""
+"""The depths in and round rectangles in meters."""
 
 from typing import Any
 
@@ -152,8 +152,8 @@ def test_agrees_with_points_in_space(
 
 
 def test_room(kernels: Kernels, room: Depth, surfaces: Floats, camera: Floats) -> None:
-    """On the person of the room, all inside is the person, and nothing round him; half a metre before him
-    there is nothing; a metre behind him all is nearer.
+    """On the person of the room, all inside is the person, and nothing round him; half a meter before him
+    there is nothing; a meter behind him all is nearer.
     """
     v, u = np.nonzero(surfaces.argmin(axis=0) == 2)
     z = float(np.median(room[v, u]))
@@ -170,7 +170,7 @@ def test_room(kernels: Kernels, room: Depth, surfaces: Floats, camera: Floats) -
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """One metre is 2 pixels 2 m away. Of the four pixels inside one isn't measured, one is far behind, one
+    """One meter is 2 pixels 2 m away. Of the four pixels inside one isn't measured, one is far behind, one
     nearer, one at Z; of eight places round them three, above and left, are at Z.
     """
     depth = np.full((4, 4), 9, np.float32)

@@ -141,7 +141,7 @@ def test_edge_of_the_image(kernels: Kernels) -> None:
 
 @given(st.integers(0, 2**32), st.integers(-3, 3))
 def test_walks_with_the_target(seed: int, step: int) -> None:
-    """Depths and z moved by the same number of metres measure the same, as the histogram is relative."""
+    """Depths and z moved by the same number of meters measure the same, as the histogram is relative."""
     rng = np.random.default_rng(seed)
     depth = (rng.integers(1, 1024, (20, 20)) / 128 + 4).astype(np.float32)  # moved without rounding
     rectangles = np.array([[10.0, 9, 12, 15, 8.5], [4, 15, 9, 9, 7.25]])

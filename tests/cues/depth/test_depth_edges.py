@@ -79,7 +79,7 @@ def test_room(kernels: Kernels, room: Depth, surfaces: NDArray[np.float64]) -> N
 
 
 def test_farther_pixel_has_the_edge(kernels: Kernels) -> None:
-    """A nearer pixel makes edges of its eight neighbours and is none itself; past a hole nothing is seen."""
+    """A nearer pixel makes edges of its eight neighbors and is none itself; past a hole nothing is seen."""
     depth = np.full((5, 7), 3, np.float32)
     depth[2, 2] = 1
     expected = np.zeros((5, 7), np.uint8)

@@ -87,7 +87,7 @@ def test_top_level_takes_what_rounding_puts_above(kernels: Kernels) -> None:
 
 
 def test_narrowest_range(kernels: Kernels) -> None:
-    """Limits so near to each other that there are infinite levels a metre still count what lies between."""
+    """Limits so near to each other that there are infinite levels a meter still count what lies between."""
     tiny = np.nextafter(0.0, 1.0)
     depth = np.array([[1e-45, 1, np.nan]], np.float32)
     assert kernels.depth_histogram(depth, everything(depth), 0.0, tiny, 3).sum() == 0

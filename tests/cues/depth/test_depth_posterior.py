@@ -50,7 +50,7 @@ def test_is_bayes_rule(kernels: Kernels) -> None:
 
 
 @pytest.mark.parametrize("step", [2, 3])
-def test_reads_the_pixel_under_the_centre(kernels: Kernels, step: int) -> None:
+def test_reads_the_pixel_under_the_center(kernels: Kernels, step: int) -> None:
     """Of squares of whole pixels it takes those of NumPy's slices; shifted grids see shifted pictures."""
     depth = np.random.default_rng(0).uniform(1, 4, (12, 18)).astype(np.float32)
     whole = kernels.depth_posterior(depth, 0.0, 0.0, 1.0, 12, 18, 2.5, 0.5, 0.1)

@@ -71,7 +71,7 @@ def test_twin_finds_the_same_in_pictures(picture: Depth, camera: Floats) -> None
 def test_finds_the_floor(
     kernels: Kernels, noisy_room: Depth, surfaces: Floats, camera: Floats, floor: Floats, seed: int
 ) -> None:
-    """With noise, outliers, holes, a wall and a person the floor is found to half a degree and a centimetre,
+    """With noise, outliers, holes, a wall and a person the floor is found to half a degree and a centimeter,
     and its share is that of the pixels that show it.
     """
     depth = thinned(noisy_room)
@@ -93,7 +93,7 @@ def test_plane_without_noise(kernels: Kernels, camera: Floats, height: float) ->
 
 
 def test_agrees_with_least_squares_by_svd(kernels: Kernels, camera: Floats) -> None:
-    """Where all pixels are within tolerance the plane is that of numpy.linalg.svd of the centred points, but
+    """Where all pixels are within tolerance the plane is that of numpy.linalg.svd of the centerd points, but
     for their rounding to float32.
     """
     depth = seen(np.array([0.0, -0.9, -np.sqrt(0.19), 1.5]), camera, (60, 80))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Segmented objects in metres, standing on the floor."""
+"""Segmented objects in meters, standing on the floor."""
 
 from typing import Any
 
@@ -168,7 +168,7 @@ def test_feet_are_on_the_floor(kernels: Kernels, seed: int) -> None:
 
 
 def test_example_by_hand(kernels: Kernels) -> None:
-    """Two metres away a pixel of 1/64 m: a box of 32 x 64 pixels is 0.5 x 1 m, and ends at y = 0.75. With the
+    """Two meters away a pixel of 1/64 m: a box of 32 x 64 pixels is 0.5 x 1 m, and ends at y = 0.75. With the
     floor at 1 m it grows by 0.25 m, the centroid by its share 0.5 x 0.25 / 1.25 = 0.1 of the way down.
     """
     camera = np.array([128.0, 128.0, 15.5, 15.5])

@@ -77,7 +77,7 @@ def test_agrees_with_floor_plane(kernels: Kernels, noisy_room: Depth, camera: Fl
 
 def test_room(kernels: Kernels, room: Depth, surfaces: Floats, camera: Floats, floor: Floats) -> None:
     """In the room without noise, what shows the floor is on it, and feet and the wall's foot, whose heights
-    are below the tolerance; nothing is below it. Half a metre under a table there is no support.
+    are below the tolerance; nothing is below it. Half a meter under a table there is no support.
     """
     shows = (surfaces.argmin(axis=0) == 0).mean()
     within, below = kernels.plane_support(room, camera, floor, TOLERANCE, 1)

@@ -90,6 +90,6 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 
 def test_native_refuses_other_types() -> None:
-    """Millimetres as integers are named, not converted."""
+    """Millimeters as integers are named, not converted."""
     with pytest.raises(TypeError, match="depth: expected"):
         _core.rectangle_histogram(**case(0, depth=np.ones((3, 3), np.uint16)))

@@ -197,7 +197,7 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 
 def test_native_refuses_other_images() -> None:
-    """Colour and floats are named, never converted."""
+    """Color and floats are named, never converted."""
     gray = np.zeros((9, 9), np.uint8)
     with pytest.raises(ValueError, match="previous: expected a uint8 gray image"):
         _core.pyramid_flow(np.zeros((9, 9, 3), np.uint8), gray, 1, 3, 0, 0)

@@ -18,12 +18,12 @@ Image = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 Disparity = NDArray[np.float32]
 
-# name: truth's grey levels per pixel, disparities that StereoBM searches
+# name: truth's gray levels per pixel, disparities that StereoBM searches
 MIDDLEBURY = {"tsukuba": (16, 16), "venus": (8, 32), "sawtooth": (8, 32), "bull": (8, 32), "cones": (4, 64)}
 
 
 def case(seed: int, **changes: Any) -> dict[str, Any]:
-    """Arguments: pairs of noise, shifted or unlike, some with few grey levels, regions over their edges."""
+    """Arguments: pairs of noise, shifted or unlike, some with few gray levels, regions over their edges."""
     rng = np.random.default_rng(seed)
     shape = int(rng.integers(1, 40)), int(rng.integers(1, 90))
     left, right = rng.integers(0, 256, (2, *shape)).astype(np.uint8)
@@ -187,7 +187,7 @@ def test_every_pixel_stands_for_itself(seed: int) -> None:
 
 
 def test_the_ellipse_is_inscribed(kernels: Kernels) -> None:
-    """Those pixels are measured whose centres lie in it, pi / 4 of them, as many as at the other side."""
+    """Those pixels are measured whose centers lie in it, pi / 4 of them, as many as at the other side."""
     image = clouds(6, (90, 120))
     inside = ~np.isnan(kernels.sad_disparity(image, image, (20, 10, 91, 70), True, -2, 2, 5, 0))
     v, u = np.mgrid[:60, :71] + 0.5
@@ -294,7 +294,7 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 
 def test_native_refuses_other_images() -> None:
-    """Colour, floats and pixels that aren't packed are named, never converted."""
+    """Color, floats and pixels that aren't packed are named, never converted."""
     gray = np.zeros((9, 9), np.uint8)
     rest: tuple[Any, ...] = ((0, 0, 4, 4), True, 0, 5)
     with pytest.raises(ValueError, match="left: expected a uint8 gray image"):

@@ -40,7 +40,7 @@ def scene() -> WalkScene:
 
 @pytest.fixture(scope="module")
 def images(scene: WalkScene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Its images: color/1.png and so on, depth in millimetres in depth/1.png."""
+    """Its images: color/1.png and so on, depth in millimeters in depth/1.png."""
     folder = tmp_path_factory.mktemp("a walk")
     for index, frame in enumerate(scene.frames, 1):
         assert frame.color is not None
@@ -278,7 +278,7 @@ def test_a_mask_is_the_box_round_it() -> None:
     ],
 )
 def test_thin_boxes_are_widened(box: Box, expected: Box) -> None:
-    """It proves that a box gets two pixels round its centre, and others not a bit of change."""
+    """It proves that a box gets two pixels round its center, and others not a bit of change."""
     assert widened(box) == expected
 
 

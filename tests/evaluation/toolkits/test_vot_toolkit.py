@@ -60,7 +60,7 @@ class Trial:
 
 
 def write_recording(folder: Path, frames: Sequence[Frame], boxes: Sequence[Box | None]) -> None:
-    """A sequence folder: color/, depth/ in millimetres if there is depth, and the true boxes."""
+    """A sequence folder: color/, depth/ in millimeters if there is depth, and the true boxes."""
     for index, frame in enumerate(frames, 1):
         for channel in frame.channels:
             (folder / channel).mkdir(parents=True, exist_ok=True)
@@ -86,7 +86,7 @@ def said_by(venv: Path, *words: str) -> str:
 
 
 def run_toolkit(venv: Path, folder: Path, tracker: str) -> Trial:
-    """Write the workspace of the recordings in ``folder``, evaluate and analyse."""
+    """Write the workspace of the recordings in ``folder``, evaluate and analyze."""
     place = folder / "workspace"
     data = folder / "recordings"
     assert main(["vot-workspace", str(place), "--trackers", tracker, "--sequences", str(data)]) == 0

@@ -27,7 +27,7 @@ def colors() -> list[NDArray[np.uint8]]:
 
 
 def depths() -> list[NDArray[np.uint16]]:
-    """Depth in whole millimetres up to 8 m, some of it not measured."""
+    """Depth in whole millimeters up to 8 m, some of it not measured."""
     rng = np.random.default_rng(1)
     images = [rng.integers(400, 8000, (HEIGHT, WIDTH)).astype(np.uint16) for _ in range(FRAMES)]
     for image in images:
@@ -79,7 +79,7 @@ def video(folder: Path) -> Path:
 
 
 def vot(folder: Path) -> Path:
-    """VOT's layout, color and depth in millimetres."""
+    """VOT's layout, color and depth in millimeters."""
     names = [f"{number:08}" for number in range(1, FRAMES + 1)]
     save(folder / "color", [f"{name}.jpg" for name in names], colors())
     save(folder / "depth", [f"{name}.png" for name in names], depths())
@@ -120,7 +120,7 @@ LAYOUTS = {
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_a_written_sequence_is_the_recording(layout: str, tmp_path: Path) -> None:
-    """It proves that color, depth in metres and true boxes of every layout are read from what was written,
+    """It proves that color, depth in meters and true boxes of every layout are read from what was written,
     and which images are linked.
     """
     make, suffix, linked = LAYOUTS[layout]
@@ -143,10 +143,10 @@ def test_a_written_sequence_is_the_recording(layout: str, tmp_path: Path) -> Non
     assert all(path.suffix == ".png" and path.is_symlink() is (layout == "vot") for path in depth)
 
 
-def test_depth_that_has_no_millimetres_is_not_measured(tmp_path: Path) -> None:
+def test_depth_that_has_no_millimeters_is_not_measured(tmp_path: Path) -> None:
     """It proves that what 16 bits can't hold, too far or too near, becomes 0, and the rest is rounded."""
-    metres = np.array([[0.0004, 0.0006, 65.535, 65.536, np.nan, np.inf, 1.2344, -1.0]], np.float32)
-    assert vot_sequences._millimetres(metres).tolist() == [[0, 1, 65535, 0, 0, 0, 1234, 0]]
+    meters = np.array([[0.0004, 0.0006, 65.535, 65.536, np.nan, np.inf, 1.2344, -1.0]], np.float32)
+    assert vot_sequences._millimeters(meters).tolist() == [[0, 1, 65535, 0, 0, 0, 1234, 0]]
 
 
 def test_the_files_of_a_sequence(tmp_path: Path) -> None:

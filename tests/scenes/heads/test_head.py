@@ -95,7 +95,7 @@ def test_positions_project_to_the_middles_of_the_boxes(everything):
 
 
 def test_the_head_walks(everything):
-    """Positions move by up to 1.6 m/s, in most scenes over half a metre in depth and to the sides."""
+    """Positions move by up to 1.6 m/s, in most scenes over half a meter in depth and to the sides."""
     for scene in everything:
         speed = np.linalg.norm(np.diff(scene.positions, axis=0), axis=1) * 30
         assert speed.max() < 1.7

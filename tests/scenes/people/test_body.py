@@ -19,7 +19,7 @@ poses = st.builds(BodyPose, st.floats(0, 20), st.floats(0, 0.5), st.floats(0, 1)
 
 
 def extent(bodies, axis):
-    """The lowest and the highest coordinate that the ellipsoids reach on an axis, metres."""
+    """The lowest and the highest coordinate that the ellipsoids reach on an axis, meters."""
     half = np.sqrt(bodies.shapes[:, axis, axis])
     return (bodies.centers[:, axis] - half).min(), (bodies.centers[:, axis] + half).max()
 

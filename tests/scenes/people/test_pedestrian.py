@@ -8,7 +8,7 @@ from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 
 
 def walker(coat=False):
-    """Somebody 1.8 m tall who walks a metre a second along x."""
+    """Somebody 1.8 m tall who walks a meter a second along x."""
     path = np.stack([np.arange(30) / 15, np.full(30, 4.0)], axis=1)
     outfit = Outfit.sample(0.2, coat, np.random.default_rng(0))
     return Pedestrian.walk(Person(1.8, 1.0), outfit, path, 1.1, 15.0)

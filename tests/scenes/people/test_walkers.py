@@ -137,7 +137,7 @@ def test_target_is_hidden_and_comes_free(crossings):
 
 
 def test_who_hides_is_nearer_and_who_passes_behind_is_farther(crossings):
-    """Somebody is nearer by half a metre or more while the target is hidden; the third person never is."""
+    """Somebody is nearer by half a meter or more while the target is hidden; the third person never is."""
     thirds = 0
     for scene in crossings:
         target = scene.positions[:, 2]

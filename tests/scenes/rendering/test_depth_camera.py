@@ -87,7 +87,7 @@ def test_size_in_pixels_follows_the_pinhole(camera, z):
 
 
 def test_person_is_as_far_as_the_nearest_surface():
-    """Of somebody with the axis at 3 m the trunk's depth is 3 m minus its half depth within centimetres."""
+    """Of somebody with the axis at 3 m the trunk's depth is 3 m minus its half depth within centimeters."""
     view = LEVEL["rgbd"]
     bodies = person(1.8, 3.0, "rgbd")
     window = view.render(bodies)

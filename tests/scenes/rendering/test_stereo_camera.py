@@ -25,7 +25,7 @@ def canvas_of(eye):
 
 
 def paper(size, seed=0):
-    """A rough texture (a pyramid) for a board ``size`` metres wide and high, fine enough for the images."""
+    """A rough texture (a pyramid) for a board ``size`` meters wide and high, fine enough for the images."""
     texels = round(size * 250)
     return textures.build_pyramid(
         textures.make_surface("blotches", (texels, texels), np.full(3, 128.0), np.random.default_rng(seed))

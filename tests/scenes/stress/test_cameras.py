@@ -24,7 +24,7 @@ def whole(made):
 @pytest.mark.parametrize("kind", ["scale", "camera", "plain"])
 def test_depth_at_the_targets_middle_is_its_distance(kind):
     """The mean of the depths about the target's middle is its Z: within half of the sensor's deviation, for
-    81 pixels average it, and a millimetre, for the middle is rounded to a pixel of a tilted card.
+    81 pixels average it, and a millimeter, for the middle is rounded to a pixel of a tilted card.
     """
     made = scene(kind, 1, "depth")
     for index in whole(made):
@@ -35,8 +35,8 @@ def test_depth_at_the_targets_middle_is_its_distance(kind):
             assert np.nanmean(around) == pytest.approx(z, abs=0.5 * 1.425e-3 * z**2 + 0.001)
 
 
-def test_depth_is_whole_millimetres_of_a_sensor_with_gaps():
-    """Depths are multiples of a millimetre; some 3 % are missing; none is beyond the wall."""
+def test_depth_is_whole_millimeters_of_a_sensor_with_gaps():
+    """Depths are multiples of a millimeter; some 3 % are missing; none is beyond the wall."""
     made = scene("plain", 1, "depth")
     depth = np.stack([frame.depth for frame in made.frames[::10]])
     known = np.isfinite(depth)
@@ -75,7 +75,7 @@ def test_depth_and_disparity_of_the_wall_agree(seed):
 
 
 def disparity(left, right, u, v, half, near):
-    """By normalised cross-correlation of a square round (u, v), a parabola through the best three."""
+    """By normalized cross-correlation of a square round (u, v), a parabola through the best three."""
     patch = left[v - half : v + half + 1, u - half : u + half + 1]
     first = u - half - near - 5
     strip = right[v - half : v + half + 1, max(first, 0) : u + half + 1 - near + 5]

@@ -20,9 +20,9 @@ BAD_FRAMES: cases.BadFrames = {
     **cases.NO_FRAMES,
     **cases.NO_IMAGES,
     **cases.BARE_DEPTHS,
-    "grey": (lambda: IMAGE[..., 0], ValueError, r"^frame.color: expected BGR .*gray.*cvtColor"),
+    "gray": (lambda: IMAGE[..., 0], ValueError, r"^frame.color: expected BGR .*gray.*cvtColor"),
     "one channel": (lambda: IMAGE[..., :1], ValueError, r"^frame.color: expected BGR .*gray"),
-    "depth alone": (lambda: Frame(depth=cases.METRES), ValueError, r"^frame: .*color.*got depth"),
+    "depth alone": (lambda: Frame(depth=cases.METERS), ValueError, r"^frame: .*color.*got depth"),
 }
 
 BAD_BOXES = {**cases.BAD_BOXES, "None": (None, ValueError, "expected")}

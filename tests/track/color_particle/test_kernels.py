@@ -45,7 +45,7 @@ def on_reference_kernels(tracker: ColorParticleTracker) -> ColorParticleTracker:
 def test_one_step_agrees(observation, likelihood, frames, box):
     """From one state, one update gives the same track on both sets of kernels, in each frame.
 
-    Rounding changes a log weight by at most e, so the normalised weights by at most a share of 2 e, and
+    Rounding changes a log weight by at most e, so the normalized weights by at most a share of 2 e, and
     the weighted mean by at most 2 e times the particles' extent. The models that count pixels are exact
     to float64: e is a few hundred roundings of it (weights, color term, cumulative sums), 1e-13 with an
     allowance of ten. The Gaussian's float32 densities of the pixels are off by up to 16 EPS32 each (the

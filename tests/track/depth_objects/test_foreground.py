@@ -14,14 +14,14 @@ from tricue.track.depth_objects.projection import camera_vector
 Params = DepthParticleTracker.Params
 Depth = NDArray[np.float32]
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
-HEIGHT, PITCH = 1.3, math.radians(12)  # metres over the floor; downwards
+HEIGHT, PITCH = 1.3, math.radians(12)  # meters over the floor; downwards
 FLOOR = np.array([0.0, -math.cos(PITCH), -math.sin(PITCH), HEIGHT])
-WALL = 6.0  # metres
+WALL = 6.0  # meters
 POST = (slice(30, 120), slice(80, 96))
 
 
 def heights(depth: Depth) -> NDArray[np.float64]:
-    """Metres above the true floor of each pixel."""
+    """Meters above the true floor of each pixel."""
     v, u = np.indices(depth.shape)
     return CAMERA.back_project(u, v, depth) @ FLOOR[:3] + FLOOR[3]
 

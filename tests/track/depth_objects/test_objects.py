@@ -17,7 +17,7 @@ Params = DepthParticleTracker.Params
 P = Params()
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
 NUMBERS = camera_vector(CAMERA)
-NEARER, FARTHER, WALL = 2.0, 4.0, 7.0  # metres
+NEARER, FARTHER, WALL = 2.0, 4.0, 7.0  # meters
 LEFT_BOX, RIGHT_BOX = Box(30, 30, 36, 100), Box(110, 50, 20, 60)  # pixels
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Rectangles in metres, and their boxes in a camera's image."""
+"""Rectangles in meters, and their boxes in a camera's image."""
 
 import numpy as np
 from tricue import Box, Intrinsics

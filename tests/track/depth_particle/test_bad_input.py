@@ -28,14 +28,14 @@ def hall(shift: int = 0, z: float = 3.0) -> Depth:
 
 
 DEPTH = hall()
-MILLIMETRES = np.nan_to_num(1000 * DEPTH).astype(np.uint16)
+MILLIMETERS = np.nan_to_num(1000 * DEPTH).astype(np.uint16)
 COLOR = np.zeros((96, 128, 3), np.uint8)
 
 BAD_FRAMES: cases.BadFrames = {
     **cases.NO_FRAMES,
     **cases.BARE_DEPTHS,
     **cases.NO_DEPTHS,
-    "bare grey image": (lambda: COLOR[..., 0], ValueError, r"^frame: expected the channel depth.*got color"),
+    "bare gray image": (lambda: COLOR[..., 0], ValueError, r"^frame: expected the channel depth.*got color"),
     "bare color": (lambda: COLOR, ValueError, r"^frame: expected the channel depth.*got color"),
     "color alone": (lambda: Frame(color=COLOR), ValueError, r"^frame: expected the channel depth.*got color"),
     "stereo pair": (
@@ -90,7 +90,7 @@ EXPECTED = started().update(NEXT)
 
 @pytest.mark.parametrize("name", BAD_FRAMES)
 def test_bad_frames_are_named(name):
-    """A frame without metres gets an error that says so, at init and update, and nothing changes by it."""
+    """A frame without meters gets an error that says so, at init and update, and nothing changes by it."""
     frame, error, message = BAD_FRAMES[name]
     tracker = started()
     with pytest.raises(error, match=message):
@@ -186,11 +186,11 @@ def test_nothing_is_no_target(value):
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("metres", [0.2, 9.0])
-def test_a_box_on_what_is_out_of_range_is_named(metres):
+@pytest.mark.parametrize("meters", [0.2, 9.0])
+def test_a_box_on_what_is_out_of_range_is_named(meters):
     """A box on what is nearer or farther than a target can be is an error that says the range."""
     depth = DEPTH.copy()
-    depth[20:80, 80:110] = metres
+    depth[20:80, 80:110] = meters
     with pytest.raises(ValueError, match=r"^box: expected .* between near and far, 0.3 and 8 m, got none"):
         started().init(Frame(depth=depth), (80, 20, 30, 60))
 
@@ -207,7 +207,7 @@ def test_gaps_of_all_kinds_are_the_same(value):
 
 @pytest.mark.parametrize("kind", [np.uint16, np.int16, np.int32, np.int64, ">u2", np.float32, np.float64])
 def test_any_type_of_number_is_followed(kind):
-    """Millimetres of every type with their scale are followed as metres are, within what their rounding
+    """Millimeters of every type with their scale are followed as meters are, within what their rounding
     costs.
     """
     tracker = DepthParticleTracker(intrinsics=CAMERA, seed=1, particles=30)
@@ -250,8 +250,8 @@ def test_odd_times_are_sane(seconds):
         cases.assert_sane(tracker.update(Frame(depth=hall(shift), timestamp=seconds[1])))
 
 
-def test_metres_as_millimetres_are_warned_of():
-    """Metres with the scale of millimetres make the Frame warn; the tracker misses its target, and goes
+def test_meters_as_millimeters_are_warned_of():
+    """Meters with the scale of millimeters make the Frame warn; the tracker misses its target, and goes
     on.
     """
     with pytest.warns(UserWarning, match=r"^depth: its median is 0.006 m, .* a wrong depth_scale, 0.001"):
@@ -263,10 +263,10 @@ def test_metres_as_millimetres_are_warned_of():
     assert tracker.update(NEXT).status is Status.TRACKED
 
 
-def test_millimetres_as_metres_are_warned_of():
-    """Millimetres passed as metres make the Frame warn; the tracker misses its target, and goes on."""
-    with pytest.warns(UserWarning, match=r"^depth: its median is .*looks like millimetres"):
-        frame = Frame(depth=MILLIMETRES.astype(np.float32))
+def test_millimeters_as_meters_are_warned_of():
+    """Millimeters passed as meters make the Frame warn; the tracker misses its target, and goes on."""
+    with pytest.warns(UserWarning, match=r"^depth: its median is .*looks like millimeters"):
+        frame = Frame(depth=MILLIMETERS.astype(np.float32))
     tracker = started()
     track = tracker.update(frame)
     cases.assert_sane(track)

@@ -31,13 +31,13 @@ def on_reference_kernels(tracker: DepthParticleTracker) -> DepthParticleTracker:
     return twin
 
 
-def assert_alike(ours: Track, theirs: Track, pixels: float, metres: float) -> None:
+def assert_alike(ours: Track, theirs: Track, pixels: float, meters: float) -> None:
     """The same status, and boxes, scores, positions and covariances as near as said."""
     assert ours.status is theirs.status
     assert np.abs(np.subtract(ours.box, theirs.box)).max() <= pixels
     assert ours.score == pytest.approx(theirs.score, abs=1e-12)
-    assert np.abs(ours.position - theirs.position).max() <= metres
-    assert np.abs(ours.covariance - theirs.covariance).max() <= metres
+    assert np.abs(ours.position - theirs.position).max() <= meters
+    assert np.abs(ours.covariance - theirs.covariance).max() <= meters
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -50,7 +50,7 @@ def test_one_step_agrees(form, passing: DepthScene):
     levels, weights and their cumulative sums. A mean over a body's 600 pixels at 4 m, summed in another
     order, is off by some sqrt(600) EPS64 4 m = 2e-14 m, more than any other. The object's state goes into the
     log weights with a slope of at most sqrt(2 MAX_OBJECT_COST) / (DEVIATION_FACTOR OBJECT_DEVIATION) = 82 a
-    metre in each of five dimensions, so a log weight changes by e = 8e-12, and the weighted mean by 2 e times
+    meter in each of five dimensions, so a log weight changes by e = 8e-12, and the weighted mean by 2 e times
     the extent of the particles, 0.2 m: 3e-12 m or 1e-10 px, each with an allowance of some ten. The largest
     seen is 2e-14 px.
     """

@@ -42,8 +42,8 @@ def test_the_start_shares_no_size_with_its_state():
 
 
 @pytest.mark.parametrize("seconds", [1 / 30, 1 / 15, 0.5])
-def test_prediction_is_in_metres_per_second(seconds):
-    """The drift is velocity times time, in metres, and the size returns to its mean by a share."""
+def test_prediction_is_in_meters_per_second(seconds):
+    """The drift is velocity times time, in meters, and the size returns to its mean by a share."""
     prediction = motion(velocity=np.array([1.0, 0.0, -0.5]), mean_size=np.array([0.8, 1.6])).predict(
         P, seconds, 0
     )

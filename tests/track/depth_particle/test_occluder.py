@@ -27,7 +27,7 @@ def test_nothing_hides_nothing(objects_of):
 
 
 def test_removal_takes_what_stands_there(objects_of):
-    """Objects within half a metre of the occluder on the ground are removed, at whatever height. Others stay
+    """Objects within half a meter of the occluder on the ground are removed, at whatever height. Others stay
     in order, all fields alike.
     """
     objects = objects_of([moved(1.0), moved(0.3, -1.5), moved(0, 0, 0.4), moved(0, 0, 0.6)])

@@ -195,8 +195,8 @@ def test_all_encodings_of_no_measurement_are_the_same(name, passing: DepthScene,
 
 
 @pytest.mark.parametrize(("dtype", "scale"), [(np.uint16, 0.001), (np.uint16, 0.0002), (np.int32, 0.001)])
-def test_integers_with_a_scale_are_metres(dtype, scale, passing: DepthScene, follow):
-    """Integers with depth_scale give the track of the same metres as floats, bit for bit."""
+def test_integers_with_a_scale_are_meters(dtype, scale, passing: DepthScene, follow):
+    """Integers with depth_scale give the track of the same meters as floats, bit for bit."""
     counts = [np.rint(np.nan_to_num(f.depth) / scale).astype(dtype) for f in passing.frames]
     ours, theirs = (
         follow(DepthParticleTracker(intrinsics=passing.intrinsics, seed=5), frames, passing.boxes[0])
@@ -238,8 +238,8 @@ def test_timestamps_are_the_rate(rate, passing: DepthScene, follow):
     """Frames with timestamps 1 / rate apart give the track of frames without any at that rate.
 
     With i / rate, differences are off by a rounding of i / rate, 2.2e-16 s of 2.4 s at most: a share of 7e-15
-    of a frame. It goes into drift and noise as metres (velocity and position_noise times seconds), and from
-    there, as in a step on other kernels, into log weights that are 200 times as steep a metre at most, which
+    of a frame. It goes into drift and noise as meters (velocity and position_noise times seconds), and from
+    there, as in a step on other kernels, into log weights that are 200 times as steep a meter at most, which
     is 1e-12 px a frame, carried on over 36 frames: 1e-9 px, unless a resampled index or a sample crosses its
     border, a chance of about 1e-4.
     """
@@ -255,7 +255,7 @@ def test_timestamps_are_the_rate(rate, passing: DepthScene, follow):
 
 
 def test_time_matters(passing: DepthScene, follow):
-    """At another rate the same frames give another track: somebody's speed is in metres a second."""
+    """At another rate the same frames give another track: somebody's speed is in meters a second."""
     boxes = [
         follow(DepthParticleTracker(seed=2, rate=rate), [Frame(depth=f.depth) for f in passing.frames], None)[
             -1

@@ -56,7 +56,7 @@ def draw(image: Image, patch: Image, x: int, y: int) -> None:
 
 
 def depth_of(shift: int = 0) -> NDArray[np.float32]:
-    """The same scene's depth, metres."""
+    """The same scene's depth, meters."""
     disparity = np.full((HEIGHT, WIDTH), FAR, np.float32)
     first, last = (min(max(BOX[0] + shift + more, 0), WIDTH) for more in (0, BOX[2]))
     disparity[BOX[1] : BOX[1] + BOX[3], first:last] = OURS
@@ -221,7 +221,7 @@ def test_bad_boxes_are_named(name):
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("name", ["black", "white", "grey", "right black", "noise"])
+@pytest.mark.parametrize("name", ["black", "white", "gray", "right black", "noise"])
 @pytest.mark.parametrize("cues", [{}, DISPARITY], ids=str)
 def test_a_start_on_nothing_is_named(name, cues):
     """A pair in which nothing in the box has a disparity in common is an error that shows the box, and the
@@ -283,7 +283,7 @@ def test_update_before_init_is_named():
             tracker.init(framed(), (0, 0, 0, 0))
 
 
-@pytest.mark.parametrize("name", ["black", "white", "grey", "right black", "noise", "another scene"])
+@pytest.mark.parametrize("name", ["black", "white", "gray", "right black", "noise", "another scene"])
 def test_a_frame_without_the_target_is_not_seen(name):
     """A frame without texture, or from another scene, is no error: the score is 0, the mask nearly empty, and
     the target is followed on in the next frames.
@@ -299,7 +299,7 @@ def test_a_frame_without_the_target_is_not_seen(name):
     assert tracks[-1].box.iou(Box(BOX[0] + 15, *BOX[1:])) > 0.6
 
 
-@pytest.mark.parametrize("name", ["black", "grey", "another scene", "another scene, nearer"])
+@pytest.mark.parametrize("name", ["black", "gray", "another scene", "another scene, nearer"])
 def test_a_cut_is_lost(name):
     """After a cut to another scene, or to nothing, the target is LOST in the end, and nothing runs away."""
     tracker = started(8)

@@ -21,7 +21,7 @@ FORMS = {
         "disparity_change": 100,
     },
 }
-PIXELS, METRES, PLACES = 1e-4, 1e-5, 3
+PIXELS, METERS, PLACES = 1e-4, 1e-5, 3
 
 
 def on_reference_kernels(tracker: FlowDepthTracker) -> FlowDepthTracker:
@@ -38,7 +38,7 @@ def assert_alike(ours: Track, theirs: Track, steps: int = 1) -> None:
     assert ours.score == pytest.approx(theirs.score, abs=0.01)
     assert (ours.position is None) == (theirs.position is None)
     if ours.position is not None:
-        assert np.abs(ours.position - theirs.position).max() <= steps * METRES
+        assert np.abs(ours.position - theirs.position).max() <= steps * METERS
         np.testing.assert_allclose(ours.covariance, theirs.covariance, rtol=1e-4)
 
 

@@ -33,7 +33,7 @@ def test_covariances_are_one(followed):
 
 
 def test_covariances_are_honest(followed):
-    """The mean normalised error squared, 3 for a perfect one, is between 1 and 6: errors last for some
+    """The mean normalized error squared, 3 for a perfect one, is between 1 and 6: errors last for some
     frames, and a few of them tell no more than the order of magnitude.
     """
     scene, tracks = followed

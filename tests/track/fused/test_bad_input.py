@@ -43,7 +43,7 @@ def pair(shift: int = 0) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
 
 
 def depth_of(shift: int = 0) -> NDArray[np.float32]:
-    """The same scene's depth, metres."""
+    """The same scene's depth, meters."""
     disparity = np.full((HEIGHT, WIDTH), FAR, np.float32)
     disparity[BOX[1] : BOX[1] + BOX[3], BOX[0] + shift : BOX[0] + shift + BOX[2]] = OURS
     return np.float32(RIG.intrinsics.fx * RIG.baseline) / disparity

@@ -45,7 +45,7 @@ class Run:
 
     @property
     def covariances(self) -> NDArray[np.float64]:
-        """(N, 3, 3) metres²."""
+        """(N, 3, 3) meters²."""
         return np.array([track.covariance for track in self.tracks])
 
     @property

@@ -62,11 +62,11 @@ BAD_FRAMES: cases.BadFrames = {
     **cases.NO_PAIRS,
     **cases.ONE_IMAGE,
     "color and depth": (
-        lambda: Frame(LEFT, depth=cases.METRES),
+        lambda: Frame(LEFT, depth=cases.METERS),
         ValueError,
         r"^frame: expected the channel right.*got color and depth",
     ),
-    "both grey": (
+    "both gray": (
         lambda: Frame(LEFT[..., 0], right=RIGHT[..., 0]),
         ValueError,
         r"^frame.color: expected BGR .*gray .*cv2.COLOR_GRAY2BGR",
@@ -140,7 +140,7 @@ def test_bad_boxes_are_named(name):
     assert tracker.update(NEXT) == EXPECTED
 
 
-@pytest.mark.parametrize("name", ["black", "white", "grey", "right black"])
+@pytest.mark.parametrize("name", ["black", "white", "gray", "right black"])
 @ODD_PAIRS_WARN
 def test_a_start_on_nothing_is_named(name):
     """A pair in which nothing in the box has a disparity is an error that shows box and range, and the old
@@ -209,7 +209,7 @@ def test_what_is_no_rig_is_named(rig):
 
 
 @pytest.mark.parametrize(
-    "name", ["black", "white", "grey", "left black", "right black", "right white", "noise", "far apart"]
+    "name", ["black", "white", "gray", "left black", "right black", "right white", "noise", "far apart"]
 )
 def test_a_pair_without_the_head_is_an_occlusion(name):
     """A pair in which the head isn't to be seen is OCCLUDED at score 0, no error; in the next it is TRACKED

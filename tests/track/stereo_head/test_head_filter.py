@@ -163,7 +163,7 @@ def test_coasting_slows_down():
 
 
 def test_errors_are_as_large_as_it_says(kernels):
-    """On heads that move as the model says, measured as it says, the normalised errors squared of position,
+    """On heads that move as the model says, measured as it says, the normalized errors squared of position,
     velocity, colors and of all ten together are chi-square, and so are the surprises before.
     """
     found = list(simulated(kernels, 0))

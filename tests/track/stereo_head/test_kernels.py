@@ -31,13 +31,13 @@ def on_reference_kernels(tracker: StereoHeadTracker) -> StereoHeadTracker:
     return twin
 
 
-def assert_alike(ours: Track, theirs: Track, pixels: float, metres: float) -> None:
+def assert_alike(ours: Track, theirs: Track, pixels: float, meters: float) -> None:
     """The same status, and boxes, scores, positions and covariances as near as said."""
     assert ours.status is theirs.status
     assert np.abs(np.subtract(ours.box, theirs.box)).max() <= pixels
     assert ours.score == pytest.approx(theirs.score, abs=SCORE)
-    assert np.abs(ours.position - theirs.position).max() <= metres
-    assert np.abs(ours.covariance - theirs.covariance).max() <= metres
+    assert np.abs(ours.position - theirs.position).max() <= meters
+    assert np.abs(ours.covariance - theirs.covariance).max() <= meters
 
 
 def frames_of(scene: StereoScene) -> slice:
@@ -56,7 +56,7 @@ def test_one_step_agrees(form, covered: StereoScene):
     ellipse and ring are off by 2^-20 at most, and a score by 1 + ring_weight of it: 1.6e-6. It moves the
     ellipse only where two of the places are as near; otherwise place and disparity are equal, and the rest is
     float64: a triangulation and a Kalman step on numbers up to 4 m and 300 levels, each rounded to EPS64 of
-    it in some hundred operations: 100 x 2.2e-16 x 300 = 7e-12, and as it is metres that count, 1e-13. In
+    it in some hundred operations: 100 x 2.2e-16 x 300 = 7e-12, and as it is meters that count, 1e-13. In
     pixels, with a focal length of 150 at 0.8 m, two hundred times that.
     """
     chosen = frames_of(covered)

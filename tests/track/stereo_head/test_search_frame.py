@@ -13,7 +13,7 @@ from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 Params = StereoHeadTracker.Params
 P = Params()
 SKIN = np.array([110, 140, 205])
-WIDTH, HEIGHT = 0.17, 0.21  # metres
+WIDTH, HEIGHT = 0.17, 0.21  # meters
 CAMERA = Intrinsics.from_fov(160, 120, 55)
 FAR_WALL = 3  # pixels of disparity at 160 columns
 
@@ -71,7 +71,7 @@ def anywhere(colors: np.ndarray) -> LostHead:
 
 
 def metric(geometry: StereoGeometry, place: tuple[float, float, float]) -> np.ndarray:
-    """(3,) metres of a place on the stage."""
+    """(3,) meters of a place on the stage."""
     x, y, z = place
     height, width = geometry.shape
     return CAMERA.back_project(x * width - 0.5, y * height - 0.5, z)

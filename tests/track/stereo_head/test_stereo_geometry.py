@@ -32,7 +32,7 @@ def test_a_projected_point_comes_back(point, noise, kernels):
 
 @pytest.mark.parametrize("z", [0.5, 1.0, 4.0])
 def test_size_and_ellipse_are_inverse(z):
-    """An ellipse measured in metres at a distance has the same semi-axes there, half of them twice as far
+    """An ellipse measured in meters at a distance has the same semi-axes there, half of them twice as far
     away, and lies around the projected point.
     """
     point = np.array([0.1, -0.1, z])

@@ -32,7 +32,7 @@ def overlaps(tracks: Sequence[Track], boxes: Sequence[Box]) -> Floats:
 
 
 def offs(tracks: Sequence[Track], scene: StereoScene) -> Floats:
-    """(M, 3) metres from the true position."""
+    """(M, 3) meters from the true position."""
     return np.array([track.position for track in tracks]) - scene.positions
 
 
@@ -42,7 +42,7 @@ def shares(tracks: Sequence[Track], scene: StereoScene) -> Floats:
 
 
 def squared_deviations(tracks: Sequence[Track], scene: StereoScene) -> Floats:
-    """(M,) normalised errors squared: 3 in the mean where covariances are honest."""
+    """(M,) normalized errors squared: 3 in the mean where covariances are honest."""
     pairs = zip(tracks, offs(tracks, scene), strict=True)
     return np.array([off @ np.linalg.solve(track.covariance, off) for track, off in pairs])
 
@@ -92,7 +92,7 @@ def test_larger_pictures_are_searched_at_a_quarter(heads, follow):
 
 
 def test_covariances_are_honest(followed):
-    """The mean normalised error squared over heads in swinging light is between 1 and 5."""
+    """The mean normalized error squared over heads in swinging light is between 1 and 5."""
     assert 1 < np.mean([squared_deviations(tracks, scene) for scene, tracks in followed("normal")]) < 5
 
 
@@ -283,7 +283,7 @@ def test_timestamps_are_the_rate(rate, covered: StereoScene, follow):
     """Frames with timestamps 1 / rate apart give the track of frames without any at that rate.
 
     With i / rate, differences are off by a rounding of i / rate, 2.2e-16 s of 3 s at most, of a frame a share
-    of 2e-14. Position and variances are at most cubic in it and carry it on, below one each step: with metres
+    of 2e-14. Position and variances are at most cubic in it and carry it on, below one each step: with meters
     and 45 frames, 1e-11 m, and 1e-9 px, unless a place is as near a border.
     """
     bare = [Frame(f.color, right=f.right) for f in covered.frames]
@@ -297,7 +297,7 @@ def test_timestamps_are_the_rate(rate, covered: StereoScene, follow):
 
 
 def test_time_matters(covered: StereoScene, follow):
-    """At another rate the same frames give another track: a head's speed is in metres a second."""
+    """At another rate the same frames give another track: a head's speed is in meters a second."""
     bare = [Frame(f.color, right=f.right) for f in covered.frames[:10]]
     ours, theirs = (
         follow(StereoHeadTracker(rig=covered.rig, rate=rate), bare, covered.boxes[0])[-1] for rate in (5, 30)

@@ -15,7 +15,7 @@ from tricue.draw.overlays import overlay
 from tricue.draw.video import OverlayWriter
 from tricue.track.base.registry import create
 
-LOST = 25.0  # pixels off the true centre, where a face counts as lost
+LOST = 25.0  # pixels off the true center, where a face counts as lost
 FPS = 15.0
 FLOOR = 0.1  # pixels, of the logarithmic plot
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo depth-particle``: people before a time-of-flight camera, tracked in metres."""
+"""``tricue demo depth-particle``: people before a time-of-flight camera, tracked in meters."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -18,7 +18,7 @@ from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 15.0  # the camera's
-FLOOR = 0.5  # centimetres, of the logarithmic plot
+FLOOR = 0.5  # centimeters, of the logarithmic plot
 
 SCENES: Mapping[str, Callable[..., DepthScene]] = {
     "walking, crouching, turning": walker,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the demos in metres measure in a scene, whatever the cameras: errors, overlaps, what was said."""
+"""What the demos in meters measure in a scene, whatever the cameras: errors, overlaps, what was said."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -31,7 +31,7 @@ class Result(Generic[S]):
 
     @property
     def errors(self) -> Floats:
-        """(M,) distances of the positions from the true ones, metres; NaN without a position."""
+        """(M,) distances of the positions from the true ones, meters; NaN without a position."""
         places = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
         distances: Floats = np.linalg.norm(places - self.scene.positions, axis=1)
         return distances

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo stereo-head``: a head before a stereo pair, tracked in metres while the light changes."""
+"""``tricue demo stereo-head``: a head before a stereo pair, tracked in meters while the light changes."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping

@@ -19,7 +19,7 @@ import cv2
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.read_calibration import read_intrinsics
-from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
+from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.streams import ImageReader, read_color
 from tricue.errors import BoxError
 from tricue.track.base.registry import create, tracker_class, traits
@@ -27,7 +27,7 @@ from tricue.track.base.track import Track, Tracker
 
 SMALLEST = 2.0  # pixels, of a box that a tracker starts on
 DECIMALS = 4  # of the protocol's boxes, which its library keeps as float32
-READERS: dict[str, ImageReader] = {"color": read_color, "depth": DepthReader(METRES_PER_MILLIMETRE)}
+READERS: dict[str, ImageReader] = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
 EXTRA = "the TraX protocol needs an extra: pip install tricue[vot]"
 
 NOWHERE = Box(0.0, 0.0, 0.0, 0.0)  # what VOT's own trackers answer where there is nothing
@@ -140,7 +140,7 @@ def answer_of(track: Track, last: Box) -> Answer:
 
 
 def widened(box: Box) -> Box:
-    """The box, at least SMALLEST pixels wide and high round the same centre."""
+    """The box, at least SMALLEST pixels wide and high round the same center."""
     (x, y), width, height = box.center, max(box.width, SMALLEST), max(box.height, SMALLEST)
     return Box(x - width / 2, y - height / 2, width, height) if (width, height) != box[2:] else box
 

@@ -12,15 +12,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.data.depth_images import METRES_PER_MILLIMETRE, DepthReader
+from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.open_source import Source
 from tricue.data.streams import Images, Stream, read_color
 
 ANCHORS = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
-DEEPEST = 65535  # millimetres in 16 bits
+DEEPEST = 65535  # millimeters in 16 bits
 ABSENT = "nan,nan,nan,nan"
 _SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's name of images that it reads
-_AS_THEY_ARE = {"color": read_color, "depth": DepthReader(METRES_PER_MILLIMETRE)}
+_AS_THEY_ARE = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
 
 
 def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
@@ -40,7 +40,7 @@ def write_sequence(source: Source, folder: Path) -> int:
     """Write the channels of :func:`vot_channels`, the true boxes, anchors and tags; the number of frames.
 
     Images that the toolkit and our tracker read as they are, are linked, or copied where links can't be;
-    others become PNG, depth 16 bits of millimetres. The folder must not exist; an error leaves none.
+    others become PNG, depth 16 bits of millimeters. The folder must not exist; an error leaves none.
     ValueError for fewer than two frames, and for channels of different length.
     """
     folder.mkdir(parents=True)
@@ -115,7 +115,7 @@ def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
         return suffix, count
     for count, (_, image) in enumerate(stream, 1):
         path = folder / f"{count:08}.png"
-        if not cv2.imwrite(str(path), _millimetres(image) if name == "depth" else image):
+        if not cv2.imwrite(str(path), _millimeters(image) if name == "depth" else image):
             raise OSError(f"{path}: can't be written")
     return ".png", count
 
@@ -138,8 +138,8 @@ def _link(path: Path, link: Path) -> None:
         shutil.copyfile(path, link)
 
 
-def _millimetres(depth: NDArray[np.float32]) -> NDArray[np.uint16]:
-    """Metres in 16 bits; 0, not measured, where they don't fit."""
+def _millimeters(depth: NDArray[np.float32]) -> NDArray[np.uint16]:
+    """Meters in 16 bits; 0, not measured, where they don't fit."""
     units = np.rint(1000 * depth.astype(np.float64))
     return np.where((units > 0) & (units <= DEEPEST), units, 0).astype(np.uint16)
 

@@ -68,10 +68,6 @@ PAPERS_FILTER_PARAMS: dict[str, Any] = {
     "noise_model": "polynomial",
     "disparity_noise": 1.0,
 }
-    "motion": "constant",
-    "noise_model": "polynomial",
-    "disparity_noise": 1.0,
-}
 PRINTED_PARAMS: dict[str, Any] = {
     **PAPERS_FILTER_PARAMS,
     "ring_weight": 0.0,

@@ -13,7 +13,7 @@ from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.rendering.stereo_camera import TexturedEllipsoid
 from tricue.scenes.rendering.textures import Looks
 
-# Metres, along x, y, z, of head and hair of a person 1.75 m tall. A bare head is about 15 by 22 by 19 cm.
+# Meters, along x, y, z, of head and hair of a person 1.75 m tall. A bare head is about 15 by 22 by 19 cm.
 HEAD_SEMI_AXES = np.array([0.084, 0.108, 0.095])
 TROUSERS_INDEX, SHIRT_INDEX, SKIN_INDEX = range(3)
 # The texture of each ellipsoid of tricue.scenes.people.body, in its order; the head, at 5, has its own.
@@ -41,7 +41,7 @@ class Actor(NamedTuple):
 
     person: Person
     looks: Looks
-    semi_axes: Array  # (3,) of the head, metres
+    semi_axes: Array  # (3,) of the head, meters
     face: list[Picture]  # texture pyramid of the head
     body_textures: list[list[Picture]]  # texture pyramids: trousers, shirt, skin
     moves: HeadMotion
@@ -74,7 +74,7 @@ class Actor(NamedTuple):
 
     @property
     def floor(self) -> float:
-        """The floor's height y below the camera, metres."""
+        """The floor's height y below the camera, meters."""
         head_height = -build_body(self.person, BodyPose()).centers[HEAD_PART, 1]
         return float(np.median(self.moves.center[:, 1]) + head_height)
 

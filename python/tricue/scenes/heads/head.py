@@ -28,7 +28,7 @@ from tricue.scenes.rendering.stereo_camera import (
 from tricue.scenes.scene import StereoScene
 
 HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
-MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # metres, of the head's center
+MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # meters, of the head's center
 HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same in scenes with a hand in front
 
 
@@ -142,7 +142,7 @@ class _StereoStage(NamedTuple):
         return canvas, _VisibleHead(part, float(left.sum() / own.sum()))
 
     def _position(self, part: DrawnEllipsoid) -> Array:
-        """The mean (3,) of the surface points that the left camera's rays hit, metres."""
+        """The mean (3,) of the surface points that the left camera's rays hit, meters."""
         (rows, columns), depth = part
         v, u = np.nonzero(np.isfinite(depth))
         points = self.cameras[0].intrinsics.back_project(u + columns.start, v + rows.start, depth[v, u])

@@ -11,27 +11,27 @@ from tricue.scenes.arrays import Array
 from tricue.scenes.motion import sample_sway
 
 HEAD_FRAME_RATE = 30.0  # frames per second
-WALKING_SPEEDS = 0.7, 1.4  # metres per second, on the straight parts of a path
-STEP_LENGTH = 0.7  # metres per step
+WALKING_SPEEDS = 0.7, 1.4  # meters per second, on the straight parts of a path
+STEP_LENGTH = 0.7  # meters per step
 RAMP_FRAMES, RAMP_END_GAIN = 100, 0.5  # duration of the ramp, and the gain at its end
 HAND_SLIDE_FRAMES = 6  # that a hand takes to come, and to leave
-HAND_START_DISTANCE = 0.6  # metres along the forearm; there it is outside the image
+HAND_START_DISTANCE = 0.6  # meters along the forearm; there it is outside the image
 
 
 class HeadRange(NamedTuple):
     """Where the head's center may be, so that both cameras see the head."""
 
-    near: float  # metres of depth
+    near: float  # meters of depth
     far: float
     side: float  # tangent of half the horizontal angle of view
     up: float  # the same, vertical
-    baseline: float  # metres
+    baseline: float  # meters
 
 
 class HeadMotion(NamedTuple):
     """A head's motion over M frames. Angles in radians; at 0 the face looks along -z, at the cameras."""
 
-    center: Array  # (M, 3) of the head, metres, left camera's frame
+    center: Array  # (M, 3) of the head, meters, left camera's frame
     yaw: Array  # (M,)
     pitch: Array
     roll: Array
@@ -44,7 +44,7 @@ class HandMotion(NamedTuple):
     """A hand in front of the head, over M frames."""
 
     depth_ratio: float  # its depth as a share of the head's
-    offset: Array  # (M,) from the line of sight to the head, metres along the forearm
+    offset: Array  # (M,) from the line of sight to the head, meters along the forearm
     tilt: float  # of the forearm from the vertical, radians
 
 
@@ -105,7 +105,7 @@ def sample_hand(frames: int, rng: np.random.Generator) -> HandMotion:
 
 
 def _path(time: Array, room: HeadRange, rng: np.random.Generator) -> Array:
-    """The head's center (M, 3), metres: sums of sines in depth and sideways, at walking speed."""
+    """The head's center (M, 3), meters: sums of sines in depth and sideways, at walking speed."""
     nearest = room.near + 0.35 * (room.far - room.near) * rng.random() ** 2
     farthest = room.far - 0.4 * (room.far - nearest) * rng.random() ** 2
     phases, turns = rng.uniform(0, 2 * np.pi, 4), rng.uniform(0.8, 2.0, 2) * [1.0, 2.0]
@@ -126,14 +126,14 @@ def _path(time: Array, room: HeadRange, rng: np.random.Generator) -> Array:
 def _pace(curve: Callable[[Array], Array], time: Array, speed: float) -> Array:
     """The curve parameters (M,) of a walker: at ``speed`` (m/s) on straight parts, slower in turns.
 
-    Between two frames the walker moves by speed / HEAD_FRAME_RATE metres at most.
+    Between two frames the walker moves by speed / HEAD_FRAME_RATE meters at most.
     """
     dense = np.linspace(0, 2 * np.pi, 2001)
     walked, step = [0.0], dense[1]
     angles = [0.0]
     while walked[-1] < time[-1]:
-        metres = np.hypot(*np.diff(curve(angles[-1] + dense), axis=0).T) / step  # per radian
-        seconds = np.hypot(metres, 0.35 * metres.max()) * step / speed
+        meters = np.hypot(*np.diff(curve(angles[-1] + dense), axis=0).T) / step  # per radian
+        seconds = np.hypot(meters, 0.35 * meters.max()) * step / speed
         walked += (walked[-1] + np.cumsum(seconds)).tolist()
         angles += (angles[-1] + dense[1:]).tolist()
     return np.interp(time, walked, angles)

@@ -18,8 +18,8 @@ from tricue.scenes.rendering.stereo_camera import (
     TexturedRectangle,
 )
 
-MIN_GAP_BEHIND_HEAD = 0.35  # metres, where both are on one line of sight
-HEAD_RADIUS = 0.16  # metres, of the space around the head's center that stays free
+MIN_GAP_BEHIND_HEAD = 0.35  # meters, where both are on one line of sight
+HEAD_RADIUS = 0.16  # meters, of the space around the head's center that stays free
 MAX_RECTANGLES, MAX_RECTANGLE_TRIES = 12, 60
 
 
@@ -33,9 +33,9 @@ class StereoRoom(NamedTuple):
 def furnish_room(
     rig: StereoRig, path: Array, floor: float, skin: NDArray[np.float64] | None, rng: np.random.Generator
 ) -> StereoRoom:
-    """A random room for a head that moves along ``path`` (M, 3), metres, always in front of all things.
+    """A random room for a head that moves along ``path`` (M, 3), meters, always in front of all things.
 
-    floor: its height y, metres. skin: a color (3,), BGR, for some things on lines of sight to the path; None
+    floor: its height y, meters. skin: a color (3,), BGR, for some things on lines of sight to the path; None
     for no such things.
     """
     wall = float(path[:, 2].max()) + rng.uniform(1.0, 2.5)
@@ -73,7 +73,7 @@ def render_room(camera: RayCamera, room: StereoRoom, lamp: Lamp) -> RayImage:
 def is_clear(center: Array, radius: float, path: Array) -> bool:
     """Whether the head stays in front of a thing, with a margin, wherever both share a line of sight.
 
-    center, radius: the thing's, metres. path: (M, 3) of the head.
+    center, radius: the thing's, meters. path: (M, 3) of the head.
     """
     apart = np.hypot(*(path[:, :2] / path[:, 2:] - center[:2] / center[2]).T)
     meets = apart < HEAD_RADIUS / path[:, 2] + radius / center[2] + 0.05  # parallax of the right camera

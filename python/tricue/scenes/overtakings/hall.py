@@ -12,11 +12,11 @@ from tricue.scenes.rendering.rectangles import make_rectangle_texture, make_upri
 from tricue.scenes.rendering.stereo_camera import RayCamera, RayImage, TexturedRectangle
 
 HALL_RECTANGLES = 16
-MIN_GAP_BEHIND_WALKERS = 1.4  # metres behind the farthest path
-HALL_HALF_WIDTH = 7.0  # metres
-WALL_HEIGHT, MAX_HANGING_HEIGHT = 5.0, 3.2  # metres above the floor: of walls, and of things on them
-RECTANGLE_OVERLAP = 0.01  # metres, so that no ray passes between two rectangles
-FLOOR_STRIP_DEPTHS = np.array([3.0, 4.8, 5.8, 7.0, 8.6, 11.0])  # metres, z of the floor's strips
+MIN_GAP_BEHIND_WALKERS = 1.4  # meters behind the farthest path
+HALL_HALF_WIDTH = 7.0  # meters
+WALL_HEIGHT, MAX_HANGING_HEIGHT = 5.0, 3.2  # meters above the floor: of walls, and of things on them
+RECTANGLE_OVERLAP = 0.01  # meters, so that no ray passes between two rectangles
+FLOOR_STRIP_DEPTHS = np.array([3.0, 4.8, 5.8, 7.0, 8.6, 11.0])  # meters, z of the floor's strips
 
 
 class Hall(NamedTuple):
@@ -42,9 +42,9 @@ class Hall(NamedTuple):
 def furnish_hall(
     floor: float, farthest: float, angles: tuple[float, float], rng: np.random.Generator
 ) -> Hall:
-    """A random hall with its floor at y = ``floor``, metres.
+    """A random hall with its floor at y = ``floor``, meters.
 
-    farthest: the largest distance of a path from the cameras, metres. angles: the leftmost and the rightmost
+    farthest: the largest distance of a path from the cameras, meters. angles: the leftmost and the rightmost
     angle that the cameras see, radians.
     """
     wall = farthest + rng.uniform(3.5, 6.0)

@@ -33,7 +33,7 @@ from tricue.scenes.scene import Events, WalkScene
 OVERTAKING_KINDS = ("plain", "varied")
 MAX_OVERTAKING_FRAMES = 2 * STORY_FRAMES  # later the camera would pan out of the hall
 MISSING_SHARE = 0.02  # of the depth camera's pixels
-MAX_OVERTAKING_DEPTH = 16.0  # metres, of the depth camera's range
+MAX_OVERTAKING_DEPTH = 16.0  # meters, of the depth camera's range
 WEARS_COAT = False, True, False  # target, overtaker (whose coat hides the target's legs), standing person
 
 
@@ -102,7 +102,7 @@ class _PanningStage(NamedTuple):
     def build(
         cls, geometry: WalkGeometry, depths: tuple[float, float, float], rays: int, rng: np.random.Generator
     ) -> "_PanningStage":
-        """depths: of the three people, metres, approximately."""
+        """depths: of the three people, meters, approximately."""
         cameras = RayCamera.pair(geometry.pan.rig, rays)
         focal = cameras[0].intrinsics.fx
         people = [person.at_detail(at, focal) for person, at in zip(geometry.people, depths, strict=True)]
@@ -123,7 +123,7 @@ class _PanningStage(NamedTuple):
 def _sample_geometry(
     plan: OvertakingPlan, camera: str, frames: int, rng: np.random.Generator
 ) -> tuple[WalkGeometry, tuple[float, float, float]]:
-    """People on their paths through a hall, and the approximate distance of each, metres."""
+    """People on their paths through a hall, and the approximate distance of each, meters."""
     people, paths = _sample_people(plan, camera, frames, rng)
     farthest = max(np.hypot(*paths.target.T).max(), np.hypot(*paths.standing))
     hall = furnish_hall(paths.pan.height, float(farthest), paths.pan.reach, rng)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A stereo rig that pans about the vertical with constant angular velocity.
 
-The level frame is fixed to the room, with the left camera at its origin: x right, y down, z forward, metres.
+The level frame is fixed to the room, with the left camera at its origin: x right, y down, z forward, meters.
 The rig rotates about the left camera's center.
 """
 
@@ -19,7 +19,7 @@ class Pan(NamedTuple):
     """The rig, and the angle that it looks at in each of M frames."""
 
     rig: StereoRig
-    height: float  # of the cameras above the floor, metres
+    height: float  # of the cameras above the floor, meters
     angles: Array  # (M,) radians from z towards x
 
     def to_camera(self, index: int) -> Array:
@@ -29,7 +29,7 @@ class Pan(NamedTuple):
     def on_floor(self, column: Array, depth: Array) -> Array:
         """The places (M, 2), x and z in the level frame, at a column and a depth in each frame.
 
-        column: X / Z in the camera's frame. depth: z in the camera's frame, metres.
+        column: X / Z in the camera's frame. depth: z in the camera's frame, meters.
         """
         sin, cos = np.sin(self.angles), np.cos(self.angles)
         return np.stack([(cos * column + sin) * depth, (cos - sin * column) * depth], axis=1)

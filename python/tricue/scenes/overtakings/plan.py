@@ -33,7 +33,7 @@ class OvertakingPlan(NamedTuple):
     speed_gain: float  # pixels per frame by which the overtaker is faster
     overtaking_frame: float  # the frame in which the overtaker covers the target
     passing_frame: float  # the frame in which the target passes the standing person
-    standing_depth_offset: float  # metres from the target to the standing person then; below 0 nearer
+    standing_depth_offset: float  # meters from the target to the standing person then; below 0 nearer
     depth_drift: float  # relative change of the target's depth over all events
     height_ratio: float  # the overtaker's body height divided by the target's
     clothes_contrast: tuple[float, float, float]  # of target, overtaker, standing person
@@ -80,7 +80,7 @@ def sample_plan(rng: np.random.Generator) -> OvertakingPlan:
 
 
 class OvertakingPaths(NamedTuple):
-    """Where the three people are, metres in the level frame."""
+    """Where the three people are, meters in the level frame."""
 
     pan: Pan
     target: Array  # (M, 2) x and z

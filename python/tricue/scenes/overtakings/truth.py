@@ -76,7 +76,7 @@ class WalkGeometry(NamedTuple):
         return FrameTruth(target, (overtaker, standing), mask, zbuffer.box_of_mask(mask), visible)
 
     def depth(self, index: int) -> Array:
-        """The depth z (H, W) at each pixel's center, metres."""
+        """The depth z (H, W) at each pixel's center, meters."""
         return self._render(index)[0]
 
     def disparity(self, index: int) -> NDArray[np.float32]:

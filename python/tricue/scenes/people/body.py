@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A human body made of ellipsoids, posed by a few joint angles; its outline and depth are exact.
 
-Body frame: x to the person's right, y down, z forward, metres; the origin is on the floor. Lengths are those
+Body frame: x to the person's right, y down, z forward, meters; the origin is on the floor. Lengths are those
 of Drillis and Contini (1966), as shares of the height, from figure 4.1 of Winter, "Biomechanics and Motor
 Control of Human Movement". Thicknesses are our own estimates.
 """
@@ -33,7 +33,7 @@ UNSCALED_PARTS = ("neck", "head")  # not scaled by the build
 class Person(NamedTuple):
     """A person's measures."""
 
-    height: float  # metres
+    height: float  # meters
     build: float  # breadth and thickness, relative to the average
 
     @classmethod
@@ -68,7 +68,7 @@ def build_oriented_body(person: Person, pose: BodyPose) -> OrientedEllipsoids:
 
 
 def place_body(person: Person, pose: BodyPose, x: float, z: float, yaw: float, floor: float) -> Ellipsoids:
-    """A person's body at (x, floor, z) in a level frame (x right, y down, z forward, metres).
+    """A person's body at (x, floor, z) in a level frame (x right, y down, z forward, meters).
 
     yaw: the heading, radians: 0 along z, pi / 2 along x.
     """

@@ -71,7 +71,7 @@ class Pedestrian(NamedTuple):
 
     @classmethod
     def walk(cls, person: Person, outfit: Outfit, path: Array, floor: float, rate: float) -> "Pedestrian":
-        """A person who walks along a path (M, 2), x and z in metres, on the floor y = ``floor``."""
+        """A person who walks along a path (M, 2), x and z in meters, on the floor y = ``floor``."""
         poses = [
             pose._replace(swing=max(pose.swing, MIN_LEG_SWING))
             for pose in walks.compute_poses(person, path, rate)
@@ -105,7 +105,7 @@ class Pedestrian(NamedTuple):
         return cls(parts, [outfit.part_textures[worn] for worn in PART_TEXTURES[: len(parts[0].centers)]])
 
     def at_detail(self, depth: float, focal: float) -> "Pedestrian":
-        """The pedestrian with the texture levels that fit a depth (metres) and a focal length (pixels)."""
+        """The pedestrian with the texture levels that fit a depth (meters) and a focal length (pixels)."""
         girths = 2 * np.pi * np.linalg.norm(self.parts[0].roots[:, :, [0, 2]], axis=1).max(axis=1)
         part_textures = [
             textures.select_level(texture, texture[0].shape[1] / girth * depth / focal)

@@ -20,10 +20,10 @@ from tricue.scenes.rendering.depth_view import DepthWindow, MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
 from tricue.scenes.scene import Bystander, DepthScene
 
-MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # metres; a body fits into the image from there on
-MAX_WALKER_DISTANCE = 6.2  # metres; within the range of both sensors
-DEPTH_CHANGE_SPEED = 1.2  # metres per second of a hidden target
-MAX_DEPTH_CHANGE = 1.3  # metres
+MIN_WALKER_DISTANCE = {"tof": 2.4, "rgbd": 2.0}  # meters; a body fits into the image from there on
+MAX_WALKER_DISTANCE = 6.2  # meters; within the range of both sensors
+DEPTH_CHANGE_SPEED = 1.2  # meters per second of a hidden target
+MAX_DEPTH_CHANGE = 1.3  # meters
 MAX_HIDDEN_SHARE = 0.6  # of the duration of a sweep
 COVERING_DURATION = 0.4  # seconds until the target is covered, and uncovered again
 
@@ -63,7 +63,7 @@ def crossing(
 ) -> DepthScene:
     """A nearer person crosses in front of the target and hides it for some frames halfway.
 
-    depth_change: metres, at most 1.3 either way, by which the target moves away (below 0: nearer) while it is
+    depth_change: meters, at most 1.3 either way, by which the target moves away (below 0: nearer) while it is
     hidden, which then takes longer. In half of the seeds a third person passes behind. They turn around and
     cross again every six seconds; one crossing takes at least about two seconds (30 frames "tof", 60 "rgbd").
     The other arguments and errors are those of :func:`walker`.
@@ -105,7 +105,7 @@ class _Actor(NamedTuple):
     """A person's path and poses in a scene."""
 
     person: Person
-    path: Array  # (M, 2) x and z, metres, level frame
+    path: Array  # (M, 2) x and z, meters, level frame
     facing: Array  # (M,) radians
     poses: list[BodyPose]
 
@@ -227,8 +227,8 @@ def _check(frames: int, camera: str, missing: float, noise: float) -> None:
         raise ValueError(f"noise: expected a factor of 0 or more, got {noise!r}")
 
 
-def _check_depth_change(metres: float, span: float) -> None:
+def _check_depth_change(meters: float, span: float) -> None:
     """Raise ValueError where the target can't walk that far while hidden, in a sweep of ``span`` seconds."""
     most = min(MAX_DEPTH_CHANGE, max(MAX_HIDDEN_SHARE * span - COVERING_DURATION, 0.0) * DEPTH_CHANGE_SPEED)
-    if abs(finite(metres, "depth_change", "metres")) > most:
-        raise ValueError(f"depth_change: expected at most {most:.2f} m in {span:.1f} s, got {metres!r}")
+    if abs(finite(meters, "depth_change", "meters")) > most:
+        raise ValueError(f"depth_change: expected at most {most:.2f} m in {span:.1f} s, got {meters!r}")

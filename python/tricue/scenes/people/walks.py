@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """How people walk: paths over a floor at walking speed, headings, gestures, and poses.
 
-Level frame, seen from above: x right, z away from the camera, metres; the camera is at the origin.
+Level frame, seen from above: x right, z away from the camera, meters; the camera is at the origin.
 """
 
 import math
@@ -14,23 +14,23 @@ from tricue.scenes.arrays import Array
 from tricue.scenes.people.body import BodyPose, Person
 from tricue.scenes.rendering.depth_room import Furniture
 
-MIN_WALKING_SPEED, MAX_WALKING_SPEED = 0.3, 1.5  # metres per second
+MIN_WALKING_SPEED, MAX_WALKING_SPEED = 0.3, 1.5  # meters per second
 MAX_TURN_RATE = 5.0  # radians per second, of a walker's heading
-BODY_CLEARANCE = 0.5  # metres to each side of a walker
-ARM_CLEARANCE = 1.1  # metres, with spread arms
+BODY_CLEARANCE = 0.5  # meters to each side of a walker
+ARM_CLEARANCE = 1.1  # meters, with spread arms
 SWEEP_DURATION = 6.0  # seconds after which crossing people turn around
 
 
 class WalkableArea(NamedTuple):
-    """Where a person can walk and is visible: ``near`` to ``far`` metres away, within the angle of view."""
+    """Where a person can walk and is visible: ``near`` to ``far`` meters away, within the angle of view."""
 
     near: float
     far: float
     slope: float  # tangent of half the horizontal angle of view
-    side: float  # metres to each side at most
+    side: float  # meters to each side at most
 
     def reach(self, z: Array) -> Array:
-        """How far to each side a walker at depth z may go, to be visible and clear of the walls, metres."""
+        """How far to each side a walker at depth z may go, to be visible and clear of the walls, meters."""
         return np.minimum(self.slope * z, self.side) - BODY_CLEARANCE
 
 
@@ -96,7 +96,7 @@ def _on_floor(floor: WalkableArea, shape: Array, middle: Array, size: float) -> 
 
 
 def _lengths(curve: Array) -> Array:
-    """The arc length of a curve (n, 2) at each of its points, metres."""
+    """The arc length of a curve (n, 2) at each of its points, meters."""
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=0).T))])
 
 
@@ -163,7 +163,7 @@ def place_furniture(
 
 
 def _distance_to_sight_lines(place: tuple[float, float], paths: Array) -> float:
-    """The distance of a place from the nearest line between the camera and a path's point, metres."""
+    """The distance of a place from the nearest line between the camera and a path's point, meters."""
     share = np.clip((paths @ place) / (paths**2).sum(axis=1), 0, 1)
     return float(np.hypot(*(share[:, None] * paths - place).T).min())
 

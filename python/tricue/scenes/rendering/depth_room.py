@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 
 class Furniture(NamedTuple):
-    """An upright box on the floor, metres in the level frame; see tricue.scenes.rendering.depth_view."""
+    """An upright box on the floor, meters in the level frame; see tricue.scenes.rendering.depth_view."""
 
     x: float
     z: float
@@ -16,7 +16,7 @@ class Furniture(NamedTuple):
 
 
 class Room(NamedTuple):
-    """A room around the camera, which stands at the origin; metres in the level frame."""
+    """A room around the camera, which stands at the origin; meters in the level frame."""
 
     wall: float  # depth z of the back wall
     side: float  # distance of the left and the right wall

@@ -17,7 +17,7 @@ FLYING_PIXEL_SHARE = 0.5  # of the pixels at edges (one on each side) of a time-
 
 @dataclass(frozen=True, slots=True)
 class DepthSensor:
-    """A depth sensor, with white noise of deviation ``base_noise + noise_growth * z^2`` metres at depth z.
+    """A depth sensor, with white noise of deviation ``base_noise + noise_growth * z^2`` meters at depth z.
 
     The time-of-flight camera is the SR-3000 of Sabeti, Parvizi and Wu (2008), section V; its noise of about
     1 cm at 2 m and 3 cm at 6 m is our estimate. The RGB-D camera has the Kinect's noise and quantization by
@@ -27,22 +27,22 @@ class DepthSensor:
 
     intrinsics: Intrinsics
     rate: float  # frames per second
-    near: float  # metres; depths outside of near to far are missing
+    near: float  # meters; depths outside of near to far are missing
     far: float
-    base_noise: float  # metres
-    noise_growth: float  # per metre
-    inverse_depth_step: float  # per metre: 1 / z is rounded to multiples of it; 0 means no rounding
+    base_noise: float  # meters
+    noise_growth: float  # per meter
+    inverse_depth_step: float  # per meter: 1 / z is rounded to multiples of it; 0 means no rounding
     has_flying_pixels: bool  # whether pixels at edges measure a depth between both surfaces
     dropout_grain: float  # pixels, the sigma of the Gaussian that shapes the patches of missing pixels
 
     def noise_deviation(self, depth: Array) -> Array:
-        """The standard deviation of the noise at each depth, metres."""
+        """The standard deviation of the noise at each depth, meters."""
         return self.base_noise + self.noise_growth * depth**2
 
     def measure(
         self, depth: Array, rng: np.random.Generator, *, missing: float = 0.03, noise: float = 1.0
     ) -> NDArray[np.float32]:
-        """The depth image (H, W) of a z-buffer, float32 metres, NaN where nothing was measured.
+        """The depth image (H, W) of a z-buffer, float32 meters, NaN where nothing was measured.
 
         missing: share of the pixels within range that have no depth, in patches and mostly at edges.
         noise: multiplies the noise, and up to 1 also the share of flying pixels; at 0 depths are exact.

@@ -2,7 +2,7 @@
 """Exact z-buffers of ellipsoids and of a room, by ray casting.
 
 Rays go through the pixel centers, and a ray's depth is its length along z. The level frame is the camera's
-frame without its pitch: x right, y straight down, z forward, metres.
+frame without its pitch: x right, y straight down, z forward, meters.
 """
 
 import math
@@ -41,7 +41,7 @@ class DepthWindow(NamedTuple):
 
 
 class MountedCamera(NamedTuple):
-    """A camera ``height`` metres above the floor, looking down by ``pitch`` radians."""
+    """A camera ``height`` meters above the floor, looking down by ``pitch`` radians."""
 
     intrinsics: Intrinsics
     height: float
@@ -106,7 +106,7 @@ class MountedCamera(NamedTuple):
         return depth
 
     def surface_points(self, window: DepthWindow) -> Array:
-        """The surface points (n, 3) of a z-buffer, metres in the camera frame."""
+        """The surface points (n, 3) of a z-buffer, meters in the camera frame."""
         rows, columns = np.nonzero(np.isfinite(window.depth))
         return self.intrinsics.back_project(
             columns + window.left, rows + window.top, window.depth[rows, columns]

@@ -9,8 +9,8 @@ from tricue.scenes.arrays import Array
 class Ellipsoids(NamedTuple):
     """Ellipsoids {p : (p - c)^T S^-1 (p - c) <= 1}; S is R diag(semi-axes^2) R^T."""
 
-    centers: Array  # (n, 3), metres
-    shapes: Array  # (n, 3, 3), square metres
+    centers: Array  # (n, 3), meters
+    shapes: Array  # (n, 3, 3), square meters
 
     def transformed(self, rotation: Array, offset: Array) -> "Ellipsoids":
         """The ellipsoids after each point p has moved to rotation @ p + offset."""
@@ -23,8 +23,8 @@ class OrientedEllipsoids(NamedTuple):
     A point q of the ball stays the same point of the body while it moves, which shapes alone don't tell.
     """
 
-    centers: Array  # (n, 3), metres
-    roots: Array  # (n, 3, 3), metres
+    centers: Array  # (n, 3), meters
+    roots: Array  # (n, 3, 3), meters
 
     @property
     def ellipsoids(self) -> Ellipsoids:

@@ -8,7 +8,7 @@ from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.stereo_camera import TexturedRectangle
 
-TEXELS_PER_METRE = 250.0  # texels per metre
+TEXELS_PER_METER = 250.0  # texels per meter
 
 
 def make_upright_rectangle(
@@ -16,7 +16,7 @@ def make_upright_rectangle(
 ) -> TexturedRectangle:
     """A rectangle around ``center`` (3,), rotated about the vertical by ``yaw``.
 
-    half: (2,) half its width and height, metres.
+    half: (2,) half its width and height, meters.
     """
     along = 2 * half[0] * np.array([np.cos(yaw), 0, np.sin(yaw)])
     down = np.array([0, 2 * half[1], 0])
@@ -26,9 +26,9 @@ def make_upright_rectangle(
 def make_rectangle_texture(
     kind: str, size: Array, color: NDArray[np.float64], rng: np.random.Generator
 ) -> list[Picture]:
-    """A texture pyramid for a rectangle of this width and height (2,), metres.
+    """A texture pyramid for a rectangle of this width and height (2,), meters.
 
     kind: one of textures.SURFACE_KINDS. color: its mean (3,), BGR.
     """
-    columns, rows = (size * TEXELS_PER_METRE).astype(int).clip(16, 320).tolist()
+    columns, rows = (size * TEXELS_PER_METER).astype(int).clip(16, 320).tolist()
     return textures.build_pyramid(textures.make_surface(kind, (rows, columns), color, rng))

@@ -2,7 +2,7 @@
 """Color images of textured ellipsoids and rectangles by ray casting, for one camera or a stereo pair.
 
 Several rays per pixel are averaged, so that edges and textures are placed with subpixel accuracy. Frame: the
-left camera's, x right, y down, z forward, metres.
+left camera's, x right, y down, z forward, meters.
 """
 
 import math
@@ -20,11 +20,11 @@ from tricue.scenes.rendering.textures import sample_texture
 
 RAYS_PER_PIXEL = {"160x120": 3, "640x480": 2}  # by image size; along each axis
 BLUR_DEVIATION = 0.5  # pixels, the sigma of the blur of lens and sensor, beside that of averaging
-MIN_RAY_DEPTH = 0.05  # metres
+MIN_RAY_DEPTH = 0.05  # meters
 
 
 class TexturedRectangle(NamedTuple):
-    """A rectangle whose perpendicular sides ``along`` and ``down`` begin at ``corner``; all (3,), metres."""
+    """A rectangle whose perpendicular sides ``along`` and ``down`` begin at ``corner``; all (3,), meters."""
 
     corner: Array
     along: Array
@@ -76,7 +76,7 @@ class RayCamera(NamedTuple):
     """A camera at (offset, 0, 0) that casts ``rays`` by ``rays`` rays per pixel."""
 
     intrinsics: Intrinsics  # of the grid of rays
-    offset: float  # metres
+    offset: float  # meters
     rays: int
 
     @classmethod
@@ -161,7 +161,7 @@ class RayCamera(NamedTuple):
         u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
         girth = (
             2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))
-        )  # metres around the equator, approximately
+        )  # meters around the equator, approximately
         texels = ellipsoid.texture[0].shape[1] / girth * float(ellipsoid.center[2]) / self.intrinsics.fx
         return sample_texture(ellipsoid.texture, u, v + np.float32(0.5), texels)
 

@@ -31,14 +31,14 @@ TARGET_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistoch
 WALL_PHOTOGRAPHS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry")
 TARGET_TEXELS = 144  # of a target's longer side
 SHUFFLE_BLOCKS = 4  # along each side, which the look-alike of the target's colors has in another order
-FLOOR_HEIGHT = 1.6  # metres below the camera, so that the target stays above the floor
-WALL_DISTANCES = 4.7, 6.0  # metres to the back wall
+FLOOR_HEIGHT = 1.6  # meters below the camera, so that the target stays above the floor
+WALL_DISTANCES = 4.7, 6.0  # meters to the back wall
 MAX_WINDOW_TRIES = 24
 MIN_TARGET_CONTRAST, MIN_TARGET_DETAIL, MIN_WALL_DISTANCE = 28.0, 7.0, 0.6
 
 
 class StressCards(NamedTuple):
-    """The moving cards. All have the target's size in metres, but the occluder, which is 1 by 1."""
+    """The moving cards. All have the target's size in meters, but the occluder, which is 1 by 1."""
 
     target: Card
     same_colors: Card  # the target's colors in another structure
@@ -61,7 +61,7 @@ class StressRoom(NamedTuple):
 def make_cards(side: float, wall: str, rng: np.random.Generator) -> StressCards:
     """A random target, its look-alikes and the occluder.
 
-    side: of the target, metres, approximately. wall: the wall's photograph; the target is from another one.
+    side: of the target, meters, approximately. wall: the wall's photograph; the target is from another one.
     """
     aspect = float(np.exp(rng.uniform(np.log(0.6), np.log(1.6))))
     size = side * aspect**0.5, side / aspect**0.5
@@ -162,13 +162,13 @@ def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -
         cv2.copyMakeBorder(picture, over, over, beside, beside, cv2.BORDER_REFLECT), np.uint8
     )
     scale = far * max(camera.width / camera.fx / columns, camera.height / camera.fy / rows)
-    scale *= rng.uniform(1.0, 1.2)  # metres per texel
+    scale *= rng.uniform(1.0, 1.2)  # meters per texel
     size = tiled.shape[1] * scale, tiled.shape[0] * scale
     return Card.from_outline(tiled, rectangle_outline(), size), face_camera(np.array([0.0, 0, far]), 0.0, 0.0)
 
 
 def _floor(far: float, rng: np.random.Generator) -> tuple[Card, CardPose]:
-    """A floor from one metre in front of the camera to the wall."""
+    """A floor from one meter in front of the camera to the wall."""
     kind = [textures.WOOD_SURFACE, textures.PLAIN_SURFACE][rng.integers(2)]
     picture = textures.make_surface(kind, (256, 512), textures.random_color(rng) * 0.5 + 60, rng)
     pose = CardPose(np.array([0, FLOOR_HEIGHT, (1 + far) / 2]), np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))

@@ -2,7 +2,7 @@
 """Flat textured cards before a pinhole camera, drawn from far to near by homographies.
 
 Color, depth and labels come from one geometry, so that they agree to a fraction of a pixel. Camera frame: x
-right, y down, z forward, metres.
+right, y down, z forward, meters.
 """
 
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.textures import build_pyramid, select_level
 
 NO_CARD = 0  # the label of pixels without a labeled card
-MIN_CARD_DEPTH = 0.2  # metres; nearer cards aren't drawn
+MIN_CARD_DEPTH = 0.2  # meters; nearer cards aren't drawn
 OUTLINE_SAMPLES = 4  # along each side of a texel, by which outlines are antialiased
 
 
@@ -26,7 +26,7 @@ class Card(NamedTuple):
 
     levels: Sequence[Picture]  # a pyramid (h, w, 4): BGR times opacity, and opacity, 0 to 1
     outline: Array  # (n, 2) corners of the opaque part, in [0, 1] of width and height
-    size: tuple[float, float]  # metres, width and height
+    size: tuple[float, float]  # meters, width and height
 
     @classmethod
     def from_outline(
@@ -48,7 +48,7 @@ class CardPose(NamedTuple):
     down: Array
 
     def edges(self, card: Card) -> tuple[Array, Array, Array]:
-        """The card's upper left corner, and the vectors (3,) of its upper and its left edge, metres."""
+        """The card's upper left corner, and the vectors (3,) of its upper and its left edge, meters."""
         along, down = self.along * card.size[0], self.down * card.size[1]
         return self.center - (along + down) / 2, along, down
 
@@ -57,13 +57,13 @@ class CardPose(NamedTuple):
         return CardPose(rotation @ self.center, rotation @ self.along, rotation @ self.down)
 
     def points(self, card: Card) -> Array:
-        """The corners (n, 3) of a card's outline, metres."""
+        """The corners (n, 3) of a card's outline, meters."""
         corner, along, down = self.edges(card)
         return np.asarray(corner + card.outline @ np.stack([along, down]))
 
 
 class CardImage(NamedTuple):
-    """An image: color (H, W, 3), depth z (H, W) in metres, and the label (H, W) of the card in each pixel."""
+    """An image: color (H, W, 3), depth z (H, W) in meters, and the label (H, W) of the card in each pixel."""
 
     color: Picture
     depth: Picture

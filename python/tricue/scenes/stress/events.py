@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The events of a stress scene, and the paths of all cards, frame by frame.
 
-Paths are pixels in the image and metres along z, for trackers follow the target's motion in the image. The
+Paths are pixels in the image and meters along z, for trackers follow the target's motion in the image. The
 camera's pan moves only the room; its shake moves all cards.
 """
 
@@ -22,7 +22,7 @@ MAX_ROLL, MAX_YAW = np.radians(10), np.radians(12)
 MIN_GAIN, MAX_GAIN = 0.4, 1.3  # of the light
 BLACK_FRAMES, OTHER_ROOM_FRAMES = 8, 24
 EVENT_LEAD_FRAMES = 20  # from an event's start until the target may be gone
-MIN_OCCLUDER_DEPTH = 0.55  # metres; the depth camera measures from 0.5 on
+MIN_OCCLUDER_DEPTH = 0.55  # meters; the depth camera measures from 0.5 on
 
 
 @dataclass
@@ -31,7 +31,7 @@ class CardPath:
 
     card: Card
     pixels: Array  # (N, 2) of the center in the image, OpenCV's coordinates
-    depth: Array  # (N,) metres
+    depth: Array  # (N,) meters
     roll: Array  # (N,) radians
     yaw: Array  # (N,) radians about the vertical
     present: NDArray[np.bool_]  # (N,) whether the card is in the scene

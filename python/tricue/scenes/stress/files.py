@@ -24,7 +24,7 @@ def write_sequence(scene: StressScene, folder: str | Path) -> None:
     """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
 
     A stereo pair goes to left/ and right/ with calibration.yml. Other scenes become a sequence of VOT with
-    color/, depth/ in millimetres, or both, and intrinsics.toml; their boxes are clipped to the image. The
+    color/, depth/ in millimeters, or both, and intrinsics.toml; their boxes are clipped to the image. The
     truth goes to boxes.csv, with empty cells where nothing of the target is visible, which readers take as
     absent. Of the times only the frame rate is kept, and of a stereo pair's not even that.
     FileExistsError where the folder has files already.
@@ -52,7 +52,7 @@ def write_sequence(scene: StressScene, folder: str | Path) -> None:
 
 
 def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
-    """Write color as it is, and depth (float32 metres) as 16-bit millimetres, 0 where unmeasured."""
+    """Write color as it is, and depth (float32 meters) as 16-bit millimeters, 0 where unmeasured."""
     if image.dtype == np.float32:
         image = np.rint(np.nan_to_num(image) * 1000).astype(np.uint16)
     if not cv2.imwrite(str(path), image):

@@ -32,7 +32,7 @@ MAX_SPEED, MAX_FAST_SPEED = 0.08, 0.5  # of the target, in its widths per frame
 def plan_motion(
     kind: str, camera: Intrinsics, cards: StressCards, middle: float, rng: np.random.Generator
 ) -> StressMotion:
-    """The motion and the events of a scene. kind: one of FRAME_COUNTS. middle: the mean depth, metres."""
+    """The motion and the events of a scene. kind: one of FRAME_COUNTS. middle: the mean depth, meters."""
     frames = FRAME_COUNTS[kind]
     depth = _depth(kind, frames, middle, rng)
     speed = MAX_FAST_SPEED if kind == "fast" else MAX_SPEED
@@ -76,7 +76,7 @@ def _spans(kind: str, frames: int, rng: np.random.Generator) -> dict[str, range]
 
 
 def _depth(kind: str, frames: int, middle: float, rng: np.random.Generator) -> Array:
-    """The target's depth (N,), metres: 1:4 and back, or varying by a tenth."""
+    """The target's depth (N,), meters: 1:4 and back, or varying by a tenth."""
     time = np.arange(frames)
     if kind in ("scale", "all"):
         phase = np.pi * (rng.integers(2) if kind == "scale" else rng.random() * 2)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.data.depth_images import METRES_PER_MILLIMETRE
+from tricue.data.depth_images import METERS_PER_MILLIMETER
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS, DepthSensor
 from tricue.scenes.rendering.stereo_camera import BLUR_DEVIATION, expose_lit
@@ -42,7 +42,7 @@ class StressScene:
     seed: int
     frames: tuple[Frame, ...]
     """N frames with the requested channels and ``timestamp``, seconds from 0. Depth is rounded to
-    millimetres, as cameras give it, and NaN in black frames."""
+    millimeters, as cameras give it, and NaN in black frames."""
     boxes: Array
     """(N, 4) x, y, width, height around the whole target, pixels, hidden parts included; it may reach beyond
     the image. NaN where the target is wholly outside of the image, and in the other room."""
@@ -50,7 +50,7 @@ class StressScene:
     """(N,) share of the target's pixels that are visible; those beyond the image count as hidden. 0 also in
     black frames and in the other room."""
     positions: Array
-    """(N, 3) the target's center, metres in the camera's frame; NaN where the box is NaN."""
+    """(N, 3) the target's center, meters in the camera's frame; NaN where the box is NaN."""
     lookalikes: tuple[Array, ...]
     """(N, 4) boxes of the two look-alikes: same colors, and same structure; NaN outside of the image."""
     masks: tuple[Mask, ...]
@@ -171,11 +171,11 @@ class _StressCameras(NamedTuple):
 def _measure(
     sensor: DepthSensor, depth: Picture, black: np.bool_, rng: np.random.Generator
 ) -> NDArray[np.float32]:
-    """A depth image, rounded to millimetres; NaN in black frames."""
+    """A depth image, rounded to millimeters; NaN in black frames."""
     if black:
         return np.full(depth.shape, np.nan, np.float32)
     measured = sensor.measure(depth.astype(np.float64), rng)
-    return np.asarray(np.rint(measured * 1000) * np.float32(METRES_PER_MILLIMETRE), np.float32)
+    return np.asarray(np.rint(measured * 1000) * np.float32(METERS_PER_MILLIMETER), np.float32)
 
 
 def _check(kind: str, seed: int, size: tuple[int, int], channels: str, noise: float, shutter: float) -> None:

@@ -19,9 +19,9 @@ from tricue.scenes.stress.cards import CardCamera, CardImage
 from tricue.scenes.stress.events import CardPath, StressMotion
 from tricue.scenes.stress.plan import plan_motion
 
-FIELD_OF_VIEW, STRESS_BASELINE = 60.0, 0.12  # horizontal, degrees; metres
+FIELD_OF_VIEW, STRESS_BASELINE = 60.0, 0.12  # horizontal, degrees; meters
 TARGET_SIZE = 0.24  # of the target at its mean depth, as a share of the image's height, approximately
-MEAN_TARGET_DEPTH = 1.8  # metres
+MEAN_TARGET_DEPTH = 1.8  # meters
 TARGET_LABEL, LOOKALIKE_LABELS, OCCLUDER_LABEL = 1, (2, 3), 4  # in a canvas
 
 

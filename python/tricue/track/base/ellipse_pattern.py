@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where in an ellipse, and round it, pixels are read: places (u, v) in semi-axes, (0, 0) the centre."""
+"""Where in an ellipse, and round it, pixels are read: places (u, v) in semi-axes, (0, 0) the center."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ GOLDEN_ANGLE = np.pi * (3 - np.sqrt(5))
 
 
 def grid(rows: int, columns: int, reach: float = 1.0) -> NDArray[np.float64]:
-    """(rows x columns, 2): the centres of a regular grid over [-reach, reach]², the ellipse's box where reach
+    """(rows x columns, 2): the centers of a regular grid over [-reach, reach]², the ellipse's box where reach
     is 1.
     """
     v = ((np.arange(rows) + 0.5) * 2 / rows - 1) * reach

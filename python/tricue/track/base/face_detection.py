@@ -15,10 +15,10 @@ WIDTH, HEIGHT = 0.75, 0.95  # of the square: the head that is in it, as hand-dra
 
 
 def find_face(image: NDArray[np.uint8]) -> Box | None:
-    """The largest frontal face in a BGR or grey image, or None; ImportError where cv2 has none, as 5.x."""
-    grey = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    smallest = max(20, min(grey.shape) // 10)
-    found = _cascade().detectMultiScale(grey, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest))
+    """The largest frontal face in a BGR or gray image, or None; ImportError where cv2 has none, as 5.x."""
+    gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    smallest = max(20, min(gray.shape) // 10)
+    found = _cascade().detectMultiScale(gray, scaleFactor=1.1, minNeighbors=5, minSize=(smallest, smallest))
     squares = [Box(*map(float, square)) for square in found]
     largest = max(squares, key=lambda square: square.area, default=None)
     return None if largest is None else _narrowed(largest)

@@ -30,8 +30,8 @@ class Track:
 
     box: pixels; it may reach over the image's edge.
     score: confidence in [0, 1].
-    position: (3,) float64, metres in the camera frame (x right, y down, z forward), or None without depth.
-    covariance: (3, 3) of the position, square metres, or None.
+    position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
+    covariance: (3, 3) of the position, square meters, or None.
     """
 
     box: Box

@@ -36,7 +36,7 @@ class Traits:
     guesses: whether it tells positions by a default camera where none is known; else it tells none.
     detects: what it finds by itself when ``init`` gets no box; None where it needs an initial box.
     random: whether it draws random numbers, so that tracks depend on ``seed``.
-    disparity_range: the parameters, in metres, that bound where it looks for a target in a stereo pair.
+    disparity_range: the parameters, in meters, that bound where it looks for a target in a stereo pair.
     shows: attributes that can be drawn, of those that overlays know: particles (N, 2 or more) with x, y in
         pixels first, objects (boxes), mask (H, W), blocks (boxes of the target, boxes that are occluded).
     follows: a few words for tables: what it tracks, and by what.

@@ -17,7 +17,7 @@ from tricue.track.base.params import Params
 State = TypeVar("State")
 P = TypeVar("P", bound=Params)
 
-USUAL_BASELINE = 0.12  # metres, of a rig that nobody described
+USUAL_BASELINE = 0.12  # meters, of a rig that nobody described
 LONGEST = 1.0  # s between two frames, as far as a tracker cares
 SHORTEST = 1e-6  # s; nearer to each other than clocks tell, and the velocities of it have no end
 USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
@@ -81,7 +81,7 @@ def started(state: State | None) -> State:
 def depth_image(
     frame: FrameLike, shape: tuple[int, ...] | None = None
 ) -> tuple[NDArray[np.float32], float | None]:
-    """The frame's depth, (H, W) float32 metres with NaN, and its timestamp. ValueError for another shape than
+    """The frame's depth, (H, W) float32 meters with NaN, and its timestamp. ValueError for another shape than
     the first frame's.
     """
     channels = as_frame(frame)
@@ -96,7 +96,7 @@ def depth_image(
 def stereo_pair(
     frame: FrameLike, shape: tuple[int, ...] | None = None
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float | None]:
-    """The frame's left image, BGR (H, W, 3), its right one, BGR or grey, and its timestamp. ValueError as
+    """The frame's left image, BGR (H, W, 3), its right one, BGR or gray, and its timestamp. ValueError as
     :func:`color_image`, and without a right image.
     """
     channels = as_frame(frame)

@@ -13,7 +13,7 @@ NO_FLOOR = np.zeros(6)
 UP = np.array([0.0, -1.0, 0.0])  # camera frame
 MIN_FLOOR_COSINE = 0.6  # of the floor's normal with UP: the camera is tilted or rolled by up to 53 degrees
 FLOOR_COLUMNS = 80  # of the thinned image in which the floor is searched
-FLOOR_TOLERANCE = 0.04  # metres, of a point on the floor
+FLOOR_TOLERANCE = 0.04  # meters, of a point on the floor
 FLOOR_TRIALS = 128  # planes tried
 MIN_SUPPORT_KEPT = 0.8  # of the known floor's support: the camera hasn't moved
 MIN_FLOOR_SUPPORT = 0.06  # of all points, on a new floor
@@ -26,7 +26,7 @@ def find_floor(
     """The plane (6,) with much support and hardly any points below it.
 
     known: the plane of the last frame, or NO_FLOOR. It is kept while it has its support, and where this frame
-    has no better one. camera: (4,) of this image. near: metres, the smallest depth used.
+    has no better one. camera: (4,) of this image. near: meters, the smallest depth used.
 
     A plane is its unit normal, its distance from the camera, and the shares of the points on and below it.
     """

@@ -18,7 +18,7 @@ Depth = NDArray[np.float32]
 
 
 class Foreground(NamedTuple):
-    """Depth (h, w), metres, NaN in the background, and its camera (4,) fx, fy, cx, cy, pixels.
+    """Depth (h, w), meters, NaN in the background, and its camera (4,) fx, fy, cx, cy, pixels.
 
     Its pixel (i, j) is pixel (step i, step j) of the frame.
     """
@@ -36,7 +36,7 @@ def extract_foreground(
     rng: np.random.Generator,
     p: SegmentationParams,
 ) -> tuple[Foreground, Floats]:
-    """The foreground of a depth image (H, W), metres, and the plane (6,) of the floor.
+    """The foreground of a depth image (H, W), meters, and the plane (6,) of the floor.
 
     plane: the floor of the last frame, NO_FLOOR before the first. See :func:`find_floor`.
     """

@@ -17,11 +17,11 @@ Singles = NDArray[np.float32]
 
 DISTRIBUTION_BINS = 16  # of an object's width and height, in its horizontal and vertical distribution
 BORDER = 2  # pixels from the image's border, within which an object may continue outside
-MAX_FEET_HEIGHT = 0.35  # metres: an object whose lower end is lower than that stands on the floor
+MAX_FEET_HEIGHT = 0.35  # meters: an object whose lower end is lower than that stands on the floor
 LEGS_FILL = 0.7  # of the strip of the box that is added down to the floor
-OCCLUDER_DISTANCE = 0.08  # metres from a side of an object, where an occluder is looked for
+OCCLUDER_DISTANCE = 0.08  # meters from a side of an object, where an occluder is looked for
 MAX_SIDE_COVERED = 0.15  # of a side; an object that is covered more is cut there
-NO_EDGES = 1e6  # metres: no jump of the depth is as large
+NO_EDGES = 1e6  # meters: no jump of the depth is as large
 MIN_PIXELS = 8.0  # of an object, whatever its distance
 MAX_DIVISIONS = 255  # of the range of depths: labels have 8 bits
 
@@ -29,12 +29,12 @@ MAX_DIVISIONS = 255  # of the range of depths: labels have 8 bits
 class Objects(NamedTuple):
     """C objects, largest first.
 
-    states: (C, 5) X, Y, Z of the box's center, width and height, metres; Z is the mean depth.
+    states: (C, 5) X, Y, Z of the box's center, width and height, meters; Z is the mean depth.
     cut: (C, 4) whether it may continue beyond its left, right, top, bottom: at the image's border or behind
         an occluder.
-    centroid_offset: (C, 2) from the box's center to the centroid, metres.
+    centroid_offset: (C, 2) from the box's center to the centroid, meters.
     columns, rows: (C, DISTRIBUTION_BINS) horizontal and vertical distribution, each of sum 1.
-    area: (C,) square metres.
+    area: (C,) square meters.
     """
 
     states: Floats

@@ -10,7 +10,7 @@ OURS = "our experiment: benchmarks/README.md"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SegmentationParams(Params):
-    """Lengths are in metres: a person has about the same size everywhere in front of the camera."""
+    """Lengths are in meters: a person has about the same size everywhere in front of the camera."""
 
     near: float = parameter(
         0.3, unit="m", source="section V: the SR-3000's", above=0, doc="smallest depth used"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Projection between upright rectangles in metres and boxes in pixels.
+"""Projection between upright rectangles in meters and boxes in pixels.
 
-A state (5,) is a rectangle in the camera frame: X, Y, Z of its center, width and height, metres.
+A state (5,) is a rectangle in the camera frame: X, Y, Z of its center, width and height, meters.
 A camera (4,) is fx, fy, cx, cy, pixels.
 """
 
@@ -20,7 +20,7 @@ def camera_vector(camera: Intrinsics) -> Floats:
 
 
 def project_rectangle(state: Floats, camera: Floats) -> list[float]:
-    """Center x, y, width and height in pixels, and depth in metres, of a state (5,) in a camera (4,).
+    """Center x, y, width and height in pixels, and depth in meters, of a state (5,) in a camera (4,).
 
     Box coordinates: (0, 0) is the corner of the first pixel, not its center.
     """
@@ -37,7 +37,7 @@ def project_box(state: Floats, camera: Floats) -> Box:
 
 
 def back_project_box(box: Box, z: float, camera: Floats) -> Floats:
-    """The state (5,) at the depth z, metres, that a camera (4,) projects to this box.
+    """The state (5,) at the depth z, meters, that a camera (4,) projects to this box.
 
     The inverse of :func:`project_box`.
     """

@@ -13,11 +13,11 @@ Floats = NDArray[np.float64]
 
 PIECE_REGION = 1.3  # times the expected rectangle, in which pieces of the body are looked for
 MIN_PIECE_INSIDE = 0.8  # of a piece's area, in that region
-MAX_PIECE_DEPTH = 0.4  # metres, from the body's depth to that of a stretched arm or leg
+MAX_PIECE_DEPTH = 0.4  # meters, from the body's depth to that of a stretched arm or leg
 
 
 class Body(NamedTuple):
-    """State (5,) X, Y, Z, width, height, metres; cut (4,) as in :class:`Objects`; and signature."""
+    """State (5,) X, Y, Z, width, height, meters; cut (4,) as in :class:`Objects`; and signature."""
 
     state: Floats
     cut: NDArray[np.bool_]

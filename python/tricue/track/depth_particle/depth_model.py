@@ -81,7 +81,7 @@ class DepthModel(NamedTuple):
         return distance
 
     def _rectangles(self, fg: Foreground, states: Floats) -> tuple[Floats, float]:
-        """(N, 5) rectangles in pixels, and half the histogram's range around their depths, metres.
+        """(N, 5) rectangles in pixels, and half the histogram's range around their depths, meters.
 
         An absolute histogram is one relative to the middle of the camera's range.
         """

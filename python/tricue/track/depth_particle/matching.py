@@ -14,10 +14,10 @@ from tricue.track.depth_particle.signature import Signature
 Floats = NDArray[np.float64]
 
 # Standard deviations of an object that is the target, from the predicted state.
-POSITION_DEVIATION = np.array([0.15, 0.35, 0.15])  # metres of X, Y, Z, plus
-POSITION_DEVIATION_RATE = np.array([0.45, 0.2, 0.45])  # metres per second since the target was seen
+POSITION_DEVIATION = np.array([0.15, 0.35, 0.15])  # meters of X, Y, Z, plus
+POSITION_DEVIATION_RATE = np.array([0.45, 0.2, 0.45])  # meters per second since the target was seen
 SIZE_DEVIATION_SHARE = 0.2  # of the size, plus
-SIZE_DEVIATION = 0.05  # metres
+SIZE_DEVIATION = 0.05  # meters
 
 UNKNOWN_CENTER_WEIGHT = 0.5  # of the position along an axis on which the size is only a lower bound
 LARGER_SIZE_WEIGHT = 0.3  # of a size that exceeds such a lower bound

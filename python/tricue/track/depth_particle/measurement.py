@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-OBJECT_DEVIATION = np.array([0.05, 0.06, 0.06, 0.06, 0.08])  # metres, of a state that an object gives
+OBJECT_DEVIATION = np.array([0.05, 0.06, 0.06, 0.06, 0.08])  # meters, of a state that an object gives
 DEVIATION_FACTOR = 1.2  # times that deviation, in the likelihood
 MAX_OBJECT_COST = 12.0  # nats, for a particle far from the object: the object may be wrong
 
 
 class Measurement(NamedTuple):
-    """A measured state (5,) and its standard deviations (5,), metres.
+    """A measured state (5,) and its standard deviations (5,), meters.
 
     max_cost: nats, the most that it costs a particle far from it.
     """

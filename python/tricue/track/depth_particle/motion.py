@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The motion model of a walking person before a depth camera: (39) in metres, of a nearly constant size."""
+"""The motion model of a walking person before a depth camera: (39) in meters, of a nearly constant size."""
 
 import math
 from functools import cache
@@ -13,19 +13,19 @@ from tricue.track.depth_particle.params import DepthParticleParams
 
 Floats = NDArray[np.float64]
 
-MIN_POSITION_NOISE = np.array([0.03, 0.02, 0.03])  # metres of X, Y, Z, standard deviation in no time
+MIN_POSITION_NOISE = np.array([0.03, 0.02, 0.03])  # meters of X, Y, Z, standard deviation in no time
 AXIS_NOISE = np.array([1.0, 0.3, 1.0])  # times position_noise: people move less up and down than sideways
 SIZE_RETURN = 0.3  # per frame, of the size to its running mean
 MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
 FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole for the first time
-MIN_SIZE = 0.1  # metres
+MIN_SIZE = 0.1  # meters
 
 
 class BodyMotion(NamedTuple):
     """The target's rectangle in the camera frame and how it moves.
 
-    state: (5,) X, Y, Z of its center, width, height, metres. velocity: (3,) m/s, smoothed.
-    mean_size: (2,) running mean of width and height, metres. size_known: (2,) whether they were ever visible
+    state: (5,) X, Y, Z of its center, width, height, meters. velocity: (3,) m/s, smoothed.
+    mean_size: (2,) running mean of width and height, meters. size_known: (2,) whether they were ever visible
     as a whole; until then they are lower bounds.
     """
 
@@ -81,6 +81,6 @@ class BodyMotion(NamedTuple):
 
 @cache
 def _bounds(near: float, far: float) -> tuple[Floats, Floats]:
-    """Lower and upper bounds (5,) of a state, metres."""
+    """Lower and upper bounds (5,) of a state, meters."""
     lower = np.array([-np.inf, -np.inf, near, MIN_SIZE, MIN_SIZE])
     return lower, np.array([np.inf, np.inf, far, np.inf, np.inf])

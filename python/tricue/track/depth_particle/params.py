@@ -12,7 +12,7 @@ OURS = "our experiment: benchmarks/README.md"
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DepthParticleParams(SegmentationParams):
-    """Lengths are in metres: a person has about the same size everywhere in front of the camera.
+    """Lengths are in meters: a person has about the same size everywhere in front of the camera.
 
     The paper's own form is ``histogram="absolute"``, ``likelihood="linear"``, ``contrast=0``,
     ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``.

@@ -24,7 +24,7 @@ class SearchResult(NamedTuple):
     """The target among a frame's objects.
 
     target: the object that is the target, if any. motion: its mean size has grown to the visible part, where
-    it was a lower bound. occluder: (3,) metres, the position of what hides the target, if anything.
+    it was a lower bound. occluder: (3,) meters, the position of what hides the target, if anything.
     """
 
     target: TargetObject | None
@@ -52,7 +52,7 @@ def find_target(
 def _candidates(
     state: State, objects: Objects, seconds: float, p: DepthParticleParams
 ) -> tuple[Objects, Floats | None]:
-    """All objects but the occluder, and the occluder's position (3,), metres, if there is one."""
+    """All objects but the occluder, and the occluder's position (3,), meters, if there is one."""
     if state.occluder is None:
         return objects, None
     index = follow_occluder(objects, state.occluder, p.max_speed, seconds)

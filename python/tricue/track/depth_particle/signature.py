@@ -17,7 +17,7 @@ class Signature(NamedTuple):
     """The distribution of a target over its box.
 
     distribution: (2 DISTRIBUTION_BINS,) the horizontal and then the vertical one, each of sum 1.
-    centroid_offset: (2,) metres, from the box's center to the centroid.
+    centroid_offset: (2,) meters, from the box's center to the centroid.
     """
 
     distribution: Floats

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 class ParticleSet(NamedTuple):
     """Weighted particles and their estimate.
 
-    particles: (N, 5) X, Y, Z, width, height, metres. weights: (N,) of sum 1. state: (5,) and covariance
+    particles: (N, 5) X, Y, Z, width, height, meters. weights: (N,) of sum 1. state: (5,) and covariance
     (5, 5): of the weighted particles.
     """
 
@@ -58,8 +58,8 @@ class State(NamedTuple):
     timestamp: float | None
     missed_seconds: float = 0.0
     hidden: bool = False  # whether the target is missed because something is in front of it
-    position_spread: Floats | float = 0.0  # (3,) metres, standard deviation of X, Y, Z of a missed target
-    occluder: Floats | None = None  # (3,) metres, position of what hides the target, while it is missed
+    position_spread: Floats | float = 0.0  # (3,) meters, standard deviation of X, Y, Z of a missed target
+    occluder: Floats | None = None  # (3,) meters, position of what hides the target, while it is missed
 
     def lost(self, p: DepthParticleParams) -> bool:
         """Whether the target is LOST: missed for long, though nothing is in front of it."""

@@ -31,13 +31,13 @@ from tricue.track.depth_particle.state import ParticleSet, State
 
 Floats = NDArray[np.float64]
 
-REFINE_POSITION = np.array([0.06, 0.05, 0.05])  # metres of X, Y, Z, standard deviation of the second sampling
+REFINE_POSITION = np.array([0.06, 0.05, 0.05])  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # of the size, standard deviation of the second sampling
 VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
 MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
 LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
-MIN_POSITION_DEVIATION = 0.01  # metres, of a track's position
+MIN_POSITION_DEVIATION = 0.01  # meters, of a track's position
 IDENTITY = np.eye(3)
 NO_DRIFT = np.zeros(5)
 OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at an object
@@ -47,7 +47,7 @@ NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no pr
 class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     """Tracks a person, or another free-standing object, in depth images; needs neither color nor light.
 
-    Particles are rectangles in metres: center (X, Y, Z), width and height. They are drawn from the motion
+    Particles are rectangles in meters: center (X, Y, Z), width and height. They are drawn from the motion
     model of a walking person and from objects segmented in the depth image. Their weights come from the depth
     histogram in the rectangle, from the contrast of the depths inside to those around, and from the object.
 
@@ -92,7 +92,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
 
     @property
     def particles(self) -> Floats:
-        """(N, 5) float64: center x, y, width, height in pixels and depth in metres of each particle; empty
+        """(N, 5) float64: center x, y, width, height in pixels and depth in meters of each particle; empty
         before ``init``.
         """
         if self._state is None:

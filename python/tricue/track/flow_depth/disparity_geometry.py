@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The camera numbers that turn disparities into metres, of a parallel or a verged stereo pair."""
+"""The camera numbers that turn disparities into meters, of a parallel or a verged stereo pair."""
 
 import math
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from tricue.camera.rig import StereoRig
 class DisparityGeometry(NamedTuple):
     """The geometry of a stereo pair, or, with a default baseline, of a depth camera.
 
-    camera: (4,) fx, fy, cx, cy, pixels. baseline: metres. angle: radians by which the right camera is turned
+    camera: (4,) fx, fy, cx, cy, pixels. baseline: meters. angle: radians by which the right camera is turned
     inwards. Its image is turned back and moved by ``offset`` pixels to the right, so that what both cameras
     see stays in it.
     """
@@ -31,7 +31,7 @@ class DisparityGeometry(NamedTuple):
 
     @property
     def disparity_times_depth(self) -> float:
-        """Focal length times baseline, pixels times metres."""
+        """Focal length times baseline, pixels times meters."""
         return float(self.camera[0] * self.baseline)
 
     @property

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The target's position in metres, with its covariance, from the center of its box and its disparity."""
+"""The target's position in meters, with its covariance, from the center of its box and its disparity."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ MIN_POSITION_DISPARITY = 1e-3  # pixels, of parallel cameras
 def locate(
     k: Kernels, box: Box, state: FlowDepthState, p: FlowDepthParams
 ) -> tuple[Floats, Floats] | tuple[None, None]:
-    """Position (3,), metres in the left camera's frame, and covariance (3, 3).
+    """Position (3,), meters in the left camera's frame, and covariance (3, 3).
 
     None and None where the disparity isn't above 0. While the target is missed its velocity may change: the
     covariance grows with the fourth power of the time.

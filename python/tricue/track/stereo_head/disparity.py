@@ -64,7 +64,7 @@ def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int
 
 
 def limits_between(geometry: StereoGeometry, near: float, far: float, step: int) -> tuple[int, int]:
-    """The disparities of the distances from far to near, metres, in units of ``step`` pixels.
+    """The disparities of the distances from far to near, meters, in units of ``step`` pixels.
 
     They are limited to what the image is wide enough for.
     """

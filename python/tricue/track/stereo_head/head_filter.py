@@ -22,7 +22,7 @@ COASTING_FACTOR = 0.9  # of the velocity, for each frame without a measurement
 class HeadFilter(NamedTuple):
     """A Gaussian state: its mean, (7,) or (10,), and its covariance.
 
-    The mean holds X, Y, Z, metres; the mean color, levels; the intersection (1); the velocity, m/s, if any.
+    The mean holds X, Y, Z, meters; the mean color, levels; the intersection (1); the velocity, m/s, if any.
     """
 
     mean: Floats
@@ -30,7 +30,7 @@ class HeadFilter(NamedTuple):
 
     @property
     def position(self) -> Floats:
-        """(3,) metres, in the left camera's frame."""
+        """(3,) meters, in the left camera's frame."""
         return self.mean[:3]
 
     @property
@@ -40,7 +40,7 @@ class HeadFilter(NamedTuple):
 
     @property
     def position_covariance(self) -> Floats:
-        """(3, 3) square metres."""
+        """(3, 3) square meters."""
         return self.covariance[:3, :3]
 
 

@@ -25,8 +25,8 @@ MIN_SEMI_AXIS = 1.0  # of an ellipse, in searched cells
 class LostHead(NamedTuple):
     """What is searched for, and where it can be.
 
-    size: width and height, metres. histogram: (L,) its color model. last_seen: (3,) metres.
-    radius: metres from there within which it can be.
+    size: width and height, meters. histogram: (L,) its color model. last_seen: (3,) meters.
+    radius: meters from there within which it can be.
     """
 
     size: tuple[float, float]
@@ -35,7 +35,7 @@ class LostHead(NamedTuple):
     radius: float
 
     def distances(self, p: StereoHeadParams) -> tuple[float, float]:
-        """The smallest and the greatest distance at which it can be, metres."""
+        """The smallest and the greatest distance at which it can be, meters."""
         z = float(self.last_seen[2])
         return max(z - self.radius, p.near), min(z + self.radius, p.far)
 
@@ -84,7 +84,7 @@ def _grid_centers(count: int) -> Floats:
 def _select_reachable(
     head: LostHead, geometry: StereoGeometry, x: Floats, y: Floats, z: float
 ) -> NDArray[np.bool_]:
-    """(rows, columns) whether the head can be at x and y, box coordinates, and a distance z, metres."""
+    """(rows, columns) whether the head can be at x and y, box coordinates, and a distance z, meters."""
     fx, fy, cx, cy, _ = geometry.rig.tolist()
     dx = (x - 0.5 - cx) * z / fx - head.last_seen[0]
     dy = (y - 0.5 - cy) * z / fy - head.last_seen[1]

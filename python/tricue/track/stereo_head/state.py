@@ -18,11 +18,11 @@ class HeadState(NamedTuple):
 
     shape: tuple[int, ...]  # of the left image
     geometry: StereoGeometry
-    size: tuple[float, float]  # width and height of the head, metres
+    size: tuple[float, float]  # width and height of the head, meters
     first_histogram: Floats  # (L,) the color model of the first frame
     learned_histogram: Floats  # (L,) M of (2)
     filter: HeadFilter
-    last_seen: Floats  # (3,) position, metres
+    last_seen: Floats  # (3,) position, meters
     score: float  # of the match in this frame, 0 where the head isn't recognized
     mean_score: float  # running mean
     mean_intersection: float  # running mean of (1)

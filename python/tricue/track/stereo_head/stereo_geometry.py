@@ -12,12 +12,12 @@ from tricue.track.stereo_head.params import StereoHeadParams
 
 Floats = NDArray[np.float64]
 
-MIN_POSITION_NOISE = 1e-4  # metres, where a polynomial has a zero
+MIN_POSITION_NOISE = 1e-4  # meters, where a polynomial has a zero
 POLYNOMIAL_SAMPLES = 64  # of the working range, to which the cubic polynomials are fitted
 
 
 class StereoGeometry(NamedTuple):
-    """rig: (5,) fx, fy, cx, cy, pixels, and the baseline, metres. shape: height and width of its images."""
+    """rig: (5,) fx, fy, cx, cy, pixels, and the baseline, meters. shape: height and width of its images."""
 
     rig: Floats
     shape: tuple[int, ...]
@@ -30,29 +30,29 @@ class StereoGeometry(NamedTuple):
         return cls(numbers, (camera.height, camera.width))
 
     def disparity(self, z: float) -> float:
-        """The disparity at a distance z, pixels; z in metres."""
+        """The disparity at a distance z, pixels; z in meters."""
         return float(self.rig[0] * self.rig[4] / z)
 
     def project(self, position: Floats) -> tuple[float, float, float]:
-        """x, y in box coordinates and disparity, all in pixels, of a position (3,), metres."""
+        """x, y in box coordinates and disparity, all in pixels, of a position (3,), meters."""
         x, y, z = position.tolist()
         fx, fy, cx, cy, baseline = self.rig.tolist()
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, fx * baseline / z
 
     def ellipse(self, position: Floats, size: tuple[float, float]) -> tuple[float, float, float, float]:
-        """Center and semi-axes, pixels, of an upright ellipse of a size, metres, at a position (3,)."""
+        """Center and semi-axes, pixels, of an upright ellipse of a size, meters, at a position (3,)."""
         x, y, _ = self.project(position)
         z = float(position[2])
         return x, y, size[0] / 2 * float(self.rig[0]) / z, size[1] / 2 * float(self.rig[1]) / z
 
     def size(self, minor: float, major: float, z: float) -> tuple[float, float]:
-        """Width and height, metres, of an ellipse at a distance z, metres; semi-axes in pixels."""
+        """Width and height, meters, of an ellipse at a distance z, meters; semi-axes in pixels."""
         return 2 * minor * z / float(self.rig[0]), 2 * major * z / float(self.rig[1])
 
     def triangulate(
         self, k: Kernels, x: float, y: float, disparity: float, step: int, p: StereoHeadParams
     ) -> tuple[Floats, Floats]:
-        """The position (3,), metres, of x, y in box coordinates with a disparity, and its covariance (3, 3).
+        """The position (3,), meters, of x, y in box coordinates with a disparity, and its covariance (3, 3).
 
         step: pixels of a cell, in which ``place_noise`` counts.
         """
@@ -67,7 +67,7 @@ class StereoGeometry(NamedTuple):
 
 
 def _cubic_noise(geometry: StereoGeometry, point: Floats, p: StereoHeadParams) -> Floats:
-    """e of (9), (3,) metres: the error of each coordinate, by cubic polynomials of it."""
+    """e of (9), (3,) meters: the error of each coordinate, by cubic polynomials of it."""
     errors = [
         np.polyval(each, value) for each, value in zip(fit_polynomials(geometry, p), point, strict=True)
     ]

@@ -24,14 +24,14 @@ from tricue.track.stereo_head.search_frame import LostHead, search_frame
 from tricue.track.stereo_head.state import HeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
-MIN_SEARCH_RADIUS = 0.3  # metres, from where a head that was just missed was last seen
+MIN_SEARCH_RADIUS = 0.3  # meters, from where a head that was just missed was last seen
 MIN_INITIAL_SHARE = 0.3  # of the box's ellipse at one disparity; what is beyond ``far`` has chance matches
 MAX_BOX_SIDE = 4000  # pixels
 MEAN_RATE = 0.05  # per frame, of running means
 
 
 class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
-    """Follows a head in the colors of a rectified stereo pair, in metres and in changing light.
+    """Follows a head in the colors of a rectified stereo pair, in meters and in changing light.
 
     An ellipse of the head's size is moved to where its colors are most like the model of skin and hair, and
     its disparity most like the predicted one. The disparity in it is measured. Position, mean color and
