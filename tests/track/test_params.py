@@ -354,7 +354,7 @@ def test_params_and_keywords_are_the_same(name, values, runner, camera, request)
         (DepthParticleTracker, "particles", 40),
         (StereoHeadTracker, "window", 7),
         (FlowDepthTracker, "bins", 32),
-        (FusedTracker, "drift", 0.25),
+        (FusedTracker, "velocity_gain", 0.25),
     ],
 )
 def test_params_come_alone_and_are_the_trackers(tracker, name, value):

@@ -50,7 +50,7 @@ def test_settings_reach_their_tracker():
     ("words", "settings", "error"),
     [
         (["nobody"], [], "expected some of color-particle"),
-        (["fused:color"], [], "expected channels of color, depth, right, got 'color'"),
+        (["fused:light"], [], "expected channels of color, depth, right, got 'light'"),
         (["fused"], ["ridge=1"], "expected tracker.name=value, got 'ridge=1'"),
         (["still-box"], ["fused.ridge=1"], "expected one of still-box, got 'fused'"),
         (["fused"], ["fused.ridge=-1"], "ridge"),
