@@ -6,6 +6,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 SANITIZED := build/sanitized
 LEVELS := build/levels
+TESTED_LEVELS := 1 2 3 4
 VOT := build/vot
 # A process a core; a file's tests stay together, for they share what is slow to make.
 PARALLEL := -n auto --dist loadfile --benchmark-disable
@@ -60,7 +61,7 @@ sanitize: $(VENV)/dev
 # runs the highest that it has.
 levels: $(VENV)/dev
 	rm -rf $(LEVELS)
-	for level in 1 2 3 4; do \
+	for level in $(TESTED_LEVELS); do \
 	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
 	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . && \
 	    TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/$$level.json PYTHONPATH=$(LEVELS)/$$level:tools \

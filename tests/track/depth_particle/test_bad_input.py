@@ -299,18 +299,42 @@ def test_odd_boxes_are_followed(name):
         cases.assert_sane(tracker.update(Frame(depth=hall(shift))))
 
 
-@pytest.mark.parametrize("name", FRAMES)
-@pytest.mark.parametrize("kernels", ["native", "reference"])
-@pytest.mark.parametrize(
+FORMS = pytest.mark.parametrize(
     "form", [{}, {"histogram": "absolute", "likelihood": "linear"}], ids=["usual", "printed"]
 )
-def test_odd_frames_are_sane(name, form, kernels):
+
+
+@pytest.mark.parametrize("name", FRAMES)
+@FORMS
+def test_odd_frames_are_sane(name, form):
     """Empty, uniform, noisy and extreme frames give sane tracks until long lost, as the next good one."""
     frame = odd(name)
-    tracker = started(kernels=kernels, particles=20, lost_after=0.2, **form)
+    tracker = started(particles=20, lost_after=0.2, **form)
     for _ in range(6):
         cases.assert_sane(tracker.update(frame))
     cases.assert_sane(tracker.update(NEXT))
+
+
+@pytest.mark.parametrize("name", FRAMES)
+@FORMS
+def test_odd_frames_are_sane_to_the_twins(name, form):
+    """The same of the reference kernels, on a quarter of the pixels."""
+    width, height = CAMERA.width // 2, CAMERA.height // 2
+    tracker = DepthParticleTracker(
+        intrinsics=Intrinsics(CAMERA.fx / 2, CAMERA.fy / 2, CAMERA.cx / 2, CAMERA.cy / 2, width, height),
+        kernels="reference",
+        seed=1,
+        particles=20,
+        lost_after=0.2,
+        **form,
+    )
+    frame = odd(name).depth[::2, ::2]
+    tracker.init(Frame(depth=DEPTH[::2, ::2]), tuple(side / 2 for side in BOX))
+    for depth in 6 * [frame]:
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "depth: its median", UserWarning)
+            cases.assert_sane(tracker.update(Frame(depth=depth)))
+    cases.assert_sane(tracker.update(Frame(depth=hall(2)[::2, ::2])))
 
 
 @pytest.mark.parametrize("name", FRAMES)

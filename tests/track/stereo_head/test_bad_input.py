@@ -260,7 +260,7 @@ def test_odd_frames_are_sane(name):
 def test_odd_frames_are_sane_to_the_twins(name):
     """The same of the reference kernels, on smaller frames and sooner lost."""
     tracker = StereoHeadTracker(
-        rig=SMALL_RIG, kernels="reference", near=0.7, lost_after=0.05, search_frame_after=0.01
+        rig=SMALL_RIG, kernels="reference", near=0.7, far=2.5, lost_after=0.05, search_frame_after=0.01
     )
     tracker.init(small(FIRST), SMALL_BOX)
     for _ in range(3):
