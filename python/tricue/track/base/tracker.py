@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What all trackers of this package have in common: how they are made, copied and pickled."""
 
+from abc import ABC, abstractmethod
 from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 from tricue import kernels as kernel_sets
 from tricue.track.base import validation
 from tricue.track.base.params import Params
+from tricue.track.base.track import Track
 from tricue.track.base.traits import Traits
 
 P = TypeVar("P", bound=Params)
@@ -16,7 +18,7 @@ S = TypeVar("S")
 Scalar = TypeVar("Scalar", bound=np.generic)
 
 
-class TrackerBase(Generic[P, S]):
+class TrackerBase(ABC, Generic[P, S]):
     """Parameters, kernels and one state.
 
     The state is a value: nothing changes it, ``init`` and ``update`` replace it as the last thing they do.
@@ -34,6 +36,16 @@ class TrackerBase(Generic[P, S]):
         self.kernels = kernels
         self._state: S | None = None
         self._derive()
+
+    def _keep(self, state: S) -> Track:
+        """The track of a state, which replaces the one before unless making the track fails."""
+        track = self._track(state)
+        self._state = state
+        return track
+
+    @abstractmethod
+    def _track(self, state: S) -> Track:
+        """The track of a state."""
 
     def _derive(self) -> None:
         """Make what follows from the rest, and is neither copied nor pickled: names in ``_derived``."""

@@ -97,7 +97,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         appearance = appearance.learn(k, image, window, samples, 1.0, 1.0)
         log_likelihood = float(appearance.log_likelihood(k, image, window)[0])
         particles, weights = self._particles_at(window)
-        self._state = state = State(
+        state = State(
             shape=image.shape,
             appearance=appearance,
             skin_color=reference_color(k, image, ellipse),
@@ -110,7 +110,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             random=dict(np.random.default_rng(self.seed).bit_generator.state),
             timestamp=timestamp,
         )
-        return self._track(state)
+        return self._keep(state)
 
     def update(self, frame: FrameLike) -> Track:
         """Track the target into the next frame, of the same size as the first.
@@ -125,12 +125,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
         if state.missed_frames == 0 and state.score >= self.params.min_score_to_learn:
             state = self._learn(state, image, self.params.learning_rate)
-        self._state = state = state._replace(
+        state = state._replace(
             random=dict(self._rng.bit_generator.state),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
         )
-        return self._track(state)
+        return self._keep(state)
 
     def _follow(self, state: State, image: Image) -> State:
         """Predict, measure, weigh, estimate; once more and wider where the likelihood has dropped."""

@@ -125,7 +125,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             target = initialize_in_box(box_inside, objects, fg, self.params)
         model = DepthModel.empty(self.params).learn(self._k, fg, target.state, 1.0)
         observed = model.observe(self._k, fg, target.state[None])
-        self._state = state = State(
+        state = State(
             shape=depth.shape,
             camera=camera,
             plane=plane,
@@ -140,7 +140,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             random=dict(rng.bit_generator.state),
             timestamp=timestamp,
         )
-        return self._track(state)
+        return self._keep(state)
 
     def update(self, frame: FrameLike) -> Track:
         """Track the target into the next frame, of the same size as the first.
@@ -153,8 +153,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._rng.bit_generator.state = before.random
         state = self._follow(before, depth, seconds)
-        self._state = state = state._replace(random=dict(self._rng.bit_generator.state), timestamp=timestamp)
-        return self._track(state)
+        return self._keep(state._replace(random=dict(self._rng.bit_generator.state), timestamp=timestamp))
 
     def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""

@@ -147,12 +147,6 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         camera = validation.camera_for(self.intrinsics, shape)
         return DisparityGeometry.of(StereoRig(camera, validation.USUAL_BASELINE), 0.0)
 
-    def _keep(self, state: FlowDepthState) -> Track:
-        """The track of a state, which is kept unless making the track fails."""
-        track = self._track(state)
-        self._state = state
-        return track
-
     def _track(self, state: FlowDepthState) -> Track:
         """The track of a state.
 

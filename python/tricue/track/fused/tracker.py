@@ -87,8 +87,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         target = Target.of(validation.initial_box(box, observed.shape))
         if isinstance(observed.depth_source, StereoSource):
             warn_of_stereo(as_frame(frame))
-        self._state = state = initialize(self._k, observed, target, self.params)
-        return self._track(state)
+        return self._keep(initialize(self._k, observed, target, self.params))
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -104,8 +103,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         state = ensure_models(state, observation, self.params)
         match = self._localize(state, observation)
         state = verify(state, match, self.params)
-        self._state = state = update_models(before, state, observation, match, self.params)
-        return self._track(state)
+        return self._keep(update_models(before, state, observation, match, self.params))
 
     def _observe(self, frame: FrameLike, shape: tuple[int, int] | None) -> FrameObservation:
         cameras = self.rig, self.intrinsics

@@ -85,7 +85,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         pair = PreparedPair.of(left, right, None, self.params)
         first_mean = mean_color(pair.colors) if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
-        self._state = state = HeadState(
+        state = HeadState(
             shape=left.shape,
             geometry=geometry,
             size=geometry.size(*head.ellipse[2:], float(first.values[2])),
@@ -100,7 +100,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             first_mean=first_mean,
             timestamp=timestamp,
         )
-        return self._track(state)
+        return self._keep(state)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the head into the next stereo pair, of the same size as the first.
@@ -112,8 +112,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         pair = PreparedPair.of(left, right, before.first_mean, self.params)
-        self._state = state = self._follow(before, pair, seconds)._replace(timestamp=timestamp)
-        return self._track(state)
+        return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp))
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
         """Measure the head in a box; NoDepthInBoxError where nothing in it has a disparity."""

@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: MIT
-"""Other people's evaluation tools run our trackers."""
