@@ -13,6 +13,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.kernels import Kernels
 from tricue.track.base.track import Track
+from tricue.track.base.tracker import TrackerBase
 
 KERNEL_MODULES = {
     "color_bins": "search",
@@ -70,7 +71,7 @@ class ProbedTracker:
     def __init__(self, tracker: Any, noise: float = 0.0, seed: int = 0) -> None:
         self._tracker = tracker
         self._kernels: ProbedKernels | None = None
-        if hasattr(tracker, "_k"):  # the tracker's set of kernels
+        if isinstance(tracker, TrackerBase):
             self._kernels = tracker._k = ProbedKernels(tracker._k, noise, seed)
 
     def init(self, frame: Frame, box: Box) -> Track:

@@ -3,7 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tricue import Box, Status, Track
+from tricue import Box, FlowDepthTracker, Status, Track
 from tricue.papers.experiment import Case
 from tricue.papers.okada import curves as walk_curves
 from tricue.papers.okada import experiments as walk_experiments
@@ -23,6 +23,7 @@ def scene():
 class Follower:
     """Reports what a scene knows of its target; its mask has the frame's number of pixels."""
 
+    traits = FlowDepthTracker.traits
     blocks = ((Box(1, 2, 3, 4),), ())
 
     def __init__(self, scene, away=0.0):

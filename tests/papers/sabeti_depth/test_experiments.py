@@ -5,7 +5,8 @@ from functools import partial
 
 import numpy as np
 import pytest
-from tricue import Status, Track
+from tricue import DepthParticleTracker, Status, Track
+from tricue.errors import TargetNotFoundError
 from tricue.papers import reproduce
 from tricue.papers.experiment import Case
 from tricue.papers.sabeti_depth import experiments as depth_experiments
@@ -21,7 +22,7 @@ CASE = Case("m", "s", 0)
 class Follower:
     """Reports the truth of one of a scene's people, TRACKED in every frame; may start without a box."""
 
-    objects = ()
+    traits = DepthParticleTracker.traits
 
     def __init__(self, scene, who=None, off=0.0, first=None):
         self._boxes = scene.boxes if who is None else [others[who].box for others in scene.others]
@@ -32,7 +33,7 @@ class Follower:
     def init(self, frame, box=None):
         self._index = 0
         if box is None and self._first is None:
-            raise ValueError("frame: found nobody")
+            raise TargetNotFoundError("box: found nobody")
         return self._track(self._first if box is None else self._boxes[0])
 
     def update(self, frame):

@@ -7,6 +7,7 @@ walk alike, and disparity alone on the pass, as both are as far away.
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.okada import curves, figures
 from tricue.papers.okada.curves import Snapshot, WalkCurve
 from tricue.scenes import WalkScene, overtaking
+from tricue.track.base.adapter import traits_of
 from tricue.track.base.track import Track
 
 FIGURE_SEED = 0
@@ -29,7 +31,7 @@ FIGURE_SEED = 0
 class SnapshotRecorder:
     """A tracker whose target pixels and blocks are kept of the frames with these numbers."""
 
-    def __init__(self, tracker: AnyTracker, frames: tuple[int, ...]) -> None:
+    def __init__(self, tracker: Any, frames: tuple[int, ...]) -> None:
         self._tracker, self._frames = tracker, frames
         self.snapshots: dict[int, Snapshot] = {}
 
@@ -43,8 +45,11 @@ class SnapshotRecorder:
 
     def _recorded(self, track: Track) -> Track:
         if self._index in self._frames:
-            blocks = getattr(self._tracker, "blocks", ((), ()))
-            self.snapshots[self._index] = Snapshot(getattr(self._tracker, "mask", None), *blocks)
+            self.snapshots[self._index] = (
+                Snapshot(self._tracker.mask, *self._tracker.blocks)
+                if "mask" in traits_of(self._tracker).shows
+                else Snapshot(None, (), ())
+            )
         return track
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.errors import TargetNotFoundError
 from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import run
 from tricue.papers.curves import MIN_OVERLAP, Flags, Floats
@@ -19,6 +20,7 @@ from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.sabeti_depth import curves, figures
 from tricue.papers.sabeti_depth.curves import DepthCurve
 from tricue.scenes import DepthScene, crossing, walker
+from tricue.track.base.adapter import traits_of
 from tricue.track.base.track import Status
 
 MAX_OTHER_DISTANCE = 0.5
@@ -54,12 +56,12 @@ def _nearer_to_others(positions: Floats, errors: Floats, scene: DepthScene) -> F
 def _starts(make: Maker, seed: int, scene: DepthScene) -> bool | None:
     """Whether the tracker finds the person in the first frame; None where it doesn't look for people."""
     tracker: Any = make(seed=seed, intrinsics=scene.intrinsics)
-    if not hasattr(tracker, "objects"):
+    if traits_of(tracker).detects is None:
         return None
     frame: Frame = scene.frames[0]
     try:
         box: Box = tracker.init(frame).box
-    except ValueError:  # it found nobody
+    except TargetNotFoundError:
         return False
     return box.iou(scene.boxes[0]) > MIN_OVERLAP
 

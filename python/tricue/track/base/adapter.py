@@ -14,6 +14,12 @@ PLAIN = Traits(channels=(Channels.of("color"),), follows="what its class says", 
 _ADAPTED: dict[Any, Any] = {}  # classes made so far, so that one class is adapted once
 
 
+def traits_of(tracker: Any) -> Traits:
+    """The traits of a tracker or its class; of one that has none those of a plain one."""
+    found = getattr(tracker, "traits", None)
+    return found if isinstance(found, Traits) else PLAIN
+
+
 def adapted(cls: Any) -> Any:
     """The class itself where it has ``traits``; else one of its name that takes and gives what ours do.
 
@@ -21,7 +27,7 @@ def adapted(cls: Any) -> Any:
     box (x, y, width, height). They may give a ``Track``, a box, or None for a lost target. It is taken for
     one that needs color and an initial box and draws no random numbers. TypeError without both methods.
     """
-    if isinstance(getattr(cls, "traits", None), Traits):
+    if traits_of(cls) is not PLAIN:
         return cls
     if not all(callable(getattr(cls, name, None)) for name in ("init", "update")):
         raise TypeError(f"{cls.__qualname__}: expected a class with init(frame, box) and update(frame)")
