@@ -284,10 +284,13 @@ def test_a_camera_has_no_frames_to_count(
 
 
 def test_real_data(data: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that every real sequence is listed, and that one of each format is told of by itself."""
+    """It proves that every real sequence is told of in one line, and by itself: of those in color alone, which
+    are many and alike, a few.
+    """
     listed = facts(capsys, data)["sequences"]
     assert len(listed) == len(list(find_sequences(data))) >= 11
-    for each in {(each["format"], *each["channels"]): each for each in listed}.values():
+    in_color = [each for each in listed if each["channels"] == ["color"]]
+    for each in [each for each in listed if each not in in_color[4:]]:
         found = facts(capsys, data / each["place"])
         assert found["format"] == each["format"]
         assert found["truth"] is not None or len(found["targets"]) == 4
