@@ -284,8 +284,8 @@ def test_a_camera_has_no_frames_to_count(
 
 
 def test_real_data(data: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """It proves that every real sequence is told of in one line, and by itself: of those in color alone, which
-    are many and alike, a few.
+    """It proves that every real sequence is told of in one line, and by itself: of those in color alone,
+    which are many and alike, a few.
     """
     listed = facts(capsys, data)["sequences"]
     assert len(listed) == len(list(find_sequences(data))) >= 11

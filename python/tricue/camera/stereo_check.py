@@ -17,7 +17,7 @@ from tricue.camera.frame import Frame
 Array = NDArray[np.float64]
 
 MAX_ROW_ERROR = 1.5  # pixels between the rows of one point, root mean square over the image
-MIN_DISPARITY = -0.5  # pixels; a smaller one counts as negative
+MIN_PAIR_DISPARITY = -0.5  # pixels; a smaller one counts as negative
 MIN_MATCHES = 20  # with fewer, the check says nothing
 MAX_NEGATIVE_SHARE = 0.5  # of the matches; with more, left and right count as swapped
 MAX_CORNERS, FLOW_WINDOW, FLOW_PYRAMID_LEVEL = 200, (11, 11), 4
@@ -66,7 +66,7 @@ def check_stereo(left: NDArray[np.uint8], right: NDArray[np.uint8]) -> StereoChe
     return StereoCheck(
         len(corners),
         _mean_row_error(found, row_errors, left.shape),
-        float(np.mean(disparity < MIN_DISPARITY)),
+        float(np.mean(disparity < MIN_PAIR_DISPARITY)),
     )
 
 

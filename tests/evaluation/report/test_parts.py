@@ -97,7 +97,7 @@ def test_a_timeline_has_overlap_absence_and_status():
     picture = cv2.imdecode(np.frombuffer(base64.b64decode(data[1]), np.uint8), cv2.IMREAD_COLOR)[:, :, ::-1]
     assert picture.shape[1] == 5
     assert [hexed(color) for color in picture[0]] == [
-        timeline.SHADES[0], timeline.SHADES[3], timeline.SHADES[5], timeline.ABSENT, timeline.UNKNOWN
+        timeline.SHADES[0], timeline.SHADES[3], timeline.SHADES[5], timeline.ABSENT_COLOR, timeline.UNKNOWN
     ]  # fmt: skip
     assert [hexed(color) for color in picture[-1]] == [timeline.TRACKED] * 3 + [
         timeline.NOT_TRACKED,

@@ -54,7 +54,7 @@ def test_modules_add_up_to_the_update():
 def test_perturbed_disparities_degrade_the_unfused_track():
     """0.3 px are twice the unfused error or more, as there is nothing that averages them."""
     make, errors = EXPERIMENT.models["unfused"], []
-    for noise in (0.0, stereo_experiments.DISPARITY_NOISE):
+    for noise in (0.0, stereo_experiments.SCENE_DISPARITY_NOISE):
         curve = stereo_experiments.measure(CASE, make, Trial.make(3, noise=noise, frames=60))
         errors.append(np.median(curve.errors))
     assert errors[1] > 2 * errors[0]

@@ -16,7 +16,7 @@ from tricue.evaluation.report.plots import Group, plots
 from tricue.evaluation.report.sequences import MAX_PICTURED, RankedSequence, sequences, worst_first
 from tricue.evaluation.report.setup import setup, troubles
 from tricue.evaluation.report.summary import summary_table
-from tricue.evaluation.report.timeline import ABSENT, NOT_TRACKED, SHADES
+from tricue.evaluation.report.timeline import ABSENT_COLOR, NOT_TRACKED, SHADES
 
 REPORT = "report.html"
 _TITLES = {
@@ -120,7 +120,7 @@ def _how_to_read() -> Html:
             tag("span", "0", scale, "1", class_="scale"),
             " overlap (IoU) with the true box, the lowest in each interval",
         ),
-        tag("li", tag("span", class_="key", style=f"background:{ABSENT}"), " the target is absent"),
+        tag("li", tag("span", class_="key", style=f"background:{ABSENT_COLOR}"), " the target is absent"),
         tag(
             "li",
             tag("span", class_="key", style=f"background:{NOT_TRACKED}"),

@@ -16,7 +16,7 @@ MAX_COLUMNS = 160
 """Of the picture; in longer runs each column has the worst of several frames."""
 SHADES = ("#7a1020", "#c9452f", "#f0a04b", "#f7e0a3", "#b7dfc4", "#8fcbaa")
 """Of overlaps from 0 to 1: darker is worse, so that lightness distinguishes them too."""
-ABSENT, UNKNOWN, NOT_TRACKED, TRACKED = "#b9c4d6", "#ffffff", "#3b4a63", "#ffffff"
+ABSENT_COLOR, UNKNOWN, NOT_TRACKED, TRACKED = "#b9c4d6", "#ffffff", "#3b4a63", "#ffffff"
 _ROWS, _STATUS_ROWS = 6, 2  # of the picture, which the page stretches
 
 
@@ -36,7 +36,7 @@ def timeline(run: ScoredRun, label: str) -> Html:
 def _shade(run: ScoredRun, frames: NDArray[np.int64]) -> tuple[int, ...]:
     known = run.overlaps[frames][~np.isnan(run.overlaps[frames])]
     if not known.size:
-        return _rgb(ABSENT if run.absent[frames].any() else UNKNOWN)
+        return _rgb(ABSENT_COLOR if run.absent[frames].any() else UNKNOWN)
     return _rgb(SHADES[min(int(known.min() * len(SHADES)), len(SHADES) - 1)])
 
 

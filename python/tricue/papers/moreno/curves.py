@@ -20,7 +20,7 @@ from tricue.papers.curves import (
 )
 
 FUSED, UNFUSED, PAPERS_FILTER = "fused (default)", "unfused", "the paper's filter"
-MODULES = ("search", "disparity", "filter", "rest")
+TIMED_MODULES = ("search", "disparity", "filter", "rest")
 
 MAX_HEAD_RECOVERY_DELAY = 15
 """Frames within which a head has to be tracked again."""
@@ -118,16 +118,16 @@ def lag(runs: Sequence[StereoCurve]) -> float:
 
 
 def module_seconds(curves: Sequence[StereoCurve], scene: str, model: str) -> dict[str, float]:
-    """Of an update, per module of MODULES: medians over the runs of a model in a scene."""
+    """Of an update, per module of TIMED_MODULES: medians over the runs of a model in a scene."""
     runs = runs_of(curves, scene, model)
-    return {name: float(np.median([run.seconds.get(name, 0.0) for run in runs])) for name in MODULES}
+    return {name: float(np.median([run.seconds.get(name, 0.0) for run in runs])) for name in TIMED_MODULES}
 
 
 def summarize(curves: Sequence[StereoCurve]) -> str:
     """Markdown, a line per scene and model: COLUMNS; then the time per module of the first model."""
     model = curves[0].model
     lines = [*tables.scene_table(curves, COLUMNS, _cells), ""]
-    lines += tables.header([f"us per frame, {model}", *MODULES, "whole"])
+    lines += tables.header([f"us per frame, {model}", *TIMED_MODULES, "whole"])
     for scene in scenes_of(curves):
         times = [1e6 * seconds for seconds in module_seconds(curves, scene, model).values()]
         lines.append(tables.line([scene, *(f"{time:.0f}" for time in (*times, sum(times)))]))

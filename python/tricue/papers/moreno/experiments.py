@@ -21,7 +21,7 @@ from tricue.papers.moreno import curves, figures
 from tricue.papers.moreno.curves import FUSED, PAPERS_FILTER, UNFUSED, StereoCurve
 from tricue.scenes import StereoScene, head
 
-DISPARITY_NOISE = 0.3
+SCENE_DISPARITY_NOISE = 0.3
 """Pixels, standard deviation, in the perturbed scene."""
 
 
@@ -102,7 +102,7 @@ EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
         },
         scenes={
             figures.NORMAL: _scene(),
-            figures.NOISY: _scene(noise=DISPARITY_NOISE),
+            figures.NOISY: _scene(noise=SCENE_DISPARITY_NOISE),
             "distractor": _scene("distractor"),
             "turning": _scene("turning"),
             "ramp": _scene("ramp"),

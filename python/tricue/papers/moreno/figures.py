@@ -7,7 +7,14 @@ from typing import Any, Protocol
 import numpy as np
 
 from tricue.draw.figures import COLORS, draw_box
-from tricue.papers.moreno.curves import FUSED, MODULES, PAPERS_FILTER, UNFUSED, StereoCurve, module_seconds
+from tricue.papers.moreno.curves import (
+    FUSED,
+    PAPERS_FILTER,
+    TIMED_MODULES,
+    UNFUSED,
+    StereoCurve,
+    module_seconds,
+)
 from tricue.papers.plots import show_frame
 from tricue.scenes import StereoScene
 
@@ -94,4 +101,4 @@ def _times(axes: Any, curves: Sequence[StereoCurve]) -> None:
     axes.invert_yaxis()
     axes.margins(x=0.2, y=0.3)
     axes.set_title("time per module", loc="left")
-    axes.legend(frameon=False, ncols=len(MODULES), loc="lower center", fontsize=7)
+    axes.legend(frameon=False, ncols=len(TIMED_MODULES), loc="lower center", fontsize=7)

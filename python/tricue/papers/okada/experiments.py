@@ -99,7 +99,7 @@ EXPERIMENTS: dict[str, Experiment[WalkScene, WalkCurve]] = {
             figures.DISPARITY: _cues("disparity"),
         },
         scenes={
-            figures.PLAIN: _scene("plain", depth=False),
+            figures.PLAIN_STEREO: _scene("plain", depth=False),
             "plain, depth": _scene("plain", depth=True),
             "varied, stereo": _scene("varied", depth=False),
             "varied, depth": _scene("varied", depth=True),

@@ -19,7 +19,7 @@ from tricue.papers.plots import plot_band, shade_hidden
 from tricue.scenes import WalkScene
 
 BOTH, FLOW, DISPARITY = "both cues (default)", "flow alone", "disparity alone"
-PLAIN = "plain, stereo"
+PLAIN_STEREO = "plain, stereo"
 
 
 def key_frames(scene: WalkScene) -> tuple[int, ...]:

@@ -36,7 +36,7 @@ def _without_contrast(observation: str, likelihood: str = "exponential") -> Make
     return _particles(observation, likelihood=likelihood, color_weight=0.0)
 
 
-DEFAULT = {"spatial ranks, color (default)": _particles("rank-spatial")}
+DEFAULT_MODEL = {"spatial ranks, color (default)": _particles("rank-spatial")}
 
 _experiment = partial(
     Experiment[Scene, ColorCurve], measure=measure, summarize=curves.summarize, write_csv=curves.write_csv
@@ -45,7 +45,7 @@ _experiment = partial(
 EXPERIMENTS: dict[str, Experiment[Scene, ColorCurve]] = {
     "sabeti-fig1": _experiment(
         models={
-            **DEFAULT,
+            **DEFAULT_MODEL,
             "spatial ranks": _without_contrast("rank-spatial"),
             "rank sections": _without_contrast("rank-sections"),
             "rank sections, linear (18)": _without_contrast("rank-sections", "linear"),
@@ -59,7 +59,7 @@ EXPERIMENTS: dict[str, Experiment[Scene, ColorCurve]] = {
     ),
     "sabeti-fig2": _experiment(
         models={
-            **DEFAULT,
+            **DEFAULT_MODEL,
             "spatial ranks": _without_contrast("rank-spatial"),
             "16-bin histogram": _without_contrast("histogram"),
             "rank sections, linear (18)": _without_contrast("rank-sections", "linear"),
