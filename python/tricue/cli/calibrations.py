@@ -14,7 +14,7 @@ from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.open_source import Source
 from tricue.track.base.registry import traits
-from tricue.track.base.validation import USUAL_BASELINE, USUAL_VIEW
+from tricue.track.base.validation import DEFAULT_BASELINE, DEFAULT_FIELD_OF_VIEW
 
 STEREO_FILE = "--calibration FILE, by OpenCV, KITTI or in TOML"
 
@@ -38,7 +38,7 @@ class Calibration(NamedTuple):
         known = {"rig": self.rig} if self.rig else {"intrinsics": self.intrinsics}
         return {name: camera for name, camera in known.items() if camera is not None}
 
-    def prepared(self, source: Source) -> Source:
+    def prepare(self, source: Source) -> Source:
         """The source, its pairs rectified if they are raw, its depth registered if it isn't yet.
 
         True boxes go with the depth where positions were measured in it: then they count its pixels.
@@ -60,25 +60,25 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
     file that nobody asked for is only left out then, and the note says so. Warns (UserWarning) of positions
     that are missing from a pair, and of those that are a guess.
     """
-    taken = traits(options.tracker).camera
-    if "rig" in taken and ("right" in source.channels or "intrinsics" not in taken):
-        return _stereo(options, source)
+    cameras = traits(options.tracker).camera
+    if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
+        return _find_stereo(options, source)
     for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
         if value:
             raise ValueError(f"{option}: expected with a tracker that takes a stereo pair; leave it out")
     given = "--calibration" if options.calibration else "--fov" if options.fov else ""
-    if "intrinsics" not in taken:
+    if "intrinsics" not in cameras:
         if given:
             raise ValueError(f"{given}: {options.tracker} takes no camera's intrinsics; leave it out")
         return Calibration()
     if options.fov:
-        return Calibration(_from_angles(source, options.fov))
+        return Calibration(_intrinsics_from_angles(source, options.fov))
     if options.calibration:
-        return _of_file(options.calibration, source, taken)
-    return _found(options.tracker, source, taken)
+        return _read_file(options.calibration, source, cameras)
+    return _find_intrinsics(options.tracker, source, cameras)
 
 
-def _stereo(options: Namespace, source: Source) -> Calibration:
+def _find_stereo(options: Namespace, source: Source) -> Calibration:
     """The pair's rig; --rectify takes the raw cameras of the same file.
 
     Warns (UserWarning) where there is none: the tracker runs all the same, but with positions by a usual rig,
@@ -95,10 +95,10 @@ def _stereo(options: Namespace, source: Source) -> Calibration:
         return Calibration(rig=made.rig, rectify=made)
     if options.calibration:
         return Calibration(rig=read_rig(options.calibration, source.size, options.unit))
-    return _found_rig(options.tracker, source)
+    return _find_rig(options.tracker, source)
 
 
-def _found_rig(tracker: str, source: Source) -> Calibration:
+def _find_rig(tracker: str, source: Source) -> Calibration:
     """From the file beside the pair; nobody asked for it, so that what is wrong with it is no error."""
     why = "the pair's calibration isn't known"
     if source.calibration is not None:
@@ -111,23 +111,23 @@ def _found_rig(tracker: str, source: Source) -> Calibration:
     if "right" in source.channels:  # else it is the right images that are missed first
         then = "tracks will have no position in meters"
         if traits(tracker).guesses:
-            usual = f"a usual pair, {USUAL_VIEW:g} degrees wide and {USUAL_BASELINE:g} m apart"
+            usual = f"a usual pair, {DEFAULT_FIELD_OF_VIEW:g} degrees wide and {DEFAULT_BASELINE:g} m apart"
             then = f"any position in meters is a guess, by {usual}"
         warnings.warn(f"{why}; {then}; give {STEREO_FILE}", stacklevel=2)
     return Calibration()
 
 
-def _from_angles(source: Source, fov: tuple[float, ...]) -> Intrinsics:
+def _intrinsics_from_angles(source: Source, fov: tuple[float, ...]) -> Intrinsics:
     try:
         return Intrinsics.from_fov(*source.size, *fov)
     except ValueError as error:
         raise ValueError(f"--fov: {error}") from None
 
 
-def _of_file(path: Path, source: Source, taken: Collection[str]) -> Calibration:
+def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibration:
     """The depth camera's intrinsics; the color camera's where depth has to be brought into its image."""
     streams = source.channels
-    if "rig" in taken and "color" in streams and "depth" in streams:  # it takes what the color camera sees
+    if "rig" in cameras and "color" in streams and "depth" in streams:  # it takes what the color camera sees
         register = read_registration(path, streams["depth"].size, streams["color"].size)
         if register is not None:
             note = f"depth brought into the color image by both cameras' intrinsics: {path}"
@@ -135,12 +135,12 @@ def _of_file(path: Path, source: Source, taken: Collection[str]) -> Calibration:
     return Calibration(read_intrinsics(path, source.size, "depth" if "depth" in streams else "color"))
 
 
-def _found(tracker: str, source: Source, taken: Collection[str]) -> Calibration:
+def _find_intrinsics(tracker: str, source: Source, cameras: Collection[str]) -> Calibration:
     """From the file beside the images; nobody asked for it, so that what is wrong with it is no error."""
     why = "the depth camera's intrinsics aren't known"
     if source.calibration is not None:
         try:
-            found = _of_file(source.calibration, source, taken)
+            found = _read_file(source.calibration, source, cameras)
         except ValueError as error:
             why = f"left out the calibration beside the images: {error}"
         else:
@@ -151,7 +151,7 @@ def _found(tracker: str, source: Source, taken: Collection[str]) -> Calibration:
     give = "give --calibration FILE or --fov H,V"
     if not traits(tracker).guesses:
         return Calibration(note=f"{why}; tracks have no position in meters; {give}")
-    usual = f"a usual camera, {USUAL_VIEW:g} degrees wide"
+    usual = f"a usual camera, {DEFAULT_FIELD_OF_VIEW:g} degrees wide"
     aside = "how far a position in meters is beside the optical axis is a guess"
     warnings.warn(f"{why}; {aside}, by {usual}; {give}", stacklevel=2)
     return Calibration()

@@ -11,8 +11,8 @@ from typing import Any
 from tricue.cli.arguments import count, tracker_names
 from tricue.cli.progress import Progress
 from tricue.evaluation import tables
-from tricue.evaluation.dataset import Reading
-from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
+from tricue.evaluation.dataset import ReadOptions
+from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
 from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import perform
@@ -100,11 +100,11 @@ def run(options: argparse.Namespace) -> int:
         settings=settings_by_tracker(options.set),
         seeds=options.seeds,
         restarts=not options.no_restarts,
-        reading=Reading(options.depth_scale, options.fps, options.unit, options.truth),
+        reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
     )
     with Progress() as progress:
 
-        def tell(told: Told) -> None:
+        def tell(told: ProgressUpdate) -> None:
             progress.total = told.total
             progress(told.done, _left(told))
 
@@ -116,7 +116,7 @@ def run(options: argparse.Namespace) -> int:
                 jobs=options.jobs,
                 fresh=options.fresh,
                 scheduler=options.scheduler,
-                tell=tell,
+                on_progress=tell,
                 work=partial(perform, ahead=options.ahead),
             )
         except KeyboardInterrupt:
@@ -150,7 +150,7 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
     return FAILED if evaluation.failed else 0
 
 
-def _left(told: Told) -> str:
+def _left(told: ProgressUpdate) -> str:
     if told.last is None or told.seconds_left is None:
         return ""
     minutes, seconds = divmod(round(told.seconds_left), 60)

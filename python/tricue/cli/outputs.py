@@ -20,7 +20,7 @@ from tricue.draw.stereo import stereo_overlay
 from tricue.draw.video import OverlayWriter
 from tricue.track.base.track import Track
 
-CALM = 0.1  # a frame's share in the range of the video's shades
+RANGE_SMOOTHING = 0.1  # a frame's share in the range of the video's shades
 COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")  # the upper triangle, row by row
 COLUMNS = (
     *("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
@@ -73,7 +73,7 @@ class CsvOutput:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._file = _created(path)
+        self._file = _create(path)
         self._writer = csv.writer(self._file, lineterminator="\n")
         self._writer.writerow(COLUMNS)
 
@@ -93,7 +93,7 @@ class JsonOutput:
     def __init__(self, path: Path, about: dict[str, Any]) -> None:
         self.path = path
         head = json.dumps(about, indent=1, allow_nan=False)
-        self._file = _created(path)
+        self._file = _create(path)
         self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
@@ -136,10 +136,10 @@ class VideoOutput:
             image = color
             if image is None:
                 assert depth is not None  # a frame has one of the two
-                image = depth_picture(depth, *self._shades(depth))
+                image = depth_picture(depth, *self._smoothed_range(depth))
             return flow_depth_overlay(image, step.track, step.mask, step.blocks, note=note)
         if depth is not None and (color is None or step.objects is not None):
-            near, far = self._shades(depth)
+            near, far = self._smoothed_range(depth)
             return depth_overlay(
                 depth,
                 step.track,
@@ -154,11 +154,11 @@ class VideoOutput:
         assert color is not None  # a frame has one of the two
         return overlay(color, step.track, particles=step.particles, note=note)
 
-    def _shades(self, depth: NDArray[np.float32]) -> tuple[float, float]:
+    def _smoothed_range(self, depth: NDArray[np.float32]) -> tuple[float, float]:
         """The range of depths shown, meters; it follows the frames' slowly, so that nothing flickers."""
         now = depth_range(depth) or self._range or (0.0, 1.0)
         before = self._range or now
-        near, far = (b + CALM * (n - b) for b, n in zip(before, now, strict=True))
+        near, far = (b + RANGE_SMOOTHING * (n - b) for b, n in zip(before, now, strict=True))
         self._range = near, max(far, near + 0.01)  # a wall has no range
         return self._range
 
@@ -169,6 +169,6 @@ class VideoOutput:
         self._writer.close()
 
 
-def _created(path: Path) -> Any:
+def _create(path: Path) -> Any:
     path.parent.mkdir(parents=True, exist_ok=True)
     return path.open("w", encoding="utf-8", newline="")

@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     options = parser(words[0] if words else "").parse_args(words)
     try:
-        with _warnings_in_a_line(options.command):
+        with _one_line_warnings(options.command):
             code: int = options.run(options)
         return code
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
@@ -68,7 +68,7 @@ def parser(chosen: str = "") -> argparse.ArgumentParser:
 
 
 @contextmanager
-def _warnings_in_a_line(command: str) -> Iterator[None]:
+def _one_line_warnings(command: str) -> Iterator[None]:
     """Warnings as short as errors; a place in the code warns once, for the next frames would say the same."""
     shown: set[tuple[str, int]] = set()
 

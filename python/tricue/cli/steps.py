@@ -19,17 +19,17 @@ Start = Callable[[Frame], Box | None]
 
 
 @dataclass
-class Clock:
+class RunClock:
     """Seconds spent on decoding and on tracking, told apart, and what the tracker said.
 
-    waiting: why a tracker that looks for its target didn't start on the last frame before it started.
+    not_found_reason: why a tracker that looks for its target didn't start on the last frame before it started.
     """
 
     decoding: float = 0.0
     tracking: float = 0.0
     decoded: int = 0
     updates: int = 0
-    waiting: str = ""
+    not_found_reason: str = ""
     statuses: dict[Status, int] = field(default_factory=lambda: dict.fromkeys(Status, 0))
 
     @property
@@ -39,7 +39,7 @@ class Clock:
         return f"{tracking}decoding {self.decoded / max(self.decoding, 1e-9):,.0f} frames/s"
 
 
-def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: Clock) -> Iterator[Step]:
+def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: RunClock) -> Iterator[Step]:
     """Start the tracker on the first box that ``start`` gives, and follow.
 
     Without ``start`` the tracker starts by itself, on the first frame in which it finds somebody.
@@ -64,7 +64,7 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
 
 
 @contextmanager
-def stoppable() -> Iterator[Callable[[], bool]]:
+def catch_interrupt() -> Iterator[Callable[[], bool]]:
     """A question "stop?" that Ctrl-C answers with yes after the frame at hand. A second one breaks off."""
     asked = False
 
@@ -81,16 +81,16 @@ def stoppable() -> Iterator[Callable[[], bool]]:
         signal.signal(signal.SIGINT, before)
 
 
-def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: Clock) -> Track | None:
+def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:
     """The first track, or None where a tracker that looks for its target hasn't found it yet."""
     try:
         return tracker.init(frame, box)
     except TargetNotFoundError as error:
-        clock.waiting = str(error)
+        clock.not_found_reason = str(error)
         return None
 
 
-def _decoded(frames: Iterable[Frame], clock: Clock) -> Iterator[Frame]:
+def _decoded(frames: Iterable[Frame], clock: RunClock) -> Iterator[Frame]:
     iterator = iter(frames)
     while True:
         before = perf_counter()

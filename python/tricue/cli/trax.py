@@ -14,7 +14,7 @@ from pathlib import Path
 
 from tricue.cli.program import USAGE, Parser, silence_opencv
 from tricue.errors import one_line
-from tricue.evaluation.toolkits.trax_server import ServedTracker, serve
+from tricue.evaluation.toolkits.trax_server import TraxTracker, serve
 from tricue.track.base.registry import names
 from tricue.track.base.settings import read_settings
 
@@ -39,9 +39,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     silence_opencv()
     options = _parser(os.environ).parse_args(arguments)
     try:
-        served = _served(options, os.environ)
+        served = _read_tracker(options, os.environ)
         if "TRAX_SOCKET" not in os.environ:
-            _quit_at_the_end()
+            _quit_at_end_of_input()
         serve(served)
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"{PROGRAM}: {one_line(error)}", file=sys.stderr)
@@ -76,13 +76,13 @@ def _parser(environment: Mapping[str, str]) -> Parser:
     return parser
 
 
-def _served(options: argparse.Namespace, environment: Mapping[str, str]) -> ServedTracker:
+def _read_tracker(options: argparse.Namespace, environment: Mapping[str, str]) -> TraxTracker:
     settings = [*shlex.split(environment.get("TRICUE_SET", "")), *options.set]  # the later one wins
     values = read_settings(options.tracker, options.params, settings)
-    return ServedTracker(options.tracker, values, options.seed, options.kernels, options.calibration)
+    return TraxTracker(options.tracker, values, options.seed, options.kernels, options.calibration)
 
 
-def _quit_at_the_end() -> None:
+def _quit_at_end_of_input() -> None:
     """Let the end of standard input be a quit.
 
     vot-trax 4.0.2 takes it for a broken message, or, between initialize and its frame, reads on for ever and

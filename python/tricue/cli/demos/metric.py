@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.cli.progress import Progress
-from tricue.cli.steps import Clock
+from tricue.cli.steps import RunClock
 from tricue.draw.video import OverlayWriter
 from tricue.evaluation import metrics
 from tricue.papers.curves import HIDDEN_BELOW, MIN_VISIBLE
@@ -22,12 +22,12 @@ S = TypeVar("S", DepthScene, StereoScene, WalkScene, StressScene)
 
 
 @dataclass(frozen=True)
-class Result(Generic[S]):
+class SceneResult(Generic[S]):
     """What came out of one scene."""
 
     scene: S
     tracks: list[Track] = field(default_factory=list)
-    clock: Clock = field(default_factory=Clock)
+    clock: RunClock = field(default_factory=RunClock)
 
     @property
     def errors(self) -> Floats:
@@ -46,7 +46,7 @@ class Result(Generic[S]):
         """(M,) where at least half of the target is visible."""
         return np.asarray(self.scene.visible >= MIN_VISIBLE)
 
-    def said(self, *statuses: Status) -> str:
+    def count_hidden(self, *statuses: Status) -> str:
         """In how many of the frames in which the target is hidden the tracker says one of the statuses."""
         hidden = np.flatnonzero(self.scene.visible < HIDDEN_BELOW)
         said = sum(self.tracks[index].status in statuses for index in hidden)
@@ -62,10 +62,10 @@ def follow_all(
     scenes: Mapping[str, Callable[..., S]],
     seed: int,
     video: OverlayWriter,
-    follow: Callable[[str, S, OverlayWriter], Result[S]],
-) -> dict[str, Result[S]]:
+    follow: Callable[[str, S, OverlayWriter], SceneResult[S]],
+) -> dict[str, SceneResult[S]]:
     """Make each scene by its name, and follow it into the one video, which is closed then."""
-    results: dict[str, Result[S]] = {}
+    results: dict[str, SceneResult[S]] = {}
     with video, Progress(len(scenes)) as progress:
         for done, (name, make) in enumerate(scenes.items()):
             progress(done, f"scenes, now {name}")
