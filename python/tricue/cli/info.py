@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue info PLACE``: what was found there, or below it where it is a folder of sequences."""
+"""``tricue info PLACE``: what is there, or in each sequence of a folder."""
 
 import argparse
 import json
@@ -30,7 +30,7 @@ examples:
   tricue info left.mp4 --right right.mp4 --calibration stereo.yml
   tricue info kitti/ --target "Car 31" --json
 """
-VALUE_COLUMN = 13  # characters, where the values begin
+VALUE_COLUMN = 13  # characters before the values
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -98,7 +98,7 @@ def _targets(place: Path) -> list[str]:
 
 
 def _lines(facts: Summary) -> Iterator[str]:
-    """The same for people."""
+    """The facts as text lines."""
     yield f"{facts['name']}: {facts['format']}"
     assumed = "" if facts["fps_known"] else " (assumed, nothing tells the times)"
     yield _line(
@@ -165,7 +165,7 @@ def _line(name: str, text: str) -> str:
 
 
 def _list(root: Path, places: list[Path], options: argparse.Namespace) -> int:
-    """A line a sequence; ValueError at the end where some can't be opened."""
+    """Print a line per sequence; ValueError at the end if some can't be opened."""
     found = [_summarize(root, place, options.depth_scale) for place in places]
     _print({"sequences": found}, map(_summary_line, found), options.json)
     if bad := sum("error" in each for each in found):
@@ -191,7 +191,7 @@ def _summarize(root: Path, place: Path, scale: float | None) -> Summary:
 
 
 def _open_with_scale(place: Path, scale: float | None) -> Source:
-    """The source; the scale is for those alone whose format doesn't say it."""
+    """The source, opened with the depth scale only if its format doesn't contain one."""
     try:
         return open_source(place)
     except ValueError:

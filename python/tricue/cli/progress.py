@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How far a run is: a bar on a terminal, now and then a plain line elsewhere."""
+"""Progress of a run: a bar on a terminal, otherwise a plain line every few seconds."""
 
 import sys
 import time

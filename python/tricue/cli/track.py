@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue track INPUT``: follow a target through a video and write down where it is."""
+"""``tricue track INPUT``: tracks a target through a video and writes its positions."""
 
 import argparse
 import dataclasses
@@ -38,7 +38,7 @@ examples:
   tricue track 0 --detect face --output overlay.mp4           the first camera, until Ctrl-C
   tricue track sequences/David --json track.json              starts on the sequence's first true box
   tricue track images/ --box 10,20,30,40 --tracker color-particle --set particles=300 --seed 7
-  tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
+  tricue track images/ --box=-5,20,30,40                      a box that extends left of the image
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
   tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
@@ -59,27 +59,27 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--tracker",
         type=tracker_name,
         metavar="NAME",
-        help=f"{', '.join(names())} or module:Class; default {DEFAULT_TRACKER}, or {depth_tracker()} where there is "
-        "depth and nothing tells where to start",
+        help=f"{', '.join(names())} or module:Class; default {DEFAULT_TRACKER}, or {depth_tracker()} "
+        "for depth without a box to start on",
     )
     start = command.add_mutually_exclusive_group()
     start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
     start.add_argument(
         "--detect",
         choices=("face", "person"),
-        help="start on the largest face, or on whom a depth tracker finds, as soon as there is one",
+        help="start on the first face, the largest, or on the first person that a depth tracker detects",
     )
     command.add_argument(
         "--fps",
         type=float,
         metavar="N",
-        help="frames a second of images that tell no times (default 30); videos, cameras, VOT, TUM and "
+        help="frames a second of images without times (default 30); videos, cameras, VOT, TUM and "
         "Princeton have their own",
     )
     _add_stereo(command)
     _add_depth(command)
     command.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
-    command.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
+    command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
     command.add_argument(
         "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
     )
@@ -96,7 +96,7 @@ def _add_stereo(command: argparse.ArgumentParser) -> None:
         "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"
     )
     command.add_argument(
-        "--rectify", action="store_true", help="the pairs are raw: rectify them by OpenCV's --calibration"
+        "--rectify", action="store_true", help="rectify raw stereo pairs by OpenCV's --calibration"
     )
     command.add_argument(
         "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's --calibration"
@@ -115,7 +115,7 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="the camera's or the pair's, by OpenCV, KITTI, Princeton or in TOML",
+        help="of the camera or stereo pair, by OpenCV, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
@@ -123,7 +123,7 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
 
 
 class TrackRun(NamedTuple):
-    """What is run: the source, the tracker, and the camera's intrinsics, or the pair's rig, where known."""
+    """The source, the tracker, how it starts, and the known intrinsics or stereo rig."""
 
     source: Source
     tracker: Tracker
@@ -133,7 +133,7 @@ class TrackRun(NamedTuple):
 
 
 def run(options: argparse.Namespace) -> int:
-    """TrackRun the command and print what came out; the exit code."""
+    """TrackRun the command and print the results; the exit code."""
     run, notes = _prepare(options)
     clock, tracks = RunClock(), {}
     with ExitStack() as files:
@@ -165,7 +165,7 @@ def _check_not_input(place: Path | None, outputs: Sequence[Path | None]) -> None
 
 
 def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
-    """Open the source and make the tracker; what the user should know about them."""
+    """Open the source and make the tracker; notes for the user."""
     if options.plot:
         from tricue.draw.paths import check_format
 
@@ -193,7 +193,7 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
 
 
 def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
-    """One after the other, so that the first is closed if the second can't be opened."""
+    """Open the outputs one by one, so that the first is closed if the second can't be opened."""
     if options.output:
         yield VideoOutput(options.output, run.source.fps, run.rig)
     if options.csv:
@@ -203,7 +203,7 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
 
 
 def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
-    """The steps; where the tracker doesn't even start, the error says what to give it."""
+    """The steps; an error of the tracker's start gets a hint about how to fix it."""
     try:
         yield from found
     except ValueError as error:
@@ -235,7 +235,7 @@ def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:
 
 
 def _params(tracker: Tracker) -> dict[str, Any]:
-    """By name; somebody else's tracker has what it was made with."""
+    """The parameters by name; a third-party tracker's are its keywords."""
     params = tracker.params
     return dict(params) if isinstance(params, dict) else dataclasses.asdict(params)
 
@@ -269,7 +269,7 @@ def _score(truth: Any, tracks: Mapping[int, Track], frames: int) -> str:
 
 
 def _plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
-    """Write the path seen from above; what came of it."""
+    """Write the path seen from above; a note about the result."""
     from tricue.draw.paths import save_path
 
     if all(track.position is None for track in tracks.values()):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """``python -m tricue.cli.trax``: a tracker behind the TraX protocol on standard input and output.
 
-That is how the VOT toolkit runs it.
+The VOT toolkit runs it this way.
 """
 
 import argparse
@@ -35,14 +35,14 @@ such a file.
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Serve until the client quits or goes away; the exit code: 0, or 2 after an error, a line on stderr."""
+    """Serve until the client quits or disconnects. The exit code is 0, or 2 after an error."""
     silence_opencv()
     options = _parser(os.environ).parse_args(arguments)
     try:
-        served = _read_tracker(options, os.environ)
+        tracker = _read_tracker(options, os.environ)
         if "TRAX_SOCKET" not in os.environ:
             _quit_at_end_of_input()
-        serve(served)
+        serve(tracker)
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"{PROGRAM}: {one_line(error)}", file=sys.stderr)
         return USAGE
@@ -83,10 +83,10 @@ def _read_tracker(options: argparse.Namespace, environment: Mapping[str, str]) -
 
 
 def _quit_at_end_of_input() -> None:
-    """Let the end of standard input be a quit.
+    """Treat the end of standard input as a quit.
 
     vot-trax 4.0.2 takes it for a broken message, or, between initialize and its frame, reads on for ever and
-    fills the memory. So another thread passes on what comes, and adds the quit of a client that was killed.
+    fills the memory. So a thread forwards the input and adds the quit of a client that was killed.
     """
     source = os.dup(0)
     readable, writable = os.pipe()

@@ -136,7 +136,7 @@ def crop(image: Any, box: Box) -> Any:
 
 
 def _opencv_makers() -> dict[str, Callable[[], Any]]:
-    """How to make each cv2 tracker; parameters are created here, because cv2 takes long for the first ones."""
+    """How to make each cv2 tracker; parameters are created here, because cv2's first ones take long."""
     legacy = getattr(cv2, "legacy", None)
     makers: dict[str, Callable[[], Any]] = {}
     csrt, kcf = getattr(cv2, "TrackerCSRT", None), getattr(cv2, "TrackerKCF", None)
@@ -156,7 +156,9 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
 
 
 def seed(value: int) -> None:
-    """Seed the random numbers of OpenCV's trackers: its own generator and, for MIL, the C library's ``rand``."""
+    """Seed the random numbers of OpenCV's trackers: its own generator and, for MIL, the C library's
+    ``rand``.
+    """
     cv2.setRNGSeed(value)
     if os.name == "posix":
         ctypes.CDLL(None).srand(value)

@@ -27,7 +27,8 @@ FORMAT_RATES = {"KITTI tracking": 10.0}
 STEREO_CALIBRATION = "calibration.yml"
 """File name of OpenCV's calibration of a stereo pair, searched beside its images."""
 CLIPPED_FORMATS = ("VOT", "VOT RGB-D", "KITTI tracking")
-"""Formats whose true boxes are clipped to the image; so tracked boxes are clipped before they are compared."""
+"""Formats whose true boxes are clipped to the image; so tracked boxes are clipped before they are compared.
+"""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,8 @@ class ReadOptions:
 
     depth_scale: meters per unit of depth. fps: frames a second of images without times. unit: meters per
     unit of OpenCV's stereo calibrations. truth: the channel, "color" or "depth", in whose pixels the true
-    boxes are given. None means color, or depth if it isn't registered to color and positions were measured in it.
+    boxes are given. None means color, or depth if it isn't registered to color and positions were measured
+    in it.
     """
 
     depth_scale: float | None = None
@@ -116,7 +118,7 @@ class OpenedSequence:
         return not ("color" in tables and "depth" in tables) or tables["color"] == tables["depth"]
 
     @property
-    def clip_to_image(self) -> bool:
+    def clipped(self) -> bool:
         """Whether the true boxes are clipped to the image."""
         return self.source.format in CLIPPED_FORMATS
 
@@ -176,7 +178,7 @@ class OpenedSequence:
 
     @property
     def digest(self) -> str:
-        """A hash of what a run depends on: the truth and the images' names and sizes, but not their folder."""
+        """A hash of what a run depends on: the truth and the images' names and sizes, not their folder."""
         found = hashlib.sha256(repr((self.entry.name, self.entry.reading, self.entry.target)).encode())
         for values in (self.source.truth, self.source.absent, self.source.positions):
             found.update(b"" if values is None else np.ascontiguousarray(values).tobytes())

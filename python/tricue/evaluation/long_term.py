@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Targets that leave and come back: the rates of OxUvA, and precision, recall and F of VOT long-term.
 
-OxUvA (Valmadre et al. 2018) scores a tracker's decision, present or absent. VOT long-term (Lukezic et al. 2018)
-scores its confidence: a box counts if its score reaches a threshold, and the best threshold gives F.
+OxUvA (Valmadre et al. 2018) scores a tracker's decision, present or absent. VOT long-term (Lukezic et al.
+2018) scores its confidence: a box counts if its score reaches a threshold, and the best threshold gives F.
 """
 
 from collections.abc import Sequence
@@ -83,7 +83,7 @@ def rates(boxes: ArrayLike, truth: ArrayLike, reported_present: ArrayLike, absen
     Frames without a true box count as negatives where ``absent`` holds, and are left out elsewhere.
     """
     overlap = overlaps(boxes, truth)
-    said, gone = (
+    present, gone = (
         _flags(reported_present, "reported_present", len(overlap)),
         _flags(absent, "absent", len(overlap)),
     )

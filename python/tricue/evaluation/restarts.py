@@ -24,8 +24,8 @@ _NO_BOX = np.full(4, np.nan)
 
 
 class Robustness(NamedTuple):
-    """failures: how often the target was lost. frames: the number in which it could have been lost. accuracy: the mean
-    overlap without the frames after a start, NaN if there are none left.
+    """failures: how often the target was lost. frames: the number in which it could have been lost.
+    accuracy: the mean overlap without the frames after a start, NaN if there are none left.
     """
 
     failures: int
@@ -34,8 +34,8 @@ class Robustness(NamedTuple):
 
 
 def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[np.float64]) -> Record:
-    """Track with restarts. truth: (M, 4); in frames where it is NaN, and beyond M, no tracker starts or fails.
-    Boxes are NaN where no tracker runs.
+    """Track with restarts. truth: (M, 4); in frames where it is NaN, and beyond M, no tracker starts or
+    fails. Boxes are NaN where no tracker runs.
     """
     log, starts, resume = RunLog(), [], 0
     tracker: AnyTracker | None = None
@@ -56,7 +56,9 @@ def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[
 
 
 def robustness(record: Record, overlaps: NDArray[np.float64]) -> Robustness:
-    """The robustness of a run with restarts from its overlaps with the truth, (M,), NaN where it is unknown."""
+    """The robustness of a run with restarts from its overlaps with the truth, (M,), NaN where it is
+    unknown.
+    """
     frames = np.arange(len(overlaps))
     last = np.searchsorted(record.starts, frames, side="right") - 1
     since = frames - np.array([*record.starts, -1])[last]

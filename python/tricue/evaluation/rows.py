@@ -104,7 +104,7 @@ def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
 
 def clip_to_image(boxes: Array, opened: OpenedSequence) -> Array:
     """The boxes, clipped to the image if the true boxes are; NaN for one that is outside."""
-    if not opened.bounded:
+    if not opened.clipped:
         return boxes
     low = np.clip(boxes[:, :2], 0, opened.size)
     high = np.clip(boxes[:, :2] + boxes[:, 2:], 0, opened.size)

@@ -95,7 +95,9 @@ def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
 
 
 def markdown(evaluation: Evaluation) -> str:
-    """Two tables per group of sequences: the summary, and the AUC of each sequence unless there are too many."""
+    """Two tables per group of sequences: the summary, and the AUC of each sequence unless there are too
+    many.
+    """
     lines, speeds_by_tracker = (
         summary(evaluation),
         {(line["group"], line["tracker"]): line for line in speeds(evaluation)},

@@ -42,7 +42,9 @@ class Task:
         return f"{self.kind}/{self.tracker.name}/{self.entry.name}/seed-{self.seed}"
 
     def fingerprint(self, digest: str, description: str) -> str:
-        """A hash of all that the result depends on. digest: the opened entry's; description: the tracker spec's."""
+        """A hash of all that the result depends on. digest: the opened entry's; description: the tracker
+        spec's.
+        """
         parts = (self.name, digest, description, code_digest())
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
@@ -56,11 +58,11 @@ def perform(task: Task, ahead: int = 0) -> Record:
     """
     opened = task.entry.open()
     frames = map(task.tracker.view(opened), opened.source)
-    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as visible:
+    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched:
         return (
-            _run_with_restarts(task, opened, visible)
+            _run_with_restarts(task, opened, prefetched)
             if task.kind == RESTARTS
-            else _run_one_pass(task, opened, visible)
+            else _run_one_pass(task, opened, prefetched)
         )
 
 

@@ -122,7 +122,9 @@ class TrackerSpec:
 
 
 class SafeTracker:
-    """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a box."""
+    """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a
+    box.
+    """
 
     def __init__(self, tracker: AnyTracker) -> None:
         self.error = ""
@@ -162,7 +164,8 @@ def depth_as_picture() -> FrameView:
 def tracker_specs(
     chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]
 ) -> list[TrackerSpec]:
-    """The specs of the given names, by default of all installed trackers. settings: parameters by tracker name.
+    """The specs of the given names, by default of all installed trackers. settings: parameters by tracker
+    name.
 
     ValueError for an unknown name lists the known ones.
     """

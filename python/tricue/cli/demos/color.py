@@ -15,14 +15,14 @@ from tricue.draw.overlays import overlay
 from tricue.draw.video import OverlayWriter
 from tricue.track.base.registry import create
 
-LOST_DISTANCE = 25.0  # pixels off the true center, where a face counts as lost
+LOST_DISTANCE = 25.0  # pixels from the true center, from which a face counts as lost
 FPS = 15.0
 MIN_PLOTTED_ERROR = 0.1  # pixels, of the logarithmic plot
 
 
 @dataclass(frozen=True)
 class ColorResult:
-    """What came out of one scene: errors in pixels and overlaps, a number a frame."""
+    """The results of one scene: errors in pixels and overlaps, one per frame."""
 
     errors: NDArray[np.float64]
     overlaps: NDArray[np.float64]
@@ -80,7 +80,7 @@ def _table(results: Mapping[str, ColorResult]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, ColorResult]) -> None:
-    """A panel a background: the error over the frames; dotted where the brightness changes."""
+    """A panel per background: the error over the frames; dotted where the brightness changes."""
     figure.set_size_inches(8, 1.6 * len(results))
     panels = figure.subplots(len(results), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, (name, result) in zip(panels, results.items(), strict=True):

@@ -81,7 +81,7 @@ def _table(results: Mapping[str, SceneResult[DepthScene]]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[DepthScene]]) -> None:
-    """A row a scene: the path from above, beside it the error over the frames."""
+    """A row per scene: the path from above, beside it the error over the frames."""
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo flow-depth``: a walker is overtaken and passes somebody, before a panning pair."""
+"""``tricue demo flow-depth``: a walker is overtaken and passes somebody, before a panning stereo pair."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -80,7 +80,9 @@ def _table(results: Mapping[str, SceneResult[WalkScene]]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[WalkScene]]) -> None:
-    """A row a scene: the path from above where there is a position, beside it the overlap over the frames."""
+    """A row per scene: the path from above where there is a position, beside it the overlap over the
+    frames.
+    """
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo fused``: one target through every trouble, seen by color, depth, both, and a pair."""
+"""``tricue demo fused``: a stress scene, tracked in color, depth, both, and a stereo pair."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -24,7 +24,7 @@ FPS = 30.0  # the cameras'
 MIN_HELD_OVERLAP = 0.5  # of overlap
 
 DemoCase = tuple[Callable[..., StressScene], tuple[str, ...]]
-"""How to make a scene, and the channels that the tracker is shown of it."""
+"""How to make a scene, and the channels that the tracker gets."""
 
 _rgbd = lru_cache(maxsize=1)(partial(stress_scene, "all", channels="rgbd"))  # it takes seconds to make
 
@@ -57,13 +57,13 @@ def _follow(
     options: Namespace, name: str, scene: StressScene, video: OverlayWriter
 ) -> SceneResult[StressScene]:
     """Track one scene from its first true box into the video."""
-    shown = CASES[name][1]
-    camera: dict[str, Any] = {"rig": scene.rig} if "right" in shown else {}
-    if "depth" in shown:
+    channels = CASES[name][1]
+    camera: dict[str, Any] = {"rig": scene.rig} if "right" in channels else {}
+    if "depth" in channels:
         camera["intrinsics"] = scene.intrinsics
     tracker = create(options.tracker, **camera, seed=options.seed, kernels=options.kernels)
     frames = (
-        Frame(**{each: getattr(frame, each) for each in shown}, timestamp=frame.timestamp)
+        Frame(**{each: getattr(frame, each) for each in channels}, timestamp=frame.timestamp)
         for frame in scene.frames
     )
     result = SceneResult(scene)
@@ -101,8 +101,8 @@ def _table(results: Mapping[str, SceneResult[StressScene]]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[StressScene]]) -> None:
-    """A row of each set of channels: the path from above where there is a position, beside it the overlap
-    over the frames, with the names of what happens.
+    """A row per set of channels: the path from above where there is a position, beside it the overlap
+    over the frames, with the names of the events.
     """
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden

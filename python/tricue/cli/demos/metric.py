@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the demos in meters measure in a scene, whatever the cameras: errors, overlaps, what was said."""
+"""Measurements of the demos in meters: position errors, overlaps, reported statuses."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -23,7 +23,7 @@ S = TypeVar("S", DepthScene, StereoScene, WalkScene, StressScene)
 
 @dataclass(frozen=True)
 class SceneResult(Generic[S]):
-    """What came out of one scene."""
+    """The tracks and times of one scene."""
 
     scene: S
     tracks: list[Track] = field(default_factory=list)
@@ -32,13 +32,13 @@ class SceneResult(Generic[S]):
     @property
     def errors(self) -> Floats:
         """(M,) distances of the positions from the true ones, meters; NaN without a position."""
-        places = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
-        distances: Floats = np.linalg.norm(places - self.scene.positions, axis=1)
+        positions = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
+        distances: Floats = np.linalg.norm(positions - self.scene.positions, axis=1)
         return distances
 
     @property
     def overlaps(self) -> Floats:
-        """(M,) with the box round the whole target; NaN where it has none."""
+        """(M,) overlaps with the box of the whole target; NaN where it has none."""
         return metrics.overlaps([track.box for track in self.tracks], self.scene.boxes)
 
     @property
@@ -47,10 +47,12 @@ class SceneResult(Generic[S]):
         return np.asarray(self.scene.visible >= MIN_VISIBLE)
 
     def count_hidden(self, *statuses: Status) -> str:
-        """In how many of the frames in which the target is hidden the tracker says one of the statuses."""
+        """In how many frames with a hidden target the tracker reports one of the statuses, as
+        "count/frames".
+        """
         hidden = np.flatnonzero(self.scene.visible < HIDDEN_BELOW)
-        said = sum(self.tracks[index].status in statuses for index in hidden)
-        return f"{said}/{len(hidden)}"
+        count = sum(self.tracks[index].status in statuses for index in hidden)
+        return f"{count}/{len(hidden)}"
 
     @property
     def speed(self) -> float:
@@ -64,7 +66,7 @@ def follow_all(
     video: OverlayWriter,
     follow: Callable[[str, S, OverlayWriter], SceneResult[S]],
 ) -> dict[str, SceneResult[S]]:
-    """Make each scene by its name, and follow it into the one video, which is closed then."""
+    """Make each scene, track it, and write all into one video, which is closed at the end."""
     results: dict[str, SceneResult[S]] = {}
     with video, Progress(len(scenes)) as progress:
         for done, (name, make) in enumerate(scenes.items()):

@@ -17,7 +17,7 @@ from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 30.0  # the cameras'
-MIN_PLOTTED_ERROR, MAX_PLOTTED_ERROR = 0.1, 50.0  # percent of the distance, of the logarithmic plot
+MIN_PLOTTED_ERROR, MAX_PLOTTED_ERROR = 0.1, 50.0  # percent of the distance, limits of the logarithmic plot
 MIN_HELD_OVERLAP = 0.5  # of overlap
 
 SCENES: Mapping[str, Callable[..., StereoScene]] = {
@@ -78,7 +78,7 @@ def _table(results: Mapping[str, SceneResult[StereoScene]]) -> str:
 
 
 def _plot(figure: Any, results: Mapping[str, SceneResult[StereoScene]]) -> None:
-    """A row a scene: the path from above, beside it the error over the frames."""
+    """A row per scene: the path from above, beside it the error over the frames."""
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 

@@ -131,8 +131,8 @@ class TraxSession:
 
 
 def make_answer(track: Track, last: Box) -> Answer:
-    """The box and score of a track. A box that isn't finite is replaced by the last one: VOT's toolkit would end
-    the whole evaluation at a NaN.
+    """The box and score of a track. A box that isn't finite is replaced by the last one: VOT's toolkit would
+    end the whole evaluation at a NaN.
     """
     if not _finite(track.box):
         return Answer(last, 0.0)

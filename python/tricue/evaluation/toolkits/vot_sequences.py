@@ -39,8 +39,8 @@ def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
 def write_sequence(source: Source, folder: Path) -> int:
     """Write the channels of :func:`vot_channels`, the true boxes, anchors and tags; the number of frames.
 
-    Images that the toolkit and tricue read alike are linked, or copied if links aren't possible. Others become
-    PNG, depth in 16-bit millimeters. The folder must not exist; it is removed after an error.
+    Images that the toolkit and tricue read alike are linked, or copied if links aren't possible. Others
+    become PNG, depth in 16-bit millimeters. The folder must not exist; it is removed after an error.
     ValueError for fewer than two frames, and for channels of different length.
     """
     folder.mkdir(parents=True)

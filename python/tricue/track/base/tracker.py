@@ -19,8 +19,8 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 class TrackerBase(Generic[P, S]):
     """Parameters, kernels and one state.
 
-    The state is immutable: ``init`` and ``update`` replace it as their last step. So an error or Ctrl-C leaves
-    the tracker unchanged, and copies are independent.
+    The state is immutable: ``init`` and ``update`` replace it as their last step. So an error or Ctrl-C
+    leaves the tracker unchanged, and copies are independent.
     """
 
     traits: ClassVar[Traits]
