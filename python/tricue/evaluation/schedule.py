@@ -17,7 +17,7 @@ MISSING_EXTRA = "needs the extra: pip install 'tricue[{}]'"
 class Finished(NamedTuple):
     """A finished task: its index in the list, and its record or error."""
 
-    index: int
+    task_index: int
     record: Record | None
     error: str = ""
 
