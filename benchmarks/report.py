@@ -26,7 +26,7 @@ from tricue import _core
 from tricue.camera.box import Box
 from tricue.evaluation import baselines, metrics
 from tricue.evaluation.one_pass import AnyTracker, Run, one_thread, run
-from tricue.evaluation.tracker_spec import pictured
+from tricue.evaluation.tracker_spec import depth_as_picture
 from tricue.scenes import (
     DepthScene,
     Scene,
@@ -266,7 +266,7 @@ def depth_rows() -> Iterator[str]:
 def depth_runs(scene: DepthScene) -> dict[str, list[Run]]:
     """The trackers' runs, in turn over the rounds; slow ones sit out the later."""
     make = partial(tricue.create, "depth-particle", intrinsics=scene.intrinsics)
-    pictures = list(map(pictured(), scene.frames))
+    pictures = list(map(depth_as_picture(), scene.frames))
     entries: dict[str, tuple[Make, Any, int]] = {
         "depth-particle": (make, scene.frames, ROUNDS),
         "depth-particle, reference": (partial(make, kernels="reference"), scene.frames[:FEW], 1),

@@ -87,7 +87,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         todo = robustness.tasks(variants, options.dataset)
     except (OSError, ValueError) as error:
         made.error(str(error))
-    todo.sort(key=lambda task: -task.variant.spec.slowness)  # so that all processes end together
+    todo.sort(key=lambda task: -task.variant.spec.relative_time)  # so that all processes end together
     recorded = list(run_parallel(robustness.run_protocols, todo, options.jobs))
     scenes = [
         task

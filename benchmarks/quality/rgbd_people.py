@@ -23,8 +23,8 @@ from tricue.camera.read_calibration import read_intrinsics
 from tricue.camera.registration import Extrinsics, color_in_depth
 from tricue.camera.rig import Intrinsics
 from tricue.evaluation import metrics, one_pass
-from tricue.evaluation.dataset import Entry, Opened, Reading, find_entries
-from tricue.evaluation.rows import bounded
+from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
+from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common import sequences
 from benchmarks.quality.common.arguments import parser, seeds
@@ -72,7 +72,7 @@ def run_seeds(task: PeopleTask) -> list[PeopleResult]:
     return [run(task, opened, inputs, frames, seed) for seed in task.seeds]
 
 
-def color_camera(opened: Opened) -> Intrinsics | None:
+def color_camera(opened: OpenedSequence) -> Intrinsics | None:
     """The color camera, where it and the depth camera are calibrated."""
     source = opened.source
     if source.calibration is None or "color" not in source.channels or opened.intrinsics is None:
@@ -80,7 +80,7 @@ def color_camera(opened: Opened) -> Intrinsics | None:
     return read_intrinsics(source.calibration, source.channels["color"].size, "color")
 
 
-def registered(opened: Opened, camera: Intrinsics | None, shift: float = 0.0) -> list[Frame]:
+def registered(opened: OpenedSequence, camera: Intrinsics | None, shift: float = 0.0) -> list[Frame]:
     """The frames with the color in the depth image's pixels; without a color camera depth alone."""
     depth_camera = opened.intrinsics
     if camera is None or depth_camera is None:
@@ -104,18 +104,20 @@ def jittered(box: Box, seed: int) -> Box:
     )
 
 
-def run(task: PeopleTask, opened: Opened, inputs: Inputs, frames: Sequence[Frame], seed: int) -> PeopleResult:
+def run(
+    task: PeopleTask, opened: OpenedSequence, inputs: Inputs, frames: Sequence[Frame], seed: int
+) -> PeopleResult:
     """One run to the end."""
     start, count = opened.start, len(frames)
     tracker = task.variant.make(inputs)
     box = jittered(Box(*opened.boxes[start].tolist()), seed)
     made = one_pass.run(tracker, frames, box, start)
-    overlaps = metrics.overlaps(bounded(made.boxes, opened), opened.truth(count))[start:]
+    overlaps = metrics.overlaps(clip_to_image(made.boxes, opened), opened.truth(count))[start:]
     errors = metrics.position_errors(made.positions, opened.positions(count))[start:]
     known, errors = overlaps[~np.isnan(overlaps)], errors[~np.isnan(errors)]
     z_error = float(np.median(errors)) if errors.size else float("nan")
     names = task.variant.label, task.entry.name, seed
-    return PeopleResult(*names, mean(known), float(known[-1] > MIN_RIGHT_OVERLAP), z_error, tracker.trouble)
+    return PeopleResult(*names, mean(known), float(known[-1] > MIN_RIGHT_OVERLAP), z_error, tracker.error)
 
 
 def table(results: Sequence[PeopleResult]) -> str:
@@ -142,7 +144,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = made.parse_args(arguments)
     try:
         variants = parse_variants(options.trackers, options.set)
-        entries = find_entries(options.dataset, Reading(truth="depth"))
+        entries = find_entries(options.dataset, ReadOptions(truth="depth"))
     except (OSError, TypeError, ValueError) as error:
         made.error(str(error))
     todo = [PeopleTask(each, entry, options.seeds, options.shift) for each in variants for entry in entries]

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import one_pass
-from tricue.evaluation.dataset import Entry, Opened, find_entries
-from tricue.evaluation.rows import bounded
+from tricue.evaluation.dataset import Entry, OpenedSequence, find_entries
+from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common import sequences
 from benchmarks.quality.common.arguments import parser
@@ -82,7 +82,7 @@ def run_protocols(task: RobustnessTask) -> RobustnessResult:
 
 
 def run_order(
-    variant: Variant, opened: Opened, frames: Sequence[Frame], order: Numbers
+    variant: Variant, opened: OpenedSequence, frames: Sequence[Frame], order: Numbers
 ) -> FrameResults | None:
     """Track through the frames in an order, from the first with a true box; None where fewer than two are
     left.
@@ -94,7 +94,7 @@ def run_order(
         return None
     tracker = variant.make(opened)
     run = one_pass.run(tracker, (frames[number] for number in order), Box(*truth[order[0]].tolist()))
-    return FrameResults.of(run, bounded(run.boxes, opened), truth[order], absent[order])
+    return FrameResults.of(run, clip_to_image(run.boxes, opened), truth[order], absent[order])
 
 
 def by_tracker(results: Iterable[RobustnessResult]) -> dict[str, list[RobustnessResult]]:

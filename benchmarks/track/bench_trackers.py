@@ -13,7 +13,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import baselines as opencv_trackers
 from tricue.evaluation import metrics
-from tricue.evaluation.tracker_spec import pictured
+from tricue.evaluation.tracker_spec import depth_as_picture
 from tricue.scenes import face_over_clutter, head, overtaking, walker
 from tricue.scenes.stress.scene import stress_scene
 from tricue.track.base.track import Status
@@ -62,7 +62,7 @@ class Case:
     def frames_of(self, name: str) -> list[Frame]:
         """The frames for it."""
         frames = self.scene_of(name).frames[: self.slow if name == "reference" else self.frames]
-        return list(map(pictured(), frames)) if self.depth and name not in self.ours else list(frames)
+        return list(map(depth_as_picture(), frames)) if self.depth and name not in self.ours else list(frames)
 
     def started(self, name: str) -> Any:
         """A tracker after its init."""

@@ -81,14 +81,14 @@ def test_every_tracker_in_meters_is_tried_below() -> None:
 def test_what_an_unknown_pair_costs_is_true(
     pair: Path, tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that the warning says of each tracker what it does: no positions, or some by a usual pair."""
+    """It proves that the warning says whether positions are missing or from a default stereo pair."""
     content = tracked(pair, "--tracker", tracker)
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert error.startswith("tricue track: warning: the pair's calibration isn't known; ")
     assert has_positions(content) == traits(tracker).guesses
     if traits(tracker).guesses:
-        assert "any position in meters is a guess, by a usual pair, 60 degrees wide and 0.12 m apart" in error
+        assert "rough: a default stereo pair is assumed, 60 degrees wide and 0.12 m apart" in error
     else:
         assert "tracks will have no position in meters" in error
     assert "give --calibration FILE" in error
@@ -110,7 +110,10 @@ def test_what_an_unknown_depth_camera_costs_is_true(
         assert "the depth camera's intrinsics aren't known; how far a position in meters is beside the" in (
             printed.err
         )
-        assert "a guess, by a usual camera, 60 degrees wide; give --calibration FILE or --fov" in printed.err
+        assert (
+            "rough: a default camera is assumed, 60 degrees wide; give --calibration FILE or --fov"
+            in printed.err
+        )
     else:
         assert not printed.err
         assert "intrinsics aren't known; tracks have no position in meters; give --calib" in printed.out
@@ -185,7 +188,7 @@ def test_depth_of_another_camera_comes_into_the_color_image(
     """
     start = box_option(seen_by(COLOR, 0))
     content = tracked(two_cameras, "--tracker", tracker, *MM, start)
-    assert "depth brought into the color image by both cameras' intrinsics" in capsys.readouterr().out
+    assert "depth registered to color by both cameras' intrinsics" in capsys.readouterr().out
     assert content["intrinsics"]["fx"] == COLOR.fx
     assert content["intrinsics"]["width"] == COLOR.width
     last, true = content["tracks"][-1], seen_by(COLOR, 5)
@@ -208,7 +211,7 @@ def test_a_depth_tracker_keeps_its_pixels(two_cameras: Path, capsys: pytest.Capt
     content = tracked(two_cameras, "--tracker", "depth-particle", *MM, box_option(PERSON))
     assert content["intrinsics"]["fx"] == DEPTH.fx
     assert content["tracks"][-1]["x"] == pytest.approx(PERSON.x + 5, abs=2)
-    assert "brought into" not in capsys.readouterr().out
+    assert "registered to color" not in capsys.readouterr().out
 
 
 def test_one_camera_has_nothing_to_bring(
@@ -220,7 +223,7 @@ def test_one_camera_has_nothing_to_bring(
     two.write_text(f"[depth]\n{numbers}scale = 0.001\n[color]\n{numbers}")
     one.write_text(numbers)
     both = tracked(rgbd, *MM, "--calibration", str(two))
-    assert "brought into" not in capsys.readouterr().out
+    assert "registered to color" not in capsys.readouterr().out
     assert tracked(rgbd, *MM, "--calibration", str(one))["tracks"] == both["tracks"]
 
 

@@ -11,7 +11,7 @@ import pytest
 from tricue import Box, Frame, Status, Track
 from tricue.cli import main
 from tricue.cli.demos import depth, flow_depth, fused, stereo
-from tricue.cli.demos.metric import Result
+from tricue.cli.demos.metric import SceneResult
 from tricue.cli.outputs import Step
 from tricue.scenes import crossing, head, overtaking, walker
 from tricue.scenes.stress.scene import stress_scene
@@ -92,7 +92,7 @@ def test_demo_writes_a_table_a_video_and_a_plot(
     demo: Demo, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Every scene is run with its cues or channels and measured, and the files are written."""
-    monkeypatch.setattr(demo.module, "SCENES" if demo.ways is None else "ENTRIES", demo.entries)
+    monkeypatch.setattr(demo.module, "SCENES" if demo.ways is None else "CASES", demo.entries)
     assert main(["demo", demo.name, "--output", str(tmp_path), "--seed", "1"]) == 0
     words = [line.split() for line in capsys.readouterr().out.splitlines() if not line.startswith(" ")]
     rows = {first: rest for first, *rest in filter(None, words) if first in demo.scenes}
@@ -156,7 +156,7 @@ def test_errors_are_shares_of_the_distance() -> None:
     """An error of a hundredth of the way to the head is 1 %."""
     scene = head(seed=1, frames=2)
     tracks = [Track(Box(0, 0, 9, 9), 1.0, Status.TRACKED, 1.01 * place) for place in scene.positions]
-    np.testing.assert_allclose(stereo.shares(Result(scene, tracks)), 1.0)
+    np.testing.assert_allclose(stereo.relative_errors(SceneResult(scene, tracks)), 1.0)
 
 
 def test_the_picture_is_there_without_color_and_without_truth() -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from tricue import Box, Frame, Status, Track
-from tricue.cli.steps import Clock, steps, stoppable
+from tricue.cli.steps import RunClock, catch_interrupt, steps
 from tricue.errors import BoxError, TargetNotFoundError
 from tricue.track.base.track import Tracker
 from tricue.track.base.traits import Channels, Traits
@@ -24,7 +24,7 @@ def frames(count: int, pause: float = 0.0) -> Iterator[Frame]:
 
 def test_the_first_frame_starts_and_the_others_follow(drift: Tracker) -> None:
     """It proves that init is called once, with the box, update on every other frame, all in order."""
-    clock = Clock()
+    clock = RunClock()
     found = list(steps(drift, frames(4), lambda _: BOX, clock))
     assert [step.number for step in found] == [0, 1, 2, 3]
     assert [step.track.box.x for step in found] == [1.0, 3.5, 6.0, 8.5]
@@ -35,7 +35,7 @@ def test_the_first_frame_starts_and_the_others_follow(drift: Tracker) -> None:
 def test_it_waits_for_a_box(drift: Tracker) -> None:
     """It proves that frames before the first box are read but not tracked, and keep their numbers."""
     answers = iter([None, None, BOX])
-    found = list(steps(drift, frames(5), lambda _: next(answers), Clock()))
+    found = list(steps(drift, frames(5), lambda _: next(answers), RunClock()))
     assert [step.number for step in found] == [2, 3, 4]
 
 
@@ -68,11 +68,11 @@ def test_it_waits_until_the_tracker_finds_somebody() -> None:
     """It proves that a tracker that looks for its target is asked again on every frame until it starts, the
     reason is kept, and its particles and objects come with every step.
     """
-    clock = Clock()
+    clock = RunClock()
     shy = Shy(TargetNotFoundError("box: found nobody"))
     found = list(steps(shy, dark_then_bright(), None, clock))  # type: ignore[arg-type]
     assert [step.number for step in found] == [2, 3]
-    assert (clock.decoded, clock.updates, clock.waiting) == (4, 1, "box: found nobody")
+    assert (clock.decoded, clock.updates, clock.not_found_reason) == (4, 1, "box: found nobody")
     assert all(step.objects == [BOX] and len(step.particles) == 1 for step in found)
 
 
@@ -83,24 +83,24 @@ def test_it_waits_until_the_tracker_finds_somebody() -> None:
 def test_other_errors_are_not_waited_out(error: str) -> None:
     """It proves that an error that the next frame can't mend comes at once."""
     with pytest.raises(ValueError, match=error):
-        next(steps(Shy(ValueError(error)), dark_then_bright(), None, Clock()))  # type: ignore[arg-type]
+        next(steps(Shy(ValueError(error)), dark_then_bright(), None, RunClock()))  # type: ignore[arg-type]
 
 
 def test_a_given_box_is_not_waited_out() -> None:
     """It proves that an error about a box that was given comes at once."""
     with pytest.raises(ValueError, match="box: outside"):
-        next(steps(Shy(BoxError("box: outside")), dark_then_bright(), lambda _: BOX, Clock()))  # type: ignore[arg-type]
+        next(steps(Shy(BoxError("box: outside")), dark_then_bright(), lambda _: BOX, RunClock()))  # type: ignore[arg-type]
 
 
 def test_a_tracker_that_needs_a_box_says_so_at_once(drift: Tracker) -> None:
     """It proves that a tracker that doesn't look for its target isn't asked again."""
     with pytest.raises(ValueError, match="box: expected the target's box"):
-        next(steps(drift, frames(3), None, Clock()))
+        next(steps(drift, frames(3), None, RunClock()))
 
 
 def test_decoding_is_told_apart(drift: Tracker) -> None:
     """It proves that a slow source counts as decoding, not as tracking."""
-    clock = Clock()
+    clock = RunClock()
     list(steps(drift, frames(5, pause=0.01), lambda _: BOX, clock))
     assert clock.decoding > 0.05
     assert clock.tracking < 0.02
@@ -110,7 +110,7 @@ def test_decoding_is_told_apart(drift: Tracker) -> None:
 def test_ctrl_c_asks_first_and_breaks_off_then() -> None:
     """It proves that the first SIGINT answers "stop?", a second interrupts, and the old handler returns."""
     before = signal.getsignal(signal.SIGINT)
-    with stoppable() as stop:
+    with catch_interrupt() as stop:
         assert not stop()
         os.kill(os.getpid(), signal.SIGINT)
         assert stop()

@@ -134,7 +134,7 @@ def untrue(folder: Path) -> None:
     [
         (small, [], "right: expected the shape of color"),
         (blank, [], "expected a head with a disparity between near and far"),
-        (blank, [], "--set near=METERS and --set far=METERS change what is looked for"),
+        (blank, [], "--set near=METERS and --set far=METERS change the range of the search"),
         (shortened, [], "expected as many color as right images"),
         (untrue, ["--box", "500,500,20,20"], "expected a part inside the image of 160x120 pixels"),
         (untrue, ["--detect", "person"], "--detect person: stereo-head doesn't look for people"),

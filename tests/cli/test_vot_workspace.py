@@ -83,7 +83,7 @@ def test_all_trackers_are_in_the_commands() -> None:
         (["--trackers", "color-particle", "--python", "nowhere/python"], "found none at nowhere/python"),
         (["--trackers", "color-particle", "--sequences", "nowhere"], "nowhere: there is no such folder"),
         (["--trackers", "color-particle", "--sequences", "empty"], "empty: expected folders of sequences"),
-        (["--trackers", ","], "argument --trackers: expected names with commas between"),
+        (["--trackers", ","], "argument --trackers: expected names separated by commas"),
         ([], "the following arguments are required: --trackers"),
     ],
 )

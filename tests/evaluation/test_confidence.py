@@ -96,7 +96,7 @@ def test_reliability_of_few_frames_has_gaps():
         (lambda: confidence.auroc([0.5], [1.5]), r"scores: expected numbers in \[0, 1\]"),
         (lambda: confidence.auroc([0.5], [np.nan]), r"scores: expected numbers in \[0, 1\]"),
         (lambda: confidence.auroc([0.5], [0.5], [1]), "absent: expected bool"),
-        (lambda: confidence.tracked_while_lost([0.5], [0.9]), "said_present: expected bool"),
+        (lambda: confidence.tracked_while_lost([0.5], [0.9]), "reported_present: expected bool"),
         (lambda: confidence.reliability([0.5], [0.5], bins=0), "bins: expected 1 or more"),
     ],
 )

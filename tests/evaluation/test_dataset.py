@@ -6,10 +6,10 @@ import pickle
 import cv2
 import numpy as np
 import pytest
-from tricue.evaluation.dataset import Entry, Reading, find_entries
+from tricue.evaluation.dataset import Entry, ReadOptions, find_entries
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
-from tricue.evaluation.rows import judged, row_of
+from tricue.evaluation.rows import make_row, score_run
 from tricue.evaluation.tasks import Task, perform
 from tricue.evaluation.tracker_spec import TrackerSpec, tracker_specs
 from tricue.track.base.track import Status
@@ -77,7 +77,7 @@ def test_a_digest_is_of_the_images_not_of_their_place(tmp_path):
         Entry("walk", write_rgbd(tmp_path / name)).open().digest for name in ("here", "elsewhere")
     )
     assert first == second
-    assert Entry("walk", tmp_path / "here", None, Reading(depth_scale=0.002)).open().digest != first
+    assert Entry("walk", tmp_path / "here", None, ReadOptions(depth_scale=0.002)).open().digest != first
     cv2.imwrite(str(tmp_path / "here" / "color" / "00000003.png"), color(9) // 7)
     assert Entry("walk", tmp_path / "here").open().digest != first
 
@@ -99,7 +99,7 @@ def test_whose_pixels_the_truth_counts(tmp_path, cameras, positions, told, chann
     what the user says goes before all.
     """
     folder = write_rgbd(tmp_path / "walk", cameras=cameras, positions=positions)
-    opened = Entry("walk", folder, None, Reading(truth=told)).open()
+    opened = Entry("walk", folder, None, ReadOptions(truth=told)).open()
     assert (opened.channel, opened.group) == (channel, group)
 
 
@@ -120,9 +120,9 @@ def test_trackers_are_shown_what_they_can_use(tmp_path):
         spec = TrackerSpec(name)
         for opened, wanted in zip((rgbd, apart, pair), each, strict=True):
             if isinstance(wanted, str):
-                assert spec.refuses(opened) == wanted
+                assert spec.unsupported_reason(opened) == wanted
             else:
-                assert spec.refuses(opened) == ""
+                assert spec.unsupported_reason(opened) == ""
                 frame = next(iter(opened.source))
                 assert spec.view(opened)(frame).channels == wanted
 
@@ -130,7 +130,7 @@ def test_trackers_are_shown_what_they_can_use(tmp_path):
 def test_depth_of_another_camera_is_not_taken_for_the_colors(tmp_path):
     """Where the true boxes are in the color image and the depth isn't registered, only color is used."""
     opened = Entry("walk", write_rgbd(tmp_path / "walk", cameras=TWO)).open()
-    assert TrackerSpec("depth-particle").refuses(opened) == "depth not registered to color"
+    assert TrackerSpec("depth-particle").unsupported_reason(opened) == "depth not registered to color"
     for name in ("flow-depth", "fused"):
         assert TrackerSpec(name).view(opened)(next(iter(opened.source))).channels == ("color",)
 
@@ -149,8 +149,8 @@ def test_a_depth_tracker_is_judged_in_meters(tmp_path):
     folder = write_rgbd(tmp_path / "walk", count=8, cameras=TWO, positions=True)
     entry = Entry("walk", folder)
     record = perform(Task(TrackerSpec("flow-depth"), entry))
-    row = row_of(entry.open(), "flow-depth", 0, judged(record, entry.open()))
-    assert record.trouble == ""
+    row = make_row(entry.open(), "flow-depth", 0, score_run(record, entry.open()))
+    assert record.error == ""
     assert row.position_error < 0.2
     assert row.group == "depth"
 
@@ -170,8 +170,8 @@ def test_of_boxes_beyond_the_edge_only_the_part_inside_counts(tmp_path):
     vot = Entry("vot", write_rgbd(tmp_path / "vot", 4, "40,6,8,20\n")).open()
     pair = write_pair(tmp_path / "pair")
     (pair / "groundtruth.txt").write_text("40,6,8,20\n" * 4)
-    np.testing.assert_array_equal(judged(Record(run), vot).overlaps, 1)
-    np.testing.assert_allclose(judged(Record(run), Entry("pair", pair).open()).overlaps, 8 / 28)
+    np.testing.assert_array_equal(score_run(Record(run), vot).overlaps, 1)
+    np.testing.assert_allclose(score_run(Record(run), Entry("pair", pair).open()).overlaps, 8 / 28)
 
 
 def test_runs_start_where_the_truth_starts(tmp_path):
@@ -182,7 +182,7 @@ def test_runs_start_where_the_truth_starts(tmp_path):
     record = perform(Task(TrackerSpec("still-box"), entry))
     assert record.starts == (2,)
     assert np.isnan(record.run.boxes[:2]).all()
-    row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()))
+    row = make_row(entry.open(), "still-box", 0, score_run(record, entry.open()))
     assert (row.frames, row.success) == (4, 1.0)
     assert np.isnan(row.true_negative)
 
@@ -193,14 +193,14 @@ def test_absent_frames_make_rates(tmp_path):
     (folder / "groundtruth.txt").write_text(BOX * 3 + "nan,nan,nan,nan\n" * 3)
     entry = Entry("walk", folder)
     record = perform(Task(TrackerSpec("still-box"), entry))
-    row = row_of(entry.open(), "still-box", 0, judged(record, entry.open()))
+    row = make_row(entry.open(), "still-box", 0, score_run(record, entry.open()))
     assert (row.true_positive, row.true_negative, row.ok_while_lost) == (1.0, 0.0, 0.5)
 
 
 def test_kitti_has_ten_pairs_a_second(data):
     """Its files don't tell, but its cameras had no other rate; what the user says goes before it."""
     folder = data / "stereo" / "kitti-tracking"
-    for reading, rate in ((Reading(), 10), (Reading(fps=25), 25)):
+    for reading, rate in ((ReadOptions(), 10), (ReadOptions(fps=25), 25)):
         assert Entry("car", folder, "Car 31", reading).open().source.fps == rate
 
 
@@ -228,7 +228,7 @@ def test_a_seed_gives_the_same_run_whoever_ran_before(tmp_path, name):
 def measured(name, entry):
     """The row of a tracker on a recorded sequence."""
     record = perform(Task(TrackerSpec(name), entry))
-    return row_of(entry.open(), name, 0, judged(record, entry.open()))
+    return make_row(entry.open(), name, 0, score_run(record, entry.open()))
 
 
 def test_ours_follows_real_people(data):

@@ -198,7 +198,7 @@ def test_rates_without_their_frames_are_nan():
             r"expected visible frames in each, got none in sequences\[0\]",
         ),
         (lambda: long_term.thresholds([0.5], 2), "resolution: expected 3 or more"),
-        (lambda: long_term.rates([BOX], [BOX], [1], [False]), "said_present: expected bool"),
+        (lambda: long_term.rates([BOX], [BOX], [1], [False]), "reported_present: expected bool"),
         (lambda: long_term.rates([BOX], [BOX], [True], [False] * 2), "absent: expected bool of shape"),
         (lambda: long_term.vot_frames([BOX], [BOX], [[0.5]], [False]), "scores: expected an array of shape"),
         (lambda: long_term.vot_frames([BOX] * 2, [BOX], [0.5], [False]), "boxes: expected as many rows"),

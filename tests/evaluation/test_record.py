@@ -40,10 +40,10 @@ def test_a_record_is_the_same_again_bit_for_bit(record):
         before, after = getattr(record.run, name), getattr(again.run, name)
         assert before.shape == after.shape
         np.testing.assert_array_equal(before, after)
-    assert (again.run.statuses, again.starts, again.trouble) == (
+    assert (again.run.statuses, again.starts, again.error) == (
         record.run.statuses,
         record.starts,
-        record.trouble,
+        record.error,
     )
 
 

@@ -30,7 +30,7 @@ def still(count):
     return np.tile([10.0, 10, 20, 20], (count, 1))
 
 
-def judged(record, truth):
+def compute_robustness(record, truth):
     """The run's robustness."""
     return restarts.robustness(record, metrics.overlaps(record.run.boxes, truth))
 
@@ -48,7 +48,7 @@ def test_a_lost_tracker_starts_again_some_frames_later():
     assert len(made) == 3
     idle = np.isnan(record.run.boxes).all(axis=1)
     np.testing.assert_array_equal(np.flatnonzero(idle), [4, 5, 6, 7, 12, 13, 14, 15])
-    assert judged(record, still(20))[:2] == (3, 9)
+    assert compute_robustness(record, still(20))[:2] == (3, 9)
 
 
 def test_frames_without_truth_neither_fail_nor_start():
@@ -57,7 +57,7 @@ def test_frames_without_truth_neither_fail_nor_start():
     truth[3:12] = np.nan
     record = restarts.run(lambda: Patient(2), [FRAME] * 20, truth)
     assert record.starts == (0, 17)
-    assert judged(record, truth).failures == 1
+    assert compute_robustness(record, truth).failures == 1
 
 
 def test_truth_may_end_before_the_frames():
@@ -65,7 +65,7 @@ def test_truth_may_end_before_the_frames():
     record = restarts.run(lambda: Patient(30), [FRAME] * 20, still(5))
     assert len(record.run.boxes) == 20
     truth = np.concatenate([still(5), np.full((15, 4), np.nan)])
-    assert judged(record, truth) == (0, 4, pytest.approx(np.nan, nan_ok=True))
+    assert compute_robustness(record, truth) == (0, 4, pytest.approx(np.nan, nan_ok=True))
 
 
 def test_accuracy_leaves_out_the_frames_after_a_start():
@@ -73,12 +73,12 @@ def test_accuracy_leaves_out_the_frames_after_a_start():
     truth = still(30)
     truth[:10, 2:] = 1000
     record = restarts.run(lambda: Patient(99), [FRAME] * 30, still(30))
-    assert judged(record, truth).accuracy == 1.0
-    assert judged(record, truth).failures == 0
+    assert compute_robustness(record, truth).accuracy == 1.0
+    assert compute_robustness(record, truth).failures == 0
 
 
 def test_a_tracker_that_holds_is_never_restarted():
-    """One start, no failure, all frames but the first judged."""
+    """One start, no failure, all frames but the first counted."""
     record = restarts.run(lambda: Patient(99), [FRAME] * 12, still(12))
     assert record.starts == (0,)
-    assert judged(record, still(12)) == (0, 11, 1.0)
+    assert compute_robustness(record, still(12)) == (0, 11, 1.0)

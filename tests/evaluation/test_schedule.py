@@ -63,20 +63,20 @@ def test_errors_of_a_sequence_come_back_from_the_cluster(cluster, tmp_path):
     """A task whose sequence isn't there is told; the others have their records."""
     (tmp_path / "empty").mkdir()
     tasks = [Task(TrackerSpec("still-box"), Entry(name, tmp_path / name)) for name in ("gone", "empty")]
-    found = {each.place: each for each in schedule.completed(tasks, perform, scheduler=cluster)}
+    found = {each.task_index: each for each in schedule.run_tasks(tasks, perform, scheduler=cluster)}
     assert all(each.record is None for each in found.values())
     assert "gone: there is no such file or folder" in found[0].error
     assert "empty" in found[1].error
 
 
 def test_processes_give_what_is_finished_as_it_comes(tmp_path):
-    """Each task comes back with its place; errors don't stop the others."""
+    """Each task comes back with its index; errors don't stop the others."""
     tasks = [
         Task(TrackerSpec("still-box"), Entry(str(number), tmp_path / str(number))) for number in range(5)
     ]
     for jobs in (1, 2):
-        found = list(schedule.completed(tasks, perform, jobs))
-        assert sorted(each.place for each in found) == list(range(5))
+        found = list(schedule.run_tasks(tasks, perform, jobs))
+        assert sorted(each.task_index for each in found) == list(range(5))
         assert all("no such file or folder" in each.error for each in found)
 
 
@@ -86,7 +86,7 @@ def test_no_scheduler_is_told_by_its_address(monkeypatch):
     monkeypatch.setattr(schedule, "CONNECT_TIMEOUT", "1s")
     with pytest.raises(OSError, match=r"127\.0\.0\.1:9"):
         list(
-            schedule.completed(
+            schedule.run_tasks(
                 [Task(TrackerSpec("still-box"), Entry("a", Path("a")))], perform, 1, "tcp://127.0.0.1:9"
             )
         )

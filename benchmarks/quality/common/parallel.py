@@ -4,7 +4,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
-from tricue.evaluation.schedule import NEEDED
+from tricue.evaluation.schedule import MISSING_EXTRA
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -18,6 +18,6 @@ def run_parallel(run: Callable[[Task], Result], tasks: Iterable[Task], jobs: int
     try:
         from joblib import Parallel, delayed
     except ImportError:
-        raise ImportError(f"--jobs above 1 {NEEDED.format('evaluate')}") from None
+        raise ImportError(f"--jobs above 1 {MISSING_EXTRA.format('evaluate')}") from None
     parallel = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
     yield from parallel(delayed(run)(task) for task in tasks)

@@ -92,7 +92,7 @@ def run_variant(variant: Variant, scene: StressScene, channels: str) -> SceneRes
         recovered(run, scene),
         faithful(run, scene),
         reported_lost(run, scene),
-        tracker.trouble,
+        tracker.error,
     )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.evaluation.tracker_spec import Offer, SafeTracker, TrackerSpec, View, tracker_specs
+from tricue.evaluation.tracker_spec import FrameView, SafeTracker, SequenceInfo, TrackerSpec, tracker_specs
 from tricue.track.base.settings import read_settings
 
 CHANNELS = ("color", "depth", "right")
@@ -15,7 +15,7 @@ CHANNELS = ("color", "depth", "right")
 
 @dataclass(frozen=True)
 class Inputs:
-    """What a sequence has for trackers: channels and cameras, as the protocol ``Offer`` has them."""
+    """What a sequence has for trackers: channels and cameras, as the protocol ``SequenceInfo`` has them."""
 
     channels: tuple[str, ...]
     intrinsics: Intrinsics | None = None
@@ -36,16 +36,16 @@ class Variant:
     spec: TrackerSpec
     only: tuple[str, ...] | None = None
 
-    def unsupported(self, inputs: Offer) -> str:
+    def unsupported(self, inputs: SequenceInfo) -> str:
         """Why it can't run on such inputs, "" where it can."""
         missing = [name for name in self.only or () if name not in inputs.channels]
-        return f"no {missing[0]}" if missing else self.spec.refuses(self._limited(inputs))
+        return f"no {missing[0]}" if missing else self.spec.unsupported_reason(self._limited(inputs))
 
-    def make(self, inputs: Offer) -> SafeTracker:
+    def make(self, inputs: SequenceInfo) -> SafeTracker:
         """The tracker with its cameras, from seed 0."""
         return self.spec.make(self._limited(inputs), 0)
 
-    def view(self, inputs: Offer) -> View:
+    def view(self, inputs: SequenceInfo) -> FrameView:
         """What it gets of a frame."""
         only, view = self.only, self.spec.view(self._limited(inputs))
         if only is None:
@@ -54,7 +54,7 @@ class Variant:
             Frame(**{name: getattr(frame, name) for name in only}, timestamp=frame.timestamp)
         )
 
-    def _limited(self, inputs: Offer) -> Offer:
+    def _limited(self, inputs: SequenceInfo) -> SequenceInfo:
         if self.only is None:
             return inputs
         return Inputs(

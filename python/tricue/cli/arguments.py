@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Options and types of arguments that several commands share."""
+"""Options and argument types shared by several commands."""
 
 import argparse
 import sys
@@ -26,10 +26,10 @@ def count(text: str) -> int:
 
 
 def words(text: str) -> list[str]:
-    """Words with commas between."""
+    """Words separated by commas."""
     found = [word.strip() for word in text.split(",") if word.strip()]
     if not found:
-        raise argparse.ArgumentTypeError(f"expected names with commas between, got {text!r}")
+        raise argparse.ArgumentTypeError(f"expected names separated by commas, got {text!r}")
     return found
 
 
@@ -69,5 +69,5 @@ def tracker_name(text: str) -> str:
 
 
 def tracker_names(text: str) -> list[str]:
-    """Names of trackers with commas between; those of the form ``module:Class`` are imported now."""
+    """Tracker names separated by commas; those of the form ``module:Class`` are imported now."""
     return [tracker_name(name) if ":" in name else name for name in words(text)]

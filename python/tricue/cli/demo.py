@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo``: scenes with known truth, tracked; an error table, an overlay video and a plot."""
+"""``tricue demo``: tracks scenes with known truth; writes an error table, an overlay video and a plot."""
 
 import argparse
 import importlib
@@ -15,14 +15,14 @@ DEMOS = (
     (lambda traits: traits.best(("color",)), "color"),
     (lambda traits: traits.best(("color", "right")), "stereo"),
 )
-"""Which trackers a demo of tricue.cli.demos suits; the first that does is taken."""
+"""The modules of tricue.cli.demos, each with a test of the tracker's traits; the first match runs."""
 EXAMPLES = """\
 examples:
   tricue demo
   tricue demo depth-particle                                  people before a depth camera, in meters
   tricue demo stereo-head                                     a head before a stereo pair, in meters
-  tricue demo flow-depth                                      a walker who is overtaken, before a panning pair
-  tricue demo fused                                           a target in all troubles, before three cameras
+  tricue demo flow-depth                                      a walker, overtaken, before a stereo pair
+  tricue demo fused                                           a stress scene, before three cameras
   tricue demo color-particle --kernels reference --output here
 """
 

@@ -11,8 +11,8 @@ from typing import Any
 from tricue.cli.arguments import count, tracker_names
 from tricue.cli.progress import Progress
 from tricue.evaluation import tables
-from tricue.evaluation.dataset import Reading
-from tricue.evaluation.evaluate import Evaluation, Options, Told, evaluate
+from tricue.evaluation.dataset import ReadOptions
+from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
 from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import perform
@@ -39,24 +39,24 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--trackers",
         type=tracker_names,
         metavar="NAMES",
-        help="ours, cv2's and module:Class, with commas between; all that are installed without it",
+        help="tricue's, cv2's or module:Class, separated by commas; default all that are installed",
     )
     command.add_argument(
         "--set",
         action="append",
         default=[],
         metavar="TRACKER.NAME=VALUE",
-        help="a parameter of one of our trackers",
+        help="a parameter of one of tricue's trackers",
     )
     command.add_argument(
         "--seeds",
         type=count,
         default=3,
         metavar="N",
-        help="runs of those that draw random numbers, default %(default)s",
+        help="runs of trackers that draw random numbers, default %(default)s",
     )
     command.add_argument(
-        "--no-restarts", action="store_true", help="leave out the runs that start again after a failure"
+        "--no-restarts", action="store_true", help="leave out the runs with restarts after failures"
     )
     where = command.add_mutually_exclusive_group()
     where.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
@@ -66,9 +66,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=count,
         default=0,
         metavar="N",
-        help="frames to read ahead, for slow disks; takes part of another core",
+        help="frames to read ahead, for slow disks; uses part of another core",
     )
-    command.add_argument("--fresh", action="store_true", help="run again what was run before")
+    command.add_argument("--fresh", action="store_true", help="repeat finished runs")
     command.add_argument(
         "--output", type=Path, default=Path("evaluation"), metavar="FOLDER", help="default %(default)s/"
     )
@@ -85,12 +85,12 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--truth",
         choices=("color", "depth"),
-        help="the channel whose pixels the true boxes count, if both are there",
+        help="the channel in whose pixels the true boxes are given, if there are both",
     )
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command: progress on stderr, the table on stdout; the exit code is 1 if a sequence couldn't be
+    """Run the command: progress on stderr, the table on stdout. The exit code is 1 if a sequence couldn't be
     read.
     """
     svg.require()  # now, not after hours
@@ -100,13 +100,13 @@ def run(options: argparse.Namespace) -> int:
         settings=settings_by_tracker(options.set),
         seeds=options.seeds,
         restarts=not options.no_restarts,
-        reading=Reading(options.depth_scale, options.fps, options.unit, options.truth),
+        reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
     )
     with Progress() as progress:
 
-        def tell(told: Told) -> None:
-            progress.total = told.total
-            progress(told.done, _left(told))
+        def show(update: ProgressUpdate) -> None:
+            progress.total = update.total
+            progress(update.done, _remaining_note(update))
 
         try:
             evaluation = evaluate(
@@ -116,7 +116,7 @@ def run(options: argparse.Namespace) -> int:
                 jobs=options.jobs,
                 fresh=options.fresh,
                 scheduler=options.scheduler,
-                tell=tell,
+                on_progress=show,
                 work=partial(perform, ahead=options.ahead),
             )
         except KeyboardInterrupt:
@@ -150,8 +150,8 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
     return FAILED if evaluation.failed else 0
 
 
-def _left(told: Told) -> str:
-    if told.last is None or told.seconds_left is None:
+def _remaining_note(update: ProgressUpdate) -> str:
+    if update.last is None or update.seconds_left is None:
         return ""
-    minutes, seconds = divmod(round(told.seconds_left), 60)
-    return f"{minutes}:{seconds:02d} left, {told.last.tracker.name} {told.last.entry.name}"
+    minutes, seconds = divmod(round(update.seconds_left), 60)
+    return f"{minutes}:{seconds:02d} left, {update.last.tracker.name} {update.last.entry.name}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue info PLACE``: what was found there, or below it where it is a folder of sequences."""
+"""``tricue info PLACE``: what is there, or in each sequence of a folder."""
 
 import argparse
 import json
@@ -30,7 +30,7 @@ examples:
   tricue info left.mp4 --right right.mp4 --calibration stereo.yml
   tricue info kitti/ --target "Car 31" --json
 """
-COLUMN = 13  # characters, where the values begin
+VALUE_COLUMN = 13  # characters before the values
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -98,7 +98,7 @@ def _targets(place: Path) -> list[str]:
 
 
 def _lines(facts: Summary) -> Iterator[str]:
-    """The same for people."""
+    """The facts as text lines."""
     yield f"{facts['name']}: {facts['format']}"
     assumed = "" if facts["fps_known"] else " (assumed, nothing tells the times)"
     yield _line(
@@ -161,22 +161,22 @@ def _calibration_lines(camera: Summary | None) -> Iterator[str]:
 
 
 def _line(name: str, text: str) -> str:
-    return f"  {name:{COLUMN}}{text}"
+    return f"  {name:{VALUE_COLUMN}}{text}"
 
 
 def _list(root: Path, places: list[Path], options: argparse.Namespace) -> int:
-    """A line a sequence; ValueError at the end where some can't be opened."""
-    found = [_short(root, place, options.depth_scale) for place in places]
-    _print({"sequences": found}, map(_short_line, found), options.json)
+    """Print a line per sequence; ValueError at the end if some can't be opened."""
+    found = [_summarize(root, place, options.depth_scale) for place in places]
+    _print({"sequences": found}, map(_summary_line, found), options.json)
     if bad := sum("error" in each for each in found):
         raise ValueError(f"{root}: {bad} of {len(found)} sequences can't be opened")
     return 0
 
 
-def _short(root: Path, place: Path, scale: float | None) -> Summary:
+def _summarize(root: Path, place: Path, scale: float | None) -> Summary:
     name = place.relative_to(root).as_posix()
     try:
-        source, names = _opened(place, scale), _targets(place)
+        source, names = _open_with_scale(place, scale), _targets(place)
     except (OSError, ValueError) as error:
         return {"place": name, "error": str(error)}
     boxes = None if source.truth is None else int(np.isfinite(source.truth).all(axis=1).sum())
@@ -190,8 +190,8 @@ def _short(root: Path, place: Path, scale: float | None) -> Summary:
     }
 
 
-def _opened(place: Path, scale: float | None) -> Source:
-    """The source; the scale is for those alone whose format doesn't say it."""
+def _open_with_scale(place: Path, scale: float | None) -> Source:
+    """The source, opened with the depth scale only if its format doesn't contain one."""
     try:
         return open_source(place)
     except ValueError:
@@ -200,7 +200,7 @@ def _opened(place: Path, scale: float | None) -> Source:
         return open_source(place, depth_scale=scale)
 
 
-def _short_line(facts: Summary) -> str:
+def _summary_line(facts: Summary) -> str:
     if "error" in facts:
         return f"{facts['place']}: can't be opened: {facts['error']}"
     frames = "frames not counted" if facts["frames"] is None else f"{facts['frames']} frames"

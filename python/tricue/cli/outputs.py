@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Where a run's tracks go, frame by frame: CSV, JSON, an overlay video. Each is whole once it is closed."""
+"""Outputs of a run, written frame by frame: CSV, JSON, overlay video. A file is complete once closed."""
 
 import csv
 import json
@@ -20,7 +20,7 @@ from tricue.draw.stereo import stereo_overlay
 from tricue.draw.video import OverlayWriter
 from tricue.track.base.track import Track
 
-CALM = 0.1  # a frame's share in the range of the video's shades
+RANGE_SMOOTHING = 0.1  # weight of a new frame in the depth range of the video
 COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")  # the upper triangle, row by row
 COLUMNS = (
     *("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
@@ -29,7 +29,7 @@ COLUMNS = (
 
 
 class Step(NamedTuple):
-    """One tracked frame: its number from 0, what was seen, what the tracker said, and its seconds.
+    """One tracked frame: its number from 0, the frame, its track, and the tracking time in seconds.
 
     particles, objects, mask, blocks: the tracker's own, where it has them.
     """
@@ -45,7 +45,7 @@ class Step(NamedTuple):
 
 
 class Output(AbstractContextManager[Any], Protocol):
-    """Something that takes the steps of a run; used in ``with``."""
+    """A context manager that writes the steps of a run."""
 
     @property
     def path(self) -> Path: ...
@@ -54,7 +54,7 @@ class Output(AbstractContextManager[Any], Protocol):
 
 
 def row(step: Step) -> list[Any]:
-    """The values of COLUMNS, None where absent; six decimals, of covariances six digits."""
+    """The values of COLUMNS, None if absent; six decimals, for covariances six digits."""
     track, position = step.track, step.track.position
     meters = [None] * 3 if position is None else np.asarray(position).tolist()
     numbers = [step.frame.timestamp, track.score, *track.box, *meters]
@@ -69,11 +69,11 @@ def _covariance(track: Track) -> list[float | None]:
 
 
 class CsvOutput:
-    """A line a frame under a line of COLUMNS; absent values are empty."""
+    """A header of COLUMNS and a line per frame; absent values are empty."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._file = _created(path)
+        self._file = _create(path)
         self._writer = csv.writer(self._file, lineterminator="\n")
         self._writer.writerow(COLUMNS)
 
@@ -88,12 +88,12 @@ class CsvOutput:
 
 
 class JsonOutput:
-    """One object: what ``about`` says, and "tracks", a list of objects with COLUMNS as keys, a line each."""
+    """One object: the entries of ``about``, and "tracks", a list of objects with COLUMNS as keys."""
 
     def __init__(self, path: Path, about: dict[str, Any]) -> None:
         self.path = path
         head = json.dumps(about, indent=1, allow_nan=False)
-        self._file = _created(path)
+        self._file = _create(path)
         self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
@@ -111,10 +111,10 @@ class JsonOutput:
 
 
 class VideoOutput:
-    """The overlay video: on the depth where the tracker segments it or there is nothing else.
+    """The overlay video, drawn on depth if the tracker segments depth or there is no color.
 
-    rig: the stereo pair's, where the tracker knows it; then the disparity is shown, or the target's pixels
-    where the tracker has a mask of them.
+    rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
+    tracker has one.
     """
 
     def __init__(self, path: Path, fps: float, rig: StereoRig | None = None) -> None:
@@ -136,10 +136,10 @@ class VideoOutput:
             image = color
             if image is None:
                 assert depth is not None  # a frame has one of the two
-                image = depth_picture(depth, *self._shades(depth))
+                image = depth_picture(depth, *self._smoothed_range(depth))
             return flow_depth_overlay(image, step.track, step.mask, step.blocks, note=note)
         if depth is not None and (color is None or step.objects is not None):
-            near, far = self._shades(depth)
+            near, far = self._smoothed_range(depth)
             return depth_overlay(
                 depth,
                 step.track,
@@ -154,12 +154,12 @@ class VideoOutput:
         assert color is not None  # a frame has one of the two
         return overlay(color, step.track, particles=step.particles, note=note)
 
-    def _shades(self, depth: NDArray[np.float32]) -> tuple[float, float]:
-        """The range of depths shown, meters; it follows the frames' slowly, so that nothing flickers."""
+    def _smoothed_range(self, depth: NDArray[np.float32]) -> tuple[float, float]:
+        """The displayed depth range, meters; it follows the frames' range slowly to avoid flicker."""
         now = depth_range(depth) or self._range or (0.0, 1.0)
         before = self._range or now
-        near, far = (b + CALM * (n - b) for b, n in zip(before, now, strict=True))
-        self._range = near, max(far, near + 0.01)  # a wall has no range
+        near, far = (b + RANGE_SMOOTHING * (n - b) for b, n in zip(before, now, strict=True))
+        self._range = near, max(far, near + 0.01)  # a flat wall has an empty range
         return self._range
 
     def __enter__(self) -> "VideoOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
@@ -169,6 +169,6 @@ class VideoOutput:
         self._writer.close()
 
 
-def _created(path: Path) -> Any:
+def _create(path: Path) -> Any:
     path.parent.mkdir(parents=True, exist_ok=True)
     return path.open("w", encoding="utf-8", newline="")

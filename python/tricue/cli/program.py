@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The command line: finds the command, parses its arguments, calls it, and prints errors in a line."""
+"""The command line: parses the arguments, runs the command, and prints errors on one line."""
 
 import argparse
 import importlib
@@ -15,19 +15,19 @@ from tricue.errors import one_line
 
 USAGE, INTERRUPTED = 2, 130
 
-# What the help says of each command; its arguments and its body are in the module of its name.
+# The help text of each command, which is in the module of the same name.
 COMMANDS = {
     "demo": "track a scene with known truth",
     "track": "track in a video, a folder, a camera",
-    "info": "say what is in a video, a folder, a sequence",
-    "evaluate": "trackers beside OpenCV's over a data set",
-    "reproduce": "redo an experiment of the papers",
+    "info": "describe a video, a folder, a sequence",
+    "evaluate": "compare trackers with OpenCV's on a data set",
+    "reproduce": "repeat an experiment of the papers",
     "vot-workspace": "let the VOT toolkit run trackers",
 }
 
 
 class Parser(argparse.ArgumentParser):
-    """Errors in one line, without the usage in front."""
+    """Prints errors on one line, without the usage."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(USAGE, f"{self.prog}: {message}; see {self.prog} --help\n")
@@ -39,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = list(sys.argv[1:] if arguments is None else arguments)
     options = parser(words[0] if words else "").parse_args(words)
     try:
-        with _warnings_in_a_line(options.command):
+        with _one_line_warnings(options.command):
             code: int = options.run(options)
         return code
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
@@ -51,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def parser(chosen: str = "") -> argparse.ArgumentParser:
-    """The commands, with the options of the chosen one, whose module alone is imported."""
+    """The commands, with the options of the chosen one; only its module is imported."""
     top = Parser(prog="tricue", description=tricue.__doc__)
     top.add_argument("--version", action="version", version=f"tricue {tricue.__version__}")
     commands = top.add_subparsers(dest="command", metavar="COMMAND", required=True)
@@ -68,8 +68,8 @@ def parser(chosen: str = "") -> argparse.ArgumentParser:
 
 
 @contextmanager
-def _warnings_in_a_line(command: str) -> Iterator[None]:
-    """Warnings as short as errors; a place in the code warns once, for the next frames would say the same."""
+def _one_line_warnings(command: str) -> Iterator[None]:
+    """Print warnings on one line, and each line of code once, because frames would repeat them."""
     shown: set[tuple[str, int]] = set()
 
     def show(message: Warning | str, _category: object, filename: str, lineno: int, *_: object) -> None:
@@ -83,6 +83,6 @@ def _warnings_in_a_line(command: str) -> Iterator[None]:
 
 
 def silence_opencv() -> None:
-    """OpenCV and FFmpeg write to stderr by themselves; what matters of it comes as an exception."""
+    """Keep OpenCV and FFmpeg from writing to stderr; relevant errors are raised as exceptions."""
     os.environ.setdefault("OPENCV_LOG_LEVEL", "SILENT")
     os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")

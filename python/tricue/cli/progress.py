@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""How far a run is: a bar on a terminal, now and then a plain line elsewhere."""
+"""Progress of a run: a bar on a terminal, otherwise a plain line every few seconds."""
 
 import sys
 import time
 from typing import TextIO
 
-WIDTH = 24
+BAR_WIDTH = 24
 _TERMINAL_EVERY, _PLAIN_EVERY = 0.1, 10.0  # seconds
 
 
@@ -42,5 +42,5 @@ class Progress:
     def _bar(self, done: int) -> str:
         if not (self.terminal and self.total):
             return ""
-        full = min(WIDTH, WIDTH * done // self.total)
-        return f"[{'#' * full}{'.' * (WIDTH - full)}] "
+        full = min(BAR_WIDTH, BAR_WIDTH * done // self.total)
+        return f"[{'#' * full}{'.' * (BAR_WIDTH - full)}] "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue reproduce EXPERIMENT``: an experiment of the papers, again."""
+"""``tricue reproduce EXPERIMENT``: repeats an experiment of the papers."""
 
 import argparse
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How a tracker starts: on a given box, on a face, on a sequence's first true box, or by itself."""
+"""How trackers start: on a box, on a face, on a sequence's first true box, or by its own detection."""
 
 from argparse import Namespace
 from typing import Any
@@ -12,28 +12,30 @@ from tricue.errors import BoxError, MissingChannelError, NoDepthInBoxError, Unre
 from tricue.track.base.registry import names, traits
 from tricue.track.base.track import Tracker
 
-DEFAULT = "fused"  # where no tracker is chosen
-BOX, FACE = "give --box x,y,width,height", "--detect face"
+DEFAULT_TRACKER = "fused"  # if no tracker is chosen
+BOX_HINT, FACE_HINT = "give --box x,y,width,height", "--detect face"
 
 
 def default_tracker(options: Namespace, source: Source) -> str:
-    """The tracker where none is chosen: the one of all channels, but where nothing tells on what to start and
-    depth is there, the one that finds people in it.
+    """The tracker if none is chosen: the one for all channels, or, for depth without a box to start on, the
+    one that detects people.
     """
-    told = options.box is not None or options.detect == "face"
-    told = told or (options.detect is None and source.first_box is not None)
-    return in_depth() if "depth" in source.channels and not told else DEFAULT
+    has_start = options.box is not None or options.detect == "face"
+    has_start = has_start or (options.detect is None and source.first_box is not None)
+    return depth_tracker() if "depth" in source.channels and not has_start else DEFAULT_TRACKER
 
 
-def in_depth() -> str:
-    """The tracker that finds people in depth by itself."""
+def depth_tracker() -> str:
+    """The name of the tracker that detects people in depth."""
     return next(name for name in names() if traits(name).detects == "person")
 
 
 def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:
-    """What gives the first box; None where the tracker finds its target by itself."""
+    """The function that gives the first box; None if the tracker detects its target."""
     if options.detect == "person" and tracker.traits.detects != "person":
-        raise ValueError(f"--detect person: {options.tracker} doesn't look for people; {BOX} or {FACE}")
+        raise ValueError(
+            f"--detect person: {options.tracker} doesn't look for people; {BOX_HINT} or {FACE_HINT}"
+        )
     if options.detect == "face":
         from tricue.track.base.face_detection import find_face
 
@@ -42,20 +44,20 @@ def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start 
     return None if box is None else lambda _: box
 
 
-def advice(error: ValueError, source: Source, tracker: Tracker) -> str:
-    """What to do about an error on the first frame; "" where the error says enough."""
+def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
+    """How to fix an error on the first frame; "" if the error says enough."""
     if isinstance(error, NoDepthInBoxError) and tracker.traits.disparity_range is not None:
         near, far = tracker.traits.disparity_range
-        return f"; --set {near}=METERS and --set {far}=METERS change what is looked for"
+        return f"; --set {near}=METERS and --set {far}=METERS change the range of the search"
     if isinstance(error, BoxError):
-        return f"; {BOX}" if tracker.traits.detects else f"; {BOX} or {FACE}"
+        return f"; {BOX_HINT}" if tracker.traits.detects else f"; {BOX_HINT} or {FACE_HINT}"
     if isinstance(error, UnregisteredDepthError):
-        return "; --calibration FILE in TOML, with the tables depth and color, brings it there"
+        return "; --calibration FILE in TOML, with the tables depth and color, registers it"
     if isinstance(error, MissingChannelError):
         return {
             "depth": "; ".join(("", "give its depth images with --depth FOLDER", *source.notes)),
             "right": "; give the right camera's images with --right PLACE",
-            "color": f"; --tracker {in_depth()} tracks in depth",
+            "color": f"; --tracker {depth_tracker()} tracks in depth",
         }[error.channel]
     return ""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A tracker over a source, step by step, with its clock, and the way to stop it."""
+"""Runs a tracker over a source frame by frame, measures times, and stops on Ctrl-C."""
 
 import signal
 from collections.abc import Callable, Iterable, Iterator
@@ -15,34 +15,34 @@ from tricue.errors import TargetNotFoundError
 from tricue.track.base.track import Status, Track, Tracker
 
 Start = Callable[[Frame], Box | None]
-"""The box to start on, asked of every frame until there is one."""
+"""Gives the box to start on, or None; called for each frame until there is one."""
 
 
 @dataclass
-class Clock:
-    """Seconds spent on decoding and on tracking, told apart, and what the tracker said.
+class RunClock:
+    """Seconds spent on decoding and on tracking, and counts of the tracker's statuses.
 
-    waiting: why a tracker that looks for its target didn't start on the last frame before it started.
+    not_found_reason: why a tracker that detects its target found none in the last frame before it started.
     """
 
     decoding: float = 0.0
     tracking: float = 0.0
     decoded: int = 0
     updates: int = 0
-    waiting: str = ""
+    not_found_reason: str = ""
     statuses: dict[Status, int] = field(default_factory=lambda: dict.fromkeys(Status, 0))
 
     @property
     def speeds(self) -> str:
-        """Both in frames a second; the first frame, on which the tracker starts, isn't in the tracking's."""
+        """Both speeds in frames/s; tracking excludes the first frame, in which the tracker starts."""
         tracking = f"tracking {self.updates / self.tracking:,.0f} frames/s, " if self.tracking else ""
         return f"{tracking}decoding {self.decoded / max(self.decoding, 1e-9):,.0f} frames/s"
 
 
-def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: Clock) -> Iterator[Step]:
-    """Start the tracker on the first box that ``start`` gives, and follow.
+def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: RunClock) -> Iterator[Step]:
+    """Start the tracker on the first box that ``start`` gives, and track.
 
-    Without ``start`` the tracker starts by itself, on the first frame in which it finds somebody.
+    Without ``start`` the tracker starts in the first frame in which it detects a target.
     """
     started = False
     for index, frame in enumerate(_decoded(frames, clock)):
@@ -64,33 +64,35 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
 
 
 @contextmanager
-def stoppable() -> Iterator[Callable[[], bool]]:
-    """A question "stop?" that Ctrl-C answers with yes after the frame at hand. A second one breaks off."""
-    asked = False
+def catch_interrupt() -> Iterator[Callable[[], bool]]:
+    """Yields a function that returns True after Ctrl-C, to finish the current frame. A second Ctrl-C
+    interrupts.
+    """
+    interrupted = False
 
-    def ask(_number: int, _frame: FrameType | None) -> None:
-        nonlocal asked
-        if asked:
+    def interrupt(_number: int, _frame: FrameType | None) -> None:
+        nonlocal interrupted
+        if interrupted:
             raise KeyboardInterrupt
-        asked = True
+        interrupted = True
 
-    before = signal.signal(signal.SIGINT, ask)
+    before = signal.signal(signal.SIGINT, interrupt)
     try:
-        yield lambda: asked
+        yield lambda: interrupted
     finally:
         signal.signal(signal.SIGINT, before)
 
 
-def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: Clock) -> Track | None:
-    """The first track, or None where a tracker that looks for its target hasn't found it yet."""
+def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:
+    """The first track, or None if the tracker hasn't detected its target yet."""
     try:
         return tracker.init(frame, box)
     except TargetNotFoundError as error:
-        clock.waiting = str(error)
+        clock.not_found_reason = str(error)
         return None
 
 
-def _decoded(frames: Iterable[Frame], clock: Clock) -> Iterator[Frame]:
+def _decoded(frames: Iterable[Frame], clock: RunClock) -> Iterator[Frame]:
     iterator = iter(frames)
     while True:
         before = perf_counter()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue track INPUT``: follow a target through a video and write down where it is."""
+"""``tricue track INPUT``: tracks a target through a video and writes its positions."""
 
 import argparse
 import dataclasses
@@ -18,8 +18,15 @@ from tricue.cli.arguments import add_common, angles, box, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
-from tricue.cli.starts import BOX, DEFAULT, advice, choose_start, default_tracker, in_depth
-from tricue.cli.steps import Clock, Start, steps, stoppable
+from tricue.cli.starts import (
+    BOX_HINT,
+    DEFAULT_TRACKER,
+    choose_start,
+    default_tracker,
+    depth_tracker,
+    start_hint,
+)
+from tricue.cli.steps import RunClock, Start, catch_interrupt, steps
 from tricue.data.open_source import Source, open_source
 from tricue.track.base.registry import names
 from tricue.track.base.settings import make_tracker
@@ -31,7 +38,7 @@ examples:
   tricue track 0 --detect face --output overlay.mp4           the first camera, until Ctrl-C
   tricue track sequences/David --json track.json              starts on the sequence's first true box
   tricue track images/ --box 10,20,30,40 --tracker color-particle --set particles=300 --seed 7
-  tricue track images/ --box=-5,20,30,40                      a box that begins left of the image
+  tricue track images/ --box=-5,20,30,40                      a box that extends left of the image
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
   tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
@@ -52,27 +59,27 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--tracker",
         type=tracker_name,
         metavar="NAME",
-        help=f"{', '.join(names())} or module:Class; default {DEFAULT}, or {in_depth()} where there is "
-        "depth and nothing tells where to start",
+        help=f"{', '.join(names())} or module:Class; default {DEFAULT_TRACKER}, or {depth_tracker()} "
+        "for depth without a box to start on",
     )
     start = command.add_mutually_exclusive_group()
     start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
     start.add_argument(
         "--detect",
         choices=("face", "person"),
-        help="start on the largest face, or on whom a depth tracker finds, as soon as there is one",
+        help="start on the first face, the largest, or on the first person that a depth tracker detects",
     )
     command.add_argument(
         "--fps",
         type=float,
         metavar="N",
-        help="frames a second of images that tell no times (default 30); videos, cameras, VOT, TUM and "
+        help="frames a second of images without times (default 30); videos, cameras, VOT, TUM and "
         "Princeton have their own",
     )
     _add_stereo(command)
     _add_depth(command)
     command.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
-    command.add_argument("--csv", type=Path, metavar="FILE", help="a line a frame")
+    command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
     command.add_argument(
         "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
     )
@@ -89,7 +96,7 @@ def _add_stereo(command: argparse.ArgumentParser) -> None:
         "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"
     )
     command.add_argument(
-        "--rectify", action="store_true", help="the pairs are raw: rectify them by OpenCV's --calibration"
+        "--rectify", action="store_true", help="rectify raw stereo pairs by OpenCV's --calibration"
     )
     command.add_argument(
         "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's --calibration"
@@ -108,15 +115,15 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
         "--calibration",
         type=Path,
         metavar="FILE",
-        help="the camera's or the pair's, by OpenCV, KITTI, Princeton or in TOML",
+        help="of the camera or stereo pair, by OpenCV, KITTI, Princeton or in TOML",
     )
     camera.add_argument(
         "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
     )
 
 
-class Run(NamedTuple):
-    """What is run: the source, the tracker, and the camera's intrinsics, or the pair's rig, where known."""
+class TrackRun(NamedTuple):
+    """The source, the tracker, how it starts, and the known intrinsics or stereo rig."""
 
     source: Source
     tracker: Tracker
@@ -126,15 +133,15 @@ class Run(NamedTuple):
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run the command and print what came out; the exit code."""
+    """TrackRun the command and print the results; the exit code."""
     run, notes = _prepare(options)
-    clock, tracks = Clock(), {}
+    clock, tracks = RunClock(), {}
     with ExitStack() as files:
         outputs = [files.enter_context(output) for output in _outputs(options, run)]
-        stop = files.enter_context(stoppable())
+        stop = files.enter_context(catch_interrupt())
         progress = files.enter_context(Progress(run.source.length))
         frames = takewhile(lambda _: not stop(), run.source)
-        for step in _advised(steps(run.tracker, frames, run.start, clock), run, clock):
+        for step in _with_start_hint(steps(run.tracker, frames, run.start, clock), run, clock):
             for output in outputs:
                 output.write(step)
             tracks[step.number] = step.track
@@ -151,14 +158,14 @@ def run(options: argparse.Namespace) -> int:
     return INTERRUPTED if interrupted else 0
 
 
-def _spare_the_input(place: Path | None, outputs: Sequence[Path | None]) -> None:
+def _check_not_input(place: Path | None, outputs: Sequence[Path | None]) -> None:
     for path in outputs:
         if path and place and path.exists() and place.exists() and path.samefile(place):
             raise ValueError(f"{path}: expected another file than the input to write to")
 
 
-def _prepare(options: argparse.Namespace) -> tuple[Run, list[str]]:
-    """Open the source and make the tracker; what the user should know about them."""
+def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
+    """Open the source and make the tracker; notes for the user."""
     if options.plot:
         from tricue.draw.paths import check_format
 
@@ -173,20 +180,20 @@ def _prepare(options: argparse.Namespace) -> tuple[Run, list[str]]:
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None
     for place in (Path(options.input), right, options.calibration, options.params):
-        _spare_the_input(place, (options.output, options.csv, options.json, options.plot))
+        _check_not_input(place, (options.output, options.csv, options.json, options.plot))
     found = find_calibration(options, source)
-    source = found.prepared(source)
+    source = found.prepare(source)
     tracker = make_tracker(
         options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
     )
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics
-    run = Run(source, tracker, known, choose_start(options, source, tracker), rig)
+    run = TrackRun(source, tracker, known, choose_start(options, source, tracker), rig)
     return run, [*source.notes, *([found.note] if found.note else [])]
 
 
-def _outputs(options: argparse.Namespace, run: Run) -> Iterator[Output]:
-    """One after the other, so that the first is closed if the second can't be opened."""
+def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
+    """Open the outputs one by one, so that the first is closed if the second can't be opened."""
     if options.output:
         yield VideoOutput(options.output, run.source.fps, run.rig)
     if options.csv:
@@ -195,25 +202,25 @@ def _outputs(options: argparse.Namespace, run: Run) -> Iterator[Output]:
         yield JsonOutput(options.json, _about(options, run))
 
 
-def _advised(found: Iterator[Step], run: Run, clock: Clock) -> Iterator[Step]:
-    """The steps; where the tracker doesn't even start, the error says what to give it."""
+def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
+    """The steps; an error of the tracker's start gets a hint about how to fix it."""
     try:
         yield from found
     except ValueError as error:
         if clock.decoded == 1 and not any(clock.statuses.values()):
-            raise ValueError(f"{error}{advice(error, run.source, run.tracker)}") from None
+            raise ValueError(f"{error}{start_hint(error, run.source, run.tracker)}") from None
         raise
 
 
-def _not_started(run: Run, clock: Clock) -> str:
-    if clock.waiting:
-        reason = f"the tracker started in none of {clock.decoded} frames: {clock.waiting}"
+def _not_started(run: TrackRun, clock: RunClock) -> str:
+    if clock.not_found_reason:
+        reason = f"the tracker started in none of {clock.decoded} frames: {clock.not_found_reason}"
     else:
         reason = f"found no face in {clock.decoded} frames"
-    return f"{run.source.name}: {reason}; {BOX}"
+    return f"{run.source.name}: {reason}; {BOX_HINT}"
 
 
-def _about(options: argparse.Namespace, run: Run) -> dict[str, Any]:
+def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:
     return {
         "tricue": tricue.__version__,
         "source": run.source.name,
@@ -228,7 +235,7 @@ def _about(options: argparse.Namespace, run: Run) -> dict[str, Any]:
 
 
 def _params(tracker: Tracker) -> dict[str, Any]:
-    """By name; somebody else's tracker has what it was made with."""
+    """The parameters by name; a third-party tracker's are its keywords."""
     params = tracker.params
     return dict(params) if isinstance(params, dict) else dataclasses.asdict(params)
 
@@ -238,7 +245,7 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _report(source: Source, clock: Clock, tracks: Mapping[int, Track], interrupted: bool) -> None:
+def _report(source: Source, clock: RunClock, tracks: Mapping[int, Track], interrupted: bool) -> None:
     counts = ", ".join(f"{clock.statuses[status]} {status}" for status in Status)
     print(f"{source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}, {counts}")
     print(clock.speeds)
@@ -261,8 +268,8 @@ def _score(truth: Any, tracks: Mapping[int, Track], frames: int) -> str:
     return f"against the true boxes: AUC {score.auc:.3f}, precision at 20 px {score.precision:.3f}"
 
 
-def _plot(path: Path, run: Run, tracks: Mapping[int, Track]) -> str:
-    """Write the path seen from above; what came of it."""
+def _plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
+    """Write the path seen from above; a note about the result."""
     from tricue.draw.paths import save_path
 
     if all(track.position is None for track in tracks.values()):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """``python -m tricue.cli.trax``: a tracker behind the TraX protocol on standard input and output.
 
-That is how the VOT toolkit runs it.
+The VOT toolkit runs it this way.
 """
 
 import argparse
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from tricue.cli.program import USAGE, Parser, silence_opencv
 from tricue.errors import one_line
-from tricue.evaluation.toolkits.trax_server import ServedTracker, serve
+from tricue.evaluation.toolkits.trax_server import TraxTracker, serve
 from tricue.track.base.registry import names
 from tricue.track.base.settings import read_settings
 
@@ -35,14 +35,14 @@ such a file.
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Serve until the client quits or goes away; the exit code: 0, or 2 after an error, a line on stderr."""
+    """Serve until the client quits or disconnects. The exit code is 0, or 2 after an error."""
     silence_opencv()
     options = _parser(os.environ).parse_args(arguments)
     try:
-        served = _served(options, os.environ)
+        tracker = _read_tracker(options, os.environ)
         if "TRAX_SOCKET" not in os.environ:
-            _quit_at_the_end()
-        serve(served)
+            _quit_at_end_of_input()
+        serve(tracker)
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"{PROGRAM}: {one_line(error)}", file=sys.stderr)
         return USAGE
@@ -76,17 +76,17 @@ def _parser(environment: Mapping[str, str]) -> Parser:
     return parser
 
 
-def _served(options: argparse.Namespace, environment: Mapping[str, str]) -> ServedTracker:
+def _read_tracker(options: argparse.Namespace, environment: Mapping[str, str]) -> TraxTracker:
     settings = [*shlex.split(environment.get("TRICUE_SET", "")), *options.set]  # the later one wins
     values = read_settings(options.tracker, options.params, settings)
-    return ServedTracker(options.tracker, values, options.seed, options.kernels, options.calibration)
+    return TraxTracker(options.tracker, values, options.seed, options.kernels, options.calibration)
 
 
-def _quit_at_the_end() -> None:
-    """Let the end of standard input be a quit.
+def _quit_at_end_of_input() -> None:
+    """Treat the end of standard input as a quit.
 
     vot-trax 4.0.2 takes it for a broken message, or, between initialize and its frame, reads on for ever and
-    fills the memory. So another thread passes on what comes, and adds the quit of a client that was killed.
+    fills the memory. So a thread forwards the input and adds the quit of a client that was killed.
     """
     source = os.dup(0)
     readable, writable = os.pipe()

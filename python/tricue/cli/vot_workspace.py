@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue vot-workspace FOLDER``: all that the VOT toolkit needs to run our trackers on own sequences."""
+"""``tricue vot-workspace FOLDER``: prepares the VOT toolkit for tricue's trackers on your sequences."""
 
 import argparse
 import shlex
@@ -23,7 +23,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument("folder", type=Path, metavar="FOLDER", help="new, or a workspace to add to")
     command.add_argument(
-        "--trackers", type=tracker_names, required=True, metavar="NAMES", help="with commas between"
+        "--trackers", type=tracker_names, required=True, metavar="NAMES", help="separated by commas"
     )
     command.add_argument(
         "--sequences",
@@ -52,13 +52,13 @@ def run(options: argparse.Namespace) -> int:
     for command in commands(folder, trackers, report.sequences[0]):
         print(f"  {command}")
     print(
-        "these exit with 0 even where they fail; the last words of what worked are successfuly or successful"
+        "these exit with 0 even where they fail; after success their last word is successfuly or successful"
     )
     return 0
 
 
 def commands(folder: Path, trackers: list[str], sequence: str) -> list[str]:
-    """The toolkit's, to test the first tracker on a sequence, to evaluate all, and to analyze."""
+    """The toolkit's commands: test the first tracker on a sequence, evaluate all, analyze."""
     place, every = shlex.quote(str(folder)), " ".join(trackers)
     registry, recording = (shlex.quote(str(folder / name)) for name in (TRACKERS, f"sequences/{sequence}"))
     return [

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""What users would take instead: OpenCV's trackers, a scripted particle filter, and a box that never moves.
+"""Baselines: OpenCV's trackers, a scripted particle filter, and a box that never moves.
 
-All run in the same loop as tricue's trackers. Where a baseline reports failure its last box stands, and the
-status is LOST.
+All run in the same loop as tricue's trackers. Where a baseline reports failure, its last box is kept with the
+status LOST.
 """
 
 import ctypes
@@ -21,7 +21,7 @@ from tricue.track.base.track import Status, Track
 
 Image = NDArray[np.uint8]
 NAMES = (
-    *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, as far as the installed one has them
+    *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, if the installed version has them
     *("CamShift", "meanShift", "script-pf", "still-box"),
 )
 Maker = Callable[[int], AnyTracker]
@@ -29,7 +29,7 @@ Maker = Callable[[int], AnyTracker]
 
 
 class StillBox:
-    """The floor: the first box for ever."""
+    """The lower bound: the first box in every frame."""
 
     def init(self, frame: Frame, box: Box) -> Track:
         self._track = Track(box, 1.0, Status.TRACKED)
@@ -40,7 +40,7 @@ class StillBox:
 
 
 class OpenCvTracker:
-    """A ``cv2.Tracker``, made anew by ``make`` at every init."""
+    """A ``cv2.Tracker``, created by ``make`` at each init."""
 
     def __init__(self, make: Callable[[], Any]) -> None:
         self._make = make
@@ -54,7 +54,7 @@ class OpenCvTracker:
     def update(self, frame: Frame) -> Track:
         try:
             found, box = self._tracker.update(bgr(frame))
-        except cv2.error:  # some raise where their box has left the image
+        except cv2.error:  # some raise when their box has left the image
             found = False
         if not found or min(box[2:]) <= 0:
             return Track(self._box, 0.0, Status.LOST)
@@ -78,16 +78,16 @@ class HueShift:
 
     def update(self, frame: Frame) -> Track:
         hsv = cv2.cvtColor(bgr(frame), cv2.COLOR_BGR2HSV)
-        share = cv2.calcBackProject([hsv], [0], self._histogram, [0, 180], 1)
+        back_projection = cv2.calcBackProject([hsv], [0], self._histogram, [0, 180], 1)
         stop = (cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_COUNT, 10, 1)
-        _, window = self._shift(share, self._window, stop)
+        _, window = self._shift(back_projection, self._window, stop)
         found = min(window[2:]) > 0
         self._window = window if found else self._window
         return Track(Box(*map(float, self._window)), float(found), Status.TRACKED if found else Status.LOST)
 
 
 class ScriptedParticleFilter:
-    """The particle filter that a user writes in twenty lines: HS histograms by cv2, the rest by NumPy."""
+    """A particle filter as users write it in twenty lines: HS histograms by cv2, the rest by NumPy."""
 
     def __init__(self, seed: int = 0, particles: int = 100) -> None:
         self._rng, self._count = np.random.default_rng(seed), particles
@@ -123,30 +123,30 @@ class ScriptedParticleFilter:
 
 
 def bgr(frame: Frame) -> Any:
-    """The color image; baselines need no other channel. ValueError where it isn't there."""
+    """The color image; baselines need no other channel. ValueError if it is missing."""
     frame.require("color")
     return frame.color
 
 
 def crop(image: Any, box: Box) -> Any:
-    """The pixels of a box, at least one, the part outside the image cut off."""
+    """The pixels of a box, clipped to the image; at least one."""
     x, y, width, height = box.as_int()
     left, top = min(max(x, 0), image.shape[1] - 1), min(max(y, 0), image.shape[0] - 1)
     return image[top : max(y + height, top + 1), left : max(x + width, left + 1)]
 
 
 def _opencv_makers() -> dict[str, Callable[[], Any]]:
-    """How to make each cv2 tracker; parameters are built here, as cv2 takes long for the first ones."""
+    """How to make each cv2 tracker; parameters are created here, because cv2's first ones take long."""
     legacy = getattr(cv2, "legacy", None)
     makers: dict[str, Callable[[], Any]] = {}
     csrt, kcf = getattr(cv2, "TrackerCSRT", None), getattr(cv2, "TrackerKCF", None)
     if csrt:
         makers["CSRT"] = csrt.create
     if kcf:
-        eager = kcf.Params()
-        eager.detect_thresh = 0.1
+        low_threshold = kcf.Params()
+        low_threshold.detect_thresh = 0.1
         makers["KCF"] = kcf.create
-        makers["KCF-0.1"] = lambda: kcf.create(eager)
+        makers["KCF-0.1"] = lambda: kcf.create(low_threshold)
     if mil := getattr(cv2, "TrackerMIL", None):
         makers["MIL"] = mil.create
     for name in ("MOSSE", "MedianFlow"):
@@ -156,14 +156,16 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
 
 
 def seed(value: int) -> None:
-    """Seed what OpenCV's trackers draw from: its own generator and, for MIL, the C library's ``rand``."""
+    """Seed the random numbers of OpenCV's trackers: its own generator and, for MIL, the C library's
+    ``rand``.
+    """
     cv2.setRNGSeed(value)
     if os.name == "posix":
         ctypes.CDLL(None).srand(value)
 
 
 def available() -> dict[str, Maker]:
-    """The baselines that the installed cv2 has, by name: each makes a tracker from a seed, which few need."""
+    """The baselines that the installed cv2 has, by name: each makes a tracker from a seed, which few use."""
 
     def opencv(make: Callable[[], Any]) -> Maker:
         return lambda seed: OpenCvTracker(make)

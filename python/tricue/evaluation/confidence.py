@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Whether a tracker knows how well it does: does its score fall where the overlap falls?
+"""How well a tracker's score predicts its overlap with the truth.
 
-A frame counts as lost where the overlap with the truth is below LOST_OVERLAP, or the target is absent. Frames
-whose truth is unknown (overlap NaN, not absent) are left out of everything.
+A frame counts as lost if the overlap is below LOST_OVERLAP or the target is absent. Frames whose truth is
+unknown (overlap NaN, not absent) are excluded.
 """
 
 from dataclasses import dataclass
@@ -15,11 +15,11 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 LOST_OVERLAP = 0.1
-"""Below it a box shows something else than the target."""
+"""Below this overlap a box counts as off the target."""
 
 
-class SaidOk(NamedTuple):
-    """How often a tracker said that it sees the target while it had lost it; NaN where no frame counts."""
+class FalselyTracked(NamedTuple):
+    """How often a tracker reported TRACKED on a lost frame; NaN if no frame counts."""
 
     of_lost: float
     """Share of the lost frames."""
@@ -29,10 +29,10 @@ class SaidOk(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reliability:
-    """What overlap a score stands for: B bins of equal width over the scores [0, 1]."""
+    """The mean overlap at each score: B bins of equal width over the scores [0, 1]."""
 
     edges: Array
-    """(B + 1,) rising from 0 to 1; a score on an inner edge counts above it."""
+    """(B + 1,) rising from 0 to 1; a score on an inner edge belongs to the upper bin."""
     counts: NDArray[np.int64]
     """(B,) frames in each bin."""
     scores: Array
@@ -52,7 +52,7 @@ def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = Non
     """The chance that a frame on the target scores above a lost one, ties counted half, in [0, 1].
 
     The area under the ROC curve of "lost" by falling score, by the rank sum of Mann and Whitney (1947). 0.5
-    says nothing, 1 that one threshold on the score tells all. NaN unless there are frames of both kinds.
+    is chance, at 1 one threshold on the score separates both. NaN unless there are frames of both kinds.
     """
     overlap, score, gone = _frames(overlaps, scores, absent)
     bad = lost(overlap, gone)
@@ -64,14 +64,14 @@ def auroc(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None = Non
 
 
 def tracked_while_lost(
-    overlaps: ArrayLike, said_present: ArrayLike, absent: ArrayLike | None = None
-) -> SaidOk:
-    """How often status was TRACKED, (M,) bool, in lost frames."""
+    overlaps: ArrayLike, reported_present: ArrayLike, absent: ArrayLike | None = None
+) -> FalselyTracked:
+    """How often a tracker reported the target as present, (M,) bool, in lost frames."""
     overlap = np.asarray(overlaps, dtype=np.float64)
-    said = _flags(said_present, "said_present", overlap.shape)
+    present = _flags(reported_present, "reported_present", overlap.shape)
     bad = lost(overlap, absent)
     known = bad | ~np.isnan(overlap)
-    return SaidOk(_share(said[bad]), _share((said & bad)[known]))
+    return FalselyTracked(_share(present[bad]), _share((present & bad)[known]))
 
 
 def reliability(
@@ -83,14 +83,14 @@ def reliability(
     overlap, score, gone = _frames(overlaps, scores, absent)
     overlap[gone] = 0.0
     edges = np.linspace(0.0, 1.0, bins + 1)
-    places = np.searchsorted(edges[1:-1], score, side="right")
-    counts = np.bincount(places, minlength=bins)
-    share = np.where(counts > 0, counts, np.nan)
+    bin_index = np.searchsorted(edges[1:-1], score, side="right")
+    counts = np.bincount(bin_index, minlength=bins)
+    frames = np.where(counts > 0, counts, np.nan)
     return Reliability(
         edges,
         counts,
-        np.bincount(places, score, bins) / share,
-        np.bincount(places, overlap, bins) / share,
+        np.bincount(bin_index, score, bins) / frames,
+        np.bincount(bin_index, overlap, bins) / frames,
     )
 
 
@@ -110,9 +110,9 @@ def _frames(overlaps: ArrayLike, scores: ArrayLike, absent: ArrayLike | None) ->
 
 def _ranks(values: Array) -> Array:
     """Ranks from 1 on, equal values sharing their mean rank."""
-    _, places, counts = np.unique(values, return_inverse=True, return_counts=True)
+    _, group, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
-    ranks: Array = (last - (counts - 1) / 2)[places]
+    ranks: Array = (last - (counts - 1) / 2)[group]
     return ranks
 
 

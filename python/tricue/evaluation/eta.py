@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""How long the rest will take, from how long the finished part of the work took."""
+"""Remaining time, extrapolated from the finished share of the work."""
 
 from collections.abc import Callable, Sequence
 from time import monotonic
@@ -7,8 +7,8 @@ from time import monotonic
 from tricue.evaluation.tasks import Task
 
 
-class Remaining:
-    """The time left, where a task's weight tells its share of the work."""
+class RemainingTime:
+    """Estimates the remaining time; a task's weight is its share of the work."""
 
     def __init__(
         self, weight: Callable[[Task], float], tasks: Sequence[Task], clock: Callable[[], float] = monotonic
@@ -17,7 +17,7 @@ class Remaining:
         self._total, self._done = sum(map(weight, tasks)), 0.0
         self._start = clock()
 
-    def after(self, task: Task) -> float:
-        """Seconds, now that the task is done, too."""
+    def update(self, task: Task) -> float:
+        """Count a task as done; the estimated remaining seconds."""
         self._done += self._weight(task)
         return (self._clock() - self._start) * (self._total - self._done) / self._done

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Targets that leave and come back: the rates of OxUvA, and precision, recall and F of VOT long-term.
 
-OxUvA (Valmadre et al. 2018) judges what a tracker decides, present or absent. VOT long-term (Lukezic et al.
-2018) judges its confidence: a box counts as given where the score reaches a threshold, and the best threshold
-says what the tracker is worth.
+OxUvA (Valmadre et al. 2018) scores a tracker's decision, present or absent. VOT long-term (Lukezic et al.
+2018) scores its confidence: a box counts if its score reaches a threshold, and the best threshold gives F.
 """
 
 from collections.abc import Sequence
@@ -18,8 +17,8 @@ from tricue.evaluation.metrics import overlaps
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-SEEN_OVERLAP = 0.5
-"""From this overlap on OxUvA takes the target as found (section 4)."""
+FOUND_OVERLAP = 0.5
+"""The overlap from which OxUvA counts the target as found (section 4)."""
 RESOLUTION = 100
 """Thresholds of the VOT toolkit."""
 
@@ -28,9 +27,9 @@ class Rates(NamedTuple):
     """Shares in [0, 1]; NaN where there are no such frames."""
 
     true_positive: float
-    """Of the visible frames: said to be present, with an overlap of at least SEEN_OVERLAP."""
+    """Of the visible frames: reported as present, with an overlap of at least FOUND_OVERLAP."""
     true_negative: float
-    """Of the absent frames: said to be absent."""
+    """Of the absent frames: reported as absent."""
 
     @property
     def geometric_mean(self) -> float:
@@ -78,15 +77,18 @@ class Best(NamedTuple):
     threshold: float
 
 
-def rates(boxes: ArrayLike, truth: ArrayLike, said_present: ArrayLike, absent: ArrayLike) -> Rates:
+def rates(boxes: ArrayLike, truth: ArrayLike, reported_present: ArrayLike, absent: ArrayLike) -> Rates:
     """OxUvA's rates of a result: boxes and truth are (M, 4), both flags (M,) bool.
 
     Frames without a true box count as negatives where ``absent`` holds, and are left out elsewhere.
     """
     overlap = overlaps(boxes, truth)
-    said, gone = _flags(said_present, "said_present", len(overlap)), _flags(absent, "absent", len(overlap))
+    present, gone = (
+        _flags(reported_present, "reported_present", len(overlap)),
+        _flags(absent, "absent", len(overlap)),
+    )
     known = ~gone & ~np.isnan(overlap)
-    return Rates(_share((said & (overlap >= SEEN_OVERLAP))[known]), _share(~said[gone]))
+    return Rates(_share((present & (overlap >= FOUND_OVERLAP))[known]), _share(~present[gone]))
 
 
 def vot_frames(boxes: ArrayLike, truth: ArrayLike, scores: ArrayLike, absent: ArrayLike) -> Frames:

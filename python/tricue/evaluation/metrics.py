@@ -3,9 +3,9 @@
 
 That is Wu, Lim and Yang 2013, and for the normalized precision Mueller et al. 2018.
 
-Boxes are (M, 4) arrays (x, y, width, height) in pixels, a row per frame. A row of NaN in the truth says that
-the frame has no truth, and such frames are left out of every summary; a row of NaN in the result says that
-the tracker gave no box, and counts as a miss. Curves and thresholds are those of got10k's toolkit to the last
+Boxes are (M, 4) arrays (x, y, width, height) in pixels, a row per frame. A row of NaN in the truth means a
+frame without truth; such frames are excluded from all summaries. A row of NaN in the result means that the
+tracker gave no box; it counts as a miss. Curves and thresholds are those of got10k's toolkit to the last
 bit, so that frames that lie on a threshold fall on the same side.
 """
 
@@ -27,7 +27,7 @@ NORM_PRECISION_THRESHOLDS: Array = np.arange(51) / 100.0
 
 @dataclass(frozen=True, slots=True)
 class Score:
-    """One result in five numbers: shares in [0, 1], and an error in pixels; NaN where no frame has truth."""
+    """A result in five numbers: shares in [0, 1] and an error in pixels; NaN if no frame has truth."""
 
     auc: float
     """Area under the success curve, the mean over OVERLAP_THRESHOLDS."""
@@ -70,13 +70,13 @@ def normalized_center_errors(boxes: ArrayLike, truth: ArrayLike) -> Array:
 def position_errors(found: ArrayLike, true: ArrayLike) -> Array:
     """Distance between positions in the camera frame, row by row, (M,), meters; both arguments are (M, 3).
 
-    The error along z alone where of the truth only the depth is known, x or y being NaN. NaN where the truth
-    has no depth, and where the tracker gave no position.
+    Where the truth has a depth only (x or y is NaN), the error along z. NaN where the truth has no depth or
+    the tracker gave no position.
     """
-    said, known = _positions(found, "found"), _positions(true, "true")
-    if said.shape != known.shape:
-        raise ValueError(f"found: expected as many rows as true ({len(known)}), got {len(said)}")
-    offset = said - known
+    estimated, known = _positions(found, "found"), _positions(true, "true")
+    if estimated.shape != known.shape:
+        raise ValueError(f"found: expected as many rows as true ({len(known)}), got {len(estimated)}")
+    offset = estimated - known
     return np.where(np.isnan(known[:, :2]).any(axis=1), np.abs(offset[:, 2]), _lengths(offset))
 
 

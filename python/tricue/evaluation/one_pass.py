@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One-pass evaluation: a tracker starts on the first true box and runs to the end, without help."""
+"""One-pass evaluation: a tracker starts on the first true box and runs to the end without restarts."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -15,8 +15,8 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.track.base.track import Status, Track
 
-_NOWHERE, _UNKNOWN, _UNSURE = np.full(4, np.nan), np.full(3, np.nan), np.full((3, 3), np.nan)
-_NOTHING = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
+_NO_BOX, _NO_POSITION, _NO_COVARIANCE = np.full(4, np.nan), np.full(3, np.nan), np.full((3, 3), np.nan)
+_NO_TRACK = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
 
 
 class AnyTracker(Protocol):
@@ -29,10 +29,10 @@ class AnyTracker(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """What a tracker said in each of M frames, the first included, and how long it took."""
+    """A tracker's output in each of M frames, the first included, and its update times."""
 
     boxes: NDArray[np.float64]
-    """(M, 4) x, y, width, height in pixels; NaN where the tracker wasn't asked or failed."""
+    """(M, 4) x, y, width, height in pixels; NaN where the tracker wasn't run or failed."""
     scores: NDArray[np.float64]
     """(M,) confidences."""
     statuses: tuple[Status, ...]
@@ -41,11 +41,11 @@ class Run:
     covariances: NDArray[np.float64]
     """(M, 3, 3) of the positions, square meters; NaN where the tracker gave none."""
     seconds: NDArray[np.float64]
-    """(U,) one per update, M - 1 in one pass; neither init nor decoding is in it."""
+    """(U,) one per update, M - 1 in one pass; without init and decoding."""
 
     @property
     def frames_per_second(self) -> float:
-        """Updates over the time in them."""
+        """Updates per second of update time."""
         return self.seconds.size / float(self.seconds.sum())
 
     @property
@@ -55,12 +55,12 @@ class Run:
 
 
 def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) -> Run:
-    """Track through ``frames``, from ``box`` in frame ``start``, with OpenCV held to one thread.
+    """Track through ``frames``, from ``box`` in frame ``start``, with OpenCV limited to one thread.
 
-    Frames are taken one by one and not kept; those before the start have no box. ValueError where fewer than
-    one frame follows the start.
+    Frames are taken one by one and not kept; those before the start have no box. ValueError if no frame
+    follows the start.
     """
-    log = Log()
+    log = RunLog()
     with one_thread():
         for index, frame in enumerate(frames):
             if index < start:
@@ -74,21 +74,21 @@ def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) 
     return log.run
 
 
-class Log:
-    """What a tracker says, frame by frame; None for a frame in which it wasn't asked or failed."""
+class RunLog:
+    """A tracker's output, frame by frame; None for a frame in which it wasn't run."""
 
     def __init__(self) -> None:
         self.tracks: list[Track | None] = []
         self.seconds: list[float] = []
 
     def init(self, tracker: AnyTracker, frame: Frame, box: Box) -> Track:
-        """Start the tracker, off the clock."""
+        """Start the tracker; the time isn't measured."""
         track = tracker.init(frame, box)
         self.tracks.append(track)
         return track
 
     def update(self, tracker: AnyTracker, frame: Frame) -> Track:
-        """Let the tracker follow, on the clock."""
+        """Update the tracker and measure the time."""
         start = perf_counter()
         track = tracker.update(frame)
         self.seconds.append(perf_counter() - start)
@@ -96,31 +96,31 @@ class Log:
         return track
 
     def skip(self) -> None:
-        """A frame without the tracker."""
+        """Record a frame in which the tracker doesn't run."""
         self.tracks.append(None)
 
     @property
     def run(self) -> Run:
-        """All frames so far."""
+        """The run over all frames so far."""
         tracks = self.tracks
-        said = [track or _NOTHING for track in tracks]
+        known = [track or _NO_TRACK for track in tracks]
         return Run(
-            boxes=_stacked([_NOWHERE if track is None else track.box for track in tracks]),
-            scores=_stacked([track.score for track in said]),
-            statuses=tuple(track.status for track in said),
-            positions=_stacked([_UNKNOWN if t.position is None else t.position for t in said]),
-            covariances=_stacked([_UNSURE if t.covariance is None else t.covariance for t in said]),
-            seconds=_stacked(self.seconds),
+            boxes=_stack([_NO_BOX if track is None else track.box for track in tracks]),
+            scores=_stack([track.score for track in known]),
+            statuses=tuple(track.status for track in known),
+            positions=_stack([_NO_POSITION if t.position is None else t.position for t in known]),
+            covariances=_stack([_NO_COVARIANCE if t.covariance is None else t.covariance for t in known]),
+            seconds=_stack(self.seconds),
         )
 
 
-def _stacked(rows: Sequence[ArrayLike]) -> NDArray[np.float64]:
+def _stack(rows: Sequence[ArrayLike]) -> NDArray[np.float64]:
     return np.array(rows, dtype=np.float64)
 
 
 @contextmanager
 def one_thread() -> Iterator[None]:
-    """Hold OpenCV to one thread, as tricue's kernels have one."""
+    """Limit OpenCV to one thread, because tricue's kernels use one."""
     threads = cv2.getNumThreads()
     cv2.setNumThreads(1)
     try:

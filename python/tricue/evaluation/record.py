@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What came of one run, as a file: a JSON object that is the same again, bit for bit, when it is read."""
+"""The result of one run as a JSON file, which restores it bit for bit."""
 
 import json
 from dataclasses import dataclass
@@ -16,23 +16,22 @@ FORMAT = 1  # of the file
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
-    """A run over M frames. starts: the frames in which the tracker was started, the first of them by the rule
-    of every run. trouble: the error with which it refused to start or stopped, "" without one; its boxes are
-    NaN from there.
+    """A run over M frames. starts: the frames in which the tracker was started. error: the message of the
+    error that ended the tracker, or ""; its boxes are NaN from there on.
     """
 
     run: Run
     starts: tuple[int, ...] = (0,)
-    trouble: str = ""
+    error: str = ""
 
     def to_json(self, about: dict[str, Any]) -> str:
-        """The file's text. about: what was run, so that the file explains itself."""
+        """The file's text. about: what was run, stored in the file, too."""
         run = self.run
         return json.dumps(
             {
                 "format": FORMAT,
                 **about,
-                "trouble": self.trouble,
+                "trouble": self.error,
                 "starts": self.starts,
                 "statuses": [str(status) for status in run.statuses],
                 **{name: _plain(getattr(run, name)) for name in _ARRAYS},
@@ -62,7 +61,7 @@ _ARRAYS: dict[str, tuple[int, ...]] = {
 
 
 def _plain(array: NDArray[np.float64]) -> list[Any]:
-    """A row a frame, flat; None for one without numbers, and for a number that isn't there."""
+    """One flat row per frame; None for a row or a number that is NaN."""
     if array.ndim == 1:
         return [None if np.isnan(value) else value for value in array.tolist()]
     return [None if np.isnan(row).all() else _plain(row.ravel()) for row in array]

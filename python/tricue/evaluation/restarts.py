@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Robustness by restarts: a tracker that has lost its target is started again, and the restarts are counted.
+"""Robustness by restarts: a tracker that lost its target is restarted, and the failures are counted.
 
 The supervised experiment of VOT (Kristan et al. 2016, "A novel performance evaluation methodology for single-
 target trackers"): a failure is a frame without any overlap; the next start is some frames later.
@@ -15,17 +15,17 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics
-from tricue.evaluation.one_pass import AnyTracker, Log, one_thread
+from tricue.evaluation.one_pass import AnyTracker, RunLog, one_thread
 from tricue.evaluation.record import Record
 
-SKIPPED = 5  # frames from a failure to the next start
-BURN_IN = 10  # frames after a start that don't count for accuracy, as the start's box helps them
-_UNKNOWN = np.full(4, np.nan)
+RESTART_DELAY = 5  # frames from a failure to the next start
+BURN_IN = 10  # frames after a start that don't count for accuracy, because the true box helped there
+_NO_BOX = np.full(4, np.nan)
 
 
 class Robustness(NamedTuple):
-    """failures: how often the target was lost. frames: in which it could have been lost. accuracy: the mean
-    overlap without the frames after a start, NaN if there are none left.
+    """failures: how often the target was lost. frames: the number in which it could have been lost.
+    accuracy: the mean overlap without the frames after a start, NaN if there are none left.
     """
 
     failures: int
@@ -34,18 +34,18 @@ class Robustness(NamedTuple):
 
 
 def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[np.float64]) -> Record:
-    """Track with restarts; truth is (M, 4), NaN in frames in which nothing starts or fails, as in all frames
-    beyond M. Boxes are NaN where no tracker runs.
+    """Track with restarts. truth: (M, 4); in frames where it is NaN, and beyond M, no tracker starts or
+    fails. Boxes are NaN where no tracker runs.
     """
-    log, starts, resume = Log(), [], 0
+    log, starts, resume = RunLog(), [], 0
     tracker: AnyTracker | None = None
     with one_thread():
-        for frame, true in zip(frames, chain(truth, repeat(_UNKNOWN)), strict=False):
+        for frame, true in zip(frames, chain(truth, repeat(_NO_BOX)), strict=False):
             index, known = len(log.tracks), not np.isnan(true).any()
             if tracker is not None:
                 track = log.update(tracker, frame)
                 if known and not metrics.overlaps([track.box], [true])[0] > 0:
-                    tracker, resume = None, index + SKIPPED
+                    tracker, resume = None, index + RESTART_DELAY
             elif known and index >= resume:
                 tracker = make()
                 log.init(tracker, frame, Box(*true.tolist()))
@@ -56,18 +56,20 @@ def run(make: Callable[[], AnyTracker], frames: Iterable[Frame], truth: NDArray[
 
 
 def robustness(record: Record, overlaps: NDArray[np.float64]) -> Robustness:
-    """Of a run with restarts, from its overlaps with the truth, (M,), NaN where that isn't known."""
+    """The robustness of a run with restarts from its overlaps with the truth, (M,), NaN where it is
+    unknown.
+    """
     frames = np.arange(len(overlaps))
     last = np.searchsorted(record.starts, frames, side="right") - 1
     since = frames - np.array([*record.starts, -1])[last]
-    judged = ~np.isnan(overlaps) & (since > 0) & ~_idle(record, overlaps)
-    failed = judged & (overlaps == 0)
-    steady = judged & ~failed & (since >= BURN_IN)
-    accuracy = float(overlaps[steady].mean()) if steady.any() else float("nan")
-    return Robustness(int(failed.sum()), int(judged.sum()), accuracy)
+    counted = ~np.isnan(overlaps) & (since > 0) & ~_idle_frames(record, overlaps)
+    failed = counted & (overlaps == 0)
+    after_burn_in = counted & ~failed & (since >= BURN_IN)
+    accuracy = float(overlaps[after_burn_in].mean()) if after_burn_in.any() else float("nan")
+    return Robustness(int(failed.sum()), int(counted.sum()), accuracy)
 
 
-def _idle(record: Record, overlaps: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _idle_frames(record: Record, overlaps: NDArray[np.float64]) -> NDArray[np.bool_]:
     """The frames from a failure to the next start."""
     idle = np.ones(len(overlaps), dtype=np.bool_)
     ends = [*record.starts[1:], len(overlaps)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Runs in numbers: a row a run, and their means over seeds and sequences."""
+"""Runs in numbers: one row per run, and means over seeds and sequences."""
 
 import dataclasses
 from collections.abc import Iterable, Sequence
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.evaluation import confidence, long_term, metrics, restarts
-from tricue.evaluation.dataset import Opened
+from tricue.evaluation.dataset import OpenedSequence
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
 from tricue.track.base.track import Status
@@ -19,9 +19,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ScoredRun:
-    """A run against the truth, over the N frames from its start on: arrays of that length.
+    """A run compared with the truth, over the N frames from its start on; arrays have length N.
 
-    start: the frame, counted from the sequence's first. trouble: the error that ended the tracker, or "".
+    start: the frame, counted from the sequence's first. error: the error that ended the tracker, or "".
     """
 
     start: int
@@ -33,12 +33,12 @@ class ScoredRun:
     statuses: tuple[Status, ...]
     tracked: NDArray[np.bool_]
     position_errors: Array
-    trouble: str = ""
+    error: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One tracker on one sequence from one seed. Shares are in [0, 1]; NaN where nothing tells a number."""
+    """One tracker on one sequence from one seed. Shares are in [0, 1]; NaN where a number is undefined."""
 
     group: str
     sequence: str
@@ -58,7 +58,7 @@ class Row:
     f_score: float
     """VOT long-term's, of this sequence alone."""
     auroc: float
-    """That a frame on the target scores above one with an overlap under 0.1."""
+    """Probability that a frame on the target scores above one with an overlap under 0.1."""
     ok_while_lost: float
     """Share of the frames that are TRACKED with an overlap under 0.1, or no target."""
     position_error: float
@@ -72,7 +72,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Speed:
-    """How long the updates of a run took; decoding isn't in it."""
+    """How long the updates of a run took, without decoding."""
 
     sequence: str
     tracker: str
@@ -82,11 +82,11 @@ class Speed:
     p99_ms: float
 
 
-def judged(record: Record, opened: Opened) -> ScoredRun:
-    """The frames of a run with one start, from that on."""
+def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
+    """Compare a run with the truth, from its first start on."""
     run, frames = record.run, len(record.run.scores)
     since = slice(record.starts[0], frames)
-    boxes = bounded(run.boxes, opened)[since]
+    boxes = clip_to_image(run.boxes, opened)[since]
     truth, absent = opened.truth(frames)[since], opened.absent(frames)[since]
     return ScoredRun(
         record.starts[0],
@@ -98,13 +98,13 @@ def judged(record: Record, opened: Opened) -> ScoredRun:
         run.statuses[since],
         np.array([status is Status.TRACKED for status in run.statuses[since]], dtype=np.bool_),
         metrics.position_errors(run.positions[since], opened.positions(frames)[since]),
-        record.trouble,
+        record.error,
     )
 
 
-def bounded(boxes: Array, opened: Opened) -> Array:
-    """The boxes, or their parts inside the image where the truth has only these; NaN where nothing is."""
-    if not opened.bounded:
+def clip_to_image(boxes: Array, opened: OpenedSequence) -> Array:
+    """The boxes, clipped to the image if the true boxes are; NaN for one that is outside."""
+    if not opened.clipped:
         return boxes
     low = np.clip(boxes[:, :2], 0, opened.size)
     high = np.clip(boxes[:, :2] + boxes[:, 2:], 0, opened.size)
@@ -113,10 +113,14 @@ def bounded(boxes: Array, opened: Opened) -> Array:
     return inside
 
 
-def row_of(
-    opened: Opened, tracker: str, seed: int, run: ScoredRun, fails: restarts.Robustness | None = None
+def make_row(
+    opened: OpenedSequence,
+    tracker: str,
+    seed: int,
+    run: ScoredRun,
+    robustness: restarts.Robustness | None = None,
 ) -> Row:
-    """The numbers of a run in one pass, with those of the one with restarts if there is one."""
+    """The numbers of a one-pass run and of the run with restarts, if there is one."""
     score = metrics.score(run.boxes, run.truth)
     rates = long_term.rates(run.boxes, run.truth, run.tracked, run.absent)
     return Row(
@@ -137,9 +141,9 @@ def row_of(
         confidence.auroc(run.overlaps, run.scores, run.absent),
         confidence.tracked_while_lost(run.overlaps, run.tracked, run.absent).of_all,
         _median(run.position_errors),
-        float("nan") if fails is None else float(fails.failures),
-        float("nan") if fails is None else fails.accuracy,
-        run.trouble,
+        float("nan") if robustness is None else float(robustness.failures),
+        float("nan") if robustness is None else robustness.accuracy,
+        run.error,
     )
 
 
@@ -151,21 +155,21 @@ def best_f(runs: Sequence[ScoredRun]) -> float:
 
 
 def pooled_auroc(runs: Sequence[ScoredRun]) -> float:
-    """Over the frames of several runs: whether one threshold on the score holds for all of them."""
+    """The AUROC over the frames of several runs, with one threshold on the score for all."""
     overlaps, scores, absent = (
         np.concatenate([getattr(run, name) for run in runs]) for name in ("overlaps", "scores", "absent")
     )
     return confidence.auroc(overlaps, scores, absent)
 
 
-def speed_of(opened: Opened, tracker: str, seed: int, run: Run) -> Speed:
-    """The times of a run."""
+def measure_speed(opened: OpenedSequence, tracker: str, seed: int, run: Run) -> Speed:
+    """The update times of a run."""
     p50, p99 = np.percentile(run.seconds * 1e3, [50, 99])
     return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99))
 
 
 def mean_row(rows: Sequence[Row]) -> dict[str, float]:
-    """The means of the rows' numbers by name, each over the rows that have it."""
+    """The means of the rows' numbers by name, each over the rows in which it is defined."""
     names = [field.name for field in dataclasses.fields(Row) if field.type in (float, "float")]
     return {name: _mean(np.array([getattr(row, name) for row in rows])) for name in names}
 
@@ -179,9 +183,9 @@ def over_sequences(rows: Iterable[Row]) -> dict[str, float]:
     return {name: _mean(np.array([mean[name] for mean in means])) for name in means[0]}
 
 
-def robustness_of(record: Record, opened: Opened) -> restarts.Robustness:
+def measure_robustness(record: Record, opened: OpenedSequence) -> restarts.Robustness:
     """The numbers of a run with restarts."""
-    boxes = bounded(record.run.boxes, opened)
+    boxes = clip_to_image(record.run.boxes, opened)
     overlaps = metrics.overlaps(boxes, opened.truth(len(boxes)))
     return restarts.robustness(record, overlaps)
 

@@ -11,73 +11,73 @@ from tricue.evaluation.tasks import Task
 
 Perform = Callable[[Task], Record]
 CONNECT_TIMEOUT = "10s"  # to a Dask scheduler
-NEEDED = "needs the extra: pip install 'tricue[{}]'"
+MISSING_EXTRA = "needs the extra: pip install 'tricue[{}]'"
 
 
 class Finished(NamedTuple):
-    """A task that ended: its place in the list, and its record, or the error that kept it from one."""
+    """A finished task: its index in the list, and its record or error."""
 
-    place: int
+    task_index: int
     record: Record | None
     error: str = ""
 
 
-def completed(
+def run_tasks(
     tasks: Sequence[Task], perform: Perform, jobs: int = 1, scheduler: str | None = None
 ) -> Generator[Finished, None, None]:
-    """The tasks as they end, in whatever order. Closing the iterator gives up those that haven't.
+    """Run the tasks and yield them as they finish, in any order. Closing the iterator cancels the rest.
 
     jobs: processes of this machine. scheduler: the address of a Dask scheduler, such as tcp://host:8786,
     whose workers see the data set under the same path. A task that was on a lost worker runs on another.
-    ImportError names the extra that is missing; OSError where no scheduler answers.
+    ImportError names the missing extra; OSError if no scheduler answers.
     """
     if scheduler is not None:
-        return _on_cluster(tasks, perform, scheduler)
-    return _here(tasks, perform) if jobs == 1 else _in_processes(tasks, perform, jobs)
+        return _run_on_cluster(tasks, perform, scheduler)
+    return _run_here(tasks, perform) if jobs == 1 else _run_in_processes(tasks, perform, jobs)
 
 
-def finished(index: int, task: Task, perform: Perform) -> Finished:
-    """Perform a task; an error of its sequence is told, not raised, for the others go on."""
+def perform_task(index: int, task: Task, perform: Perform) -> Finished:
+    """Perform a task; an error of its sequence is returned, not raised, so that the others continue."""
     try:
         return Finished(index, perform(task))
     except (OSError, ValueError) as error:
         return Finished(index, None, one_line(error))
 
 
-def _here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
+def _run_here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, None, None]:
     for index, task in enumerate(tasks):
-        yield finished(index, task, perform)
+        yield perform_task(index, task, perform)
 
 
-def _in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Generator[Finished, None, None]:
+def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Generator[Finished, None, None]:
     try:
         from joblib import Parallel, delayed
     except ImportError:
-        raise ImportError(f"--jobs above 1 {NEEDED.format('evaluate')}") from None
+        raise ImportError(f"--jobs above 1 {MISSING_EXTRA.format('evaluate')}") from None
     parallel = Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)
-    calls = (delayed(finished)(index, task, perform) for index, task in enumerate(tasks))
+    calls = (delayed(perform_task)(index, task, perform) for index, task in enumerate(tasks))
     with closing(parallel(calls)) as results:
         yield from results
 
 
-def _on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:
+def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:
     try:
         from distributed import Client, as_completed
     except ImportError:
-        raise ImportError(f"--scheduler {NEEDED.format('dask')}") from None
+        raise ImportError(f"--scheduler {MISSING_EXTRA.format('dask')}") from None
     with Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False) as client:
         indices = range(len(tasks))
         futures = [
-            client.submit(finished, index, tasks[index], perform, pure=False, priority=-index)
+            client.submit(perform_task, index, tasks[index], perform, pure=False, priority=-index)
             for index in indices
         ]
-        places = {future.key: index for index, future in enumerate(futures)}
+        indices_by_key = {future.key: index for index, future in enumerate(futures)}
         for future in as_completed(futures, loop=client.loop):
-            yield _gathered(future, places[future.key])
+            yield _gather(future, indices_by_key[future.key])
             future.release()
 
 
-def _gathered(future: Any, index: int) -> Finished:
-    """Its result; an error of the cluster's, such as that every worker died on it, is the task's."""
+def _gather(future: Any, index: int) -> Finished:
+    """The result of a future; an error of the cluster, such as a lost worker, becomes the task's error."""
     error = future.exception()
     return future.result() if error is None else Finished(index, None, f"{type(error).__name__}: {error}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A folder of finished runs, a file each: written as they come, found again by an evaluation that goes on."""
+"""A folder of finished runs, one file each, from which an evaluation continues."""
 
 import json
 import os
@@ -11,9 +11,7 @@ from tricue.evaluation.tasks import Task
 
 
 class Store:
-    """Records by their tasks. A file whose fingerprint isn't the task's is of something else: it counts as
-    absent, and is written over.
-    """
+    """Records by task. A file whose fingerprint isn't the task's counts as missing and is overwritten."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -24,7 +22,7 @@ class Store:
         return self.folder.joinpath(*parts).with_suffix(".json")
 
     def load(self, task: Task, fingerprint: str) -> Record | None:
-        """The task's record; None where there is none, or only one that is cut off or of something else."""
+        """The task's record; None if it is missing, incomplete, or has another fingerprint."""
         try:
             text = self.path(task).read_text(encoding="utf-8")
             return Record.from_json(text) if json.loads(text).get("fingerprint") == fingerprint else None
@@ -32,7 +30,7 @@ class Store:
             return None
 
     def save(self, task: Task, fingerprint: str, record: Record) -> None:
-        """Write the record's file, at once or not at all."""
+        """Write the record's file atomically."""
         path = self.path(task)
         path.parent.mkdir(parents=True, exist_ok=True)
         about = {

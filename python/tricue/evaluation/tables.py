@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""An evaluation as tables: a line a run, a line a tracker; CSV, JSON, Markdown.
+"""An evaluation as tables in CSV, JSON and Markdown: one line per run, one line per tracker.
 
-What the runs say is apart from how long they took: the first is the same whenever and wherever it is run.
+Accuracy and speed are in separate files: accuracy is the same on every machine, speed isn't.
 """
 
 import csv
@@ -18,13 +18,13 @@ import cv2
 import numpy as np
 
 import tricue
-from tricue.evaluation.evaluate import Evaluation, Result
+from tricue.evaluation.evaluate import Evaluation, RunResult
 from tricue.evaluation.rows import best_f, over_sequences, pooled_auroc
 
 Line = dict[str, Any]
 
 ROWS, SUMMARY, SPEEDS, JSON = "rows.csv", "summary.csv", "speeds.csv", "evaluation.json"
-_SHOWN = {
+_PRINTED_COLUMNS = {
     "auc": "AUC",
     "precision": "P20",
     "norm_precision": "norm. P",
@@ -41,8 +41,8 @@ _SHOWN = {
     "position_error": "position error, m",
 }
 """Columns of the printed table; one without any number is left out."""
-MOST_COLUMNS = 12  # sequences in a printed table
-_LONG_TERM = ("f_score", "true_positive")  # say something where targets are absent
+MAX_SEQUENCE_COLUMNS = 12  # sequences in a printed table
+_LONG_TERM_COLUMNS = ("f_score", "true_positive")  # meaningful only if targets are absent
 
 
 def summary(evaluation: Evaluation) -> list[Line]:
@@ -50,8 +50,8 @@ def summary(evaluation: Evaluation) -> list[Line]:
     which is the mean over seeds. F and AUROC are over all frames of the group.
     """
     lines = []
-    for group, tracker, results in _compared(evaluation):
-        runs = [each.judged for each in results]
+    for group, tracker, results in _compare(evaluation):
+        runs = [each.scored for each in results]
         means = over_sequences(each.row for each in results)
         means |= {"f_score": best_f(runs), "auroc": pooled_auroc(runs)}
         sequences = len({each.row.sequence for each in results})
@@ -60,9 +60,9 @@ def summary(evaluation: Evaluation) -> list[Line]:
 
 
 def speeds(evaluation: Evaluation) -> list[Line]:
-    """The same lines with medians over the runs: updates a second, and percentiles of an update's time."""
+    """The same lines with medians over the runs: updates per second and percentiles of the update time."""
     lines = []
-    for group, tracker, results in _compared(evaluation):
+    for group, tracker, results in _compare(evaluation):
         times = [(each.speed.fps, each.speed.p50_ms, each.speed.p99_ms) for each in results]
         fps, p50, p99 = np.median(times, axis=0).tolist()
         lines.append({"group": group, "tracker": tracker, "fps": fps, "p50_ms": p50, "p99_ms": p99})
@@ -73,7 +73,7 @@ def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
     """Write the CSV files and the JSON file into a folder; their paths."""
     rows = [asdict(each.row) for each in evaluation.results]
     times = [asdict(each.speed) for each in evaluation.results]
-    everything = {
+    contents = {
         **about,
         "summary": summary(evaluation),
         "speed": speeds(evaluation),
@@ -87,27 +87,34 @@ def write(evaluation: Evaluation, folder: Path, about: Line) -> list[Path]:
     }
     folder.mkdir(parents=True, exist_ok=True)
     _write_csv(folder / ROWS, rows)
-    _write_csv(folder / SUMMARY, everything["summary"])
+    _write_csv(folder / SUMMARY, contents["summary"])
     _write_csv(folder / SPEEDS, times)
-    text = json.dumps(_finite(everything), indent=1, allow_nan=False)
+    text = json.dumps(_finite(contents), indent=1, allow_nan=False)
     (folder / JSON).write_text(text + "\n", encoding="utf-8")
     return [folder / name for name in (ROWS, SUMMARY, SPEEDS, JSON)]
 
 
 def markdown(evaluation: Evaluation) -> str:
-    """Two tables per group of sequences: the summary, and the AUC on each, unless they are too many."""
-    lines, fast = summary(evaluation), {(line["group"], line["tracker"]): line for line in speeds(evaluation)}
+    """Two tables per group of sequences: the summary, and the AUC of each sequence unless there are too
+    many.
+    """
+    lines, speeds_by_tracker = (
+        summary(evaluation),
+        {(line["group"], line["tracker"]): line for line in speeds(evaluation)},
+    )
     found = []
     for group in evaluation.groups:
-        found.append(_group_table(group, [line for line in lines if line["group"] == group], fast))
+        found.append(
+            _group_table(group, [line for line in lines if line["group"] == group], speeds_by_tracker)
+        )
         names = [each.entry.name for each in evaluation.opened if each.group == group]
-        if 1 < len(names) <= MOST_COLUMNS:
+        if 1 < len(names) <= MAX_SEQUENCE_COLUMNS:
             found.append(_sequence_table(evaluation, group, names))
     return "\n\n".join(found)
 
 
 def settings(evaluation: Evaluation, **how: Any) -> Line:
-    """What was run, by what, and where. how: whatever else is to be told."""
+    """What was run, with which versions, and where. how: further entries."""
     options = evaluation.options
     return {
         "tricue": tricue.__version__,
@@ -118,7 +125,7 @@ def settings(evaluation: Evaluation, **how: Any) -> Line:
         "seeds": options.seeds,
         "restarts": options.restarts,
         "reading": asdict(options.reading),
-        "parameters": {each.name: json.loads(each.described) for each in evaluation.trackers if each.ours},
+        "parameters": {each.name: json.loads(each.description) for each in evaluation.trackers if each.ours},
         "changed": {name: dict(values) for name, values in options.settings.items()},
         **how,
     }
@@ -133,37 +140,43 @@ def processor() -> str:
         return platform.processor() or "an unknown processor"
 
 
-def _compared(evaluation: Evaluation) -> Iterator[tuple[str, str, list[Result]]]:
+def _compare(evaluation: Evaluation) -> Iterator[tuple[str, str, list[RunResult]]]:
     for group in evaluation.groups:
         for spec in evaluation.trackers:
             if results := evaluation.of(group, spec.name):
                 yield group, spec.name, results
 
 
-def _group_table(group: str, lines: Sequence[Line], fast: Mapping[tuple[str, str], Line]) -> str:
-    shown = [name for name in _SHOWN if any(not math.isnan(line[name]) for line in lines)]
-    if "true_negative" not in shown:
-        shown = [name for name in shown if name not in _LONG_TERM]
-    heads = [f"{group}: tracker", "sequences", *(_SHOWN[name] for name in shown), "frames/s", "p99, ms"]
+def _group_table(group: str, lines: Sequence[Line], speeds_by_tracker: Mapping[tuple[str, str], Line]) -> str:
+    columns = [name for name in _PRINTED_COLUMNS if any(not math.isnan(line[name]) for line in lines)]
+    if "true_negative" not in columns:
+        columns = [name for name in columns if name not in _LONG_TERM_COLUMNS]
+    heads = [
+        f"{group}: tracker",
+        "sequences",
+        *(_PRINTED_COLUMNS[name] for name in columns),
+        "frames/s",
+        "p99, ms",
+    ]
     rows = [heads, ["---"] * len(heads)]
     for line in lines:
-        speed = fast[group, line["tracker"]]
-        numbers = ["-" if math.isnan(line[name]) else f"{line[name]:.2f}" for name in shown]
+        speed = speeds_by_tracker[group, line["tracker"]]
+        numbers = ["-" if math.isnan(line[name]) else f"{line[name]:.2f}" for name in columns]
         times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"]
         rows.append([line["tracker"], str(line["sequences"]), *numbers, *times])
-    return _aligned(rows)
+    return _align(rows)
 
 
 def _sequence_table(evaluation: Evaluation, group: str, names: Sequence[str]) -> str:
     """AUC, the mean over seeds; "-" where a tracker didn't run."""
     rows = [[f"{group}: AUC", *(Path(name).name for name in names)], ["---"] * (len(names) + 1)]
-    for _, tracker, results in (each for each in _compared(evaluation) if each[0] == group):
+    for _, tracker, results in (each for each in _compare(evaluation) if each[0] == group):
         found = [[each.row.auc for each in results if each.row.sequence == name] for name in names]
         rows.append([tracker, *(f"{np.mean(values):.2f}" if values else "-" for values in found)])
-    return _aligned(rows)
+    return _align(rows)
 
 
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
+def _align(rows: Sequence[Sequence[str]]) -> str:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return "\n".join(
         f"| {' | '.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True))} |"
@@ -176,10 +189,10 @@ def _write_csv(path: Path, lines: Sequence[Line]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(lines[0]) if lines else [], lineterminator="\n")
         writer.writeheader()
-        writer.writerows({name: _told(value) for name, value in line.items()} for line in lines)
+        writer.writerows({name: _empty_if_nan(value) for name, value in line.items()} for line in lines)
 
 
-def _told(value: Any) -> Any:
+def _empty_if_nan(value: Any) -> Any:
     return "" if isinstance(value, float) and math.isnan(value) else value
 
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The unit of work: one tracker on one sequence from one seed, in one of two kinds of run.
 
-A task says all that its result depends on, so that it can be run in any process, and its result be found
-again.
+A task contains all that its result depends on, so that it can run in any process and be found again.
 """
 
 import hashlib
@@ -17,12 +16,12 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.data.prefetch import prefetch
 from tricue.evaluation import one_pass, restarts
-from tricue.evaluation.dataset import Entry, Opened
+from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.record import Record
 from tricue.evaluation.tracker_spec import SafeTracker, TrackerSpec
 
 ONE_PASS, RESTARTS = "one-pass", "restarts"
-_DECIDING = (
+_RESULT_SOURCES = (
     *("_core*.so", "_core*.pyd", "camera/**/*.py", "data/**/*.py", "reference/**/*.py", "track/**/*.py"),
     *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts")),
 )
@@ -42,33 +41,39 @@ class Task:
         """Unique among the tasks of an evaluation; a relative path."""
         return f"{self.kind}/{self.tracker.name}/{self.entry.name}/seed-{self.seed}"
 
-    def fingerprint(self, digest: str, described: str) -> str:
-        """Changes with all that the result depends on; digest: the opened entry's; described: the spec."""
-        parts = (self.name, digest, described, code_digest())
+    def fingerprint(self, digest: str, description: str) -> str:
+        """A hash of all that the result depends on. digest: the opened entry's; description: the tracker
+        spec's.
+        """
+        parts = (self.name, digest, description, code_digest())
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
 def perform(task: Task, ahead: int = 0) -> Record:
-    """Run the task. What the tracker raises is part of the record; ValueError or OSError where the sequence
-    can't be read.
+    """Run the task. Errors of the tracker are part of the record; ValueError or OSError if the sequence can't
+    be read.
 
-    ahead: how many frames may be read before their turn, by a thread that takes part of another core. It
-    changes no result, but the times a little.
+    ahead: how many frames a second thread may read in advance. It doesn't change the result, only the times
+    a little.
     """
     opened = task.entry.open()
     frames = map(task.tracker.view(opened), opened.source)
-    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as shown:
-        return _restarted(task, opened, shown) if task.kind == RESTARTS else _one_pass(task, opened, shown)
+    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched:
+        return (
+            _run_with_restarts(task, opened, prefetched)
+            if task.kind == RESTARTS
+            else _run_one_pass(task, opened, prefetched)
+        )
 
 
-def _one_pass(task: Task, opened: Opened, frames: Iterable[Frame]) -> Record:
-    """From the first frame with a true box, which hand-made truth may have later than the images."""
+def _run_one_pass(task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
+    """Start in the first frame with a true box, which needn't be the first image."""
     tracker, start = task.tracker.make(opened, task.seed), opened.start
     run = one_pass.run(tracker, frames, Box(*opened.boxes[start].tolist()), start)
-    return Record(run, (start,), tracker.trouble)
+    return Record(run, (start,), tracker.error)
 
 
-def _restarted(task: Task, opened: Opened, frames: Iterable[Frame]) -> Record:
+def _run_with_restarts(task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
     made: list[SafeTracker] = []
 
     def make() -> SafeTracker:
@@ -76,13 +81,13 @@ def _restarted(task: Task, opened: Opened, frames: Iterable[Frame]) -> Record:
         return made[-1]
 
     record = restarts.run(make, frames, opened.boxes)
-    return replace(record, trouble=next((tracker.trouble for tracker in made if tracker.trouble), ""))
+    return replace(record, error=next((tracker.error for tracker in made if tracker.error), ""))
 
 
 @cache
 def code_digest() -> str:
-    """Of the code that decides what our trackers say: a change of it is no reason to trust old results."""
+    """A hash of the code that determines the results: after a change of it, old results aren't reused."""
     root, found = Path(tricue.__file__).parent, hashlib.sha256()
-    for path in sorted({path for pattern in _DECIDING for path in root.glob(pattern)}):
+    for path in sorted({path for pattern in _RESULT_SOURCES for path in root.glob(pattern)}):
         found.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
     return found.hexdigest()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Who takes part: our trackers, on whatever they can see of a sequence, and the installed cv2's."""
+"""Tracker specs: which trackers are evaluated, with which parameters, and on which channels of a sequence."""
 
 import json
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -21,18 +21,22 @@ from tricue.track.base import registry
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
-View = Callable[[Frame], Frame]
-"""What a tracker is shown of a frame; made off the clock."""
+FrameView = Callable[[Frame], Frame]
+"""Selects the channels of a frame that a tracker gets; its time isn't measured."""
 
-MAX_DISPARITY, MIN_DISPARITY = 0.25, 4.0  # of a target in a stereo pair: of the image's width; pixels
-_SLOWNESS = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
-SCRIPT = "script-pf"  # the baseline that draws random numbers which its users can seed
-BASELINE = Traits(channels=(Channels.of("color"), Channels.of("depth")))
+# Disparities of a target in a stereo pair between which trackers search.
+MAX_DISPARITY_RATIO = 0.25  # of the image's width
+MIN_DISPARITY = 4.0  # pixels
+_RELATIVE_TIMES = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
+SEEDED_BASELINE = "script-pf"  # the baseline whose random numbers can be seeded
+BASELINE_TRAITS = Traits(channels=(Channels.of("color"), Channels.of("depth")))
 
 
-class Offer(Protocol):
-    """What a sequence has for trackers, as an ``Opened`` tells it: its channels, the one whose pixels the
-    boxes count, whether depth is registered to color, and its cameras as far as they are known.
+class SequenceInfo(Protocol):
+    """The inputs that a sequence offers to trackers, such as an ``OpenedSequence``.
+
+    Its channels, the one in whose pixels the boxes are given, whether depth is registered to color, and the
+    known cameras.
     """
 
     @property
@@ -64,31 +68,31 @@ class TrackerSpec:
 
     @property
     def traits(self) -> Traits:
-        """What it needs and takes; baselines see one picture."""
-        return registry.traits(self.name) if self.ours else BASELINE
+        """Its inputs and capabilities; baselines take one image."""
+        return registry.traits(self.name) if self.ours else BASELINE_TRAITS
 
     @property
     def random(self) -> bool:
-        """Whether it draws random numbers from a seed, so that one run isn't enough."""
-        return self.traits.random if self.ours else self.name == SCRIPT
+        """Whether it depends on a seed, so that several runs are needed."""
+        return self.traits.random if self.ours else self.name == SEEDED_BASELINE
 
     @property
-    def slowness(self) -> float:
-        """About how long a frame takes beside one of our trackers; only for the order of the work."""
-        return _SLOWNESS.get(self.name, 1.0)
+    def relative_time(self) -> float:
+        """Roughly the time per frame relative to tricue's trackers; only used to order the tasks."""
+        return _RELATIVE_TIMES.get(self.name, 1.0)
 
     @property
-    def described(self) -> str:
-        """What else than the images decides a run: parameters and versions, as JSON."""
+    def description(self) -> str:
+        """What a run depends on besides the sequence: parameters and versions, as JSON."""
         if not self.ours:
             return json.dumps({"cv2": cv2.__version__})
         kind, settings = registry.tracker_class(self.name).Params, dict(self.settings)
         params = settings if kind is None else asdict(kind(**settings))
         return json.dumps({"tricue": tricue.__version__, **params}, default=str)
 
-    def refuses(self, opened: Offer) -> str:
-        """Why it can't run on a sequence, "" where it can."""
-        present = _usable(opened)
+    def unsupported_reason(self, opened: SequenceInfo) -> str:
+        """Why it can't run on a sequence, "" if it can."""
+        present = _usable_channels(opened)
         if self.traits.best(present) is not None:
             return ""
         missing = self.traits.channels[-1].names - present
@@ -99,7 +103,7 @@ class TrackerSpec:
             return f"no {', '.join(sorted(absent))}"
         return "boxes of the depth image" if "color" in missing else "depth not registered to color"
 
-    def make(self, opened: Offer, seed: int) -> "SafeTracker":
+    def make(self, opened: SequenceInfo, seed: int) -> "SafeTracker":
         """The tracker for a sequence, with its cameras."""
         baselines.seed(seed)
         if not self.ours:
@@ -107,50 +111,52 @@ class TrackerSpec:
         keywords = _keywords(self.traits, opened) | dict(self.settings)
         return SafeTracker(tricue.create(self.name, seed=seed, **keywords))
 
-    def view(self, opened: Offer) -> View:
-        """What the tracker is shown: the channels that it uses. Baselines see depth as a picture where the
-        true boxes are in it.
+    def view(self, opened: SequenceInfo) -> FrameView:
+        """Selects the channels that the tracker uses. Baselines get depth as a picture if the true boxes are
+        given in its pixels.
         """
         if not self.ours and opened.channel == "depth":
-            return pictured()
-        chosen = self.traits.best(_usable(opened))
-        return partial(_only, frozenset({"color"}) if chosen is None else chosen.names)
+            return depth_as_picture()
+        chosen = self.traits.best(_usable_channels(opened))
+        return partial(_select_channels, frozenset({"color"}) if chosen is None else chosen.names)
 
 
 class SafeTracker:
-    """A tracker that never raises: from its first error on, which is ``trouble``, it finds nothing."""
+    """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a
+    box.
+    """
 
     def __init__(self, tracker: AnyTracker) -> None:
-        self.trouble = ""
+        self.error = ""
         self._tracker = tracker
 
     def init(self, frame: Frame, box: Box) -> Track:
         """The tracker's, or a track without a box."""
-        return self._tried(lambda: self._tracker.init(frame, box))
+        return self._try(lambda: self._tracker.init(frame, box))
 
     def update(self, frame: Frame) -> Track:
         """The tracker's, or a track without a box."""
-        return self._tried(lambda: self._tracker.update(frame))
+        return self._try(lambda: self._tracker.update(frame))
 
-    def _tried(self, call: Callable[[], Track]) -> Track:
-        if not self.trouble:
+    def _try(self, call: Callable[[], Track]) -> Track:
+        if not self.error:
             try:
                 return call()
             except (ValueError, RuntimeError, cv2.error) as error:
-                self.trouble = one_line(error)
+                self.error = one_line(error)
         return Track(Box(*[float("nan")] * 4), 0.0, Status.LOST)
 
 
-def pictured() -> View:
-    """Depth as a picture in the color channel, near to far in the first frame's range."""
-    shades: list[tuple[float, float]] = []
+def depth_as_picture() -> FrameView:
+    """Renders depth as a picture in the color channel, with the depth range of the first frame."""
+    depth_limits: list[tuple[float, float]] = []
 
     def view(frame: Frame) -> Frame:
         frame.require("depth")
         assert frame.depth is not None
-        if not shades:
-            shades.append(depth_range(frame.depth) or (0.0, 1.0))
-        return Frame(depth_picture(frame.depth, *shades[0]), timestamp=frame.timestamp)
+        if not depth_limits:
+            depth_limits.append(depth_range(frame.depth) or (0.0, 1.0))
+        return Frame(depth_picture(frame.depth, *depth_limits[0]), timestamp=frame.timestamp)
 
     return view
 
@@ -158,7 +164,8 @@ def pictured() -> View:
 def tracker_specs(
     chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]
 ) -> list[TrackerSpec]:
-    """Those of the given names, by default all that are installed; settings: parameters by trackers' names.
+    """The specs of the given names, by default of all installed trackers. settings: parameters by tracker
+    name.
 
     ValueError for an unknown name lists the known ones.
     """
@@ -174,7 +181,7 @@ def tracker_specs(
 
 
 def _check(spec: TrackerSpec) -> None:
-    """Errors of names and parameters come before the first run."""
+    """TypeError or ValueError for wrong parameters, before the first run."""
     if not spec.ours:
         if spec.settings:
             raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {spec.name}")
@@ -184,38 +191,38 @@ def _check(spec: TrackerSpec) -> None:
         kind(**dict(spec.settings))
 
 
-def _usable(opened: Offer) -> frozenset[str]:
-    """The channels whose pixels the true boxes count, or that belong to those."""
+def _usable_channels(opened: SequenceInfo) -> frozenset[str]:
+    """The channels registered to the one in whose pixels the true boxes are given."""
     if opened.channel == "depth":
         return frozenset({"depth"})
     channels = frozenset(opened.channels)
     return channels if opened.registered else channels - {"depth"}
 
 
-def _keywords(traits: Traits, opened: Offer) -> dict[str, Any]:
-    """What a tracker is told on a sequence: the parameters for its channels, and its camera or rig."""
-    chosen = traits.best(_usable(opened))
+def _keywords(traits: Traits, opened: SequenceInfo) -> dict[str, Any]:
+    """A tracker's keywords for a sequence: the parameters for its channels, and its camera or rig."""
+    chosen = traits.best(_usable_channels(opened))
     if chosen is None:
         return {}
     keywords = dict(chosen.params)
     if "right" in chosen.names and "rig" in traits.camera:
         keywords["rig"] = opened.rig
         if opened.rig is not None and traits.disparity_range is not None:
-            keywords |= dict(zip(traits.disparity_range, _range(opened.rig), strict=True))
+            keywords |= dict(zip(traits.disparity_range, _search_range(opened.rig), strict=True))
     elif "depth" in chosen.names and "intrinsics" in traits.camera:
         keywords["intrinsics"] = opened.intrinsics
     return keywords
 
 
-def _range(rig: StereoRig) -> tuple[float, float]:
-    """Between which distances, meters, a target is looked for: where its disparity is as large and as small
-    as it may be.
+def _search_range(rig: StereoRig) -> tuple[float, float]:
+    """The nearest and farthest distance, meters, at which to search: those of the largest and smallest
+    disparity.
     """
     product = rig.intrinsics.fx * rig.baseline
-    return product / (MAX_DISPARITY * rig.intrinsics.width), product / MIN_DISPARITY
+    return product / (MAX_DISPARITY_RATIO * rig.intrinsics.width), product / MIN_DISPARITY
 
 
-def _only(names: frozenset[str], frame: Frame) -> Frame:
-    """The frame with these channels alone, of those that it has."""
+def _select_channels(names: frozenset[str], frame: Frame) -> Frame:
+    """The frame with these channels only."""
     channels = {name: getattr(frame, name) for name in names}
     return Frame(**channels, timestamp=frame.timestamp)

@@ -5,7 +5,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue.camera.box import Box
-from tricue.evaluation.dataset import Reading, find_entries
+from tricue.evaluation.dataset import ReadOptions, find_entries
 
 from benchmarks.quality import rgbd_people
 
@@ -42,7 +42,7 @@ def walk(tmp_path):
 
 def opened(root):
     """The only sequence."""
-    (entry,) = find_entries(root, Reading(truth="depth"))
+    (entry,) = find_entries(root, ReadOptions(truth="depth"))
     return entry.open()
 
 

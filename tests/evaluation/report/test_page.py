@@ -10,7 +10,7 @@ import pytest
 from tricue.cli import program
 from tricue.cli.evaluate import settings_by_tracker
 from tricue.evaluation import tables
-from tricue.evaluation.dataset import Reading
+from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Options, evaluate
 from tricue.evaluation.report import page, sequences
 from tricue.evaluation.report.page import write_report
@@ -123,7 +123,7 @@ def test_parameters_and_versions_are_listed(about, report):
         Options(),
         Options(("color-particle", "still-box"), seeds=5, restarts=False),
         Options(settings={"flow-depth": {"cues": ("flow",)}, "color-particle": {"particles": 7}}),
-        Options(reading=Reading(depth_scale=0.001, fps=15.0, unit=0.03, truth="depth")),
+        Options(reading=ReadOptions(depth_scale=0.001, fps=15.0, unit=0.03, truth="depth")),
     ],
 )
 def test_the_command_runs_the_same(options):
@@ -133,7 +133,7 @@ def test_the_command_runs_the_same(options):
     words = shlex.split(command(options, "a data set/"))
     assert words[:3] == ["tricue", "evaluate", "a data set/"]
     found = program.parser(words[1]).parse_args(words[1:])
-    reading = Reading(found.depth_scale, found.fps, found.unit, found.truth)
+    reading = ReadOptions(found.depth_scale, found.fps, found.unit, found.truth)
     trackers = tuple(found.trackers) if found.trackers else None
     settings = settings_by_tracker(found.set)
     assert options == Options(trackers, settings, found.seeds, not found.no_restarts, reading)

@@ -136,7 +136,7 @@ def test_curves_are_those_of_the_summary(evaluation):
         results = evaluation.of(line["group"], line["tracker"])
         assert curves.success(results).mean() == pytest.approx(line["auc"], abs=1e-12)
         assert curves.precision(results)[20] == pytest.approx(line["precision"], abs=1e-12)
-        counted = sum((~np.isnan(each.judged.overlaps) | each.judged.absent).sum() for each in results)
+        counted = sum((~np.isnan(each.scored.overlaps) | each.scored.absent).sum() for each in results)
         assert curves.reliability(results).counts.sum() == counted
 
 

@@ -14,13 +14,13 @@ import pytest
 import tricue
 from tricue import Box, Frame, Status, Track
 from tricue.evaluation.toolkits.trax_server import (
-    NOWHERE,
+    EMPTY_BOX,
     Answer,
-    ServedTracker,
-    Session,
-    box_round,
-    channels_of,
-    widened,
+    TraxSession,
+    TraxTracker,
+    bounding_box,
+    select_channels,
+    widen_box,
 )
 from tricue.scenes import WalkScene, overtaking
 
@@ -266,7 +266,7 @@ def test_a_mask_is_the_box_round_it() -> None:
     """It proves that the box of a mask is that of its pixels, where its offset puts them."""
     mask = np.zeros((40, 50), np.uint8)
     mask[10:20, 5:30] = 1
-    assert box_round(trax.Mask.create(mask, x=7, y=3)) == Box(12, 13, 25, 10)
+    assert bounding_box(trax.Mask.create(mask, x=7, y=3)) == Box(12, 13, 25, 10)
 
 
 @pytest.mark.parametrize(
@@ -279,7 +279,7 @@ def test_a_mask_is_the_box_round_it() -> None:
 )
 def test_thin_boxes_are_widened(box: Box, expected: Box) -> None:
     """It proves that a box gets two pixels round its center, and others not a bit of change."""
-    assert widened(box) == expected
+    assert widen_box(box) == expected
 
 
 class Scripted:
@@ -304,7 +304,7 @@ def test_answers_are_finite_and_confidences_in_range() -> None:
         Track(Box(8, 5, 6, 7), math.nan, lost),
         Track(Box(9, 5, 6, 7), 1.5, Status.TRACKED),
     ]
-    session, frame = Session(lambda _: Scripted(*tracks)), Frame(np.zeros((9, 9, 3), np.uint8))  # type: ignore[arg-type,return-value]
+    session, frame = TraxSession(lambda _: Scripted(*tracks)), Frame(np.zeros((9, 9, 3), np.uint8))  # type: ignore[arg-type,return-value]
     with pytest.raises(RuntimeError, match="expected initialize"):
         session.follow(frame)
     assert session.start(frame, Box(1, 2, 3, 4)) == Answer(Box(1, 2, 3, 4), 0.5)
@@ -318,11 +318,11 @@ def test_answers_are_finite_and_confidences_in_range() -> None:
 
 def test_a_session_survives_a_start_but_no_bad_frame(images: Path) -> None:
     """It proves that only what is wrong with the box is borne; a frame without its channel is an error."""
-    session = Session(ServedTracker("depth-particle").tracker)
+    session = TraxSession(TraxTracker("depth-particle").create)
     with pytest.warns(UserWarning, match="not started"):
         assert session.start(frame_of(images, 1, "depth"), Box(900, 9, 9, 9)).confidence == 0
     with pytest.warns(UserWarning, match="not started"):
-        assert session.start(frame_of(images, 1, "depth"), Box(*[math.nan] * 4)) == Answer(NOWHERE, 0)
+        assert session.start(frame_of(images, 1, "depth"), Box(*[math.nan] * 4)) == Answer(EMPTY_BOX, 0)
     with pytest.raises(ValueError, match="channel depth"):
         session.start(frame_of(images, 1), Box(20, 20, 30, 30))
 
@@ -393,7 +393,7 @@ def test_a_calibration_is_that_of_the_camera(images: Path, scene: WalkScene, tmp
     names = ("fx", "fy", "cx", "cy", "width", "height")
     (tmp_path / "c.toml").write_text("".join(f"{name} = {getattr(camera, name)}\n" for name in names))
     for tracker in ("depth-particle", "flow-depth", "fused"):
-        served = ServedTracker(tracker, calibration=tmp_path / "c.toml")
+        served = TraxTracker(tracker, calibration=tmp_path / "c.toml")
         frame = frame_of(images, 1, "color", "depth")
         made = served.tracker(frame)
         assert made.intrinsics == camera  # type: ignore[attr-defined]
@@ -404,9 +404,9 @@ def test_a_calibration_is_that_of_the_camera(images: Path, scene: WalkScene, tmp
 
 def test_channels_by_default() -> None:
     """It proves what each tracker needs of VOT without further parameters."""
-    assert channels_of("color-particle") == ("color",)
-    assert channels_of("depth-particle") == ("depth",)
-    assert channels_of("flow-depth") == ("color", "depth")
-    assert channels_of("fused") == ("color",)
+    assert select_channels("color-particle") == ("color",)
+    assert select_channels("depth-particle") == ("depth",)
+    assert select_channels("flow-depth") == ("color", "depth")
+    assert select_channels("fused") == ("color",)
     with pytest.raises(ValueError, match="right image"):
-        channels_of("stereo-head")
+        select_channels("stereo-head")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from tricue.data.open_source import open_source
 from tricue.evaluation.toolkits import vot_sequences
 from tricue.evaluation.toolkits.vot_sequences import anchors, vot_channels, write_sequence
-from tricue.evaluation.toolkits.vot_workspace import checked_python, write_workspace
+from tricue.evaluation.toolkits.vot_workspace import check_python, write_workspace
 
 pytest.importorskip("trax")
 
@@ -356,9 +356,9 @@ def test_an_interpreter_without_tricue_is_refused(tmp_path: Path) -> None:
     bare.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S "$@"\n')
     bare.chmod(0o755)
     with pytest.raises(ValueError, match=r"can't run tricue for VOT: .*; pip install tricue\[vot\] there"):
-        checked_python(str(bare))
+        check_python(str(bare))
     with pytest.raises(ValueError, match="expected an interpreter, found none"):
-        checked_python(str(tmp_path / "none"))
+        check_python(str(tmp_path / "none"))
 
 
 def test_an_interpreter_s_path_may_have_blanks(tmp_path: Path) -> None:

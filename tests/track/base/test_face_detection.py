@@ -38,9 +38,9 @@ def test_a_cv2_without_cascades_is_explained(lacking: str, monkeypatch: pytest.M
         monkeypatch.delattr(cv2, "CascadeClassifier", raising=False)
     else:
         monkeypatch.setattr(Path, "is_file", lambda _: False)
-    face_detection._cascade.cache_clear()
+    face_detection._load_cascade.cache_clear()
     with pytest.raises(
         ImportError,
-        match=r"^box: a face can't be looked for, as cv2 \S+ has no cascade; give a box \(--box ",
+        match=r"^box: can't detect faces, because cv2 \S+ has no cascade; give a box \(--box ",
     ):
         face_detection.find_face(np.zeros((60, 80, 3), np.uint8))

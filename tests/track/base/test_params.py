@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: MIT
 import math
 import pickle
+from collections.abc import Callable
 from dataclasses import FrozenInstanceError, dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 import pytest
+import tricue
 from hypothesis import given
 from hypothesis import strategies as st
 from tricue.track.base.params import Params, parameter
+from tricue.track.color_particle.params import ColorParticleParams
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,3 +165,21 @@ def test_former_names_are_deprecated(tmp_path: Path) -> None:
     with pytest.raises(AttributeError, match="no attribute 'range'"):
         _ = params.range
     assert pickle.loads(pickle.dumps(params, 0)) == params
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: ColorParticleParams(surprise=0.5),
+        lambda: tricue.ColorParticleTracker(surprise=0.5),
+        lambda: tricue.create("color-particle", surprise=0.5),
+        lambda: tricue.create("color-particle", lost_after=3),
+        lambda: RenamedParams(reach=3),
+        lambda: RenamedParams().reach,
+    ],
+)
+def test_deprecations_point_at_the_users_line(make: Callable[[], object]) -> None:
+    """A warning names the file and line of the call, however many functions of the package are between."""
+    with pytest.warns(DeprecationWarning, match="deprecated") as caught:
+        make()
+    assert [(each.filename, each.lineno) for each in caught] == [(__file__, make.__code__.co_firstlineno)]

@@ -48,7 +48,7 @@ def test_any_class_by_its_module() -> None:
 def test_a_package_offers_trackers(monkeypatch: pytest.MonkeyPatch) -> None:
     """It proves that an entry point of the group tricue.trackers is a name like ours."""
     offered = {"plain": EntryPoint("plain", PLAIN, registry.GROUP)}
-    monkeypatch.setattr(registry, "_offered", lambda: offered)
+    monkeypatch.setattr(registry, "_installed_entry_points", lambda: offered)
     assert registry.names()[-1] == "plain"
     assert tricue.create("plain", step=1.0).init(GRAY, (1, 2, 10, 12)).score == 1
     assert registry.traits("plain").needs == "color"

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.cli.demos.metric import Result, follow_all
+from tricue.cli.demos.metric import SceneResult, follow_all
 from tricue.cli.steps import steps
 from tricue.draw.depth_pictures import depth_range
 from tricue.draw.overlays import depth_overlay
@@ -18,7 +18,7 @@ from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 15.0  # the camera's
-FLOOR = 0.5  # centimeters, of the logarithmic plot
+MIN_PLOTTED_ERROR = 0.5  # centimeters, of the logarithmic plot
 
 SCENES: Mapping[str, Callable[..., DepthScene]] = {
     "walking, crouching, turning": walker,
@@ -42,10 +42,12 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _follow(options: Namespace, name: str, scene: DepthScene, video: OverlayWriter) -> Result[DepthScene]:
+def _follow(
+    options: Namespace, name: str, scene: DepthScene, video: OverlayWriter
+) -> SceneResult[DepthScene]:
     """Track one scene from its first true box into the video."""
     tracker = create(options.tracker, intrinsics=scene.intrinsics, seed=options.seed, kernels=options.kernels)
-    result = Result(scene)
+    result = SceneResult(scene)
     first = scene.frames[0].depth
     assert first is not None
     near, far = depth_range(first) or (0.0, 1.0)
@@ -67,19 +69,19 @@ def _follow(options: Namespace, name: str, scene: DepthScene, video: OverlayWrit
     return result
 
 
-def _table(results: Mapping[str, Result[DepthScene]]) -> str:
+def _table(results: Mapping[str, SceneResult[DepthScene]]) -> str:
     """Errors and overlaps in the frames in which at least half of the target is visible."""
     head = f"{'mean IoU':>10}{'median error':>14}{'95 %':>9}{'hidden: said':>14}{'frames/s':>10}"
     lines = [f"{'scene':34}{head}"]
     for name, result in results.items():
         median, high = 100 * np.nanpercentile(result.errors[result.seen], [50, 95])
         numbers = f"{result.overlaps[result.seen].mean():>10.2f}{median:>11.1f} cm{high:>6.1f} cm"
-        lines.append(f"{name:34}{numbers}{result.said(Status.OCCLUDED):>14}{result.speed:>10,.0f}")
+        lines.append(f"{name:34}{numbers}{result.count_hidden(Status.OCCLUDED):>14}{result.speed:>10,.0f}")
     return "\n".join(lines)
 
 
-def _plot(figure: Any, results: Mapping[str, Result[DepthScene]]) -> None:
-    """A row a scene: the path from above, beside it the error over the frames."""
+def _plot(figure: Any, results: Mapping[str, SceneResult[DepthScene]]) -> None:
+    """A row per scene: the path from above, beside it the error over the frames."""
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 
@@ -90,7 +92,7 @@ def _plot(figure: Any, results: Mapping[str, Result[DepthScene]]) -> None:
         path.set_title(name, loc="left")
         shade_hidden(error, result.scene.visible)
         errors = 100 * result.errors
-        error.plot(np.maximum(errors, FLOOR), color="#0072B2", linewidth=1.4)
+        error.plot(np.maximum(errors, MIN_PLOTTED_ERROR), color="#0072B2", linewidth=1.4)
         error.set_title(f"median {np.nanmedian(errors[result.seen]):.1f} cm where half visible", loc="left")
-        error.set(yscale="log", ylim=(FLOOR, 500), ylabel="position error, cm")
+        error.set(yscale="log", ylim=(MIN_PLOTTED_ERROR, 500), ylabel="position error, cm")
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible)")

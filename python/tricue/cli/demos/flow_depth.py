@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo flow-depth``: a walker is overtaken and passes somebody, before a panning pair."""
+"""``tricue demo flow-depth``: a walker is overtaken and passes somebody, before a panning stereo pair."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.cli.demos.metric import Result, follow_all
+from tricue.cli.demos.metric import SceneResult, follow_all
 from tricue.cli.steps import steps
 from tricue.draw.masks import flow_depth_overlay
 from tricue.draw.video import OverlayWriter
@@ -17,14 +17,14 @@ from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 15.0  # the cameras'
-HELD = 0.5  # of overlap
+MIN_HELD_OVERLAP = 0.5  # of overlap
 
-Entry = tuple[Callable[..., WalkScene], dict[str, Any]]
+DemoCase = tuple[Callable[..., WalkScene], dict[str, Any]]
 """How to make a scene, and the tracker's parameters in it."""
 
 _plain = lru_cache(maxsize=1)(overtaking)  # it takes seconds to make
 
-ENTRIES: Mapping[str, Entry] = {
+CASES: Mapping[str, DemoCase] = {
     "both cues": (_plain, {}),
     "flow alone": (_plain, {"cues": ("flow",)}),
     "disparity alone": (_plain, {"cues": ("disparity",)}),
@@ -39,7 +39,7 @@ def run(options: Namespace) -> int:
 
     figures.require()
     video = OverlayWriter(options.output / f"{options.tracker}.mp4", FPS)
-    scenes = {name: make for name, (make, _) in ENTRIES.items()}
+    scenes = {name: make for name, (make, _) in CASES.items()}
     results = follow_all(scenes, options.seed, video, partial(_follow, options))
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
@@ -48,14 +48,12 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _follow(options: Namespace, name: str, scene: WalkScene, video: OverlayWriter) -> Result[WalkScene]:
+def _follow(options: Namespace, name: str, scene: WalkScene, video: OverlayWriter) -> SceneResult[WalkScene]:
     """Track one scene from its first true box into the video."""
     pair = scene.frames[0].right is not None
     camera = {"rig": scene.rig} if pair else {"intrinsics": scene.rig.intrinsics}
-    tracker = create(
-        options.tracker, **camera, **ENTRIES[name][1], seed=options.seed, kernels=options.kernels
-    )
-    result = Result(scene)
+    tracker = create(options.tracker, **camera, **CASES[name][1], seed=options.seed, kernels=options.kernels)
+    result = SceneResult(scene)
     for step in steps(tracker, scene.frames, lambda _: scene.boxes[0], result.clock):
         result.tracks.append(step.track)
         truth, note = scene.boxes[step.number], f"{name}, frame {step.number}"
@@ -65,7 +63,7 @@ def _follow(options: Namespace, name: str, scene: WalkScene, video: OverlayWrite
     return result
 
 
-def _table(results: Mapping[str, Result[WalkScene]]) -> str:
+def _table(results: Mapping[str, SceneResult[WalkScene]]) -> str:
     """Overlaps and errors in the frames in which at least half of the target is visible."""
     errors = f"{'median error':>14}"
     lines = [f"{'cues':24}{'mean IoU':>10}{'IoU > 0.5':>11}{errors}{'hidden: said':>14}{'frames/s':>10}"]
@@ -73,16 +71,18 @@ def _table(results: Mapping[str, Result[WalkScene]]) -> str:
         overlaps = result.overlaps[result.seen]
         known = result.errors[result.seen & np.isfinite(result.errors)]
         error = f"{np.median(known):>12.2f} m" if known.size else f"{'-':>14}"
-        held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > HELD):>11.1%}"
-        said = result.said(Status.OCCLUDED, Status.LOST)
+        held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > MIN_HELD_OVERLAP):>11.1%}"
+        said = result.count_hidden(Status.OCCLUDED, Status.LOST)
         lines.append(f"{name:24}{held}{error}{said:>14}{result.speed:>10,.0f}")
     return "\n".join(
         [*lines, "\nWhere half of the target is visible; hidden: said counts OCCLUDED and LOST."]
     )
 
 
-def _plot(figure: Any, results: Mapping[str, Result[WalkScene]]) -> None:
-    """A row a scene: the path from above where there is a position, beside it the overlap over the frames."""
+def _plot(figure: Any, results: Mapping[str, SceneResult[WalkScene]]) -> None:
+    """A row per scene: the path from above where there is a position, beside it the overlap over the
+    frames.
+    """
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 
@@ -99,7 +99,7 @@ def _plot(figure: Any, results: Mapping[str, Result[WalkScene]]) -> None:
         overlap.plot(result.overlaps, color="#0072B2", linewidth=1.4)
         if result.scene.events.passing is not None:
             overlap.axvline(result.scene.events.passing, color="0.4", linestyle="--", linewidth=0.8)
-        held = np.mean(result.overlaps[result.seen] > HELD)
+        held = np.mean(result.overlaps[result.seen] > MIN_HELD_OVERLAP)
         overlap.set_title(f"{held:.1%} above 0.5 where half visible", loc="left")
         overlap.set(ylim=(0, 1), ylabel="IoU")
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible; dashed: the pass)")

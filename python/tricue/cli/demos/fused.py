@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""``tricue demo fused``: one target through every trouble, seen by color, depth, both, and a pair."""
+"""``tricue demo fused``: a stress scene, tracked in color, depth, both, and a stereo pair."""
 
 from argparse import Namespace
 from collections.abc import Callable, Mapping
@@ -10,7 +10,7 @@ import numpy as np
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.cli.demos.metric import Floats, Result, follow_all
+from tricue.cli.demos.metric import Floats, SceneResult, follow_all
 from tricue.cli.outputs import Step
 from tricue.cli.steps import steps
 from tricue.draw.canvas import Image
@@ -21,14 +21,14 @@ from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 30.0  # the cameras'
-HELD = 0.5  # of overlap
+MIN_HELD_OVERLAP = 0.5  # of overlap
 
-Entry = tuple[Callable[..., StressScene], tuple[str, ...]]
-"""How to make a scene, and the channels that the tracker is shown of it."""
+DemoCase = tuple[Callable[..., StressScene], tuple[str, ...]]
+"""How to make a scene, and the channels that the tracker gets."""
 
 _rgbd = lru_cache(maxsize=1)(partial(stress_scene, "all", channels="rgbd"))  # it takes seconds to make
 
-ENTRIES: Mapping[str, Entry] = {
+CASES: Mapping[str, DemoCase] = {
     "color alone": (_rgbd, ("color",)),
     "depth alone": (_rgbd, ("depth",)),
     "color and depth": (_rgbd, ("color", "depth")),
@@ -42,7 +42,7 @@ def run(options: Namespace) -> int:
 
     figures.require()
     video = OverlayWriter(options.output / f"{options.tracker}.mp4", FPS)
-    scenes = {name: make for name, (make, _) in ENTRIES.items()}
+    scenes = {name: make for name, (make, _) in CASES.items()}
     results = follow_all(scenes, options.seed, video, partial(_follow, options))
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
@@ -53,18 +53,20 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _follow(options: Namespace, name: str, scene: StressScene, video: OverlayWriter) -> Result[StressScene]:
+def _follow(
+    options: Namespace, name: str, scene: StressScene, video: OverlayWriter
+) -> SceneResult[StressScene]:
     """Track one scene from its first true box into the video."""
-    shown = ENTRIES[name][1]
-    camera: dict[str, Any] = {"rig": scene.rig} if "right" in shown else {}
-    if "depth" in shown:
+    channels = CASES[name][1]
+    camera: dict[str, Any] = {"rig": scene.rig} if "right" in channels else {}
+    if "depth" in channels:
         camera["intrinsics"] = scene.intrinsics
     tracker = create(options.tracker, **camera, seed=options.seed, kernels=options.kernels)
     frames = (
-        Frame(**{each: getattr(frame, each) for each in shown}, timestamp=frame.timestamp)
+        Frame(**{each: getattr(frame, each) for each in channels}, timestamp=frame.timestamp)
         for frame in scene.frames
     )
-    result = Result(scene)
+    result = SceneResult(scene)
     for step in steps(tracker, frames, lambda _: Box(*scene.boxes[0].tolist()), result.clock):
         result.tracks.append(step.track)
         video.write(_picture(step, scene.boxes[step.number], f"{name}, frame {step.number}"))
@@ -80,7 +82,7 @@ def _picture(step: Step, numbers: Floats, note: str) -> Image:
     return depth_overlay(step.frame.depth, step.track, truth=truth, note=note)
 
 
-def _table(results: Mapping[str, Result[StressScene]]) -> str:
+def _table(results: Mapping[str, SceneResult[StressScene]]) -> str:
     """Overlaps and errors in the frames in which at least half of the target is visible."""
     errors = f"{'median error':>14}{'90 %':>9}"
     lines = [f"{'channels':20}{'mean IoU':>10}{'IoU > 0.5':>11}{errors}{'gone: said':>12}{'frames/s':>10}"]
@@ -91,16 +93,16 @@ def _table(results: Mapping[str, Result[StressScene]]) -> str:
         if known.size:
             median, high = 100 * np.percentile(known, [50, 90])
             error = f"{median:>11.1f} cm{high:>6.1f} cm"
-        held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > HELD):>11.1%}"
-        said = result.said(Status.OCCLUDED, Status.LOST)
+        held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > MIN_HELD_OVERLAP):>11.1%}"
+        said = result.count_hidden(Status.OCCLUDED, Status.LOST)
         lines.append(f"{name:20}{held}{error}{said:>12}{result.speed:>10,.0f}")
     note = "Where half of the target is visible; gone: said counts OCCLUDED and LOST."
     return "\n".join([*lines, f"\n{note}"])
 
 
-def _plot(figure: Any, results: Mapping[str, Result[StressScene]]) -> None:
-    """A row of each set of channels: the path from above where there is a position, beside it the overlap
-    over the frames, with the names of what happens.
+def _plot(figure: Any, results: Mapping[str, SceneResult[StressScene]]) -> None:
+    """A row per set of channels: the path from above where there is a position, beside it the overlap
+    over the frames, with the names of the events.
     """
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
@@ -119,7 +121,7 @@ def _plot(figure: Any, results: Mapping[str, Result[StressScene]]) -> None:
         for event, span in result.scene.spans.items():
             overlap.axvline(span.start, color="0.6", linestyle=":", linewidth=0.8)
             overlap.text(span.start + 1, 1.02, event, fontsize="small")
-        held = np.mean(result.overlaps[result.seen] > HELD)
+        held = np.mean(result.overlaps[result.seen] > MIN_HELD_OVERLAP)
         overlap.set_title(f"{held:.1%} above 0.5 where half visible", loc="left")
         overlap.set(ylim=(0, 1.1), ylabel="IoU")
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible; dotted: something begins)")

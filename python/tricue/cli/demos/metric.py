@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the demos in meters measure in a scene, whatever the cameras: errors, overlaps, what was said."""
+"""Measurements of the demos in meters: position errors, overlaps, reported statuses."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.cli.progress import Progress
-from tricue.cli.steps import Clock
+from tricue.cli.steps import RunClock
 from tricue.draw.video import OverlayWriter
 from tricue.evaluation import metrics
 from tricue.papers.curves import HIDDEN_BELOW, MIN_VISIBLE
@@ -22,23 +22,23 @@ S = TypeVar("S", DepthScene, StereoScene, WalkScene, StressScene)
 
 
 @dataclass(frozen=True)
-class Result(Generic[S]):
-    """What came out of one scene."""
+class SceneResult(Generic[S]):
+    """The tracks and times of one scene."""
 
     scene: S
     tracks: list[Track] = field(default_factory=list)
-    clock: Clock = field(default_factory=Clock)
+    clock: RunClock = field(default_factory=RunClock)
 
     @property
     def errors(self) -> Floats:
         """(M,) distances of the positions from the true ones, meters; NaN without a position."""
-        places = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
-        distances: Floats = np.linalg.norm(places - self.scene.positions, axis=1)
+        positions = [np.full(3, np.nan) if t.position is None else t.position for t in self.tracks]
+        distances: Floats = np.linalg.norm(positions - self.scene.positions, axis=1)
         return distances
 
     @property
     def overlaps(self) -> Floats:
-        """(M,) with the box round the whole target; NaN where it has none."""
+        """(M,) overlaps with the box of the whole target; NaN where it has none."""
         return metrics.overlaps([track.box for track in self.tracks], self.scene.boxes)
 
     @property
@@ -46,11 +46,13 @@ class Result(Generic[S]):
         """(M,) where at least half of the target is visible."""
         return np.asarray(self.scene.visible >= MIN_VISIBLE)
 
-    def said(self, *statuses: Status) -> str:
-        """In how many of the frames in which the target is hidden the tracker says one of the statuses."""
+    def count_hidden(self, *statuses: Status) -> str:
+        """In how many frames with a hidden target the tracker reports one of the statuses, as
+        "count/frames".
+        """
         hidden = np.flatnonzero(self.scene.visible < HIDDEN_BELOW)
-        said = sum(self.tracks[index].status in statuses for index in hidden)
-        return f"{said}/{len(hidden)}"
+        count = sum(self.tracks[index].status in statuses for index in hidden)
+        return f"{count}/{len(hidden)}"
 
     @property
     def speed(self) -> float:
@@ -62,10 +64,10 @@ def follow_all(
     scenes: Mapping[str, Callable[..., S]],
     seed: int,
     video: OverlayWriter,
-    follow: Callable[[str, S, OverlayWriter], Result[S]],
-) -> dict[str, Result[S]]:
-    """Make each scene by its name, and follow it into the one video, which is closed then."""
-    results: dict[str, Result[S]] = {}
+    follow: Callable[[str, S, OverlayWriter], SceneResult[S]],
+) -> dict[str, SceneResult[S]]:
+    """Make each scene, track it, and write all into one video, which is closed at the end."""
+    results: dict[str, SceneResult[S]] = {}
     with video, Progress(len(scenes)) as progress:
         for done, (name, make) in enumerate(scenes.items()):
             progress(done, f"scenes, now {name}")

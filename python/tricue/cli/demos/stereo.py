@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from tricue.cli.demos.metric import Floats, Result, follow_all
+from tricue.cli.demos.metric import Floats, SceneResult, follow_all
 from tricue.cli.steps import steps
 from tricue.draw.stereo import stereo_overlay
 from tricue.draw.video import OverlayWriter
@@ -17,8 +17,8 @@ from tricue.track.base.registry import create
 from tricue.track.base.track import Status
 
 FPS = 30.0  # the cameras'
-FLOOR, TOP = 0.1, 50.0  # percent of the distance, of the logarithmic plot
-HELD = 0.5  # of overlap
+MIN_PLOTTED_ERROR, MAX_PLOTTED_ERROR = 0.1, 50.0  # percent of the distance, limits of the logarithmic plot
+MIN_HELD_OVERLAP = 0.5  # of overlap
 
 SCENES: Mapping[str, Callable[..., StereoScene]] = {
     "light swings by 30 %": head,
@@ -44,15 +44,17 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def shares(result: Result[StereoScene]) -> Floats:
+def relative_errors(result: SceneResult[StereoScene]) -> Floats:
     """(M,) errors in percent of the head's true distance from the left camera."""
     return np.asarray(100 * result.errors / np.linalg.norm(result.scene.positions, axis=1))
 
 
-def _follow(options: Namespace, name: str, scene: StereoScene, video: OverlayWriter) -> Result[StereoScene]:
+def _follow(
+    options: Namespace, name: str, scene: StereoScene, video: OverlayWriter
+) -> SceneResult[StereoScene]:
     """Track one scene from its first true box into the video."""
     tracker = create(options.tracker, rig=scene.rig, seed=options.seed, kernels=options.kernels)
-    result = Result(scene)
+    result = SceneResult(scene)
     for step in steps(tracker, scene.frames, lambda _: scene.boxes[0], result.clock):
         result.tracks.append(step.track)
         truth, note = scene.boxes[step.number], f"{name}, frame {step.number}"
@@ -60,21 +62,23 @@ def _follow(options: Namespace, name: str, scene: StereoScene, video: OverlayWri
     return result
 
 
-def _table(results: Mapping[str, Result[StereoScene]]) -> str:
+def _table(results: Mapping[str, SceneResult[StereoScene]]) -> str:
     """Errors and overlaps in the frames in which at least half of the head is visible."""
     errors = f"{'median error':>14}{'95 %':>8}"
     lines = [f"{'scene':30}{'mean IoU':>10}{'IoU > 0.5':>11}{errors}{'hidden: said':>14}{'frames/s':>10}"]
     for name, result in results.items():
         overlaps = result.overlaps[result.seen]
-        median, high = np.nanpercentile(shares(result)[result.seen], [50, 95])
-        held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > HELD):>11.1%}"
-        said = result.said(Status.OCCLUDED, Status.LOST)
+        median, high = np.nanpercentile(relative_errors(result)[result.seen], [50, 95])
+        held = f"{overlaps.mean():>10.2f}{np.mean(overlaps > MIN_HELD_OVERLAP):>11.1%}"
+        said = result.count_hidden(Status.OCCLUDED, Status.LOST)
         lines.append(f"{name:30}{held}{median:>12.2f} %{high:>6.1f} %{said:>14}{result.speed:>10,.0f}")
-    return "\n".join([*lines, "\nErrors are shares of the distance; hidden: said counts OCCLUDED and LOST."])
+    return "\n".join(
+        [*lines, "\nErrors are relative_errors of the distance; hidden: said counts OCCLUDED and LOST."]
+    )
 
 
-def _plot(figure: Any, results: Mapping[str, Result[StereoScene]]) -> None:
-    """A row a scene: the path from above, beside it the error over the frames."""
+def _plot(figure: Any, results: Mapping[str, SceneResult[StereoScene]]) -> None:
+    """A row per scene: the path from above, beside it the error over the frames."""
     from tricue.draw.paths import draw_path
     from tricue.papers.plots import shade_hidden
 
@@ -84,10 +88,14 @@ def _plot(figure: Any, results: Mapping[str, Result[StereoScene]]) -> None:
         draw_path(path, result.tracks, result.scene.rig.intrinsics, result.scene.positions)
         path.set_title(name, loc="left")
         shade_hidden(error, result.scene.visible)
-        errors = shares(result)
-        error.plot(np.maximum(errors, FLOOR), color="#0072B2", linewidth=1.4)
+        errors = relative_errors(result)
+        error.plot(np.maximum(errors, MIN_PLOTTED_ERROR), color="#0072B2", linewidth=1.4)
         for change in result.scene.changes:
             error.axvline(change, color="0.6", linestyle=":", linewidth=0.8)
         error.set_title(f"median {np.nanmedian(errors[result.seen]):.2f} % where half visible", loc="left")
-        error.set(yscale="log", ylim=(FLOOR, TOP), ylabel="position error, % of the distance")
+        error.set(
+            yscale="log",
+            ylim=(MIN_PLOTTED_ERROR, MAX_PLOTTED_ERROR),
+            ylabel="position error, % of the distance",
+        )
     rows[-1, 1].set_xlabel("frame (shaded: less than half visible; dotted: the light jumps)")

@@ -7,35 +7,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.evaluation import confidence, metrics
-from tricue.evaluation.evaluate import Result
+from tricue.evaluation.evaluate import RunResult
 
 Array = NDArray[np.float64]
 
 
-def success(results: Sequence[Result]) -> Array:
+def success(results: Sequence[RunResult]) -> Array:
     """(21,) share of frames with an overlap above each of metrics.OVERLAP_THRESHOLDS; NaN where unknown."""
-    return _mean(results, lambda each: metrics.success_curve(each.judged.overlaps))
+    return _mean(results, lambda each: metrics.success_curve(each.scored.overlaps))
 
 
-def precision(results: Sequence[Result]) -> Array:
+def precision(results: Sequence[RunResult]) -> Array:
     """(51,) share with a center error of at most each of metrics.PRECISION_THRESHOLDS; NaN where unknown."""
 
-    def curve(each: Result) -> Array:
-        return metrics.precision_curve(metrics.center_errors(each.judged.boxes, each.judged.truth))
+    def curve(each: RunResult) -> Array:
+        return metrics.precision_curve(metrics.center_errors(each.scored.boxes, each.scored.truth))
 
     return _mean(results, curve)
 
 
-def reliability(results: Sequence[Result]) -> confidence.Reliability:
+def reliability(results: Sequence[RunResult]) -> confidence.Reliability:
     """Over the frames of all the runs."""
     overlaps, scores, absent = (
-        np.concatenate([getattr(each.judged, name) for each in results])
+        np.concatenate([getattr(each.scored, name) for each in results])
         for name in ("overlaps", "scores", "absent")
     )
     return confidence.reliability(overlaps, scores, absent)
 
 
-def _mean(results: Sequence[Result], curve: Callable[[Result], Array]) -> Array:
+def _mean(results: Sequence[RunResult], curve: Callable[[RunResult], Array]) -> Array:
     by_sequence: dict[str, list[Array]] = {}
     for each in results:
         by_sequence.setdefault(each.row.sequence, []).append(curve(each))

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from tricue.camera.frame import Frame
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.errors import one_line
-from tricue.evaluation.dataset import Opened
-from tricue.evaluation.evaluate import Result
+from tricue.evaluation.dataset import OpenedSequence
+from tricue.evaluation.evaluate import RunResult
 from tricue.evaluation.report.markup import Html, joined, scrolled, tag
 from tricue.evaluation.report.plot_styles import LineStyle, swatch
 from tricue.evaluation.report.worst_frames import worst_frames
@@ -27,11 +27,11 @@ _EDGE = LineStyle("#ffffff", "", 3.8)
 
 
 def filmstrip(
-    opened: Opened, tracker: str, results: Mapping[str, Result], styles: Mapping[str, LineStyle]
+    opened: OpenedSequence, tracker: str, results: Mapping[str, RunResult], styles: Mapping[str, LineStyle]
 ) -> Html:
     """The first and the worst frames of ``tracker``, one of the ``results``, whose boxes are all drawn."""
     main = results[tracker]
-    chosen, start = worst_frames(main.judged), main.judged.start
+    chosen, start = worst_frames(main.scored), main.scored.start
     try:
         frames = list(opened.source.frames([start + index for index in chosen]))
     except (ValueError, OSError) as error:  # the numbers are complete without pictures
@@ -61,12 +61,16 @@ def _pictures(frames: list[Frame], channel: str) -> list[Any]:
 
 
 def _picture(
-    picture: Picture, index: int, results: Mapping[str, Result], styles: Mapping[str, LineStyle], label: str
+    picture: Picture,
+    index: int,
+    results: Mapping[str, RunResult],
+    styles: Mapping[str, LineStyle],
+    label: str,
 ) -> Html:
     """The image as JPEG, the boxes over it as SVG, sharp at any size."""
     height, width = picture.shape[:2]
-    first = next(iter(results.values())).judged
-    boxes = [(each.judged.boxes[index], styles[name], name) for name, each in reversed(list(results.items()))]
+    first = next(iter(results.values())).scored
+    boxes = [(each.scored.boxes[index], styles[name], name) for name, each in reversed(list(results.items()))]
     lines = [_box(box, style, name) for box, style, name in [*boxes, (first.truth[index], _TRUTH, "truth")]]
     overlay = tag(
         "svg", lines, viewBox=f"0 0 {width} {height}", preserveAspectRatio="none", aria_hidden="true"
@@ -96,7 +100,9 @@ def _box(box: NDArray[np.float64], style: LineStyle, name: str) -> Html:
     )
 
 
-def _caption(index: int, start: int, results: Mapping[str, Result], styles: Mapping[str, LineStyle]) -> Html:
+def _caption(
+    index: int, start: int, results: Mapping[str, RunResult], styles: Mapping[str, LineStyle]
+) -> Html:
     heading = tag("strong", f"frame {start + index}"), " (start)" if index == 0 else None
     items = [
         tag(
@@ -110,12 +116,12 @@ def _caption(index: int, start: int, results: Mapping[str, Result], styles: Mapp
     return tag("figcaption", heading, tag("ul", items, class_="legend"))
 
 
-def _overlap_and_status(result: Result, index: int) -> str:
+def _overlap_and_status(result: RunResult, index: int) -> str:
     """The overlap, and the status unless it is TRACKED."""
-    run = result.judged
+    run = result.scored
     overlap = run.overlaps[index]
     text = "absent" if run.absent[index] else "no truth" if np.isnan(overlap) else f"{overlap:.2f}"
-    status = result.judged.statuses[index]
+    status = result.scored.statuses[index]
     return text if run.tracked[index] else f"{text} {str(status).upper()}"
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.evaluation import metrics
-from tricue.evaluation.evaluate import Evaluation, Result
+from tricue.evaluation.evaluate import Evaluation, RunResult
 from tricue.evaluation.report import curves, svg
 from tricue.evaluation.report.labels import place
 from tricue.evaluation.report.markup import Html, number, tag
@@ -28,7 +28,7 @@ class Group(NamedTuple):
 
     name: str
     lines: Sequence[Line]
-    results: Mapping[str, Sequence[Result]]
+    results: Mapping[str, Sequence[RunResult]]
     ours: Sequence[str]
 
     @classmethod
@@ -48,7 +48,7 @@ class _Kind(NamedTuple):
     note: str
     x: str
     thresholds: NDArray[np.float64]
-    curve: Callable[[Sequence[Result]], NDArray[np.float64]]
+    curve: Callable[[Sequence[RunResult]], NDArray[np.float64]]
     mark: float | None = None
 
 

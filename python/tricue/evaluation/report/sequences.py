@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from tricue.evaluation.dataset import Opened
-from tricue.evaluation.evaluate import Evaluation, Result
+from tricue.evaluation.dataset import OpenedSequence
+from tricue.evaluation.evaluate import Evaluation, RunResult
 from tricue.evaluation.report.filmstrip import filmstrip
 from tricue.evaluation.report.markup import Html, number, tag
 from tricue.evaluation.report.plot_styles import LineStyle, swatch
@@ -27,8 +27,8 @@ class RankedSequence(NamedTuple):
     tracker on it, or the best baseline where none of tricue's ran; "" without any run.
     """
 
-    opened: Opened
-    results: Mapping[str, Result]
+    opened: OpenedSequence
+    results: Mapping[str, RunResult]
     aucs: Mapping[str, float]
     leader: str
 
@@ -40,7 +40,7 @@ class RankedSequence(NamedTuple):
 
 def worst_first(evaluation: Evaluation) -> list[RankedSequence]:
     """All sequences, by the AUC of the leader on each."""
-    by_sequence: dict[str, dict[str, list[Result]]] = {each.entry.name: {} for each in evaluation.opened}
+    by_sequence: dict[str, dict[str, list[RunResult]]] = {each.entry.name: {} for each in evaluation.opened}
     for each in evaluation.results:
         by_sequence[each.row.sequence].setdefault(each.row.tracker, []).append(each)
     ours = {each.name for each in evaluation.trackers if each.ours}
@@ -74,7 +74,7 @@ def sequences(
     return tag("div", tag("p", note, class_="note") if note else None, items)
 
 
-def _ranked(opened: Opened, runs: Mapping[str, list[Result]], ours: set[str]) -> RankedSequence:
+def _ranked(opened: OpenedSequence, runs: Mapping[str, list[RunResult]], ours: set[str]) -> RankedSequence:
     aucs = {name: float(np.mean([each.row.auc for each in found])) for name, found in runs.items()}
     names = sorted(aucs, key=lambda name: (math.isnan(aucs[name]), -aucs[name]))
     leader = next((name for name in names if name in ours), names[0] if names else "")
@@ -104,7 +104,7 @@ def _summary(each: RankedSequence) -> Html:
         "summary",
         tag("span", opened.entry.name, class_="name"),
         tag("span", f"{run.row.frames:,} frames", class_="frames"),
-        timeline(run.judged, f"overlap of {leader} over time"),
+        timeline(run.scored, f"overlap of {leader} over time"),
         tag("span", number(each.auc), class_="number", title=f"AUC of {leader}"),
         tag("span", leader, class_="leader"),
     )
@@ -118,7 +118,7 @@ def _runs(each: RankedSequence, ours: set[str], styles: Mapping[str, LineStyle])
             swatch(styles[name]),
             tag("span", name, class_="who ours" if name in ours else "who"),
             tag("span", number(each.aucs[name]), class_="number"),
-            timeline(run.judged, f"overlap of {name} over time"),
+            timeline(run.scored, f"overlap of {name} over time"),
             _trouble(run),
         )
         for name, run in each.results.items()
@@ -126,5 +126,5 @@ def _runs(each: RankedSequence, ours: set[str], styles: Mapping[str, LineStyle])
     return tag("ul", lines, class_="runs")
 
 
-def _trouble(run: Result) -> Any:
+def _trouble(run: RunResult) -> Any:
     return tag("span", "stopped: ", run.row.trouble, class_="trouble") if run.row.trouble else None

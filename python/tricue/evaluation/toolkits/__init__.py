@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Other people's evaluation tools run our trackers."""
+"""Adapters for other evaluation toolkits: got10k, TraX and VOT."""

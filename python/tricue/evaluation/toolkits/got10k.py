@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""Our trackers in the shape of got10k's, so that its experiments run them.
+"""tricue's trackers with got10k's interface, so that its experiments can run them.
 
     from got10k.experiments import ExperimentOTB
     from tricue.evaluation.toolkits.got10k import as_got10k
 
     ExperimentOTB("data/OTB").run(as_got10k(tricue.create("color-particle", seed=0), "color-particle"))
 
-It gives images in color alone: what needs depth or a right image says so at its first ``init``.
+got10k provides color images only: a tracker that needs another channel raises at its first ``init``.
 """
 
 import numpy as np
@@ -24,10 +24,10 @@ except ImportError as error:
 
 
 class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no types
-    """``init`` and ``update`` as ``got10k.trackers.Tracker`` has them, round a tracker.
+    """Wraps a tracker with ``init`` and ``update`` as in ``got10k.trackers.Tracker``.
 
-    Boxes are (4,) arrays x, y, width, height as the data set has them: whether its first pixel is 0 or 1 is
-    nothing that a tracker changes.
+    Boxes are (4,) arrays x, y, width, height in the data set's convention: a first pixel of 0 or 1 makes no
+    difference to a tracker.
     """
 
     def __init__(self, tracker: Tracker, name: str) -> None:
@@ -45,7 +45,7 @@ class Got10kTracker(_Got10kTracker):  # type: ignore[misc]  # got10k has no type
 
 
 def as_got10k(tracker: Tracker, name: str | None = None) -> Got10kTracker:
-    """The tracker with the interface of got10k's; TypeError for what isn't one of our trackers.
+    """The tracker with the interface of got10k's; TypeError for anything but a tracker.
 
     ``name`` names got10k's folders of results; without it the tracker's class does.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Our trackers behind the TraX protocol, version 4, through which the VOT toolkit runs them.
+"""tricue's trackers as servers of the TraX protocol, version 4, through which the VOT toolkit runs them.
 
 Source: Cehovin, "TraX: The visual Tracking eXchange Protocol and Library", Neurocomputing 260, 2017; the
 library is vot-trax (``pip install tricue[vot]``).
@@ -25,29 +25,29 @@ from tricue.errors import BoxError
 from tricue.track.base.registry import create, tracker_class, traits
 from tricue.track.base.track import Track, Tracker
 
-SMALLEST = 2.0  # pixels, of a box that a tracker starts on
+MIN_BOX_SIZE = 2.0  # pixels, width and height of an initial box
 DECIMALS = 4  # of the protocol's boxes, which its library keeps as float32
 READERS: dict[str, ImageReader] = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
-EXTRA = "the TraX protocol needs an extra: pip install tricue[vot]"
+MISSING_EXTRA = "the TraX protocol needs an extra: pip install tricue[vot]"
 
-NOWHERE = Box(0.0, 0.0, 0.0, 0.0)  # what VOT's own trackers answer where there is nothing
+EMPTY_BOX = Box(0.0, 0.0, 0.0, 0.0)  # VOT's convention for a target that isn't there
 
 Errors = (OSError, RuntimeError, TypeError, ValueError)
 
 
 class Answer(NamedTuple):
-    """What is sent for a frame: the target's box, pixels, and the confidence in [0, 1]."""
+    """The reply for a frame: the target's box, pixels, and the confidence in [0, 1]."""
 
     box: Box
     confidence: float
 
 
 @dataclass(frozen=True)
-class ServedTracker:
-    """A tracker as it is to be run: its name, parameters by name, and the camera's calibration, if known.
+class TraxTracker:
+    """A tracker to serve: its name, its parameters, and the camera's calibration, if known.
 
     ValueError, TypeError or OSError for parameters that the tracker doesn't take, for one that needs a right
-    image, which VOT doesn't have, and for a calibration that isn't there or that the tracker has no use for.
+    image, which VOT doesn't have, and for a calibration that is missing or that the tracker doesn't use.
     """
 
     name: str
@@ -57,7 +57,7 @@ class ServedTracker:
     calibration: Path | None = None
 
     def __post_init__(self) -> None:
-        channels_of(self.name, self.values)
+        select_channels(self.name, self.values)
         if self.calibration is None:
             return
         if "intrinsics" not in traits(self.name).camera:
@@ -67,12 +67,12 @@ class ServedTracker:
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """Those that the tracker is given: the fewest that it needs; where the depth camera is known, the
-        most that it uses.
+        """The channels that the tracker gets: the fewest that it needs, or the most that it can use if the
+        depth camera is known.
         """
-        return channels_of(self.name, self.values, self.calibration is not None)
+        return select_channels(self.name, self.values, self.calibration is not None)
 
-    def tracker(self, frame: Frame) -> Tracker:
+    def create(self, frame: Frame) -> Tracker:
         """A new tracker for a camera of the frame's size."""
         camera: dict[str, Any] = {}
         if self.calibration is not None:
@@ -82,7 +82,7 @@ class ServedTracker:
         return create(self.name, **self.values, seed=self.seed, kernels=self.kernels, **camera)
 
 
-def channels_of(
+def select_channels(
     name: str, values: Mapping[str, Any] | None = None, calibrated: bool = False
 ) -> tuple[str, ...]:
     """The channels of VOT that a tracker needs with parameters, or, where the depth camera is calibrated, the
@@ -97,11 +97,11 @@ def channels_of(
     return tuple(channel for channel in READERS if channel in chosen)
 
 
-class Session:
-    """A tracker that goes on whatever a benchmark asks of it.
+class TraxSession:
+    """A tracking session that survives boxes on which a tracker can't start.
 
-    Where it can't start on a box (outside the image, or nothing measured in it) the run isn't lost for all
-    other sequences: the box itself is the answer until the next start, with a confidence of 0.
+    For such a box (outside the image, or without depth) the answer is the box itself with a confidence of 0
+    until the next start, so that the benchmark continues.
     """
 
     def __init__(self, make: Callable[[Frame], Tracker]) -> None:
@@ -110,15 +110,15 @@ class Session:
         self._answer: Answer | None = None
 
     def start(self, frame: Frame, box: Box) -> Answer:
-        """Start again, on a box that is widened to SMALLEST. What is wrong with the frame is an error."""
+        """Start again on the box, enlarged to MIN_BOX_SIZE. Errors of the frame are raised."""
         tracker = self._make(frame)
         try:
-            track = tracker.init(frame, widened(box))
+            track = tracker.init(frame, widen_box(box))
         except BoxError as error:
             warnings.warn(f"not started, the answer is the box itself: {error}", stacklevel=2)
-            self._tracker, self._answer = None, Answer(box if _finite(box) else NOWHERE, 0.0)
+            self._tracker, self._answer = None, Answer(box if _finite(box) else EMPTY_BOX, 0.0)
         else:
-            self._tracker, self._answer = tracker, answer_of(track, box)
+            self._tracker, self._answer = tracker, make_answer(track, box)
         return self._answer
 
     def follow(self, frame: Frame) -> Answer:
@@ -126,22 +126,22 @@ class Session:
         if self._answer is None:
             raise RuntimeError("expected initialize before the next frame")
         if self._tracker is not None:
-            self._answer = answer_of(self._tracker.update(frame), self._answer.box)
+            self._answer = make_answer(self._tracker.update(frame), self._answer.box)
         return self._answer
 
 
-def answer_of(track: Track, last: Box) -> Answer:
-    """Box and score. A target that is absent has the box that the tracker holds, and its low score: VOT's
-    toolkit would end the whole evaluation at a NaN. So a box that isn't finite is the last one again.
+def make_answer(track: Track, last: Box) -> Answer:
+    """The box and score of a track. A box that isn't finite is replaced by the last one: VOT's toolkit would
+    end the whole evaluation at a NaN.
     """
     if not _finite(track.box):
         return Answer(last, 0.0)
     return Answer(track.box, min(max(track.score, 0.0), 1.0) if math.isfinite(track.score) else 0.0)
 
 
-def widened(box: Box) -> Box:
-    """The box, at least SMALLEST pixels wide and high round the same center."""
-    (x, y), width, height = box.center, max(box.width, SMALLEST), max(box.height, SMALLEST)
+def widen_box(box: Box) -> Box:
+    """The box, enlarged about its center to at least MIN_BOX_SIZE pixels."""
+    (x, y), width, height = box.center, max(box.width, MIN_BOX_SIZE), max(box.height, MIN_BOX_SIZE)
     return Box(x - width / 2, y - height / 2, width, height) if (width, height) != box[2:] else box
 
 
@@ -149,22 +149,22 @@ def _finite(box: Box) -> bool:
     return all(map(math.isfinite, box))
 
 
-def serve(served: ServedTracker) -> None:
+def serve(tracker: TraxTracker) -> None:
     """Answer a client on standard input and output until it quits.
 
-    An error is told to the client as the reason to quit, and raised; it names the files of the frame.
+    An error is sent to the client as the reason to quit, and raised; it names the files of the frame.
     ImportError without vot-trax.
     """
     try:
         import trax
     except ImportError:
-        raise ImportError(EXTRA) from None
-    channels = list(served.channels)
+        raise ImportError(MISSING_EXTRA) from None
+    channels = list(tracker.channels)
     server = trax.Server(
-        ["rectangle"], ["path"], channels, f"tricue {served.name}", metadata={"vot": "python"}
+        ["rectangle"], ["path"], channels, f"tricue {tracker.name}", metadata={"vot": "python"}
     )
-    session = Session(served.tracker)
-    # Standard output is the protocol's alone.
+    session = TraxSession(tracker.create)
+    # Standard output is reserved for the protocol.
     with contextlib.redirect_stdout(sys.stderr):
         try:
             while (request := server.wait()).type != "quit":
@@ -179,8 +179,8 @@ def serve(served: ServedTracker) -> None:
         _quit(server)
 
 
-def _reply(request: Any, session: Session) -> Any:
-    """A region of the library and its properties."""
+def _reply(request: Any, session: TraxSession) -> Any:
+    """The reply as a trax region and its properties."""
     import trax
 
     paths = {channel: Path(image.path()) for channel, image in request.image.items()}
@@ -190,7 +190,7 @@ def _reply(request: Any, session: Session) -> Any:
         if len(request.objects or ()) != (request.type == "initialize"):
             raise ValueError("expected one target in all, this tracker follows one")
         answer = (
-            session.start(frame, box_round(request.objects[0][0]))
+            session.start(frame, bounding_box(request.objects[0][0]))
             if request.objects
             else session.follow(frame)
         )
@@ -199,8 +199,8 @@ def _reply(request: Any, session: Session) -> Any:
     return trax.Rectangle.create(*answer.box), {"confidence": answer.confidence}
 
 
-def box_round(region: Any) -> Box:
-    """The box of a region of the library, with the digits that were sent; NaN where it has no place."""
+def bounding_box(region: Any) -> Box:
+    """The bounding box of a trax region, with the digits that were sent; NaN for an empty region."""
     if region.type == "rectangle":
         return Box(*(round(number, DECIMALS) for number in region.bounds()))
     if region.type == "polygon":
@@ -215,7 +215,7 @@ def box_round(region: Any) -> Box:
 
 
 def _quit(server: Any, reason: str | None = None) -> None:
-    """Tell the client, and why, if it is still there."""
+    """Send quit and the reason to the client, if it is still connected."""
     import trax
 
     with contextlib.suppress(trax.TraxException):

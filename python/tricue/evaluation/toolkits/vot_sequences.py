@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Any recording that tricue reads, written as a sequence of VOT.
+"""Writes any recording that tricue reads as a VOT sequence.
 
 Source: the layout is what vot-toolkit 0.7.4 reads, vot/dataset/common.py.
 """
@@ -16,17 +16,17 @@ from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
 from tricue.data.open_source import Source
 from tricue.data.streams import Images, Stream, read_color
 
-ANCHORS = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
-DEEPEST = 65535  # millimeters in 16 bits
+ANCHOR_INTERVAL = 50  # frames from one start of the multistart experiment to the next, as in VOT2020
+MAX_DEPTH_MILLIMETERS = 65535  # millimeters in 16 bits
 ABSENT = "nan,nan,nan,nan"
 _SUFFIXES = {".jpg": ".jpg", ".jpeg": ".jpg", ".png": ".png"}  # the toolkit's name of images that it reads
-_AS_THEY_ARE = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
+_LINKABLE_READERS = {"color": read_color, "depth": DepthReader(METERS_PER_MILLIMETER)}
 
 
 def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
-    """Which of color and depth can be VOT's, and a note about one that is left out.
+    """The channels, color or depth, that VOT can use, and a note about one that is left out.
 
-    Depth of another size than the color images isn't that of their pixels, in which the true boxes count.
+    Depth is left out if its size isn't the color images': the true boxes are given in color pixels.
     """
     there = tuple(name for name in ("color", "depth") if name in source.channels)
     sizes = [source.channels[name].size for name in there]
@@ -39,8 +39,8 @@ def vot_channels(source: Source) -> tuple[tuple[str, ...], str]:
 def write_sequence(source: Source, folder: Path) -> int:
     """Write the channels of :func:`vot_channels`, the true boxes, anchors and tags; the number of frames.
 
-    Images that the toolkit and our tracker read as they are, are linked, or copied where links can't be;
-    others become PNG, depth 16 bits of millimeters. The folder must not exist; an error leaves none.
+    Images that the toolkit and tricue read alike are linked, or copied if links aren't possible. Others
+    become PNG, depth in 16-bit millimeters. The folder must not exist; it is removed after an error.
     ValueError for fewer than two frames, and for channels of different length.
     """
     folder.mkdir(parents=True)
@@ -81,11 +81,11 @@ def _write(source: Source, folder: Path) -> int:
 def anchors(visible: NDArray[np.bool_]) -> list[int]:
     """Where the multistart experiment starts: 1 forward, -1 backward, 0 elsewhere, a number a frame.
 
-    One in each ANCHORS frames, the first in which the target is visible, towards the longer part.
+    One in every ANCHOR_INTERVAL frames, the first in which the target is visible, towards the longer part.
     """
     values = [0] * len(visible)
-    for first in range(0, len(visible), ANCHORS):
-        seen = np.flatnonzero(visible[first : first + ANCHORS])
+    for first in range(0, len(visible), ANCHOR_INTERVAL):
+        seen = np.flatnonzero(visible[first : first + ANCHOR_INTERVAL])
         if seen.size:
             frame = first + int(seen[0])
             values[frame] = 1 if len(visible) - 1 - frame > frame else -1
@@ -101,12 +101,12 @@ def _boxes(truth: NDArray[np.float64] | None, count: int) -> NDArray[np.float64]
 
 
 def _line(box: NDArray[np.float64]) -> str:
-    """The protocol has four decimals; more would only differ between the toolkit's run and another."""
+    """A line of groundtruth.txt, with the four decimals of the protocol."""
     return ABSENT if np.isnan(box).any() else ",".join(f"{number:.4f}" for number in box.tolist())
 
 
 def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
-    """The images' suffix and number."""
+    """Write a channel's images; their suffix and number."""
     folder.mkdir()
     suffix, count = _linked_suffix(stream, name), 0
     if isinstance(stream, Images) and suffix:
@@ -121,8 +121,8 @@ def _write_channel(stream: Stream, name: str, folder: Path) -> tuple[str, int]:
 
 
 def _linked_suffix(stream: Stream, name: str) -> str:
-    """The suffix of images that can be linked; "" where they have to be written anew."""
-    if not isinstance(stream, Images) or stream.read != _AS_THEY_ARE[name]:
+    """The suffix of images that can be linked; "" if they have to be converted."""
+    if not isinstance(stream, Images) or stream.read != _LINKABLE_READERS[name]:
         return ""
     suffixes = {_SUFFIXES.get(path.suffix.lower(), "") for path in stream.paths}
     suffix = suffixes.pop()
@@ -139,9 +139,9 @@ def _link(path: Path, link: Path) -> None:
 
 
 def _millimeters(depth: NDArray[np.float32]) -> NDArray[np.uint16]:
-    """Meters in 16 bits; 0, not measured, where they don't fit."""
+    """Meters as 16-bit millimeters; 0, not measured, if they don't fit."""
     units = np.rint(1000 * depth.astype(np.float64))
-    return np.where((units > 0) & (units <= DEEPEST), units, 0).astype(np.uint16)
+    return np.where((units > 0) & (units <= MAX_DEPTH_MILLIMETERS), units, 0).astype(np.uint16)
 
 
 def _write_lines(path: Path, lines: Iterable[object]) -> None:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""A workspace in which the VOT toolkit, version 0.7.4, runs our trackers on local sequences, offline.
+"""A workspace in which the VOT toolkit, version 0.7.4, runs tricue's trackers on local sequences, offline.
 
-``vot initialize`` isn't used: it wants a stack of a challenge, whose sequences it downloads.
+``vot initialize`` isn't used, because it needs a challenge's stack and downloads its sequences.
 """
 
 import re
@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tricue.data.open_source import Source, open_source
-from tricue.evaluation.toolkits.trax_server import channels_of
+from tricue.evaluation.toolkits.trax_server import select_channels
 from tricue.evaluation.toolkits.vot_sequences import vot_channels, write_sequence
 from tricue.track.base.registry import tracker_class
 
-OTHER = 1.5  # times the frame rate that a tracker assumes
+MAX_RATE_RATIO = 1.5  # between a recording's frame rate and the one that a tracker assumes
 TRACKERS, SEQUENCES, LIST = "trackers.ini", "sequences", "list.txt"
 CONFIG = """\
 registry: [./trackers.ini]
@@ -50,8 +50,8 @@ _FILES = {"config.yaml": CONFIG, "stack.yaml": STACK}
 
 
 @dataclass
-class Report:
-    """What became of a workspace: all its sequences, what was added now, and what its user should know."""
+class WorkspaceReport:
+    """What was written: all sequences of the workspace, those added now, and notes for the user."""
 
     sequences: list[str]
     added: list[str] = field(default_factory=list)
@@ -60,24 +60,24 @@ class Report:
 
 def write_workspace(
     folder: Path, trackers: Sequence[str], recordings: Iterable[Path] = (), python: str = sys.executable
-) -> Report:
+) -> WorkspaceReport:
     """Write a workspace for ``trackers`` with ``recordings``, or add both to one that was written before.
 
     recordings: what ``open_source`` opens, with true boxes. Those without one in their
         first frame, and without a channel that one of the trackers needs, are left out with a note.
     python: the interpreter that has tricue and vot-trax; the toolkit may be in another environment.
 
-    What is there stays as it is, sequences as well as trackers of the same name. ValueError for a folder that
+    Existing sequences and trackers are kept. ValueError for a folder that
     holds something else, for a tracker that VOT can't run, and where no sequence is left.
     """
     _check_folder(folder)
-    needs = {name: channels_of(name) for name in trackers}
-    interpreter = checked_python(python)
-    report = Report(_listed(folder))
+    needs = {name: select_channels(name) for name in trackers}
+    interpreter = check_python(python)
+    report = WorkspaceReport(_listed_sequences(folder))
     for name in report.sequences:
-        if reason := _unfit(open_source(folder / SEQUENCES / name), needs):
+        if reason := _unusable_reason(open_source(folder / SEQUENCES / name), needs):
             raise ValueError(f"{folder}: its sequence {name} {reason}")
-    fit = list(_fit(recordings, needs, report))
+    fit = list(_usable_recordings(recordings, needs, report))
     if not (fit or report.sequences):
         raise ValueError(
             "; ".join(["--sequences: expected one that VOT can start on, found none", *report.notes])
@@ -96,8 +96,8 @@ def write_workspace(
     return report
 
 
-def checked_python(python: str) -> str:
-    """The interpreter's whole path; ValueError where it can't run our trackers for VOT."""
+def check_python(python: str) -> str:
+    """The interpreter's absolute path; ValueError if it can't run tricue's trackers for VOT."""
     found = shutil.which(python)
     if found is None:
         raise ValueError(f"--python: expected an interpreter, found none at {python}")
@@ -112,7 +112,7 @@ def checked_python(python: str) -> str:
 
 
 def _check_folder(folder: Path) -> None:
-    """That the folder is new, empty, or was written here; and that the toolkit can read images in it."""
+    """ValueError unless the folder is new, empty or a workspace, and the toolkit can read images in it."""
     if "%" in str(folder.resolve()):
         raise ValueError(f"{folder}: expected a path without %, which the toolkit takes for a pattern")
     if not folder.exists() or not any(folder.iterdir()):
@@ -123,7 +123,7 @@ def _check_folder(folder: Path) -> None:
 
 
 def _section(tracker: str, python: str) -> str:
-    """The toolkit splits the interpreter as a shell does, and the file's format takes % for its own."""
+    """A tracker's section of trackers.ini, with the interpreter quoted for the shell and % escaped."""
     return f"""\
 [{tracker}]
 label = tricue {tracker}
@@ -134,7 +134,7 @@ env_TRICUE_TRACKER = {tracker}
 """
 
 
-def _add_trackers(path: Path, sections: dict[str, str], report: Report) -> None:
+def _add_trackers(path: Path, sections: dict[str, str], report: WorkspaceReport) -> None:
     text = path.read_text(encoding="utf-8") if path.is_file() else ""
     for name, section in sections.items():
         if f"[{name}]" in text.splitlines():
@@ -144,15 +144,15 @@ def _add_trackers(path: Path, sections: dict[str, str], report: Report) -> None:
     path.write_text(text, encoding="utf-8")
 
 
-def _listed(folder: Path) -> list[str]:
+def _listed_sequences(folder: Path) -> list[str]:
     path = folder / SEQUENCES / LIST
     return path.read_text(encoding="utf-8").split("\n")[:-1] if path.is_file() else []
 
 
-def _fit(
-    recordings: Iterable[Path], needs: dict[str, tuple[str, ...]], report: Report
+def _usable_recordings(
+    recordings: Iterable[Path], needs: dict[str, tuple[str, ...]], report: WorkspaceReport
 ) -> Iterator[tuple[str, Source]]:
-    """Names and sources of those that can be added; the report tells of the others."""
+    """Names and sources of the recordings that can be added; the report notes the others."""
     taken = set(report.sequences)
     for place in recordings:
         try:
@@ -163,16 +163,20 @@ def _fit(
         name = re.sub(r"[^\w.-]+", "_", source.name)
         if name in taken:
             report.notes.append(f"left out {place}: the workspace has a sequence {name}")
-        elif reason := _unfit(source, needs):
+        elif reason := _unusable_reason(source, needs):
             report.notes.append(f"left out {place}: it {reason}")
         else:
             taken.add(name)
-            report.notes += [*source.notes, *filter(None, vot_channels(source)[1:]), *_rates(source, needs)]
+            report.notes += [
+                *source.notes,
+                *filter(None, vot_channels(source)[1:]),
+                *_rate_hints(source, needs),
+            ]
             yield name, source
 
 
-def _unfit(source: Source, needs: dict[str, tuple[str, ...]]) -> str:
-    """Why trackers can't run on a recording; "" where they can."""
+def _unusable_reason(source: Source, needs: dict[str, tuple[str, ...]]) -> str:
+    """Why trackers can't run on a recording; "" if they can."""
     if source.first_box is None:
         return "has no true box in its first frame, on which trackers start"
     channels, note = vot_channels(source)
@@ -184,13 +188,13 @@ def _unfit(source: Source, needs: dict[str, tuple[str, ...]]) -> str:
     return ""
 
 
-def _rates(source: Source, trackers: Iterable[str]) -> Iterator[str]:
-    """What to set for trackers that assume another frame rate, for the protocol tells them no times."""
+def _rate_hints(source: Source, trackers: Iterable[str]) -> Iterator[str]:
+    """Hints for trackers that assume another frame rate, because the protocol has no timestamps."""
     if not any(stream.timed for stream in source.channels.values()):
         return
     for name in trackers:
         rate = getattr(tracker_class(name).Params(), "rate", None)
-        if rate is not None and not 1 / OTHER < source.fps / rate < OTHER:
+        if rate is not None and not 1 / MAX_RATE_RATIO < source.fps / rate < MAX_RATE_RATIO:
             hint = f"env_TRICUE_SET = rate={source.fps:.3g} in {TRACKERS} tells it"
             yield f"{source.name} has {source.fps:.3g} frames/s, {name} assumes {rate:g}; {hint}"
 

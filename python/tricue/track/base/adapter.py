@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Somebody else's tracker class, in the shape of ours."""
+"""Third-party tracker classes, adapted to the interface of tricue's trackers."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,24 +10,24 @@ from tricue.errors import BoxNeededError
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
-PLAIN = Traits(channels=(Channels.of("color"),), follows="what its class says", source="not ours")
-_ADAPTED: dict[Any, Any] = {}  # classes made so far, so that one class is adapted once
+ADAPTED_TRAITS = Traits(channels=(Channels.of("color"),), follows="what its class says", source="not ours")
+_ADAPTED: dict[Any, Any] = {}  # adapted classes by original class, so that each is adapted once
 
 
 def traits_of(tracker: Any) -> Traits:
     """The traits of a tracker or its class; of one that has none those of a plain one."""
     found = getattr(tracker, "traits", None)
-    return found if isinstance(found, Traits) else PLAIN
+    return found if isinstance(found, Traits) else ADAPTED_TRAITS
 
 
-def adapted(cls: Any) -> Any:
-    """The class itself where it has ``traits``; else one of its name that takes and gives what ours do.
+def adapt_class(cls: Any) -> Any:
+    """The class itself if it has ``traits``; otherwise a class of the same name with tricue's interface.
 
-    Such a class needs ``init(frame, box)`` and ``update(frame)`` alone, where frame is a ``tricue.Frame`` and
-    box (x, y, width, height). They may give a ``Track``, a box, or None for a lost target. It is taken for
-    one that needs color and an initial box and draws no random numbers. TypeError without both methods.
+    A third-party class needs only ``init(frame, box)`` and ``update(frame)``: frame is a ``tricue.Frame``,
+    box (x, y, width, height). They may return a ``Track``, a box, or None for a lost target. The class is
+    assumed to need color and an initial box, and to draw no random numbers. TypeError if a method is missing.
     """
-    if traits_of(cls) is not PLAIN:
+    if traits_of(cls) is not ADAPTED_TRAITS:
         return cls
     if not all(callable(getattr(cls, name, None)) for name in ("init", "update")):
         raise TypeError(f"{cls.__qualname__}: expected a class with init(frame, box) and update(frame)")
@@ -37,9 +37,9 @@ def adapted(cls: Any) -> Any:
 
 
 class _Adapted:
-    """Takes ``seed`` and ``kernels`` as every tracker does, and passes on the other keywords."""
+    """Accepts ``seed`` and ``kernels`` as every tracker does, and passes the other keywords on."""
 
-    traits = PLAIN
+    traits = ADAPTED_TRAITS
     Params = None
     _cls: Callable[..., Any]
 
@@ -53,15 +53,15 @@ class _Adapted:
         if box is None:
             raise BoxNeededError("box: expected (x, y, width, height), got None")
         self._box = as_box(box)
-        given = self.tracker.init(_colored(frame), self._box)
+        given = self.tracker.init(_require_color(frame), self._box)
         return self._track(self._box if given is None else given)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame."""
-        return self._track(self.tracker.update(_colored(frame)))
+        return self._track(self.tracker.update(_require_color(frame)))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _restored, (type(self)._cls, self.__dict__)
+        return _restore, (type(self)._cls, self.__dict__)
 
     def _track(self, given: Any) -> Track:
         if isinstance(given, Track):
@@ -72,13 +72,13 @@ class _Adapted:
         return Track(self._box, 1.0, Status.TRACKED)
 
 
-def _restored(cls: type[Any], values: dict[str, Any]) -> Any:
-    tracker = object.__new__(adapted(cls))
+def _restore(cls: type[Any], values: dict[str, Any]) -> Any:
+    tracker = object.__new__(adapt_class(cls))
     tracker.__dict__.update(values)
     return tracker
 
 
-def _colored(frame: FrameLike) -> Frame:
+def _require_color(frame: FrameLike) -> Frame:
     channels = as_frame(frame)
     channels.require("color")
     return channels

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Our trackers in the shape of OpenCV's, for loops written for ``cv2.Tracker``."""
+"""tricue's trackers with OpenCV's interface, for code written for ``cv2.Tracker``."""
 
 from tricue.camera.box import BoxLike
 from tricue.camera.frame import FrameLike
@@ -7,7 +7,7 @@ from tricue.track.base.track import Status, Track, Tracker
 
 
 class OpenCVTracker:
-    """``init``, ``update`` and ``getTrackingScore`` as ``cv2.Tracker`` has them, round a tracker."""
+    """Wraps a tracker with ``init``, ``update`` and ``getTrackingScore`` as in ``cv2.Tracker``."""
 
     def __init__(self, tracker: Tracker) -> None:
         self.tracker = tracker
@@ -18,7 +18,7 @@ class OpenCVTracker:
         self._track = self.tracker.init(image, boundingBox)
 
     def update(self, image: FrameLike) -> tuple[bool, tuple[int, int, int, int]]:
-        """Whether the target is still followed (False when lost), and its box in whole pixels."""
+        """Whether the target is still tracked (False if lost), and its box in whole pixels."""
         self._track = self.tracker.update(image)
         return self._track.status is not Status.LOST, self._track.box.as_int()
 
@@ -30,7 +30,7 @@ class OpenCVTracker:
 
 
 def as_opencv(tracker: Tracker) -> OpenCVTracker:
-    """The tracker with the interface of ``cv2.Tracker``; TypeError for what isn't one of our trackers."""
+    """The tracker with the interface of ``cv2.Tracker``; TypeError for anything but a tracker."""
     if not all(callable(getattr(tracker, name, None)) for name in ("init", "update")):
         raise TypeError(f"tracker: expected a tricue tracker, got {type(tracker).__name__}")
     return OpenCVTracker(tracker)

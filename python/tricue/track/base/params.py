@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Parameters: one frozen dataclass a tracker, every default with its unit and its source.
+"""Parameters: one frozen dataclass per tracker, every default with its unit and its source.
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MyParams(Params):
@@ -10,6 +10,7 @@ import dataclasses
 import difflib
 import functools
 import math
+import sys
 import types
 import typing
 import warnings
@@ -24,8 +25,9 @@ from tricue.camera import toml
 if typing.TYPE_CHECKING:
     from typing_extensions import Self
 
+_PACKAGE = __name__.partition(".")[0]
 _BOUNDS = {"low": "at least", "above": "above", "high": "at most", "below": "below"}
-_WORDS = {int: "an integer", float: "a number", bool: "True or False", str: "a string"}
+_TYPE_NAMES = {int: "an integer", float: "a number", bool: "True or False", str: "a string"}
 
 
 def parameter(
@@ -41,9 +43,9 @@ def parameter(
     choices: tuple[Any, ...] | None = None,
     was: str = "",
 ) -> Any:
-    """A field of :class:`Params`. ``low`` and ``high`` are allowed themselves, ``above`` and ``below`` not.
+    """A field of :class:`Params`. Bounds: ``low``, ``high`` inclusive; ``above``, ``below`` exclusive.
 
-    was: its name in the release before, which is still taken, with a DeprecationWarning.
+    was: its name in the previous release, which still works, with a DeprecationWarning.
     In a tuple the bounds and the choices hold for each element. None is allowed only where it is the default.
     """
     bounds = {"low": low, "above": above, "high": high, "below": below}
@@ -51,16 +53,16 @@ def parameter(
     return field(default=default, metadata={**words, "choices": choices, **bounds})
 
 
-class _Renaming(type):
-    """Takes parameters by the names that they had in the release before."""
+class _AcceptsFormerNames(type):
+    """Accepts parameters by the names that they had in the previous release."""
 
     def __call__(cls, *args: Any, **values: Any) -> Any:
         return super().__call__(*args, **current_names(cls, values))
 
 
 @dataclass(frozen=True, slots=True)
-class Params(metaclass=_Renaming):
-    """Base of every tracker's parameters: checks types and ranges, reads and writes TOML, describes itself.
+class Params(metaclass=_AcceptsFormerNames):
+    """Base class of every tracker's parameters: checks types and ranges, reads and writes TOML.
 
     TypeError for an unknown name or a wrong type, ValueError for a value out of range, NaN or infinity.
     An int is kept as a float where a float is expected.
@@ -83,21 +85,23 @@ class Params(metaclass=_Renaming):
 
     def __post_init__(self) -> None:
         cls: Any = type(self)
-        kinds = _kinds(cls)
+        kinds = _field_types(cls)
         for f in dataclasses.fields(self):
             value = getattr(self, f.name)
             if value is not None or f.default is not None:
-                object.__setattr__(self, f.name, _checked(value, kinds[f.name], f))
+                object.__setattr__(self, f.name, _check_value(value, kinds[f.name], f))
 
     def to_toml(self, path: str | Path) -> None:
-        """Write every parameter, a line each, its unit and source as a comment; None is left out."""
+        """Write each parameter on a line, with its unit and source as a comment; None is left out."""
         values = {name: value for name, value in dataclasses.asdict(self).items() if value is not None}
-        comments = {f.name: f"{_meta(f, 'unit')}; {_meta(f, 'source')}" for f in dataclasses.fields(self)}
+        comments = {
+            f.name: f"{_metadata(f, 'unit')}; {_metadata(f, 'source')}" for f in dataclasses.fields(self)
+        }
         Path(path).write_text(toml.dumps(values, comments), encoding="utf-8")
 
     @classmethod
     def from_toml(cls, path: str | Path) -> "Self":
-        """Read parameters; those that the file lacks keep their default, unknown names are errors."""
+        """Read parameters. Those missing from the file keep their defaults; unknown names are errors."""
         try:
             return cls(**toml.read(path))
         except (TypeError, ValueError) as error:
@@ -107,14 +111,14 @@ class Params(metaclass=_Renaming):
     def describe(cls) -> str:
         """A table in plain text: name, default, unit, source, and what the parameter does."""
         titles = ("name", "default", "unit", "source", "meaning")
-        rows = [titles, *(_row(f) for f in dataclasses.fields(cls))]
+        rows = [titles, *(_describe_field(f) for f in dataclasses.fields(cls))]
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = ("  ".join(map(str.ljust, row, widths)) for row in rows)
         return "\n".join(line.rstrip() for line in lines)
 
 
 def current_names(cls: Any, values: Mapping[str, Any]) -> dict[str, Any]:
-    """The values by the names that their parameters have now; TypeError for one given by both names."""
+    """The values by the present names of their parameters; TypeError for one given by both names."""
     renamed = {f.metadata["was"]: f.name for f in dataclasses.fields(cls) if f.metadata.get("was")}
     for old in values.keys() & renamed.keys():
         if renamed[old] in values:
@@ -124,32 +128,47 @@ def current_names(cls: Any, values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _warn_renamed(old: str, new: str) -> None:
-    warnings.warn(f"{old}: deprecated, the parameter is {new} now", DeprecationWarning, stacklevel=4)
+    message = f"{old}: deprecated, the parameter is {new} now"
+    warnings.warn(message, DeprecationWarning, stacklevel=_caller_stacklevel())
+
+
+def _caller_stacklevel() -> int:
+    """The ``stacklevel`` with which a warning of the calling function points to the user's line.
+
+    That is the first stack frame outside of this package.
+    """
+    level = 1
+    frame = sys._getframe(1)
+    while frame.f_back is not None and f"{frame.f_globals.get('__name__')}.".startswith(f"{_PACKAGE}."):
+        frame = frame.f_back
+        level += 1
+    return level
 
 
 def seconds_of_frames(value: Any, name: str, rate: float) -> Any:
-    """What was a whole number of frames in version 0.1.0, in seconds; other values as they are.
+    """Convert a duration in frames, as version 0.1.0 took it (a whole number), to seconds.
 
-    Warns (DeprecationWarning): the next release takes whole numbers for seconds.
+    Other values are returned unchanged. rate: frames/s. Warns (DeprecationWarning): the next release takes
+    whole numbers for seconds.
     """
     if not isinstance(value, int) or isinstance(value, bool) or value < 1:
         return value
     seconds = value / rate
     message = f"{name}: a number of frames is deprecated, give seconds: {seconds:.3g} instead of {value}"
-    warnings.warn(message, DeprecationWarning, stacklevel=5)
+    warnings.warn(message, DeprecationWarning, stacklevel=_caller_stacklevel())
     return seconds
 
 
-def _row(f: "dataclasses.Field[Any]") -> tuple[str, ...]:
-    return (f.name, str(f.default), *(_meta(f, key) for key in ("unit", "source", "doc")))
+def _describe_field(f: "dataclasses.Field[Any]") -> tuple[str, ...]:
+    return (f.name, str(f.default), *(_metadata(f, key) for key in ("unit", "source", "doc")))
 
 
-def _meta(f: "dataclasses.Field[Any]", key: str) -> str:
+def _metadata(f: "dataclasses.Field[Any]", key: str) -> str:
     return str(f.metadata.get(key, ""))
 
 
 @functools.cache
-def _kinds(cls: Any) -> dict[str, Any]:
+def _field_types(cls: Any) -> dict[str, Any]:
     """The type of each field, without its "or None"."""
     return {name: _without_none(hint) for name, hint in typing.get_type_hints(cls).items()}
 
@@ -160,13 +179,13 @@ def _without_none(hint: Any) -> Any:
     return hint
 
 
-def _checked(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
+def _check_value(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
     if typing.get_origin(kind) is tuple:
-        return _checked_tuple(value, typing.get_args(kind), f)
+        return _check_tuple(value, typing.get_args(kind), f)
     if typing.get_origin(kind) is typing.Literal:
         _check_choice(value, typing.get_args(kind), f.name)
         return value
-    value = _converted(value, kind, f)
+    value = _convert(value, kind, f)
     if isinstance(value, float) and not math.isfinite(value):
         raise ValueError(f"{f.name}: expected a finite number, got {value}")
     _check_choice(value, f.metadata.get("choices"), f.name)
@@ -174,20 +193,20 @@ def _checked(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
     return value
 
 
-def _checked_tuple(value: Any, kinds: tuple[Any, ...], f: "dataclasses.Field[Any]") -> tuple[Any, ...]:
+def _check_tuple(value: Any, kinds: tuple[Any, ...], f: "dataclasses.Field[Any]") -> tuple[Any, ...]:
     if not isinstance(value, (tuple, list)):
         raise TypeError(f"{f.name}: expected a tuple, got {value!r:.80}")
     if kinds[-1] is Ellipsis:
         kinds = kinds[:1] * len(value)
     if len(value) != len(kinds):
         raise ValueError(f"{f.name}: expected {len(kinds)} values, got {len(value)}: {value!r:.80}")
-    return tuple(_checked(element, kind, f) for element, kind in zip(value, kinds, strict=True))
+    return tuple(_check_value(element, kind, f) for element, kind in zip(value, kinds, strict=True))
 
 
-def _converted(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
+def _convert(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
     abstract = {int: Integral, float: Real}.get(kind, kind)
     if not isinstance(value, abstract) or (isinstance(value, bool) and kind is not bool):
-        raise TypeError(f"{f.name}: expected {_WORDS.get(kind, kind)}, got {value!r:.80}")
+        raise TypeError(f"{f.name}: expected {_TYPE_NAMES.get(kind, kind)}, got {value!r:.80}")
     return kind(value)
 
 

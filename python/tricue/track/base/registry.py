@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: MIT
-"""Trackers by name: ours, those that installed packages offer, and any class as ``module:Class``."""
+"""Trackers by name: built in, from installed packages, or any class as ``module:Class``."""
 
 import importlib
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
-from tricue.track.base.adapter import adapted
+from tricue.track.base.adapter import adapt_class
 from tricue.track.base.track import Tracker
 from tricue.track.base.traits import Traits
 
 GROUP = "tricue.trackers"
-"""The group of entry points by which packages offer trackers; ours come that way, too, installed or not."""
+"""The group of entry points by which packages add trackers; tricue registers its own there, too."""
 
-_OURS = {
+_BUILT_IN = {
     "color-particle": "tricue.track.color_particle.tracker:ColorParticleTracker",
     "depth-particle": "tricue.track.depth_particle.tracker:DepthParticleTracker",
     "flow-depth": "tricue.track.flow_depth.tracker:FlowDepthTracker",
@@ -23,8 +23,8 @@ _OURS = {
 
 
 def names() -> tuple[str, ...]:
-    """The names that :func:`create` knows; ``module:Class`` works beside them."""
-    return *_OURS, *sorted(_offered().keys() - _OURS.keys())
+    """The names that :func:`create` knows; it also takes ``module:Class``."""
+    return *_BUILT_IN, *sorted(_installed_entry_points().keys() - _BUILT_IN.keys())
 
 
 def known(name: str) -> bool:
@@ -33,21 +33,22 @@ def known(name: str) -> bool:
 
 
 def tracker_class(name: str) -> Any:
-    """The class behind a name; imported only now, so that the package opens quickly.
+    """The class of a name, imported on demand to keep ``import tricue`` fast.
 
-    A class of somebody else's that has only ``init(frame, box)`` and ``update(frame)`` comes back wrapped,
-    see :func:`tricue.track.base.adapter.adapted`. ValueError where there is none of that name.
+    A third-party class that has only ``init(frame, box)`` and ``update(frame)`` is wrapped, see
+    :func:`tricue.track.base.adapter.adapt_class`. ValueError for an unknown name.
     """
-    where = _OURS.get(name) or (_offered()[name].value if name in _offered() else name)
+    installed = _installed_entry_points()
+    where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
     if not isinstance(where, str) or ":" not in where:
         raise ValueError(
             f"name: expected one of {', '.join(map(repr, names()))} or module:Class, got {name!r}"
         )
-    return adapted(_imported(where))
+    return adapt_class(_import_class(where))
 
 
 def traits(name: str) -> Traits:
-    """What the tracker of that name needs, takes and can do."""
+    """The inputs and capabilities of the tracker of that name."""
     found: Traits = tracker_class(name).traits
     return found
 
@@ -63,12 +64,12 @@ def create(name: str, **params: Any) -> Tracker:
 
 
 @cache
-def _offered() -> dict[str, EntryPoint]:
+def _installed_entry_points() -> dict[str, EntryPoint]:
     return {each.name: each for each in entry_points(group=GROUP)}
 
 
-def _imported(where: str) -> Any:
-    """What "module:attribute" names; ValueError where it isn't there, or isn't a class."""
+def _import_class(where: str) -> Any:
+    """The class at "module:attribute"; ValueError if it doesn't exist or isn't a class."""
     module, _, attribute = where.partition(":")
     try:
         found = importlib.import_module(module)
@@ -76,7 +77,7 @@ def _imported(where: str) -> Any:
             found = getattr(found, part)
     except ModuleNotFoundError as error:
         if error.name is None or not f"{module}.".startswith(f"{error.name}."):
-            raise  # an import inside of it
+            raise  # of an import inside the module
         raise ValueError(f"{where}: there is no module {error.name}") from None
     except AttributeError:
         raise ValueError(f"{where}: the module {module} has no {attribute}") from None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trackers from what users write: parameters in a TOML file, overridden by settings such as particles=300."""
+"""Trackers from user settings: parameters in a TOML file, overridden by text such as particles=300."""
 
 import ast
 import dataclasses
@@ -16,23 +16,23 @@ from tricue.track.base.track import Tracker
 def make_tracker(
     name: str, params_file: Path | None, settings: Sequence[str], seed: int, kernels: str, **camera: Any
 ) -> Tracker:
-    """The tracker with parameters of a TOML file, overridden by settings "name=value"."""
+    """A tracker with the parameters of a TOML file, overridden by settings "name=value"."""
     return create(name, **read_settings(name, params_file, settings), seed=seed, kernels=kernels, **camera)
 
 
 def read_settings(name: str, params_file: Path | None, settings: Sequence[str]) -> dict[str, Any]:
-    """The same parameters alone, as keywords; those of the file are checked, the settings not yet."""
+    """The same parameters as keywords. Those of the file are checked; the settings are not yet."""
     kind = tracker_class(name).Params
-    if kind is None:  # somebody else's class: what it takes is known to itself
+    if kind is None:  # a third-party class, which checks its own parameters
         return ({} if params_file is None else toml.read(params_file)) | parse_settings(settings)
     values: dict[str, Any] = {}
     if params_file is not None:
         values = dataclasses.asdict(kind.from_toml(params_file))
-    return values | _split(current_names(kind, parse_settings(settings)), kind)
+    return values | _split_words(current_names(kind, parse_settings(settings)), kind)
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
-    """Keywords from strings name=value: numbers, true, false, tuples such as 16,20; the rest as text."""
+    """Keywords from strings name=value; values are numbers, true, false, tuples such as 16,20, or text."""
     pairs = [setting.partition("=") for setting in settings]
     for name, equals, _ in pairs:
         if not (equals and name.isidentifier()):
@@ -40,8 +40,8 @@ def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
     return {name: _literal(text.strip()) for name, _, text in pairs}
 
 
-def _split(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
-    """The values; text for a parameter that takes a tuple is one of words, such as cues=flow,disparity."""
+def _split_words(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
+    """The values, with text such as "flow,disparity" split into words for parameters that take a tuple."""
     tuples = {field.name for field in dataclasses.fields(kind) if isinstance(field.default, tuple)}
     return {
         name: tuple(word.strip() for word in value.split(",") if word.strip())

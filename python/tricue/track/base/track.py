@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every tracker takes and returns."""
+"""The interface of all trackers: Track, Status and the Tracker protocol."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -14,7 +14,7 @@ from tricue.track.base.traits import Traits
 
 
 class Status(str, Enum):
-    """TRACKED: seen. OCCLUDED: hidden, the box is a prediction. LOST: gone, the tracker is searching."""
+    """TRACKED: visible. OCCLUDED: hidden, the box is a prediction. LOST: the tracker is searching."""
 
     TRACKED = "tracked"
     OCCLUDED = "occluded"
@@ -28,7 +28,7 @@ class Status(str, Enum):
 class Track:
     """Where the target is in one frame.
 
-    box: pixels; it may reach over the image's edge.
+    box: pixels; it may extend beyond the image.
     score: confidence in [0, 1].
     position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
     covariance: (3, 3) of the position, square meters, or None.
@@ -43,7 +43,7 @@ class Track:
     __hash__ = None  # type: ignore[assignment]  # arrays have none
 
     def __eq__(self, other: object) -> bool:
-        """Equal to the last bit, arrays included, so that runs can be compared."""
+        """Bit-exact equality, arrays included, so that runs can be compared."""
         if not isinstance(other, Track):
             return NotImplemented
         plain = (self.box, self.score, self.status) == (other.box, other.score, other.status)
@@ -51,7 +51,7 @@ class Track:
 
 
 class Tracker(Protocol):
-    """The shape of a tracker: start it with ``init``, then one ``update`` a frame."""
+    """The interface of a tracker: start it with ``init``, then call ``update`` once per frame."""
 
     traits: ClassVar[Traits]
 

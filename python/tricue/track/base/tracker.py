@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What all trackers of this package have in common: how they are made, copied and pickled."""
+"""The base class of the package's trackers: construction, copying and pickling."""
 
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar, Generic, TypeVar
@@ -21,8 +21,8 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 class TrackerBase(ABC, Generic[P, S]):
     """Parameters, kernels and one state.
 
-    The state is a value: nothing changes it, ``init`` and ``update`` replace it as the last thing they do.
-    So an error or Ctrl-C inside them leaves the tracker as it was, and copies are independent.
+    The state is immutable: ``init`` and ``update`` replace it as their last step. So an error or Ctrl-C
+    leaves the tracker unchanged, and copies are independent.
     """
 
     traits: ClassVar[Traits]
@@ -48,7 +48,7 @@ class TrackerBase(ABC, Generic[P, S]):
         """The track of a state."""
 
     def _derive(self) -> None:
-        """Make what follows from the rest, and is neither copied nor pickled: names in ``_derived``."""
+        """Create the derived attributes, named in ``_derived``, which are neither copied nor pickled."""
         self._k = kernel_sets.load(self.kernels)
 
     _derived: ClassVar[tuple[str, ...]] = ("_k",)
@@ -62,7 +62,7 @@ class TrackerBase(ABC, Generic[P, S]):
 
 
 def read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
-    """A view that can't be written to: of arrays of a state, which nothing may change."""
+    """A read-only view of an array, for arrays of the immutable state."""
     view: NDArray[Scalar] = array.view()
     view.flags.writeable = False
     return view

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a tracker class needs, takes and can do, as values that others read."""
+"""A tracker class's inputs and capabilities, declared as data."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
@@ -10,8 +10,8 @@ from typing import Any, Literal
 class Channels:
     """A set of a frame's channels that a tracker can run on.
 
-    names: of "color", "right" and "depth". params: the parameters that make it run on these alone. The boxes
-    are in pixels of color, or of depth where there is no color.
+    names: some of "color", "right" and "depth". params: the parameters with which the tracker runs on these
+    channels alone. The boxes are in pixels of color, or of depth if there is no color.
     """
 
     names: frozenset[str]
@@ -23,23 +23,23 @@ class Channels:
         return cls(frozenset(names), params)
 
     def agrees(self, params: Any) -> bool:
-        """Whether given parameters, an object with them as attributes, are those that this set takes."""
+        """Whether an object's attributes have the values of this set's parameters."""
         return all(getattr(params, name) == value for name, value in self.params.items())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Traits:
-    """One for each tracker class, its attribute ``traits``; the same for all parameters.
+    """The attribute ``traits`` of a tracker class; the same for all parameters.
 
-    channels: the sets of channels it runs on, best first: with more than one that a frame has, the first.
-    camera: the cameras that its constructor takes, as keywords: "intrinsics", "rig".
-    guesses: whether it tells positions by a default camera where none is known; else it tells none.
-    detects: what it finds by itself when ``init`` gets no box; None where it needs an initial box.
-    random: whether it draws random numbers, so that tracks depend on ``seed``.
-    disparity_range: the parameters, in meters, that bound where it looks for a target in a stereo pair.
-    shows: attributes that can be drawn, of those that overlays know: particles (N, 2 or more) with x, y in
+    channels: the sets of channels it runs on, best first; the first set that a frame has is used.
+    camera: the camera keywords of its constructor: "intrinsics", "rig".
+    guesses: whether it assumes a default camera where none is known; otherwise tracks have no position.
+    detects: what ``init`` detects without a box; None if it needs an initial box.
+    random: whether it draws random numbers, so that its tracks depend on ``seed``.
+    disparity_range: names of its parameters for the nearest and farthest stereo distance, meters.
+    shows: its attributes that overlays can draw: particles (N, 2 or more) with x, y in
         pixels first, objects (boxes), mask (H, W), blocks (boxes of the target, boxes that are occluded).
-    follows: a few words for tables: what it tracks, and by what.
+    follows: what it tracks and by which cues, in a few words for tables.
     source: the paper, or "ours".
     """
 
@@ -54,11 +54,11 @@ class Traits:
     source: str = ""
 
     def best(self, present: Collection[str]) -> Channels | None:
-        """The first of its sets whose channels are all present; None where it can't run."""
+        """The first set whose channels are all present; None if the tracker can't run."""
         return next((each for each in self.channels if each.names <= set(present)), None)
 
     def fitting(self, params: Any) -> tuple[Channels, ...]:
-        """Its sets of channels for given parameters: those whose own agree best with these."""
+        """The sets of channels for given parameters: those whose own parameters match most of them."""
         agreeing = [each for each in self.channels if each.agrees(params)]
         most = max((len(each.params) for each in agreeing), default=0)
         return tuple(each for each in agreeing if len(each.params) == most)

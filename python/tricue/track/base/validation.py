@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What every tracker checks before it touches its state."""
+"""Checks of arguments that every tracker makes before it changes its state."""
 
 from collections.abc import Sequence
 from numbers import Integral
@@ -17,17 +17,17 @@ from tricue.track.base.params import Params
 State = TypeVar("State")
 P = TypeVar("P", bound=Params)
 
-USUAL_BASELINE = 0.12  # meters, of a rig that nobody described
-LONGEST = 1.0  # s between two frames, as far as a tracker cares
-SHORTEST = 1e-6  # s; nearer to each other than clocks tell, and the velocities of it have no end
-USUAL_VIEW = 60.0  # degrees from left to right, of a camera that nobody described
+DEFAULT_BASELINE = 0.12  # meters, assumed for an unknown stereo rig
+MAX_FRAME_INTERVAL = 1.0  # seconds; longer gaps are clamped to it
+MIN_FRAME_INTERVAL = 1e-6  # seconds; for shorter intervals velocities would diverge
+DEFAULT_FIELD_OF_VIEW = 60.0  # degrees, horizontal, assumed for an unknown camera
 
 
 def color_image(
     frame: FrameLike, shape: tuple[int, ...] | None = None
 ) -> tuple[NDArray[np.uint8], float | None]:
-    """The frame's BGR image, (H, W, 3), and its timestamp. ValueError for a gray image, or for another shape
-    than the first frame's.
+    """The frame's BGR image, (H, W, 3), and its timestamp. ValueError for a gray image, and for a shape
+    other than the first frame's.
     """
     channels = as_frame(frame)
     channels.require("color")
@@ -42,7 +42,7 @@ def color_image(
 
 
 def seed(value: int) -> int:
-    """The seed itself; TypeError for what isn't a whole number, ValueError for one below 0."""
+    """The seed itself; TypeError for anything but a whole number, ValueError for one below 0."""
     if not isinstance(value, Integral) or isinstance(value, bool):
         raise TypeError(f"seed: expected a whole number, got {value!r:.80}")
     if value < 0:
@@ -51,17 +51,17 @@ def seed(value: int) -> int:
 
 
 def initial_box(given: BoxLike | None, shape: tuple[int, ...]) -> Box:
-    """The box to start on; BoxNeededError where none is given, ValueError as :func:`box_in`."""
+    """The box to start on; BoxNeededError where none is given, ValueError as :func:`check_box_in`."""
     if given is None:
         raise BoxNeededError(
             "box: expected (x, y, width, height), got None; this tracker needs an initial box"
         )
-    return box_in(as_box(given), shape)
+    return check_box_in(as_box(given), shape)
 
 
-def box_in(box: Box, shape: tuple[int, ...]) -> Box:
-    """The box itself; BoxError where no part of it is in an image of that shape, or it is under 2 pixels
-    wide or high.
+def check_box_in(box: Box, shape: tuple[int, ...]) -> Box:
+    """The box itself. BoxError if it is less than 2 pixels wide or high, or entirely outside an image of that
+    shape.
     """
     height, width = shape[:2]
     if min(box.width, box.height) < 2:
@@ -71,8 +71,8 @@ def box_in(box: Box, shape: tuple[int, ...]) -> Box:
     return box
 
 
-def started(state: State | None) -> State:
-    """The state; RuntimeError where there is none, before ``init``."""
+def require_initialized(state: State | None) -> State:
+    """The state; RuntimeError if there is none yet, before ``init``."""
     if state is None:
         raise RuntimeError("update: expected init first, with a frame and a box")
     return state
@@ -81,7 +81,7 @@ def started(state: State | None) -> State:
 def depth_image(
     frame: FrameLike, shape: tuple[int, ...] | None = None
 ) -> tuple[NDArray[np.float32], float | None]:
-    """The frame's depth, (H, W) float32 meters with NaN, and its timestamp. ValueError for another shape than
+    """The frame's depth, (H, W) float32 meters with NaN, and its timestamp. ValueError for a shape other than
     the first frame's.
     """
     channels = as_frame(frame)
@@ -96,8 +96,8 @@ def depth_image(
 def stereo_pair(
     frame: FrameLike, shape: tuple[int, ...] | None = None
 ) -> tuple[NDArray[np.uint8], NDArray[np.uint8], float | None]:
-    """The frame's left image, BGR (H, W, 3), its right one, BGR or gray, and its timestamp. ValueError as
-    :func:`color_image`, and without a right image.
+    """The frame's left image, BGR (H, W, 3), its right image, BGR or gray, and its timestamp. ValueError as
+    :func:`color_image`, and if there is no right image.
     """
     channels = as_frame(frame)
     channels.require("color", "right")
@@ -106,17 +106,20 @@ def stereo_pair(
     return left, right, timestamp
 
 
-class Moving(NamedTuple):
-    """A frame with all that the cues need, and the image whose pixels the box counts."""
+class CueInput(NamedTuple):
+    """A frame with the channels that the cues need, and the image in whose pixels the box is given."""
 
     frame: Frame
     image: NDArray[Any]
 
 
-def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None = None) -> Moving:
-    """The frame for flow, disparity or both. ValueError without a channel that they need, for a depth of
-    another shape than the color image's, which it has to be registered to, and for another shape than the
-    first frame's.
+def require_cue_channels(
+    frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None = None
+) -> CueInput:
+    """The frame, checked for the cues flow, disparity or both.
+
+    ValueError for a missing channel, for depth whose shape isn't the color image's (it has to be registered
+    to color), and for a shape other than the first frame's.
     """
     channels = as_frame(frame)
     if "flow" in cues or channels.depth is None:
@@ -135,14 +138,14 @@ def moving(frame: FrameLike, cues: Sequence[str], shape: tuple[int, ...] | None 
         raise UnregisteredDepthError(
             f"frame.depth: expected shape {image.shape[:2]}, got {depth.shape}; {hint}"
         )
-    return Moving(channels, image)
+    return CueInput(channels, image)
 
 
 def elapsed(before: float | None, now: float | None, rate: float) -> float:
-    """Seconds between two timestamps; of a frame at a rate, frames/s, where they tell nothing."""
-    if before is None or now is None or now - before < SHORTEST:
-        return min(1 / rate, LONGEST)
-    return min(now - before, LONGEST)
+    """Seconds between two timestamps, or 1 / rate (frames/s) if they are missing or don't increase."""
+    if before is None or now is None or now - before < MIN_FRAME_INTERVAL:
+        return min(1 / rate, MAX_FRAME_INTERVAL)
+    return min(now - before, MAX_FRAME_INTERVAL)
 
 
 def rig(value: StereoRig | None) -> StereoRig | None:
@@ -152,11 +155,11 @@ def rig(value: StereoRig | None) -> StereoRig | None:
     return value
 
 
-def rig_for(value: StereoRig | None, shape: tuple[int, ...]) -> StereoRig:
-    """The rig, or a usual one where none is given. ValueError where it has another size than the image."""
+def rig_or_default(value: StereoRig | None, shape: tuple[int, ...]) -> StereoRig:
+    """The rig, or a default one if None. ValueError if its size isn't the image's."""
     height, width = shape[:2]
     if value is None:
-        return StereoRig(Intrinsics.from_fov(width, height, USUAL_VIEW), USUAL_BASELINE)
+        return StereoRig(Intrinsics.from_fov(width, height, DEFAULT_FIELD_OF_VIEW), DEFAULT_BASELINE)
     camera = value.intrinsics
     if (camera.width, camera.height) != (width, height):
         expected = f"the rig's size, {camera.width}x{camera.height}"
@@ -171,11 +174,11 @@ def intrinsics(value: Intrinsics | None) -> Intrinsics | None:
     return value
 
 
-def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
-    """The camera, or a usual one where none is given. ValueError where it has another size than the image."""
+def camera_or_default(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
+    """The camera, or a default one if None. ValueError if its size isn't the image's."""
     height, width = shape[:2]
     if camera is None:
-        return Intrinsics.from_fov(width, height, USUAL_VIEW)
+        return Intrinsics.from_fov(width, height, DEFAULT_FIELD_OF_VIEW)
     if (camera.width, camera.height) != (width, height):
         expected = f"the camera's size, {camera.width}x{camera.height}"
         hint = "the intrinsics are those of the depth image"
@@ -183,18 +186,18 @@ def camera_for(camera: Intrinsics | None, shape: tuple[int, ...]) -> Intrinsics:
     return camera
 
 
-def cameras(pair: StereoRig | None, single: Intrinsics | None) -> tuple[StereoRig | None, Intrinsics | None]:
-    """A pair's rig or a single camera's intrinsics, as they are; TypeError for both at once, and for anything
-    else.
-    """
-    known = rig(pair), intrinsics(single)
+def cameras(
+    stereo: StereoRig | None, single: Intrinsics | None
+) -> tuple[StereoRig | None, Intrinsics | None]:
+    """A stereo rig or a single camera's intrinsics, unchanged. TypeError for both, and for other types."""
+    known = rig(stereo), intrinsics(single)
     if None not in known:
         raise TypeError("intrinsics: expected without rig, whose intrinsics are those of the left camera")
     return known
 
 
 def parameters(kind: type[P], params: P | None, values: dict[str, Any]) -> P:
-    """The parameters given all at once or one by one; TypeError for both."""
+    """The parameters, given as one object or one by one; TypeError for both."""
     if params is not None and values:
         raise TypeError(f"params: expected alone, got also {', '.join(values)}")
     if params is not None and not isinstance(params, kind):

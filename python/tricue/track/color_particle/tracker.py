@@ -118,7 +118,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         The time between frames follows from their timestamps, or from ``rate`` without them. RuntimeError
         before ``init``. An error leaves the tracker unchanged.
         """
-        before = validation.started(self._state)
+        before = validation.require_initialized(self._state)
         image, timestamp = validation.color_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._rng.bit_generator.state = before.random

@@ -114,14 +114,14 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         detected.
         """
         depth, timestamp = validation.depth_image(frame)
-        camera = camera_vector(validation.camera_for(self.intrinsics, depth.shape))
+        camera = camera_vector(validation.camera_or_default(self.intrinsics, depth.shape))
         rng = np.random.default_rng(self.seed)
         fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
         objects = segment(self._k, fg, plane, self.params)
         if box is None:
             target = initialize_on_person(objects, self.params)
         else:
-            box_inside = validation.box_in(as_box(box), depth.shape)
+            box_inside = validation.check_box_in(as_box(box), depth.shape)
             target = initialize_in_box(box_inside, objects, fg, self.params)
         model = DepthModel.empty(self.params).learn(self._k, fg, target.state, 1.0)
         observed = model.observe(self._k, fg, target.state[None])
@@ -148,7 +148,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         The time between frames follows from their timestamps, or from ``rate`` without them. RuntimeError
         before ``init``. An error leaves the tracker unchanged.
         """
-        before = validation.started(self._state)
+        before = validation.require_initialized(self._state)
         depth, timestamp = validation.depth_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._rng.bit_generator.state = before.random

@@ -6,7 +6,7 @@ import numpy as np
 from tricue.camera.box import Box
 from tricue.errors import NoDepthInBoxError
 from tricue.kernels import Kernels
-from tricue.track.base.validation import Moving
+from tricue.track.base.validation import CueInput
 from tricue.track.flow_depth.blocks import Blocks
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initial_disparity import find_initial_disparity
@@ -21,7 +21,7 @@ BOX_MARGIN = 0.15, 0.1  # of the box's width and height at each side, left out o
 
 def initialize(
     k: Kernels,
-    checked: Moving,
+    checked: CueInput,
     reduced: ReducedFrame,
     geometry: DisparityGeometry,
     target: Box,

@@ -85,7 +85,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         its pixels share no disparity or depth. Warns (UserWarning) where left and right seem to be swapped,
         or not rectified.
         """
-        checked = validation.moving(frame, self.params.cues)
+        checked = validation.require_cue_channels(frame, self.params.cues)
         target = validation.initial_box(box, checked.image.shape)
         if "disparity" in self.params.cues and checked.frame.right is not None and not self.params.vergence:
             warn_of_stereo(checked.frame)  # the right image of a verged pair isn't turned back yet
@@ -99,8 +99,8 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         The time between frames is that of their timestamps, or 1 / ``rate`` where there are none.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
-        before = validation.started(self._state)
-        checked = validation.moving(frame, self.params.cues, before.shape)
+        before = validation.require_initialized(self._state)
+        checked = validation.require_cue_channels(frame, self.params.cues, before.shape)
         reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
         state = _predict(before)
@@ -143,9 +143,9 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
     def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
         """The geometry of the rig; without a right image or a rig, that of a depth camera."""
         if frame.right is not None or self.rig is not None:
-            return DisparityGeometry.of(validation.rig_for(self.rig, shape), self.params.vergence)
-        camera = validation.camera_for(self.intrinsics, shape)
-        return DisparityGeometry.of(StereoRig(camera, validation.USUAL_BASELINE), 0.0)
+            return DisparityGeometry.of(validation.rig_or_default(self.rig, shape), self.params.vergence)
+        camera = validation.camera_or_default(self.intrinsics, shape)
+        return DisparityGeometry.of(StereoRig(camera, validation.DEFAULT_BASELINE), 0.0)
 
     def _track(self, state: FlowDepthState) -> Track:
         """The track of a state.

@@ -89,7 +89,7 @@ def _rig_and_camera(
 ) -> tuple[StereoRig, Intrinsics]:
     """The stereo rig and its left camera; default ones where none is given."""
     if rig is None:
-        rig = StereoRig(validation.camera_for(camera, size), validation.USUAL_BASELINE)
+        rig = StereoRig(validation.camera_or_default(camera, size), validation.DEFAULT_BASELINE)
     return rig, rig.intrinsics
 
 

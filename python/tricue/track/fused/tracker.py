@@ -95,7 +95,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         Timestamps give the position filter the time since the last frame, ``rate`` where there are none.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
-        before = validation.started(self._state)
+        before = validation.require_initialized(self._state)
         observed = self._observe(frame, before.shape)
         state = self._predict(before, observed)
         state = initialize_depth(state, observed, self._k, self.params)

@@ -77,8 +77,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         rectified, or its images to be swapped.
         """
         left, right, timestamp = validation.stereo_pair(frame)
-        geometry = StereoGeometry.of(validation.rig_for(self.rig, left.shape))
-        head = validation.box_in(_find_face(left) if box is None else as_box(box), left.shape)
+        geometry = StereoGeometry.of(validation.rig_or_default(self.rig, left.shape))
+        head = validation.check_box_in(_find_face(left) if box is None else as_box(box), left.shape)
         if max(head.width, head.height) > MAX_BOX_SIDE:
             raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
@@ -108,7 +108,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         The time between frames is that of their timestamps, or 1 / ``rate`` where there are none.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
-        before = validation.started(self._state)
+        before = validation.require_initialized(self._state)
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         pair = PreparedPair.of(left, right, before.first_mean, self.params)
