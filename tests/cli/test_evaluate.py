@@ -15,8 +15,11 @@ import numpy as np
 import pytest
 from tricue.cli import main
 from tricue.evaluation import tables
+from tricue.track.base import registry
 
-COMMAND = (sys.executable, "-m", "tricue", "evaluate")
+# Python doesn't hear Ctrl-C where its parent ignores it, as what a shell runs in the background does.
+HEARING = "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+COMMAND = (sys.executable, "-c", HEARING + "from tricue.cli import main; sys.exit(main())", "evaluate")
 
 
 def write_sequence(folder: Path, frames: int, seed: int = 0, size: tuple[int, int] = (80, 60)) -> None:
@@ -184,3 +187,27 @@ def test_a_missing_extra_is_told_before_anything_runs(
     assert error.count("\n") == 1
     assert f"tricue[{'dask' if missing == 'distributed' else 'evaluate'}]" in error
     assert not list(tmp_path.rglob("*.json"))
+
+
+def test_a_class_of_a_module_in_the_working_folder_is_evaluated(folders, tmp_path, monkeypatch, capsys):
+    """``--trackers NAME,module:Class`` runs any class with init and update, in other processes, too, and again
+    when its code has changed.
+    """
+    code = """
+class Mine:
+    def init(self, frame, box): self.box = box
+    def update(self, frame): return self.box
+"""
+    (tmp_path / "own_tracker.py").write_text(code)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [path for path in sys.path if path])
+    chosen = "still-box,own_tracker:Mine"
+    words = ["evaluate", str(folders), "--trackers", chosen, "--jobs", "2", "--no-restarts"]
+    assert main(words) == 0
+    rows = [line.split("|") for line in capsys.readouterr().out.splitlines() if line.startswith("|")]
+    found = {row[1].strip(): row[2:] for row in rows}
+    assert found["own_tracker:Mine"][0] == found["still-box"][0]
+    before = registry.code_digest("own_tracker:Mine")
+    (tmp_path / "own_tracker.py").write_text(code + "\n")
+    assert registry.code_digest("own_tracker:Mine") != before
+    assert "own_tracker:Mine" in (tmp_path / "evaluation" / "report.html").read_text(encoding="utf-8")

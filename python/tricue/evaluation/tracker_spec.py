@@ -87,8 +87,9 @@ class TrackerSpec:
         if not self.ours:
             return json.dumps({"cv2": cv2.__version__})
         kind, settings = registry.tracker_class(self.name).Params, dict(self.settings)
-        params = settings if kind is None else asdict(kind(**settings))
-        return json.dumps({"tricue": tricue.__version__, **params}, default=str)
+        if kind is None:
+            return json.dumps({"code": registry.code_digest(self.name), **settings}, default=str)
+        return json.dumps({"tricue": tricue.__version__, **asdict(kind(**settings))}, default=str)
 
     def unsupported_reason(self, opened: SequenceInfo) -> str:
         """Why it can't run on a sequence, "" if it can."""

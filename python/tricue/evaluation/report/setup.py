@@ -89,7 +89,8 @@ def command(options: Options, dataset: str) -> str:
 
 
 def _parameters(tracker: str, values: Mapping[str, Any], changed: Mapping[str, Any]) -> Html:
-    fields = {field.name: field for field in dataclasses.fields(tracker_class(tracker).Params)}
+    params = tracker_class(tracker).Params  # None of a third party's class: nothing is known of its settings
+    fields = {} if params is None else {field.name: field for field in dataclasses.fields(params)}
     rows = []
     for name, value in values.items():
         if (field := fields.get(name)) is None:

@@ -193,7 +193,8 @@ def _rate_hints(source: Source, trackers: Iterable[str]) -> Iterator[str]:
     if not any(stream.timed for stream in source.channels.values()):
         return
     for name in trackers:
-        rate = getattr(tracker_class(name).Params(), "rate", None)
+        params = tracker_class(name).Params
+        rate = None if params is None else params().rate
         if rate is not None and not 1 / MAX_RATE_RATIO < source.fps / rate < MAX_RATE_RATIO:
             hint = f"env_TRICUE_SET = rate={source.fps:.3g} in {TRACKERS} tells it"
             yield f"{source.name} has {source.fps:.3g} frames/s, {name} assumes {rate:g}; {hint}"

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Trackers by name: built in, from installed packages, or any class as ``module:Class``."""
 
+import hashlib
 import importlib
+import inspect
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
 from typing import Any
 
 from tricue.track.base.adapter import adapt_class
@@ -38,19 +41,19 @@ def tracker_class(name: str) -> Any:
     A third-party class that has only ``init(frame, box)`` and ``update(frame)`` is wrapped, see
     :func:`tricue.track.base.adapter.adapt_class`. ValueError for an unknown name.
     """
-    installed = _installed_entry_points()
-    where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
-    if not isinstance(where, str) or ":" not in where:
-        raise ValueError(
-            f"name: expected one of {', '.join(map(repr, names()))} or module:Class, got {name!r}"
-        )
-    return adapt_class(_import_class(where))
+    return adapt_class(_import_class(_location(name)))
 
 
 def traits(name: str) -> Traits:
     """The inputs and capabilities of the tracker of that name."""
     found: Traits = tracker_class(name).traits
     return found
+
+
+def code_digest(name: str) -> str:
+    """SHA-256 of the source file of a third party's class, which tells its versions apart; "" without one."""
+    source = inspect.getsourcefile(_import_class(_location(name)))
+    return "" if source is None else hashlib.sha256(Path(source).read_bytes()).hexdigest()
 
 
 def create(name: str, **params: Any) -> Tracker:
@@ -61,6 +64,17 @@ def create(name: str, **params: Any) -> Tracker:
     """
     tracker: Tracker = tracker_class(name)(**params)
     return tracker
+
+
+def _location(name: str) -> str:
+    """The ``module:Class`` of a name; ValueError for an unknown one."""
+    installed = _installed_entry_points()
+    where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
+    if not isinstance(where, str) or ":" not in where:
+        raise ValueError(
+            f"name: expected one of {', '.join(map(repr, names()))} or module:Class, got {name!r}"
+        )
+    return where
 
 
 @cache
