@@ -154,7 +154,7 @@ def test_raw_pairs_are_rectified(pair: list[str], tmp_path: Path, monkeypatch: p
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (["--fov", "60"], "--fov: fused needs the pair's baseline too"),
+        (["--fov", "60"], "--fov: fused needs the stereo pair's baseline"),
         (["--rectify"], "--rectify: expected with --calibration FILE"),
         (["--unit", "0.001"], "--unit: expected with --calibration FILE"),
         (["--calibration", "raw.yml"], "raw.yml: expected P1 and P2 of a rectified rig"),
