@@ -128,7 +128,7 @@ def drift() -> Drift:
 @pytest.fixture
 def drift_tracker(monkeypatch: pytest.MonkeyPatch) -> str:
     """The name under which ``create`` now makes that tracker."""
-    monkeypatch.setitem(registry._OURS, "drift", f"{Drift.__module__}:Drift")
+    monkeypatch.setitem(registry._BUILT_IN, "drift", f"{Drift.__module__}:Drift")
     return "drift"
 
 

@@ -79,7 +79,7 @@ def nearest() -> Nearest:
 @pytest.fixture
 def nearest_tracker(monkeypatch: pytest.MonkeyPatch) -> str:
     """The name under which ``create`` now makes that tracker."""
-    monkeypatch.setitem(registry._OURS, "depth-particle", f"{Nearest.__module__}:Nearest")
+    monkeypatch.setitem(registry._BUILT_IN, "depth-particle", f"{Nearest.__module__}:Nearest")
     return "depth-particle"
 
 

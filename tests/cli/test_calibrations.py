@@ -107,7 +107,7 @@ def test_what_an_unknown_depth_camera_costs_is_true(
     assert has_positions(content) == traits(tracker).guesses
     if traits(tracker).guesses:
         assert printed.err.count("\n") == 1
-        assert "the depth camera's intrinsics aren't known; how far a position in meters is beside the" in (
+        assert "the depth camera's intrinsics aren't known; the lateral part of positions in meters is" in (
             printed.err
         )
         assert (
@@ -247,4 +247,4 @@ def test_sizes_that_differ_are_advised_on(two_cameras: Path, capsys: pytest.Capt
     assert main(["track", str(two_cameras), *MM, box_option(seen_by(COLOR, 0))]) == 2
     error = capsys.readouterr().err
     assert "frame.depth: expected shape (120, 160), got (60, 80)" in error
-    assert "--calibration FILE in TOML, with the tables depth and color, brings it there" in error
+    assert "--calibration FILE in TOML, with the tables depth and color, registers it" in error

@@ -190,7 +190,7 @@ def test_a_missing_extra_is_told_before_anything_runs(
 
 
 def test_a_class_of_a_module_in_the_working_folder_is_evaluated(folders, tmp_path, monkeypatch, capsys):
-    """``--trackers NAME,module:Class`` runs any class with init and update, in other processes, too, and again
+    """``--trackers NAME,module:Class`` runs any class with init and update, also in other processes, again
     when its code has changed.
     """
     code = """

@@ -287,6 +287,6 @@ def test_the_default_tracker_can_start(
     """It proves that where no tracker is chosen it is "fused" from a box on, but in depth without one that
     which finds people.
     """
-    monkeypatch.setitem(registry._OURS, "fused", registry._OURS[nearest_tracker])
+    monkeypatch.setitem(registry._BUILT_IN, "fused", registry._BUILT_IN[nearest_tracker])
     assert main(["track", str(recording), *MM, *more, "--json", str(tmp_path / "o.json")]) == 0
     assert json.loads((tmp_path / "o.json").read_text())["tracker"] == chosen

@@ -44,7 +44,7 @@ class Pair:
 @pytest.fixture(autouse=True)
 def pair_tracker(monkeypatch: pytest.MonkeyPatch) -> None:
     """``--tracker fused`` now is that tracker."""
-    monkeypatch.setitem(registry._OURS, "fused", f"{Pair.__module__}:Pair")
+    monkeypatch.setitem(registry._BUILT_IN, "fused", f"{Pair.__module__}:Pair")
 
 
 @pytest.fixture
@@ -154,7 +154,7 @@ def test_raw_pairs_are_rectified(pair: list[str], tmp_path: Path, monkeypatch: p
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (["--fov", "60"], "--fov: fused needs the pair's baseline too"),
+        (["--fov", "60"], "--fov: fused needs the stereo pair's baseline"),
         (["--rectify"], "--rectify: expected with --calibration FILE"),
         (["--unit", "0.001"], "--unit: expected with --calibration FILE"),
         (["--calibration", "raw.yml"], "raw.yml: expected P1 and P2 of a rectified rig"),
@@ -190,7 +190,7 @@ def test_without_a_calibration_there_is_no_position(
     pair: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """It proves that a pair alone is tracked, and one line warns of what a missing calibration costs."""
-    monkeypatch.setitem(registry._OURS, "stereo-head", f"{Pair.__module__}:Pair")
+    monkeypatch.setitem(registry._BUILT_IN, "stereo-head", f"{Pair.__module__}:Pair")
     content = tracked([*pair, "--tracker", "stereo-head"], tmp_path / "o.json")
     assert [track["Z_m"] for track in content["tracks"]] == [None] * 3
     assert content["baseline"] is None

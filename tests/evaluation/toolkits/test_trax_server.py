@@ -395,11 +395,11 @@ def test_a_calibration_is_that_of_the_camera(images: Path, scene: WalkScene, tmp
     for tracker in ("depth-particle", "flow-depth", "fused"):
         served = TraxTracker(tracker, calibration=tmp_path / "c.toml")
         frame = frame_of(images, 1, "color", "depth")
-        made = served.tracker(frame)
+        made = served.create(frame)
         assert made.intrinsics == camera  # type: ignore[attr-defined]
         half = Frame(np.zeros((60, 80, 3), np.uint8), np.ones((60, 80), np.float32))
         with pytest.raises(ValueError, match="got one for 160x120"):
-            served.tracker(half)
+            served.create(half)
 
 
 def test_channels_by_default() -> None:
