@@ -30,11 +30,6 @@ def names() -> tuple[str, ...]:
     return *_BUILT_IN, *sorted(_installed_entry_points().keys() - _BUILT_IN.keys())
 
 
-def known(name: str) -> bool:
-    """Whether it is one of :func:`names`, or has the form ``module:Class``."""
-    return name in names() or ":" in name
-
-
 def tracker_class(name: str) -> Any:
     """The class of a name, imported on demand to keep ``import tricue`` fast.
 

@@ -11,6 +11,7 @@ from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike
 from tricue.track.base import validation
 from tricue.track.base.prediction import Prediction
+from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
 from tricue.track.base.traits import Channels, Traits
@@ -72,11 +73,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         # Weights are uniform where they are this very array. So it is pickled together with the state.
         self._uniform = np.full(self.params.particles, 1 / self.params.particles)
 
-    _derived = ("_k", "_rng", "_mixing")
+    _derived = ("_k", "_random", "_rng", "_mixing")
 
     def _derive(self) -> None:
         super()._derive()
-        self._rng = np.random.default_rng(self.seed)
+        self._random = RandomSource(self.seed)
+        self._rng = self._random.generator
         self._mixing = size_mixing(self.params)
 
     @property
@@ -107,7 +109,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             score=appearance.score(k, samples),
             mean_log_likelihood=log_likelihood,
             recognized_mean=log_likelihood,
-            random=dict(np.random.default_rng(self.seed).bit_generator.state),
+            random=RandomSource(self.seed).save(),
             timestamp=timestamp,
         )
         return self._keep(state)
@@ -121,12 +123,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         before = validation.require_initialized(self._state)
         image, timestamp = validation.color_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        self._rng.bit_generator.state = before.random
+        self._random.resume(before.random)
         state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
         if state.missed_frames == 0 and state.score >= self.params.min_score_to_learn:
             state = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
-            random=dict(self._rng.bit_generator.state),
+            random=self._random.save(),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
         )

@@ -12,6 +12,7 @@ from tricue.camera.frame import FrameLike
 from tricue.camera.rig import Intrinsics
 from tricue.track.base import validation
 from tricue.track.base.prediction import Prediction
+from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
@@ -84,11 +85,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         super().__init__(params, seed, kernels, parameters)
         self.intrinsics = validation.intrinsics(intrinsics)
 
-    _derived = ("_k", "_rng")
+    _derived = ("_k", "_random", "_rng")
 
     def _derive(self) -> None:
         super()._derive()
-        self._rng = np.random.default_rng(self.seed)
+        self._random = RandomSource(self.seed)
+        self._rng = self._random.generator
 
     @property
     def particles(self) -> Floats:
@@ -115,7 +117,8 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """
         depth, timestamp = validation.depth_image(frame)
         camera = camera_vector(validation.camera_or_default(self.intrinsics, depth.shape))
-        rng = np.random.default_rng(self.seed)
+        random = RandomSource(self.seed)
+        rng = random.generator
         fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
         objects = segment(self._k, fg, plane, self.params)
         if box is None:
@@ -137,7 +140,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             score=_score(observed),
             mean_log_likelihood=float(observed.log_likelihood[0]),
             mean_inside=float(observed.inside[0]),
-            random=dict(rng.bit_generator.state),
+            random=random.save(),
             timestamp=timestamp,
         )
         return self._keep(state)
@@ -151,9 +154,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         before = validation.require_initialized(self._state)
         depth, timestamp = validation.depth_image(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        self._rng.bit_generator.state = before.random
+        self._random.resume(before.random)
         state = self._follow(before, depth, seconds)
-        return self._keep(state._replace(random=dict(self._rng.bit_generator.state), timestamp=timestamp))
+        return self._keep(state._replace(random=self._random.save(), timestamp=timestamp))
 
     def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
