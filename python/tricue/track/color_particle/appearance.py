@@ -100,4 +100,5 @@ class Appearance(NamedTuple):
     ) -> "Appearance":
         """Blend the window of one ellipse (1, 4) into both models; rates of 1 initialize them."""
         contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
-        return self._replace(model=self.model.learn(k, *samples, rate), contrast=contrast)
+        model = self.model.learn(k, *samples, rate)
+        return Appearance(model, contrast, self.grid, self.ring, self.linear, self.sharpness)

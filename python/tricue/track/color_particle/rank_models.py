@@ -48,10 +48,10 @@ class RankSpatial(NamedTuple):
     def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "RankSpatial":
         ranks = k.color_ranks(inside[:1])
         if rate >= 1:
-            return self._replace(maps=np.concatenate([ranks, ranks]))
+            return RankSpatial(self.weights, np.concatenate([ranks, ranks]))
         maps = self.maps.copy()
         maps[0] += np.float32(rate) * (ranks[0] - maps[0])
-        return self._replace(maps=maps)
+        return RankSpatial(self.weights, maps)
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return self.combine(k.rank_distance(inside, self.maps), searching)

@@ -125,9 +125,11 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._random.resume(before.random)
         state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
+        appearance = state.appearance
         if state.missed_frames == 0 and state.score >= self.params.min_score_to_learn:
-            state = self._learn(state, image, self.params.learning_rate)
+            appearance = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
+            appearance=appearance,
             random=self._random.save(),
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
@@ -200,7 +202,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             return state._replace(score=0.0)
         motion = motion.restart_at(tuple(particles.ellipse.tolist()))
         redetected = self._accept(state, particles, samples, motion)
-        return self._learn(redetected, image, REDETECTION_RATE)
+        return redetected._replace(appearance=self._learn(redetected, image, REDETECTION_RATE))
 
     def _accept(
         self, state: State, particles: ParticleSet, samples: WindowSamples, motion: EllipseMotion
@@ -221,11 +223,10 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             missed_frames=missed,
         )
 
-    def _learn(self, state: State, image: Image, rate: float) -> State:
-        """Blend the estimated window into the appearance."""
+    def _learn(self, state: State, image: Image, rate: float) -> Appearance:
+        """The appearance with the estimated window blended in."""
         window, color_rate = state.particles.ellipse[None], self.params.color_rate
-        appearance = state.appearance.learn(self._k, image, window, state.samples, rate, color_rate)
-        return state._replace(appearance=appearance)
+        return state.appearance.learn(self._k, image, window, state.samples, rate, color_rate)
 
     def _particles_at(self, ellipse: Floats) -> tuple[Floats, Floats]:
         """All particles at one ellipse (1, 4), and their uniform weights."""
