@@ -7,12 +7,12 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from benchmarks.quality.cues.flow import Dense
 from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.reference.base.gaussian import gaussian_taps
 
-from benchmarks.quality.cues import flow
+from benchmarks.quality.common import opencv_flows
+from benchmarks.quality.common.opencv_flows import DenseFlow
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]
@@ -43,7 +43,7 @@ def script(previous: Image, current: Image) -> Flow:
     return np.where(kept, u, np.float32(np.nan)), np.where(kept, v, np.float32(np.nan))
 
 
-def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
+def planes(dense: DenseFlow) -> Callable[[Image, Image], Flow]:
     """u and v of a dense flow (H, W, 2)."""
 
     def calc(previous: Image, current: Image) -> Flow:
@@ -57,7 +57,7 @@ IMPLEMENTATIONS = {
     "native": ours(_core.gradient_flow),
     "reference": ours(reference.gradient_flow),
     "baseline": script,
-    "dis": planes(flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
+    "dis": planes(opencv_flows.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 

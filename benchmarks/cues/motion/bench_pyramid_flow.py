@@ -7,11 +7,11 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from benchmarks.quality.cues.flow import Dense
 from numpy.typing import NDArray
 from tricue import _core, reference
 
-from benchmarks.quality.cues import flow
+from benchmarks.quality.common import opencv_flows
+from benchmarks.quality.common.opencv_flows import DenseFlow
 
 Image = NDArray[np.uint8]
 Flow = tuple[NDArray[np.float32], NDArray[np.float32]]
@@ -24,7 +24,7 @@ def ours(kernel: Callable[..., Any]) -> Callable[[Image, Image], Flow]:
     return lambda previous, current: kernel(previous, current, SIGMA, LEVELS, ANGLE, CONTRAST)[:2]
 
 
-def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
+def planes(dense: DenseFlow) -> Callable[[Image, Image], Flow]:
     """u and v of a dense flow (H, W, 2)."""
 
     def calc(previous: Image, current: Image) -> Flow:
@@ -37,8 +37,8 @@ def planes(dense: Dense) -> Callable[[Image, Image], Flow]:
 IMPLEMENTATIONS = {
     "native": ours(_core.pyramid_flow),
     "reference": ours(reference.pyramid_flow),
-    "baseline": planes(flow.farneback()),
-    "dis": planes(flow.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
+    "baseline": planes(opencv_flows.farneback()),
+    "dis": planes(opencv_flows.dis(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)),
 }
 
 
