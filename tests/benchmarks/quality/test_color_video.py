@@ -1,77 +1,62 @@
 # SPDX-License-Identifier: MIT
 import csv
-import shutil
 
-import numpy as np
 import pytest
-from tricue.evaluation import metrics
-from tricue.evaluation.dataset import Entry
 
-from benchmarks.quality import robustness
-from benchmarks.quality.common.variants import parse_variants
+from benchmarks.quality import color_video
+from benchmarks.quality.common import saved_runs
 
-
-def test_orders():
-    """One pass; every third frame; eight starts, four on each way, at the quarters."""
-    assert [each.tolist() for each in robustness.orders("plain", 4)] == [[0, 1, 2, 3]]
-    assert [each.tolist() for each in robustness.orders("third", 8)] == [[0, 3, 6]]
-    starts = [each.tolist() for each in robustness.orders("starts", 4)]
-    assert starts[::2] == [[0, 1, 2, 3], [1, 2, 3], [2, 3], [3]]
-    assert starts[1::2] == [[3, 2, 1, 0], [2, 1, 0], [1, 0], [0]]
-
-
-def test_a_start_waits_for_truth(folders, tmp_path):
-    """Frames before the first true box aren't tracked; a run of fewer than two frames doesn't count."""
-    folder = shutil.copytree(folders / "there", tmp_path / "there")
-    lines = (folder / "groundtruth_rect.txt").read_text().splitlines()
-    (folder / "groundtruth_rect.txt").write_text("\n".join(["NaN,NaN,NaN,NaN"] * 3 + lines[3:]))
-    (variant,) = parse_variants(["still-box"])
-    opened = Entry("there", folder).open()
-    frames = list(opened.source)
-    results = robustness.run_order(variant, opened, frames, np.arange(20))
-    assert len(results.overlaps) == 17
-    assert results.overlaps[0] == 1
-    assert robustness.run_order(variant, opened, frames, np.arange(4)) is None
-    assert robustness.run_order(variant, opened, frames, np.arange(3)) is None
-
-
-def test_a_still_box_has_the_overlap_of_its_motion(folders):
-    """The target goes 2 px a frame and is 40 px wide: each run's AUC is that of these overlaps."""
-    (variant,) = parse_variants(["still-box"])
-    result = robustness.run_protocols(robustness.RobustnessTask(variant, Entry("there", folders / "there")))
-    assert {name: len(runs) for name, runs in result.runs.items()} == {"plain": 1, "starts": 8, "third": 1}
-
-    def expected(step, count):
-        shift = np.minimum(step * np.arange(count), 40)
-        return metrics.success_curve((40 - shift) / (40 + shift)).mean()
-
-    assert robustness.auc(result, "plain") == pytest.approx(expected(2, 20))
-    assert robustness.auc(result, "third") == pytest.approx(expected(6, 7))
-    starts = [expected(2, count) for count in (20, 15, 10, 5)]
-    assert robustness.auc(result, "starts") == pytest.approx(np.mean(starts))
+WORDS = ("--trackers", "fused", "still-box", "--set", "fused.cues=color")
 
 
 def test_the_command_prints_and_writes(folders, tmp_path, capsys):
     """The tables have each tracker, protocol and sequence, the file a line for each. The tracker is better
     than a still box, and a second run gives the same numbers.
     """
-    words = [str(folders), "--trackers", "fused", "still-box", "--set", "fused.cues=color", "--csv"]
     for name, jobs in (("a", "1"), ("b", "2")):
-        assert robustness.main([*words, str(tmp_path / name), "--jobs", jobs]) == 0
+        words = [str(folders), *WORDS, "--csv", str(tmp_path / name), "--jobs", jobs]
+        assert color_video.main(words) == 0
     printed = capsys.readouterr().out
-    assert "| tracker | protocol | back | gap | there | mean |" in printed
+    assert "| tracker | AUC | all (3) | other (3) |" in printed
+    assert printed.count("| still-box | gap |") == 2
     first, second = (list(csv.DictReader((tmp_path / name).read_text().splitlines())) for name in ("a", "b"))
     assert [{name: value for name, value in line.items() if name != "ms/frame"} for line in first] == [
         {name: value for name, value in line.items() if name != "ms/frame"} for line in second
     ]
-    assert len(first) == 2 * 3 * 3
-    plain = {(line["tracker"], line["sequence"]): float(line["AUC"]) for line in first[::3]}
-    assert plain["fused", "there"] > plain["still-box", "there"] + 0.2
+    assert len(first) == 2 * 3 * 4
+    forward = {(line["tracker"], line["sequence"]): float(line["AUC"]) for line in first[::4]}
+    assert forward["fused", "there"] > forward["still-box", "there"] + 0.2
 
 
-def test_errors_end_with_a_line(tmp_path, capsys):
-    """A folder without sequences, and an unknown tracker."""
-    for words, error in (([str(tmp_path)], "found none"), (["--trackers", "nobody"], "got 'nobody'")):
+def test_a_run_is_compared_with_a_stored_one(folders, tmp_path, capsys):
+    """With itself there is no difference; with another cue there is one. What isn't stored is named."""
+    path = str(tmp_path / "runs.json")
+    words = [str(folders), "--only", "there", "back"]
+    assert color_video.main([*words, *WORDS, "--save", path]) == 0
+    assert saved_runs.load(tmp_path / "runs.json").keys() == {"fused", "still-box"}
+    capsys.readouterr()
+    assert color_video.main([*words, *WORDS, "--against", path]) == 0
+    same = capsys.readouterr()
+    assert "| all | +0.000 [+0.000, +0.000] |" in same.out
+    assert "| still-box: changed most | mean | forward |" in same.out
+    assert same.err == ""
+    other = ["--trackers", "fused", "fused:color", "--set", "fused.cues=filter"]
+    assert color_video.main([str(folders), "--only", "there", "gap", *other, "--against", path]) == 0
+    different = capsys.readouterr()
+    assert "| all | +0.000 [-, -] | +0.000 [-, -] |" not in different.out
+    assert different.out.count("changed most") == 1
+    assert "not stored for fused: gap\n" in different.err
+    assert "not stored for fused:color: gap, there\n" in different.err
+
+
+def test_errors_end_with_a_line(folders, tmp_path, capsys):
+    """A folder without sequences, an unknown tracker or sequence, and no stored runs."""
+    for words, error in (
+        ([str(tmp_path)], "found none"),
+        (["--trackers", "nobody"], "got 'nobody'"),
+        ([str(folders), "--trackers", "fused", "--only", "nowhere"], "expected some of back, gap, there"),
+        ([str(folders), "--trackers", "fused", "--against", str(tmp_path / "no")], "No such file"),
+    ):
         with pytest.raises(SystemExit):
-            robustness.main(words)
+            color_video.main(words)
         assert error in capsys.readouterr().err
