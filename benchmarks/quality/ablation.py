@@ -4,7 +4,7 @@
     python -m benchmarks.quality.ablation --jobs 2
 
 The rows are the tracker with all cues, without each of them, and cv2's CSRT. The first columns and AUROC are
-those of ``robustness`` on recorded color sequences; the last ones are the mean overlap in ``stress_scenes``,
+those of ``color_video``, over all sequences; the last ones are the mean overlap in ``stress_scenes``,
 by channels. CSRT uses color alone, which is the same for all channels, so it runs once.
 """
 
@@ -16,17 +16,19 @@ from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.scenes.stress.scene import STRESS_KINDS
 from tricue.track.base.registry import tracker_class
 
-from benchmarks.quality import robustness, stress_scenes
-from benchmarks.quality.common import scene_runs
-from benchmarks.quality.common.arguments import add_output, bare_parser, seeds
+from benchmarks.quality import stress_scenes
+from benchmarks.quality.common import scene_runs, sequence_runs
+from benchmarks.quality.common.arguments import add_dataset, add_output, bare_parser, seeds
+from benchmarks.quality.common.confidence_summary import summarize
 from benchmarks.quality.common.parallel import run_parallel
+from benchmarks.quality.common.protocols import PROTOCOLS
 from benchmarks.quality.common.tables import Cell, markdown, write_csv
 from benchmarks.quality.common.variants import Variant, with_settings
 
 TRACKER, BASELINE = "fused", "CSRT"
 CHANNELS = ("color", "rgbd", "stereo")
 SCENES = ("all", "fast", "lookalike", "hidden")
-HEAD = ("", *robustness.PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
+HEAD = ("", *PROTOCOLS, "AUROC", *CHANNELS, "ms/frame")
 
 
 def ablated() -> list[Variant]:
@@ -57,16 +59,17 @@ def _with_new_inputs(variants: Sequence[Variant], channels: str) -> list[Variant
 
 def lines(
     variants: Sequence[Variant],
-    recorded: Sequence[robustness.RobustnessResult],
+    recorded: Sequence[sequence_runs.SequenceResult],
     rendered: Iterable[scene_runs.SceneResult],
 ) -> list[list[Cell]]:
     """HEAD for each variant; NaN where it didn't run."""
-    by_tracker, groups = robustness.by_tracker(recorded), stress_scenes.grouped(rendered)
+    by_tracker, groups = sequence_runs.by_tracker(recorded), stress_scenes.grouped(rendered)
     made: list[list[Cell]] = []
     for label in (variant.label for variant in variants):
         runs = by_tracker.get(label, [])
-        frames = robustness.pooled(runs) if runs else None
-        line: list[Cell] = [label, *(robustness.means(runs)), frames.auroc if frames else float("nan")]
+        frames = sequence_runs.pool(runs) if runs else None
+        line: list[Cell] = [label, *(sequence_runs.mean_auc(runs, protocol) for protocol in PROTOCOLS)]
+        line.append(summarize(frames).auroc if frames else float("nan"))
         for channels in CHANNELS:
             results = groups.get((channels, stress_scenes.ALL_KINDS, label))
             line.append(stress_scenes.overall(results)[0] if results else float("nan"))
@@ -77,18 +80,17 @@ def lines(
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; the exit code."""
     made = bare_parser("ablation", __doc__)
-    robustness.add_dataset(made)
+    add_dataset(made)
     made.add_argument("--kinds", nargs="+", choices=STRESS_KINDS, default=list(SCENES), help="of scenes")
     made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="default 0:3")
     add_output(made)
     options = made.parse_args(arguments)
     variants = ablated()
     try:
-        todo = robustness.tasks(variants, options.dataset)
+        todo = sequence_runs.find_tasks(variants, options.dataset)
     except (OSError, ValueError) as error:
         made.error(str(error))
-    todo.sort(key=lambda task: -task.variant.spec.relative_time)  # so that all processes end together
-    recorded = list(run_parallel(robustness.run_protocols, todo, options.jobs))
+    recorded = sequence_runs.run_sequences(todo, options.jobs)
     scenes = [
         task
         for channels in CHANNELS

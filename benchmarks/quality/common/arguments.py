@@ -6,23 +6,19 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tricue.cli.arguments import count
-from tricue.evaluation import baselines
-from tricue.track.base.registry import names
+
+from benchmarks.quality.common import sequences
 
 PACKAGE = "benchmarks.quality"
 
 
 def parser(script: str, about: str | None, trackers: Sequence[str]) -> argparse.ArgumentParser:
-    """Trackers, their parameters, processes and a CSV.
-
-    trackers: those of a run without --trackers, as far as they are tricue's or the installed cv2 has them.
-    """
-    known = (*names(), *baselines.available())
+    """Trackers, their parameters, processes and a CSV. trackers: those of a run without --trackers."""
     made = bare_parser(script, about)
     made.add_argument(
         "--trackers",
         nargs="+",
-        default=[each for each in trackers if each.partition(":")[0] in known],
+        default=list(trackers),
         metavar="NAME",
         help="tricue's and baselines; fused:color and fused:color+depth get these channels only",
     )
@@ -44,6 +40,18 @@ def add_output(made: argparse.ArgumentParser) -> None:
     """The number of processes, and a file for the numbers."""
     made.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
     made.add_argument("--csv", type=Path, metavar="FILE", help="also write the numbers to this file")
+
+
+def add_dataset(made: argparse.ArgumentParser) -> None:
+    """The folder of sequences, by default the recorded color sequences."""
+    made.add_argument(
+        "dataset",
+        type=Path,
+        nargs="?",
+        default=sequences.data_folder() / "color",
+        metavar="DATASET",
+        help="sequences with true boxes, default %(default)s",
+    )
 
 
 def seeds(text: str) -> tuple[int, ...]:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Results of frames, pooled over runs: overlaps, and how well score and status tell good from lost frames."""
+"""Results of frames, pooled over runs: overlaps, scores, statuses, times."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,18 +29,19 @@ class FrameResults:
     tracked: Flags
     """(N,) whether the status is TRACKED."""
     seconds: Array
-    """One per update."""
+    """(N,) of the update, NaN in the first frame of a run."""
 
     @classmethod
     def of(cls, run: Run, boxes: Array, truth: Array, absent: Flags) -> "FrameResults":
         """The frames of a run; boxes: the run's, in the form in which they are compared with the truth."""
         tracked = np.array([status is Status.TRACKED for status in run.statuses], np.bool_)
-        return cls(metrics.overlaps(boxes, truth), absent, run.scores, tracked, run.seconds)
+        seconds = np.concatenate([[np.nan], run.seconds])
+        return cls(metrics.overlaps(boxes, truth), absent, run.scores, tracked, seconds)
 
     @classmethod
     def pooled(cls, parts: Sequence["FrameResults"]) -> "FrameResults":
         """The frames of all parts, one after the other."""
-        return cls(*(np.concatenate([getattr(each, name) for each in parts]) for name in cls.__slots__))
+        return cls(*(np.concatenate([getattr(each, field.name) for each in parts]) for field in fields(cls)))
 
     @property
     def auc(self) -> float:
@@ -53,23 +54,6 @@ class FrameResults:
         return confidence.auroc(self.overlaps, self.scores, self.absent)
 
     @property
-    def lost(self) -> float:
-        """Share of the frames with known truth whose overlap is under 0.1, or without a target."""
-        bad = confidence.lost(self.overlaps, self.absent)
-        return float(bad[bad | ~np.isnan(self.overlaps)].mean())
-
-    @property
-    def tracked_of_lost(self) -> float:
-        """Share of the lost frames with status TRACKED."""
-        return confidence.tracked_while_lost(self.overlaps, self.tracked, self.absent).of_lost
-
-    @property
-    def untracked_of_good(self) -> float:
-        """Share of the good frames with another status than TRACKED."""
-        good = (self.overlaps > GOOD_OVERLAP) & ~self.absent
-        return float((~self.tracked[good]).mean()) if good.any() else float("nan")
-
-    @property
     def milliseconds(self) -> float:
         """Mean of an update."""
-        return float(1e3 * self.seconds.mean())
+        return float(1e3 * np.nanmean(self.seconds))

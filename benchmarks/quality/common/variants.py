@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Variants of trackers: with parameters, under a label, limited to some of a sequence's channels."""
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.evaluation import baselines
 from tricue.evaluation.tracker_spec import FrameView, SafeTracker, SequenceInfo, TrackerSpec, tracker_specs
 from tricue.track.base.settings import read_settings
 
@@ -68,14 +70,27 @@ class Variant:
 def parse_variants(words: Sequence[str], settings: Sequence[str] = ()) -> list[Variant]:
     """From names such as CSRT, fused, or fused:color and fused:color+depth, which get these channels only.
 
-    settings: "name.parameter=value", for tricue's trackers. ValueError for what is unknown.
+    settings: "name.parameter=value", for tricue's trackers. What the installed cv2 lacks of its trackers is
+    left out and named on stderr. ValueError for what is unknown, and where nothing is left.
     """
+    words = _installed(words)
     names = [word.partition(":")[0] for word in words]
     values = parse_settings(settings)
     if unused := [name for name in values if name not in names]:
         raise ValueError(f"--set: expected one of {', '.join(names)}, got {unused[0]!r}")
     specs = tracker_specs(names, values)
     return [Variant(word, spec, _channels(word)) for word, spec in zip(words, specs, strict=True)]
+
+
+def _installed(words: Sequence[str]) -> list[str]:
+    lacking = set(baselines.NAMES) - set(baselines.available())
+    found = [word for word in words if word.partition(":")[0] not in lacking]
+    for word in words:
+        if word not in found:
+            print(f"left out {word}: the installed cv2 doesn't have it", file=sys.stderr)
+    if not found:
+        raise ValueError(f"--trackers: expected some that the installed cv2 has, got {', '.join(words)}")
+    return found
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -19,5 +19,6 @@ def scene_result():
 def make_result(kind="plain", overlaps=(1.0, 0.6, 0.0), counted=(True, True, False), errors=(0.0, 0.2, NAN)):
     """Three frames, the last without the target."""
     gone = np.array([False, False, True])
-    frames = FrameResults(np.array(overlaps), gone, np.array([1.0, 0.9, 0.2]), ~gone, np.full(2, 1e-3))
+    seconds = np.array([NAN, 1e-3, 1e-3])
+    frames = FrameResults(np.array(overlaps), gone, np.array([1.0, 0.9, 0.2]), ~gone, seconds)
     return SceneResult("x", kind, 0, "color", frames, np.array(errors), np.array(counted), NAN, 1.0, NAN)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 import csv
 
-from benchmarks.quality import ablation, robustness
+from benchmarks.quality import ablation
 from benchmarks.quality.common import scene_runs
+from benchmarks.quality.common.protocols import PROTOCOLS
 from benchmarks.quality.common.variants import Inputs
 
 
@@ -26,5 +27,5 @@ def test_the_ablation_has_a_row_per_cue(scene_result, monkeypatch, folders, tmp_
     lines = list(csv.DictReader((tmp_path / "o.csv").read_text().splitlines()))
     assert [line[""] for line in lines] == ["fused", found[1].label]
     assert {float(line["stereo"]) for line in lines} == {0.8}
-    assert all(float(line[protocol]) > 0 for line in lines for protocol in robustness.PROTOCOLS)
+    assert all(float(line[protocol]) > 0 for line in lines for protocol in PROTOCOLS)
     assert "| fused |" in capsys.readouterr().out

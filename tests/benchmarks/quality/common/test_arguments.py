@@ -2,9 +2,8 @@
 import argparse
 
 import pytest
-from tricue.evaluation import baselines
 
-from benchmarks.quality.common.arguments import parser, seeds
+from benchmarks.quality.common.arguments import seeds
 
 
 @pytest.mark.parametrize(("text", "expected"), [("0:3", (0, 1, 2)), ("4", (4,)), ("1,5,7", (1, 5, 7))])
@@ -18,10 +17,3 @@ def test_bad_seeds(text):
     """Empty ranges, words and negative numbers are refused."""
     with pytest.raises(argparse.ArgumentTypeError, match="expected seeds such as 0:20"):
         seeds(text)
-
-
-def test_a_cv2_without_contrib_is_enough(monkeypatch):
-    """The default of --trackers has only those that the installed cv2 has."""
-    monkeypatch.setattr(baselines, "available", lambda: {"MIL": None})
-    options = parser("robust", "", ("fused", "fused:color", "CSRT", "MIL")).parse_args([])
-    assert options.trackers == ["fused", "fused:color", "MIL"]

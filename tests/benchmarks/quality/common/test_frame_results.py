@@ -1,25 +1,34 @@
 # SPDX-License-Identifier: MIT
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from tricue.evaluation import confidence
+from tricue.track.base.track import Status
 
 from benchmarks.quality.common.frame_results import FrameResults
 
+BOX, AWAY, NAN = (10.0, 10, 20, 20), (100.0, 100, 20, 20), float("nan")
 
-def test_shares_of_lost_and_good_frames():
-    """Shares of lost, of lost that were TRACKED, of good that weren't; unknown frames don't count."""
-    frames = FrameResults(
-        overlaps=np.array([1.0, 0.9, 0.3, 0.05, 0.0, np.nan, 0.8]),
-        absent=np.array([False] * 6 + [True]),
-        scores=np.array([1.0, 0.2, 0.5, 0.4, 0.1, 0.9, 0.3]),
-        tracked=np.array([True, False, True, True, False, True, True]),
-        seconds=np.full(6, 0.002),
+
+def test_numbers_of_pooled_frames():
+    """Every frame counts the same; the time of a run's first frame is unknown, and each other frame has that
+    of its update.
+    """
+    run = SimpleNamespace(
+        scores=np.array([1.0, 0.9, 0.2]),
+        statuses=(Status.TRACKED, Status.TRACKED, Status.LOST),
+        seconds=np.array([0.001, 0.003]),
     )
-    assert frames.lost == 3 / 6
-    assert frames.tracked_of_lost == 2 / 3
-    assert frames.untracked_of_good == 1 / 2
+    frames = FrameResults.of(
+        run, np.array([BOX, BOX, AWAY]), np.array([BOX] * 3), absent=np.zeros(3, np.bool_)
+    )
+    np.testing.assert_array_equal(frames.overlaps, [1, 1, 0])
+    np.testing.assert_array_equal(frames.tracked, [True, True, False])
+    np.testing.assert_array_equal(frames.seconds, [NAN, 0.001, 0.003])
     assert frames.milliseconds == pytest.approx(2)
-    assert frames.auroc == confidence.auroc(frames.overlaps, frames.scores, frames.absent)
+    assert frames.auc == pytest.approx(2 / 3 * 20 / 21)
     twice = FrameResults.pooled([frames, frames])
-    assert twice.lost == frames.lost
-    assert len(twice.seconds) == 12
+    assert len(twice.seconds) == 6
+    assert twice.milliseconds == frames.milliseconds
+    assert twice.auroc == confidence.auroc(frames.overlaps, frames.scores, frames.absent) == 1

@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.evaluation import baselines
 
 from benchmarks.quality.common.variants import Inputs, parse_variants, with_settings
 
@@ -60,3 +61,13 @@ def test_unknown_words_are_named(words, settings, error):
     """Trackers, channels and parameters."""
     with pytest.raises(ValueError, match=error):
         parse_variants(words, settings)
+
+
+def test_a_cv2_without_contrib_is_enough(monkeypatch, capsys):
+    """Trackers that the installed cv2 lacks are left out and named; without any other there is an error."""
+    monkeypatch.setattr(baselines, "available", lambda: {"MIL": None})
+    found = parse_variants(["fused", "CSRT", "fused:color", "MIL"])
+    assert [each.label for each in found] == ["fused", "fused:color", "MIL"]
+    assert capsys.readouterr().err == "left out CSRT: the installed cv2 doesn't have it\n"
+    with pytest.raises(ValueError, match="expected some that the installed cv2 has, got CSRT, KCF"):
+        parse_variants(["CSRT", "KCF"])

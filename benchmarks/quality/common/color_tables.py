@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: MIT
+"""Tables of trackers on recorded color sequences: by group, by sequence, and of all frames together."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from benchmarks.quality.common.confidence_summary import reliability, summarize
+from benchmarks.quality.common.frame_results import Flags, FrameResults
+from benchmarks.quality.common.groups import members
+from benchmarks.quality.common.protocols import PROTOCOLS
+from benchmarks.quality.common.sequence_runs import SequenceResult, by_tracker, mean_auc, pool
+from benchmarks.quality.common.tables import Cell, markdown
+
+SUMMARY = ("lost", "AUROC", "TRACKED of lost", "not TRACKED of on target", "deviation", "calibration error")
+TIMES = ("TRACKED ms p50", "p99", "not TRACKED ms p50", "p99")
+CSV_COLUMNS = ("tracker", "sequence", "protocol", "runs", "frames", "AUC", *SUMMARY, "ms/frame")
+
+
+def tables(results: Sequence[SequenceResult]) -> str:
+    """Markdown: all tables of this module, one after the other."""
+    found = by_tracker(results)
+    pooled = {tracker: pool(own) for tracker, own in found.items()}
+    return "\n\n".join([group_table(found), sequence_table(found), *frame_tables(pooled)])
+
+
+def group_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
+    """The mean AUC by tracker, protocol and group; the head counts each group's sequences."""
+    groups = members(dict.fromkeys(each.sequence for own in found.values() for each in own))
+    rows: list[list[Cell]] = [
+        [
+            tracker,
+            protocol,
+            *(mean_auc([each for each in own if each.sequence in of], protocol) for of in groups.values()),
+        ]
+        for tracker, own in found.items()
+        for protocol in PROTOCOLS
+    ]
+    return markdown(["tracker", "AUC", *(f"{group} ({len(of)})" for group, of in groups.items())], rows)
+
+
+def sequence_table(found: Mapping[str, Sequence[SequenceResult]]) -> str:
+    """The AUC by tracker, sequence and protocol."""
+    rows: list[list[Cell]] = [
+        [tracker, each.sequence, *map(each.auc, PROTOCOLS)] for tracker, own in found.items() for each in own
+    ]
+    return markdown(["tracker", "sequence", *PROTOCOLS], rows)
+
+
+def frame_tables(pooled: Mapping[str, FrameResults]) -> list[str]:
+    """Of all frames of a tracker: the summary of its score and status, times, and how reliable scores are."""
+    first: list[list[Cell]] = [
+        [tracker, len(frames.overlaps), *summarize(frames), *times(frames)]
+        for tracker, frames in pooled.items()
+    ]
+    second: list[list[Cell]] = []
+    for tracker, frames in pooled.items():
+        found = reliability(frames)
+        for index, (low, high) in enumerate(zip(found.edges[:-1], found.edges[1:], strict=True)):
+            means = float(found.scores[index]), float(found.overlaps[index])
+            second.append([tracker, f"{low:.1f} to {high:.1f}", *means, int(found.counts[index])])
+    return [
+        markdown(["tracker", "frames", *SUMMARY, *TIMES], first),
+        markdown(["tracker", "score", "mean score", "on target", "frames"], second),
+    ]
+
+
+def times(frames: FrameResults) -> list[float]:
+    """TIMES: milliseconds of the updates that end TRACKED, and of all others."""
+    return [
+        float(1e3 * percentile)
+        for status in (frames.tracked, ~frames.tracked)
+        for percentile in _percentiles(frames, status)
+    ]
+
+
+def _percentiles(frames: FrameResults, chosen: Flags) -> Sequence[float]:
+    seconds = frames.seconds[chosen & ~np.isnan(frames.seconds)]
+    return np.percentile(seconds, [50, 99]).tolist() if seconds.size else [float("nan")] * 2
+
+
+def csv_rows(results: Iterable[SequenceResult]) -> list[list[Cell]]:
+    """CSV_COLUMNS: a line a tracker, sequence and protocol."""
+    rows: list[list[Cell]] = []
+    for each in results:
+        for protocol in PROTOCOLS:
+            if runs := each.runs_of(protocol):
+                frames = FrameResults.pooled(runs)
+                numbers = each.auc(protocol), *summarize(frames), frames.milliseconds
+                rows.append(
+                    [each.tracker, each.sequence, protocol, len(runs), len(frames.overlaps), *numbers]
+                )
+    return rows

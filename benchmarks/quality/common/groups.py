@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""The recorded color sequences by what they show, and which of them are of one recording."""
+
+from collections.abc import Iterable, Mapping
+
+ALL, UNLISTED = "all", "other"
+TUNED = ("Couple", "Crossing", "David", "FaceOcc2", "Football1", "Girl")
+PEOPLE = (
+    *("BeachRunner", "Bolt", "Couple", "Crossing", "Cyclist", "Diving", "Human3", "Human7", "OneOfGroup"),
+    *("RoadUser", "Skiing", "StreetWalker", "Wakeboarder", "WalkerFromAbove", "Woman"),
+)
+FACES = ("David", "FaceOcc2", "Football1", "Girl", "Jumping")
+CARS = ("BlurredCar", "Car1", "CarFromAbove", "NightVehicle")
+ANIMALS = ("Gull", "Panda")
+OBJECTS = ("Boat", "HandBook", "MotorRolling", "PlasticBag")
+OTB_REST = ("Bolt", "Car1", "Diving", "Human3", "Human7", "Jumping", "MotorRolling", "Skiing", "Woman")
+DRONES = (
+    *("BeachRunner", "Boat", "CarFromAbove", "Gull", "NightVehicle", "OneOfGroup", "Wakeboarder"),
+    "WalkerFromAbove",
+)
+LISTED = (*PEOPLE, *FACES, *CARS, *ANIMALS, *OBJECTS)
+GROUPS: Mapping[str, frozenset[str]] = {
+    "tuned": frozenset(TUNED),  # the parameters of version 0.1.0 were chosen on these
+    "others": frozenset(LISTED) - frozenset(TUNED),
+    "OTB": frozenset((*TUNED, *OTB_REST)),
+    "gray": frozenset(("Car1", "FaceOcc2", "Jumping")),
+    "drones": frozenset(DRONES),  # from the air: one, of a car, perhaps from a helicopter
+    "people": frozenset(PEOPLE),  # whole, also those who ride
+    "faces": frozenset(FACES),  # and heads
+    "cars": frozenset(CARS),
+    "animals": frozenset(ANIMALS),
+    "objects": frozenset(OBJECTS),
+}
+"""A sequence may be in several."""
+RECORDINGS: Mapping[str, str] = {"StreetWalker": "Couple"}
+"""Of sequences that show the same recording as another one, that other one."""
+
+
+def members(sequences: Iterable[str]) -> dict[str, list[str]]:
+    """The sequences of each group that has any: of ALL, of GROUPS, and of UNLISTED those in none of these."""
+    names = list(sequences)
+    listed = frozenset[str]().union(*GROUPS.values())
+    found = {ALL: names}
+    found |= {group: [name for name in names if base(name) in own] for group, own in GROUPS.items()}
+    found[UNLISTED] = [name for name in names if base(name) not in listed]
+    return {group: own for group, own in found.items() if own}
+
+
+def recording(sequence: str) -> str:
+    """The name that all sequences of one recording share."""
+    folder, slash, name = sequence.rpartition("/")
+    return f"{folder}{slash}{RECORDINGS.get(name, name)}"
+
+
+def base(sequence: str) -> str:
+    """A sequence's name without its folder's."""
+    return sequence.rpartition("/")[2]

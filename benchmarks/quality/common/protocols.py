@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""Protocols on recorded video: in which orders a tracker sees the frames of a sequence.
+
+"forward" and "backward" are one pass each over the whole sequence; "starts" are eight runs, from 0, 1/4, 1/2
+and 3/4 of the sequence to its end and the same on the reversed sequence; "third" is one pass over every third
+frame. A run starts on the first of its frames with a true box.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.evaluation import one_pass
+from tricue.evaluation.dataset import OpenedSequence
+from tricue.evaluation.rows import clip_to_image
+
+from benchmarks.quality.common.frame_results import FrameResults
+from benchmarks.quality.common.variants import Variant
+
+
+class Order(NamedTuple):
+    """The frames of a run. start: the share of the sequence that it leaves out at first. step: every how many
+    frames it sees one.
+    """
+
+    start: float = 0.0
+    backward: bool = False
+    step: int = 1
+
+    def numbers(self, frames: int) -> NDArray[np.intp]:
+        """The frames' numbers in the order in which the tracker sees them."""
+        way = np.arange(frames)[:: -1 if self.backward else 1]
+        return way[int(self.start * frames) :: self.step]
+
+
+PROTOCOLS: Mapping[str, tuple[Order, ...]] = {
+    "forward": (Order(),),
+    "backward": (Order(backward=True),),
+    "starts": tuple(Order(start, backward) for start in (0, 0.25, 0.5, 0.75) for backward in (False, True)),
+    "third": (Order(step=3),),
+}
+ORDERS = tuple(dict.fromkeys(order for orders in PROTOCOLS.values() for order in orders))
+"""Each order once: a run may belong to several protocols."""
+
+
+def run_orders(
+    variant: Variant, opened: OpenedSequence, frames: Sequence[Frame]
+) -> Mapping[Order, FrameResults]:
+    """The tracker's runs in all orders that leave two frames or more from the first true box on."""
+    found = {order: run_order(variant, opened, frames, order.numbers(len(frames))) for order in ORDERS}
+    return {order: run for order, run in found.items() if run is not None}
+
+
+def run_order(
+    variant: Variant, opened: OpenedSequence, frames: Sequence[Frame], numbers: NDArray[np.intp]
+) -> FrameResults | None:
+    """Track through the frames of these numbers, from the first with a true box; None where fewer than two
+    are left.
+    """
+    truth, absent = opened.truth(len(frames)), opened.absent(len(frames))
+    known = ~np.isnan(truth[numbers]).any(axis=1)
+    numbers = numbers[int(np.argmax(known)) :] if known.any() else numbers[:0]
+    if len(numbers) < 2:
+        return None
+    tracker = variant.make(opened)
+    run = one_pass.run(tracker, (frames[number] for number in numbers), Box(*truth[numbers[0]].tolist()))
+    return FrameResults.of(run, clip_to_image(run.boxes, opened), truth[numbers], absent[numbers])

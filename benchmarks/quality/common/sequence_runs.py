@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: MIT
+"""Trackers on whole recorded sequences: each is decoded once, for all trackers and all protocols."""
+
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from tricue.evaluation.dataset import Entry, find_entries
+
+from benchmarks.quality.common.frame_results import FrameResults
+from benchmarks.quality.common.parallel import run_parallel
+from benchmarks.quality.common.protocols import PROTOCOLS, Order, run_orders
+from benchmarks.quality.common.tables import mean
+from benchmarks.quality.common.variants import Variant
+
+
+class SequenceTask(NamedTuple):
+    """A sequence, and the trackers to run on it."""
+
+    entry: Entry
+    variants: Sequence[Variant]
+
+
+class SequenceResult(NamedTuple):
+    """One tracker on a sequence: its runs. unsupported: why there are none, or ""."""
+
+    tracker: str
+    sequence: str
+    runs: Mapping[Order, FrameResults]
+    unsupported: str = ""
+
+    def runs_of(self, protocol: str) -> list[FrameResults]:
+        """The runs of a protocol, as far as the sequence is long enough for them."""
+        return [self.runs[order] for order in PROTOCOLS[protocol] if order in self.runs]
+
+    def auc(self, protocol: str) -> float:
+        """The mean over the runs of a protocol; NaN without one."""
+        return mean([run.auc for run in self.runs_of(protocol)])
+
+
+def find_tasks(variants: Sequence[Variant], root: Path, only: Sequence[str] = ()) -> list[SequenceTask]:
+    """The sequences at or under a folder, all or some, by name. ValueError for a name that isn't there."""
+    entries = find_entries(root)
+    names = [each.name for each in entries]
+    if unknown := [name for name in only if name not in names]:
+        raise ValueError(f"--only: expected some of {', '.join(names)}, got {unknown[0]!r}")
+    return [SequenceTask(entry, variants) for entry in entries if not only or entry.name in only]
+
+
+def run_sequences(tasks: Sequence[SequenceTask], jobs: int) -> list[SequenceResult]:
+    """The results in the order of the tasks. The longest sequences run first, so that all processes end
+    together. What can't run is named on stderr.
+    """
+    lengths = [len(task.entry.open().boxes) for task in tasks]
+    longest_first = sorted(range(len(tasks)), key=lambda index: -lengths[index])
+    found = run_parallel(run_sequence, [tasks[index] for index in longest_first], jobs)
+    by_index = dict(zip(longest_first, found, strict=True))
+    results = [each for index in range(len(tasks)) for each in by_index[index]]
+    for each in results:
+        if each.unsupported:
+            print(f"left out {each.tracker} on {each.sequence}: {each.unsupported}", file=sys.stderr)
+    return results
+
+
+def run_sequence(task: SequenceTask) -> list[SequenceResult]:
+    """Decode a sequence, unless no tracker supports it, and run all trackers by all protocols."""
+    opened, name = task.entry.open(), task.entry.name
+    reasons = [variant.unsupported(opened) for variant in task.variants]
+    decoded = [] if all(reasons) else list(opened.source)
+    return [
+        SequenceResult(variant.label, name, {}, reason)
+        if reason
+        else SequenceResult(
+            variant.label, name, run_orders(variant, opened, list(map(variant.view(opened), decoded)))
+        )
+        for variant, reason in zip(task.variants, reasons, strict=True)
+    ]
+
+
+def by_tracker(results: Iterable[SequenceResult]) -> dict[str, list[SequenceResult]]:
+    """The results with runs, by tracker, in their order."""
+    found: dict[str, list[SequenceResult]] = {}
+    for each in results:
+        if each.runs:
+            found.setdefault(each.tracker, []).append(each)
+    return found
+
+
+def mean_auc(results: Iterable[SequenceResult], protocol: str) -> float:
+    """The mean of a protocol over sequences; NaN where none has a run of it."""
+    return mean([each.auc(protocol) for each in results])
+
+
+def pool(results: Iterable[SequenceResult]) -> FrameResults:
+    """All frames of all runs, each run once."""
+    return FrameResults.pooled([run for each in results for run in each.runs.values()])

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+import numpy as np
+import pytest
+
+from benchmarks.quality.common import color_tables
+from benchmarks.quality.common.frame_results import FrameResults
+from benchmarks.quality.common.protocols import ORDERS
+from benchmarks.quality.common.sequence_runs import SequenceResult
+
+
+def result(sequence, overlap, orders=ORDERS):
+    """The same run of two hundred frames in all orders: every other frame is TRACKED, in 1 ms to 100 ms, the
+    others aren't, in 0.5 ms.
+    """
+    tracked = np.arange(200) % 2 == 1
+    seconds = np.where(tracked, np.arange(200) // 2 + 1, 0.5) / 1e3
+    seconds[0] = np.nan
+    frames = FrameResults(
+        np.full(200, overlap), np.zeros(200, np.bool_), np.full(200, 0.75), tracked, seconds
+    )
+    return SequenceResult("fused", sequence, dict.fromkeys(orders, frames))
+
+
+def test_groups_have_the_mean_of_their_sequences():
+    """AUC of 0.5 is 10 of 21 thresholds, of 1 it is 20; a sequence without a protocol has no part in it."""
+    found = {"fused": [result("Couple", 0.5), result("Panda", 1.0, ORDERS[:1])]}
+    lines = color_tables.group_table(found).splitlines()
+    assert lines[0].startswith("| tracker | AUC | all (2) | tuned (1) | others (1) | OTB (1) | people (1) |")
+    assert lines[2].startswith("| fused | forward | 0.714 | 0.476 | 0.952 |")
+    assert lines[5].startswith("| fused | third | 0.476 | 0.476 | - |")
+    assert "| fused | Panda | 0.952 | - | 0.952 | - |" in color_tables.sequence_table(found)
+
+
+def test_times_by_status():
+    """Median and 99 % of the updates of each status; the first frame has no time."""
+    frames = result("Couple", 1.0).runs[ORDERS[0]]
+    assert color_tables.times(frames) == pytest.approx([50.5, np.percentile(np.arange(1, 101), 99), 0.5, 0.5])
+
+
+def test_frame_tables():
+    """The bin of the score has all frames; empty bins have none."""
+    summary, bins = color_tables.frame_tables({"fused": result("Couple", 1.0).runs[ORDERS[0]]})
+    assert "| fused | 200 | 0.000 | - | - | 0.500 | 0.250 | 0.250 | 50.500 |" in summary
+    assert "| fused | 0.7 to 0.8 | 0.750 | 1.000 | 200 |" in bins
+    assert "| fused | 0.0 to 0.1 | - | - | 0 |" in bins
+
+
+def test_csv_rows():
+    """A line a protocol that has runs, with all columns."""
+    rows = color_tables.csv_rows([result("Couple", 0.5), result("Panda", 1.0, ORDERS[:1])])
+    assert [(row[1], row[2], row[3]) for row in rows] == [
+        ("Couple", "forward", 1),
+        ("Couple", "backward", 1),
+        ("Couple", "starts", 8),
+        ("Couple", "third", 1),
+        ("Panda", "forward", 1),
+        ("Panda", "starts", 1),
+    ]
+    assert {len(row) for row in rows} == {len(color_tables.CSV_COLUMNS)}
+    assert rows[2][4] == 1600

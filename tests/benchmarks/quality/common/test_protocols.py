@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+import shutil
+
+import numpy as np
+from tricue.evaluation.dataset import Entry
+
+from benchmarks.quality.common.protocols import ORDERS, PROTOCOLS, run_order, run_orders
+from benchmarks.quality.common.variants import parse_variants
+
+
+def numbers(protocol, frames):
+    """The frames of each run."""
+    return [order.numbers(frames).tolist() for order in PROTOCOLS[protocol]]
+
+
+def test_orders():
+    """One pass on each way; every third frame; eight starts, four on each way, at the quarters."""
+    assert numbers("forward", 4) == [[0, 1, 2, 3]]
+    assert numbers("backward", 4) == [[3, 2, 1, 0]]
+    assert numbers("third", 8) == [[0, 3, 6]]
+    starts = numbers("starts", 4)
+    assert starts[::2] == [[0, 1, 2, 3], [1, 2, 3], [2, 3], [3]]
+    assert starts[1::2] == [[3, 2, 1, 0], [2, 1, 0], [1, 0], [0]]
+
+
+def test_each_order_runs_once():
+    """The passes are two of the eight starts."""
+    assert len(ORDERS) == len(set(ORDERS)) == 9
+    assert {*PROTOCOLS["forward"], *PROTOCOLS["backward"]} < set(PROTOCOLS["starts"])
+
+
+def test_a_start_waits_for_truth(folders, tmp_path):
+    """Frames before the first true box aren't tracked; a run of fewer than two frames doesn't count."""
+    folder = shutil.copytree(folders / "there", tmp_path / "there")
+    lines = (folder / "groundtruth_rect.txt").read_text().splitlines()
+    (folder / "groundtruth_rect.txt").write_text("\n".join(["NaN,NaN,NaN,NaN"] * 3 + lines[3:]))
+    (variant,) = parse_variants(["still-box"])
+    opened = Entry("there", folder).open()
+    frames = list(opened.source)
+    results = run_order(variant, opened, frames, np.arange(20))
+    assert len(results.overlaps) == 17
+    assert results.overlaps[0] == 1
+    assert run_order(variant, opened, frames, np.arange(4)) is None
+    assert run_order(variant, opened, frames, np.arange(3)) is None
+    # With truth from the fourth of five frames on, backward starts behind it and "third" have no run.
+    ran = [order for order in ORDERS if order in run_orders(variant, opened, frames[:5])]
+    assert [order.start for order in ran if not order.backward] == [0, 0.25, 0.5, 0.75]
+    assert [order.start for order in ran if order.backward] == [0, 0.25]
+    assert {order.step for order in ran} == {1}
