@@ -29,6 +29,8 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
 
 def expose(picture: Picture, noise: float, rng: np.random.Generator) -> NDArray[np.uint8]:
     """The 8-bit image of a sensor with Gaussian noise, clipped to 0 to 255. noise: deviation in levels."""
-    noisy = picture + np.float32(noise) * rng.standard_normal(picture.shape, dtype=np.float32)
-    image: NDArray[np.uint8] = np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
-    return image
+    noisy = rng.standard_normal(picture.shape, dtype=np.float32)
+    noisy *= np.float32(noise)
+    noisy += picture
+    np.rint(noisy, out=noisy)
+    return np.clip(noisy, 0, 255, out=noisy).astype(np.uint8)

@@ -99,26 +99,25 @@ class RayCamera(NamedTuple):
         x, y = self._rays(*place)
         normal = np.cross(rectangle.along, rectangle.down)
         from_camera = rectangle.corner - [self.offset, 0, 0]
+        # Of upright rectangles and floors, z and most of u and v vary along one axis: (1, w) or (h, 1).
         with np.errstate(divide="ignore", invalid="ignore"):
-            z = np.float32(normal @ from_camera) / (normal[0] * x + normal[1] * y + normal[2]).astype(
-                np.float32
-            )
+            z = np.float32(normal @ from_camera) / _along_rays(normal, x, y).astype(np.float32)
             u, v = (
-                (z * (side[0] * x + side[1] * y + side[2]) - side @ from_camera) / (side @ side)
+                (z * _along_rays(side, x, y) - side @ from_camera) / (side @ side)
                 for side in (rectangle.along, rectangle.down)
             )
         seen = (
-            (z > MIN_RAY_DEPTH)
-            & (z < canvas.depth[place])
-            & (np.abs(u - 0.5) <= 0.5)
+            ((z > MIN_RAY_DEPTH) & (np.abs(u - 0.5) <= 0.5))
             & (np.abs(v - 0.5) <= 0.5)
+            & (z < canvas.depth[place])
         )
         if not seen.any():
             return
         # The texture's level fits the median ray; on a tilted rectangle finer detail may alias.
         texels = rectangle.texture[0].shape[1] / float(np.linalg.norm(rectangle.along)) / camera.fx
+        z = np.broadcast_to(z, seen.shape)
         away = float(np.median(z[seen])) if len(rectangle.texture) > 1 else 1.0
-        u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
+        u, v = (np.where(seen, share.astype(np.float32), np.float32(0)) for share in (u, v))
         color = sample_texture(rectangle.texture, u, v, texels * away)
         canvas.write(color, z, seen, place)
 
@@ -142,12 +141,12 @@ class RayCamera(NamedTuple):
             np.float32(row[0]) * x + (np.float32(row[1]) * y + np.float32(row[2])) for row in ellipsoid.unit
         ]
         depth = _first_hit(rays, to_center)
-        hit = np.isfinite(depth)
-        safe = np.where(hit, depth, 0)
-        q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
-        color = self._texture(ellipsoid, q) * _shade(q, ellipsoid.unit, lamp)[..., None]
-        seen = hit & (depth < canvas.depth[place])
-        canvas.write(color, depth, seen, place)
+        seen = depth < canvas.depth[place]  # never where the ray misses: nothing is beyond infinity
+        if seen.any():
+            safe = np.where(seen, depth, np.float32(0))
+            q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
+            color = self._texture(ellipsoid, q) * _shade(q, ellipsoid.unit, lamp)[..., None]
+            canvas.write(color, depth, seen, place)
         return DrawnEllipsoid(place, depth)
 
     def average_rays(self, canvas: RayImage) -> Picture:
@@ -215,6 +214,12 @@ class RayCamera(NamedTuple):
         x = (np.arange(columns.start, columns.stop) - camera.cx) / camera.fx
         y = (np.arange(rows.start, rows.stop) - camera.cy) / camera.fy
         return x[None, :].astype(np.float32), y[:, None].astype(np.float32)
+
+
+def _along_rays(vector: Array, x: Picture, y: Picture) -> Array:
+    """A vector (3,) times the rays (x, y, 1): (h, w), with 1 for an axis along which it is constant."""
+    parts = [share * axis for share, axis in zip(vector, (x, y), strict=False) if share]
+    return np.asarray(sum(parts) + vector[2])
 
 
 def _first_hit(rays: Sequence[Picture], to_center: Array) -> Picture:
