@@ -2,7 +2,7 @@
 import csv
 import sys
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from itertools import combinations
 
 import cv2
@@ -55,6 +55,9 @@ def test_figure_is_drawn_and_progress_reported(name, tmp_path, monkeypatch):
     """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""
     if name != "sabeti-fig2":  # whose figure shows late frames
         shorten(name, 60 if name == "sabeti-depth" else FRAMES, monkeypatch)
+    experiment = reproduce.EXPERIMENTS[name]
+    shared = {scene: cache(make) for scene, make in experiment.scenes.items()}  # by curves and figure
+    monkeypatch.setitem(reproduce.EXPERIMENTS, name, replace(experiment, scenes=shared))
     calls = []
     report = reproduce.run(name, 1, tmp_path, progress=lambda *done: calls.append(done), models=STILL)
     scenes = reproduce.EXPERIMENTS[name].scenes
