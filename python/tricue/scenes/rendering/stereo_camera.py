@@ -7,6 +7,7 @@ left camera's, x right, y down, z forward, meters.
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -156,7 +157,7 @@ class RayCamera(NamedTuple):
         return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR_DEVIATION, borderType=cv2.BORDER_REPLICATE))
 
     def _texture(self, ellipsoid: TexturedEllipsoid, q: Sequence[Picture]) -> Picture:
-        longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.clip(q[1], -1, 1))
+        longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.minimum(np.maximum(q[1], -1), 1))
         u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
         girth = (
             2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))
@@ -210,10 +211,18 @@ class RayCamera(NamedTuple):
 
     def _rays(self, rows: slice, columns: slice) -> tuple[Picture, Picture]:
         """x (1, w) and y (h, 1) of the rays (x, y, 1)."""
-        camera = self.intrinsics
-        x = (np.arange(columns.start, columns.stop) - camera.cx) / camera.fx
-        y = (np.arange(rows.start, rows.stop) - camera.cy) / camera.fy
-        return x[None, :].astype(np.float32), y[:, None].astype(np.float32)
+        x, y = _all_rays(self.intrinsics)
+        return x[:, columns], y[rows]
+
+
+@lru_cache(maxsize=8)
+def _all_rays(camera: Intrinsics) -> tuple[Picture, Picture]:
+    """x (1, w) and y (h, 1) of a whole image's rays (x, y, 1)."""
+    x = ((np.arange(camera.width) - camera.cx) / camera.fx)[None, :].astype(np.float32)
+    y = ((np.arange(camera.height) - camera.cy) / camera.fy)[:, None].astype(np.float32)
+    x.setflags(write=False)
+    y.setflags(write=False)
+    return x, y
 
 
 def _along_rays(vector: Array, x: Picture, y: Picture) -> Array:
@@ -243,7 +252,10 @@ def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
     """The brightness of each point by Lambert's law; its normal is along unit^T q."""
     gram, toward = unit @ unit.T, unit @ lamp.direction
     along = sum(q[i] * np.float32(toward[i]) for i in range(3))
-    square = sum(q[i] * q[j] * np.float32(gram[i, j]) for i in range(3) for j in range(3) if gram[i, j])
+    pairs = {
+        (i, j): q[i] * q[j] * np.float32(gram[i, j]) for i in range(3) for j in range(i, 3) if gram[i, j]
+    }
+    square = sum(pairs[min(i, j), max(i, j)] for i in range(3) for j in range(3) if gram[i, j])
     lambert = np.maximum(along / np.sqrt(np.maximum(square, 1e-9)), 0)
     return np.asarray(lamp.ambient + (1 - lamp.ambient) * lambert, np.float32)
 
