@@ -261,7 +261,8 @@ def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
 
 
 def expose_lit(
-    image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator
+    image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator | None
 ) -> NDArray[np.uint8]:
     """The 8-bit image of a picture (H, W, 3) under light of a gain (3,) per channel, with noise, clipped."""
-    return expose(np.asarray(image * gain, np.float32), noise, rng)
+    lit = image if (gain == 1).all() else np.asarray(image * gain, np.float32)
+    return expose(lit, noise, rng)
