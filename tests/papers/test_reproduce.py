@@ -101,6 +101,7 @@ def test_experiments_compare_all_observation_models():
     assert all(a != b for a, b in combinations(keywords, 2))
 
 
+@pytest.mark.slow
 def test_face_is_held_over_clutter(tmp_path, monkeypatch):
     """On two backgrounds the defaults stay within 3 px, and no color model but spatial ranks does."""
     experiment = reproduce.EXPERIMENTS["sabeti-fig1"]
@@ -114,6 +115,7 @@ def test_face_is_held_over_clutter(tmp_path, monkeypatch):
     assert all(other > 3 for other in others)
 
 
+@pytest.mark.slow
 def test_face_is_held_when_the_light_changes(tmp_path):
     """The defaults and spatial ranks keep IoU above 0.5 on 95 % of the frames, the histogram less."""
     overlaps = {model: [] for model in reproduce.EXPERIMENTS["sabeti-fig2"].models}
