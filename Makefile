@@ -18,7 +18,7 @@ demo: $(VENV)/demo
 	$(BIN)/tricue demo
 
 test: $(VENV)/dev
-	$(BIN)/python -m pytest $(PARALLEL)
+	$(BIN)/python -m pytest $(PARALLEL) -m "not slow"
 
 setup: $(VENV)/dev
 

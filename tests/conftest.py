@@ -2,6 +2,7 @@
 """Fixtures that all tests share."""
 
 import functools
+import gc
 import inspect
 import os
 import pickle
@@ -28,6 +29,12 @@ ROOT = Path(__file__).parents[1]
 # Sanitizers and busy machines are slow, and no reason to fail.
 hypothesis.settings.register_profile("patient", hypothesis.settings.default, deadline=None)
 hypothesis.settings.load_profile("patient")
+
+
+def pytest_collection_finish() -> None:
+    """Keep the garbage collector off the collected tests: of 13,000 that saves 3 % of the time."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(params=os.environ.get("TRICUE_KERNELS", "native,reference").split(","), scope="session")

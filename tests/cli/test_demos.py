@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +21,8 @@ pytest.importorskip("matplotlib", reason="the plot needs matplotlib: pip install
 
 def once(make: Callable[..., Any], *arguments: Any, **keywords: Any) -> Callable[[int], Any]:
     """Makes the scene of a seed once; the demo and the test look at the same."""
-    return cache(lambda seed: make(*arguments, seed=seed, **keywords))
+    made = cache(partial(make, *arguments, **keywords))
+    return lambda seed: made(seed=seed)
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import cv2
@@ -173,13 +174,15 @@ def test_a_damaged_image_leaves_whole_files(
 
 
 def test_demo_writes_a_table_a_video_and_a_plot(
-    drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    drift_tracker: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """It proves that demo measures a tracker, even a hopeless one, on every scene, and writes its files."""
     pytest.importorskip("skimage")
     pytest.importorskip("matplotlib")
+    from tricue import scenes
     from tricue.scenes import BACKGROUNDS
 
+    monkeypatch.setattr(scenes, "face_over_clutter", partial(scenes.face_over_clutter, frames=40))
     assert main(["demo", drift_tracker, "--output", str(tmp_path / "demo")]) == 0
     printed = capsys.readouterr().out
     rows = [line.split() for line in printed.splitlines() if line.split(" ")[0] in BACKGROUNDS]
@@ -187,7 +190,7 @@ def test_demo_writes_a_table_a_video_and_a_plot(
     assert all(float(row[1]) > 25 for row in rows)  # it only drifts to the right
     assert cv2.imread(str(tmp_path / "demo" / "drift.png")) is not None
     capture = cv2.VideoCapture(str(tmp_path / "demo" / "drift.mp4"))
-    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == 90 * len(BACKGROUNDS)
+    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == 40 * len(BACKGROUNDS)
 
 
 @pytest.mark.parametrize("extra", ["skimage", "matplotlib"])
@@ -238,7 +241,7 @@ def test_opencv_keeps_quiet(tmp_path: Path) -> None:
     assert failed.stderr.count("\n") == 1
 
 
-def long_video(path: Path, frames: int = 4000) -> Path:
+def long_video(path: Path, frames: int = 2000) -> Path:
     """A bright square that wanders over noise, 64x48."""
     noise = np.random.default_rng(0).integers(0, 256, (48, 64, 3), np.uint8)
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
@@ -270,7 +273,7 @@ def test_ctrl_c_leaves_whole_files(tmp_path: Path) -> None:
     assert process.returncode == 130, error
     assert "until interrupted" in printed
     rows = read_csv(out["csv"])
-    assert 0 < len(rows) < 4000
+    assert 0 < len(rows) < 2000
     assert len(json.loads(out["json"].read_text())["tracks"]) == len(rows)
     capture = cv2.VideoCapture(str(out["mp4"]))
     assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == len(rows)

@@ -2,7 +2,7 @@
 import csv
 import sys
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from itertools import combinations
 
 import cv2
@@ -55,6 +55,9 @@ def test_figure_is_drawn_and_progress_reported(name, tmp_path, monkeypatch):
     """Each experiment writes a figure with content, runs every scene, and counts them up to the last."""
     if name != "sabeti-fig2":  # whose figure shows late frames
         shorten(name, 60 if name == "sabeti-depth" else FRAMES, monkeypatch)
+    experiment = reproduce.EXPERIMENTS[name]
+    shared = {scene: cache(make) for scene, make in experiment.scenes.items()}  # by curves and figure
+    monkeypatch.setitem(reproduce.EXPERIMENTS, name, replace(experiment, scenes=shared))
     calls = []
     report = reproduce.run(name, 1, tmp_path, progress=lambda *done: calls.append(done), models=STILL)
     scenes = reproduce.EXPERIMENTS[name].scenes
@@ -98,6 +101,7 @@ def test_experiments_compare_all_observation_models():
     assert all(a != b for a, b in combinations(keywords, 2))
 
 
+@pytest.mark.slow
 def test_face_is_held_over_clutter(tmp_path, monkeypatch):
     """On two backgrounds the defaults stay within 3 px, and no color model but spatial ranks does."""
     experiment = reproduce.EXPERIMENTS["sabeti-fig1"]
@@ -111,6 +115,7 @@ def test_face_is_held_over_clutter(tmp_path, monkeypatch):
     assert all(other > 3 for other in others)
 
 
+@pytest.mark.slow
 def test_face_is_held_when_the_light_changes(tmp_path):
     """The defaults and spatial ranks keep IoU above 0.5 on 95 % of the frames, the histogram less."""
     overlaps = {model: [] for model in reproduce.EXPERIMENTS["sabeti-fig2"].models}

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
@@ -61,6 +61,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
     )
 
 
+@settings(max_examples=40)  # the twin is slow
 @given(st.integers(0, 2**32))
 def test_mean_is_met(seed: int) -> None:
     """A histogram that stays clear of the ends gets the mean that was asked for, and keeps its sum."""

@@ -7,7 +7,7 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
@@ -68,6 +68,7 @@ def shifted_pair(disparity: float, blur: float) -> tuple[Image, Image]:
     return seen(300), seen(300 + shift)
 
 
+@settings(max_examples=50)  # the twin is slow
 @given(st.integers(0, 2**32))
 def test_twin_matches_the_same(seed: int) -> None:
     """Native and reference agree to the last bit: whole costs, and one float32 division and sum."""
@@ -81,8 +82,9 @@ def test_twin_matches_the_same(seed: int) -> None:
 def test_twin_matches_the_same_at_any_width(width: int, window: int) -> None:
     """They also agree on rows that fill registers or nearly do, whether all candidates are in view or not."""
     left, right = clouds(0, (12, 170)), clouds(1, (12, 170))
+    last = 40 if window < 9 else 20  # the twin takes each pixel of a window by itself
     for x in (2, 66):
-        arguments = (left, right, (x, 3, x + width, 5), False, 1, 40, window, 10)
+        arguments = (left, right, (x, 3, x + width, 5), False, 1, last, window, 10)
         assert_array_equal(_core.sad_disparity(*arguments), reference.sad_disparity(*arguments))
 
 

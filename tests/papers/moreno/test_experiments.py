@@ -51,6 +51,7 @@ def test_modules_add_up_to_the_update():
     assert min(curve.seconds.values()) > 0
 
 
+@pytest.mark.slow
 def test_perturbed_disparities_degrade_the_unfused_track():
     """0.3 px are twice the unfused error or more, as there is nothing that averages them."""
     make, errors = EXPERIMENT.models["unfused"], []
@@ -109,6 +110,7 @@ def test_slow_scenes_run_from_fewer_seeds(tmp_path, monkeypatch):
     assert ends == ["2", "2", "1"]
 
 
+@pytest.mark.slow
 def test_default_follows_and_the_printed_form_does_not():
     """In swinging light the default keeps every head and is within 1.2 % of the distance, as printed loses
     some of them.

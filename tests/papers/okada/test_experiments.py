@@ -91,6 +91,7 @@ def test_key_frames_are_in_the_scene(scene):
     assert walk_figures.key_frames(overtaking(0, frames=2)) == (1,)
 
 
+@pytest.mark.slow
 def test_both_cues_follow_through_the_occlusion(rendered):
     """With the default the targets of three plain scenes are tracked, reported hidden and recovered in time.
 

@@ -110,6 +110,7 @@ def test_scenes_are_those_of_the_paper_and_harder_ones():
     ]
 
 
+@pytest.mark.slow
 def test_default_follows_and_the_printed_form_does_not(tmp_path, monkeypatch):
     """Through one occlusion the default keeps the right person, within 10 cm; as printed it is on nobody at
     the end of each run, and several times as far off on the way.

@@ -10,7 +10,7 @@ pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tri
 from tricue.scenes.stress.scene import stress_scene
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=6)
 def scene(kind, seed, channels):
     """A scene, without noise in its color images."""
     return stress_scene(kind, seed, channels=channels, noise=0)
@@ -47,7 +47,7 @@ def test_depth_is_whole_millimeters_of_a_sensor_with_gaps():
     assert np.median(depth[known]) > 4  # mostly the wall
 
 
-@pytest.mark.parametrize(("kind", "seed"), [("scale", 1), ("camera", 2), ("plain", 0)])
+@pytest.mark.parametrize(("kind", "seed"), [("scale", 1), ("camera", 2), ("plain", 1)])
 def test_disparity_is_focal_length_times_baseline_over_distance(kind, seed):
     """A patch of the target's middle in the left image is found in the right one at f b / Z, subpixel."""
     made = scene(kind, seed, "stereo")
@@ -62,10 +62,9 @@ def test_disparity_is_focal_length_times_baseline_over_distance(kind, seed):
         assert disparity(frame.color, frame.right, u, v, half, round(true)) == pytest.approx(true, abs=0.35)
 
 
-@pytest.mark.parametrize("seed", [1, 0])
-def test_depth_and_disparity_of_the_wall_agree(seed):
+def test_depth_and_disparity_of_the_wall_agree():
     """Where nothing but the wall is, f b / disparity is what the depth camera measures."""
-    stereo, depth = (scene("plain", seed, channels) for channels in ("stereo", "depth"))
+    stereo, depth = (scene("plain", 1, channels) for channels in ("stereo", "depth"))
     (u, v), half = (80, 40), 20
     around = np.s_[v - half : v + half + 1, u - half - 15 : u + half + 1]
     assert not depth.masks[0][around].any()

@@ -3,6 +3,7 @@
 edge.
 """
 
+import gc
 import tracemalloc
 from collections.abc import Sequence
 from pathlib import Path
@@ -146,6 +147,7 @@ def test_memory_stays_as_it_is(scene: Scene):
     def updates(rounds: int) -> int:
         for frame in rounds * cycle:
             tracker.update(frame)
+        gc.collect()
         return tracemalloc.get_traced_memory()[0]
 
     tracemalloc.start()

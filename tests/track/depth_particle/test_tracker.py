@@ -333,6 +333,7 @@ def test_memory_stays_as_it_is(passing: DepthScene):
         for frame in rounds * cycle:
             tracker.update(frame)
         gc.collect()
+        gc.collect()
         return tracemalloc.get_traced_memory()[0]
 
     tracemalloc.start()

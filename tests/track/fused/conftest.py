@@ -2,7 +2,6 @@
 """Stress scenes, each rendered once, with whatever channels a test asks for."""
 
 from collections.abc import Callable, Sequence
-from functools import cache
 
 import pytest
 from tricue import Frame
@@ -18,15 +17,15 @@ ALONE = ("leaving", "lookalike")  # kinds that are drawn without a right image, 
 
 
 @pytest.fixture(scope="session")
-def drawn() -> Callable[..., object]:
+def drawn(rendered: Callable[..., object]) -> Callable[..., object]:
     """A scene by its kind, seed and channels; "stereo" knows the rig, and all have the same truth."""
     pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
     from tricue.scenes.stress.scene import stress_scene
 
-    draw = cache(lambda kind, seed, channels: stress_scene(kind, seed, channels=channels))
-
     def scene(kind: str, seed: int = 0, channels: str = "") -> object:
-        return draw(kind, seed, channels or ("rgbd" if kind in ALONE else "stereo"))
+        return rendered(
+            stress_scene, kind, seed, channels=channels or ("rgbd" if kind in ALONE else "stereo")
+        )
 
     return scene
 

@@ -82,7 +82,7 @@ ANYWHERE = [(x, y, z) for z in (0.8, 1.3, 2.0, 3.0) for x in (0.25, 0.5, 0.8) fo
 
 @pytest.mark.parametrize(
     ("kernels", "place"),
-    [("native", place) for place in ANYWHERE] + [("reference", place) for place in ANYWHERE[1::12]],
+    [("native", place) for place in ANYWHERE] + [("reference", place) for place in ANYWHERE[13:14]],
 )
 def test_a_head_is_found_anywhere(kernels, place):
     """Wherever a head is in the picture, and however far, the ellipse is on it, of its size, with its

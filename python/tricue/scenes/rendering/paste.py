@@ -27,8 +27,13 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
     return np.asarray(picture * (1 - share) + moved * share, dtype=np.float32)
 
 
-def expose(picture: Picture, noise: float, rng: np.random.Generator) -> NDArray[np.uint8]:
-    """The 8-bit image of a sensor with Gaussian noise, clipped to 0 to 255. noise: deviation in levels."""
-    noisy = picture + np.float32(noise) * rng.standard_normal(picture.shape, dtype=np.float32)
-    image: NDArray[np.uint8] = np.clip(np.rint(noisy), 0, 255).astype(np.uint8)
-    return image
+def expose(picture: Picture, noise: float, rng: np.random.Generator | None) -> NDArray[np.uint8]:
+    """The 8-bit image of a sensor with Gaussian noise, clipped to 0 to 255. noise: deviation in levels.
+
+    Without a generator there is no noise.
+    """
+    levels = np.zeros_like(picture) if rng is None else rng.standard_normal(picture.shape, dtype=np.float32)
+    levels *= np.float32(noise)
+    levels += picture
+    np.rint(levels, out=levels)
+    return np.clip(levels, 0, 255, out=levels).astype(np.uint8)

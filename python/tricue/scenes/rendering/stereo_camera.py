@@ -7,6 +7,7 @@ left camera's, x right, y down, z forward, meters.
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -99,26 +100,25 @@ class RayCamera(NamedTuple):
         x, y = self._rays(*place)
         normal = np.cross(rectangle.along, rectangle.down)
         from_camera = rectangle.corner - [self.offset, 0, 0]
+        # Of upright rectangles and floors, z and most of u and v vary along one axis: (1, w) or (h, 1).
         with np.errstate(divide="ignore", invalid="ignore"):
-            z = np.float32(normal @ from_camera) / (normal[0] * x + normal[1] * y + normal[2]).astype(
-                np.float32
-            )
+            z = np.float32(normal @ from_camera) / _along_rays(normal, x, y).astype(np.float32)
             u, v = (
-                (z * (side[0] * x + side[1] * y + side[2]) - side @ from_camera) / (side @ side)
+                (z * _along_rays(side, x, y) - side @ from_camera) / (side @ side)
                 for side in (rectangle.along, rectangle.down)
             )
         seen = (
-            (z > MIN_RAY_DEPTH)
-            & (z < canvas.depth[place])
-            & (np.abs(u - 0.5) <= 0.5)
+            ((z > MIN_RAY_DEPTH) & (np.abs(u - 0.5) <= 0.5))
             & (np.abs(v - 0.5) <= 0.5)
+            & (z < canvas.depth[place])
         )
         if not seen.any():
             return
         # The texture's level fits the median ray; on a tilted rectangle finer detail may alias.
         texels = rectangle.texture[0].shape[1] / float(np.linalg.norm(rectangle.along)) / camera.fx
+        z = np.broadcast_to(z, seen.shape)
         away = float(np.median(z[seen])) if len(rectangle.texture) > 1 else 1.0
-        u, v = (np.where(seen, share, 0).astype(np.float32) for share in (u, v))
+        u, v = (np.where(seen, share.astype(np.float32), np.float32(0)) for share in (u, v))
         color = sample_texture(rectangle.texture, u, v, texels * away)
         canvas.write(color, z, seen, place)
 
@@ -142,12 +142,12 @@ class RayCamera(NamedTuple):
             np.float32(row[0]) * x + (np.float32(row[1]) * y + np.float32(row[2])) for row in ellipsoid.unit
         ]
         depth = _first_hit(rays, to_center)
-        hit = np.isfinite(depth)
-        safe = np.where(hit, depth, 0)
-        q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
-        color = self._texture(ellipsoid, q) * _shade(q, ellipsoid.unit, lamp)[..., None]
-        seen = hit & (depth < canvas.depth[place])
-        canvas.write(color, depth, seen, place)
+        seen = depth < canvas.depth[place]  # never where the ray misses: nothing is beyond infinity
+        if seen.any():
+            safe = np.where(seen, depth, np.float32(0))
+            q = [safe * ray - np.float32(at) for ray, at in zip(rays, to_center, strict=True)]
+            color = self._texture(ellipsoid, q) * _shade(q, ellipsoid.unit, lamp)[..., None]
+            canvas.write(color, depth, seen, place)
         return DrawnEllipsoid(place, depth)
 
     def average_rays(self, canvas: RayImage) -> Picture:
@@ -157,7 +157,7 @@ class RayCamera(NamedTuple):
         return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR_DEVIATION, borderType=cv2.BORDER_REPLICATE))
 
     def _texture(self, ellipsoid: TexturedEllipsoid, q: Sequence[Picture]) -> Picture:
-        longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.clip(q[1], -1, 1))
+        longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.minimum(np.maximum(q[1], -1), 1))
         u, v = longitude * np.float32(0.5 / np.pi) + np.float32(0.5), latitude / np.float32(np.pi)
         girth = (
             2 * math.pi / float(np.linalg.norm(ellipsoid.unit[0]))
@@ -211,10 +211,24 @@ class RayCamera(NamedTuple):
 
     def _rays(self, rows: slice, columns: slice) -> tuple[Picture, Picture]:
         """x (1, w) and y (h, 1) of the rays (x, y, 1)."""
-        camera = self.intrinsics
-        x = (np.arange(columns.start, columns.stop) - camera.cx) / camera.fx
-        y = (np.arange(rows.start, rows.stop) - camera.cy) / camera.fy
-        return x[None, :].astype(np.float32), y[:, None].astype(np.float32)
+        x, y = _all_rays(self.intrinsics)
+        return x[:, columns], y[rows]
+
+
+@lru_cache(maxsize=8)
+def _all_rays(camera: Intrinsics) -> tuple[Picture, Picture]:
+    """x (1, w) and y (h, 1) of a whole image's rays (x, y, 1)."""
+    x = ((np.arange(camera.width) - camera.cx) / camera.fx)[None, :].astype(np.float32)
+    y = ((np.arange(camera.height) - camera.cy) / camera.fy)[:, None].astype(np.float32)
+    x.setflags(write=False)
+    y.setflags(write=False)
+    return x, y
+
+
+def _along_rays(vector: Array, x: Picture, y: Picture) -> Array:
+    """A vector (3,) times the rays (x, y, 1): (h, w), with 1 for an axis along which it is constant."""
+    parts = [share * axis for share, axis in zip(vector, (x, y), strict=False) if share]
+    return np.asarray(sum(parts) + vector[2])
 
 
 def _first_hit(rays: Sequence[Picture], to_center: Array) -> Picture:
@@ -238,13 +252,17 @@ def _shade(q: Sequence[Picture], unit: Array, lamp: Lamp) -> Picture:
     """The brightness of each point by Lambert's law; its normal is along unit^T q."""
     gram, toward = unit @ unit.T, unit @ lamp.direction
     along = sum(q[i] * np.float32(toward[i]) for i in range(3))
-    square = sum(q[i] * q[j] * np.float32(gram[i, j]) for i in range(3) for j in range(3) if gram[i, j])
+    pairs = {
+        (i, j): q[i] * q[j] * np.float32(gram[i, j]) for i in range(3) for j in range(i, 3) if gram[i, j]
+    }
+    square = sum(pairs[min(i, j), max(i, j)] for i in range(3) for j in range(3) if gram[i, j])
     lambert = np.maximum(along / np.sqrt(np.maximum(square, 1e-9)), 0)
     return np.asarray(lamp.ambient + (1 - lamp.ambient) * lambert, np.float32)
 
 
 def expose_lit(
-    image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator
+    image: Picture, gain: NDArray[np.float64], noise: float, rng: np.random.Generator | None
 ) -> NDArray[np.uint8]:
     """The 8-bit image of a picture (H, W, 3) under light of a gain (3,) per channel, with noise, clipped."""
-    return expose(np.asarray(image * gain, np.float32), noise, rng)
+    lit = image if (gain == 1).all() else np.asarray(image * gain, np.float32)
+    return expose(lit, noise, rng)

@@ -62,24 +62,23 @@ def make_noise(
     Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are longer along v and u.
     """
     spectrum = np.fft.rfft2(rng.standard_normal((height, width)))
-    spectrum /= _frequency_power(height, width, slope, stretch)
+    parts = spectrum.view(np.float64)  # a product of complex numbers would take three times as long
+    parts *= _amplitudes(height, width, slope, stretch)
     values = np.fft.irfft2(spectrum, s=(height, width))
     values /= values.std()
     return np.asarray(values, np.float32)
 
 
 @lru_cache(maxsize=32)
-def _frequency_power(
-    height: int, width: int, slope: float, stretch: tuple[float, float]
-) -> NDArray[np.float64]:
-    """frequency^slope of each coefficient of a real FFT (height, width // 2 + 1); infinite at 0."""
+def _amplitudes(height: int, width: int, slope: float, stretch: tuple[float, float]) -> NDArray[np.float64]:
+    """1 / frequency^slope, 0 at 0, of both parts of each coefficient: (height, 2 (width // 2 + 1))."""
     v = np.fft.fftfreq(height)[:, None] * stretch[0]
     u = np.fft.rfftfreq(width)[None, :] * stretch[1]
     frequency = np.hypot(v, u)
     frequency[0, 0] = np.inf
-    power = np.asarray(frequency**slope, np.float64)
-    power.setflags(write=False)
-    return power
+    amplitudes = np.repeat(1 / frequency**slope, 2, axis=1)
+    amplitudes.setflags(write=False)
+    return amplitudes
 
 
 def make_skin(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random.Generator) -> Picture:
@@ -95,7 +94,8 @@ def make_hair(shape: tuple[int, int], color: NDArray[np.float64], rng: np.random
         make_noise(*shape, 0.7, rng, stretch=(8.0, 1.0)),
         make_noise(*shape, 1.2, rng, stretch=(2.0, 1.0)),
     )
-    return np.asarray(color * (1 + 0.16 * strands + 0.12 * locks)[..., None], np.float32).clip(6)
+    hair = _colored(1 + 0.16 * strands + 0.12 * locks, color)
+    return np.maximum(hair, 6, out=hair)
 
 
 def make_head(looks: Looks, rng: np.random.Generator) -> Picture:
@@ -163,7 +163,7 @@ def make_surface(
     uneven = make_noise(*shape, 1.0, rng)
     if kind == WOOD_SURFACE:
         uneven = 0.4 * uneven + make_noise(*shape, 1.0, rng, stretch=(1.0, 12.0))
-    picture = np.asarray(color * (1 + 0.07 * uneven[..., None]), np.float32)
+    picture = _colored(1 + 0.07 * uneven, color)
     if kind == STRIPED_SURFACE:
         count = rng.integers(3, 14)
         phase = np.arange(shape[1]) / shape[1] * count % 1 < rng.uniform(0.3, 0.7)
@@ -175,7 +175,15 @@ def make_surface(
         picture *= cv2.resize(np.exp(tones), shape[::-1], interpolation=cv2.INTER_LINEAR)
     elif kind == CLUTTERED_SURFACE:
         _add_clutter(picture, rng)
-    return picture.clip(4, 250)
+    return np.clip(picture, 4, 250, out=picture)
+
+
+def _colored(brightness: Picture, color: NDArray[np.float64]) -> Picture:
+    """The picture (h, w, 3) of a brightness (h, w) times a color (3,), computed in double precision."""
+    picture = np.empty((*brightness.shape, 3), np.float32)
+    for channel, level in enumerate(color):
+        np.multiply(brightness, level, out=picture[..., channel], dtype=np.float64, casting="same_kind")
+    return picture
 
 
 def _add_clutter(picture: Picture, rng: np.random.Generator) -> None:

@@ -33,10 +33,8 @@ class Card(NamedTuple):
         cls, picture: NDArray[np.uint8] | Picture, outline: Array, size: tuple[float, float]
     ) -> "Card":
         """A card of an image (h, w, 3), cut along an outline."""
-        share = _opacity(outline, *picture.shape[:2])[..., None]
-        cut = np.empty((*picture.shape[:2], 4), np.float32)
-        np.multiply(picture, share, out=cut[..., :3])
-        cut[..., 3:] = share
+        share = _opacity(outline, *picture.shape[:2])
+        cut = np.asarray(cv2.merge([*(channel * share for channel in cv2.split(picture)), share]), np.float32)
         return cls(build_pyramid(cut), outline, size)
 
 

@@ -165,7 +165,7 @@ class _StressCameras(NamedTuple):
         else:
             color = (sharp or stage.draw(camera, index, index)).color
         blurred = np.asarray(cv2.GaussianBlur(color, (0, 0), BLUR_DEVIATION), np.float32)
-        return expose_lit(blurred, motion.light[index], self.noise, rng)
+        return expose_lit(blurred, motion.light[index], self.noise, rng if self.noise else None)
 
 
 def _measure(
