@@ -2,7 +2,7 @@
 #include "arrays.hpp"
 #include "cues/color/box_contrast.hpp"
 #include "cues/color/box_means.hpp"
-#include "cues/color/gradient_color_cells.hpp"
+#include "cues/color/hog_color_cells.hpp"
 #include "cues/color/sample_windows.hpp"
 #include "kernel_docs.hpp"
 
@@ -19,12 +19,12 @@ Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, in
     return give(std::move(samples), {each.rows(), rows, columns, 3});
 }
 
-Array<float> gradient_color_cells_arrays(const Bytes& patch, const Array<float>& taper) {
+Array<float> hog_color_cells_arrays(const Bytes& patch, const Array<float>& taper) {
     const auto view = color_image(patch, "patch");
     const auto weights = floats(taper, "taper", {-1, -1}, "float32 (R, C)");
     auto cells =
-        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return gradient_color_cells(view, weights); });
-    return give(std::move(cells), {11, weights.rows(), weights.cols()});
+        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return hog_color_cells(view, weights); });
+    return give(std::move(cells), {19, weights.rows(), weights.cols()});
 }
 
 PlaneView map(const Array<float>& plane) {
@@ -51,8 +51,8 @@ Array<double> box_means_arrays(const Array<float>& plane, double x, double y, co
 void define_patch(py::module_& m) {
     m.def("sample_windows", sample_windows_arrays, py::arg("image"), py::arg("windows"), py::arg("rows"),
           py::arg("columns"), docs::sample_windows);
-    m.def("gradient_color_cells", gradient_color_cells_arrays, py::arg("patch"), py::arg("taper"),
-          docs::gradient_color_cells);
+    m.def("hog_color_cells", hog_color_cells_arrays, py::arg("patch"), py::arg("taper"),
+          docs::hog_color_cells);
     m.def("box_contrast", box_contrast_arrays, py::arg("plane"), py::arg("width"), py::arg("height"),
           py::arg("outer"), py::arg("around"), docs::box_contrast);
     m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("x"), py::arg("y"), py::arg("widths"),

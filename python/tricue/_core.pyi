@@ -909,37 +909,6 @@ def flow_scale(
     is one round of sigma clipping.
     """
 
-def gradient_color_cells(
-    patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    Gradient orientations and colors of a patch in cells of 2 x 2 pixels: the features of a correlation
-    filter.
-
-    Planes 0 to 7: gradients towards 45 k degrees, x to the right and y down. A pixel's gradient g is a
-    central difference with the edge repeated, of the channel where it is longest, the first of equals.
-    With a its longer side and b the shorter, |g| b / a goes to the nearest diagonal bin and the rest to
-    the nearest straight one. The sums c_k over a cell's four pixels become
-        min(c_k / sqrt(Σ c_l² over the 3 x 3 cells around + 32²), 0.4)
-
-    where outside the patch its outermost cells are repeated; 32 levels keep noise from full contrast.
-    Planes 8 to 10: B, G, R in [0, 1], minus their means over the patch. All planes are multiplied by
-    the taper. All but the means is float32, summed over columns first, then over rows, and over bins
-    upwards.
-
-    Args:
-        patch: uint8 (2R, 2C, 3) BGR
-        taper: float32 (R, C), at least one cell
-
-    Returns:
-        float32 (11, R, C); in C++ the planes one below the other
-
-    Raises:
-        ValueError: on a patch of another size, or no cells
-
-    Source: Dalal, Triggs 2005, section 6; cells, colors and constants are ours.
-    """
-
 def gradient_disparity(
     left: numpy.typing.NDArray[numpy.uint8],
     right: numpy.typing.NDArray[numpy.uint8],
@@ -1071,6 +1040,49 @@ def histogram_mean(
         ValueError: on another size or other values
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, μ of equation (7).
+    """
+
+def hog_color_cells(
+    patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Histograms of oriented gradients (HOG), texture and colors of a patch in cells of 2 x 2 pixels: the
+    features of a correlation filter.
+
+    A pixel's gradient g is a central difference with the edge repeated, of the channel where it is
+    longest, the first of equals. Of eight bins, bin k stands for gradients towards 45 k degrees, x to
+    the right and y down. With a the longer side of g and b the shorter, b / a |g| goes to the nearest
+    diagonal bin and the rest to the nearest straight one. A pixel belongs to the cells around it by
+    bilinear weights: s_k is the sum of bin k over the 4 x 4 pixels around a cell, with the weights (1,
+    3, 3, 1) / 4 along each axis, and pixels outside of the patch count nothing. Of these come
+        u_k = s_k + s_{k+4}, k = 0..3, for gradients of either sign,
+        E = Σ u_k², the cell's energy,
+        n_j = 1 / sqrt(Σ E + 102²) over the 2 x 2 cells of block j, which has the cell in it.
+
+    j = 0..3 is the block to the upper left, upper right, lower left and lower right; where it reaches
+    out of the patch, the outermost cells are repeated. 102 gray levels keep noise from full contrast.
+    The planes:
+        0 to 7      Σ_j min(s_k n_j, 0.2) / 2
+        8 to 11     Σ_j min(u_k n_j, 0.2) / 2
+        12 to 15    0.2357 Σ_k min(s_k n_j, 0.2), for each j: texture
+        16 to 18    B, G, R in [0, 1], means of a cell's four pixels, minus their means over the patch
+
+    All planes are multiplied by the taper, last. All but the means is float32: b / a first; sums over 4
+    x 4 pixels as ((first + fourth) + 3 (second + third)), of columns first, then of rows, times 1 / 16;
+    sums over blocks of columns first, then of rows; over k and j upwards.
+
+    Args:
+        patch: uint8 (2R, 2C, 3) BGR
+        taper: float32 (R, C), at least one cell
+
+    Returns:
+        float32 (19, R, C); in C++ the planes one below the other
+
+    Raises:
+        ValueError: on a patch of another size, or no cells
+
+    Source: Dalal, Triggs 2005, section 6; Felzenszwalb, Girshick, McAllester, Ramanan 2010, section 6.
+    Cells of 2 x 2 pixels, eight bins by the ratio of the sides, the 102 levels and the colors are ours.
     """
 
 def joint_histogram(
@@ -2379,9 +2391,6 @@ class Kernels(Protocol):
         outliers: float,
         min_pixels: int,
     ) -> tuple[float, float, int]: ...
-    def gradient_color_cells(
-        self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
-    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def gradient_disparity(
         self,
         left: numpy.typing.NDArray[numpy.uint8],
@@ -2412,6 +2421,9 @@ class Kernels(Protocol):
     def histogram_mean(
         self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def hog_color_cells(
+        self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...

@@ -16,8 +16,8 @@ from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.ellipse_gradient import ellipse_gradient
 from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
-from tricue.reference.cues.color.gradient_color_cells import gradient_color_cells
 from tricue.reference.cues.color.histogram_mean import histogram_mean
+from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.rank_contrast import rank_contrast
@@ -102,10 +102,10 @@ __all__ = [
     "fill_gaps",
     "floor_plane",
     "flow_scale",
-    "gradient_color_cells",
     "gradient_disparity",
     "gradient_flow",
     "histogram_mean",
+    "hog_color_cells",
     "joint_histogram",
     "kalman_predict",
     "kalman_update",

@@ -396,7 +396,7 @@ def test_two_times_the_same_frame():
 
 KERNELS = {
     "sample_windows": "color",
-    "gradient_color_cells": "color",
+    "hog_color_cells": "color",
     "correlation_response": "color",
     "correlation_train": "color",
     "scale_response": "color",

@@ -31,8 +31,8 @@ class Window:
 
     @cached_property
     def cells(self) -> Plane:
-        """(11, 32, 32) orientations and colors of the cells, weighted by a Hann window."""
-        return self.observation.k.gradient_color_cells(self.patch, HANN_WINDOW)
+        """(19, 32, 32) orientations, texture and colors of the cells, weighted by a Hann window."""
+        return self.observation.k.hog_color_cells(self.patch, HANN_WINDOW)
 
     @cached_property
     def colors(self) -> Image:

@@ -17,7 +17,7 @@ Filter = tuple[NDArray[np.complex64], Plane]  # numerator and denominator
 class CorrelationFilterExpert(NamedTuple):
     """A filter on orientations and colors (Danelljan et al. 2014, Bolme et al. 2010).
 
-    learned: numerator (11, 32, 17) and denominator (32, 17), as they are learned. applied: two filters,
+    learned: numerator (19, 32, 17) and denominator (32, 17), as they are learned. applied: two filters,
     stacked: the learned one with a share of the first frame's, and the first frame's alone. label: spectrum
     of the desired response.
     """
