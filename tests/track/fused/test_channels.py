@@ -135,7 +135,7 @@ def test_color_that_is_lost_for_a_while(kind, run, follows, errors):
 
 def test_without_the_cue_depth_is_not_read(run):
     """Without the cue depth it gives the tracks of color alone, bit for bit, whatever else frames have."""
-    cues = ("filter", "color", "ranks", "edges", "flow")
+    cues = ("filter", "color", "size")
     color, *others = (run("plain", 25 * [name], cues=cues) for name in ("color", "rgbd", "pair", "all"))
     assert all(tracks == color for tracks in others)
     assert all(track.position is None for track in color)

@@ -184,13 +184,7 @@ def test_what_left_is_lost(name, run):
     assert set(statuses[5:]) == {Status.LOST}
 
 
-LATE = failing(
-    "by depth alone log-odds are at most 2.3, and coming back 1.9 m away takes off more until the position's"
-    " covariance has grown: found in its first frame, it is refused for 24"
-)
-
-
-@pytest.mark.parametrize("name", ["rgbd", pytest.param("depth", marks=LATE)])
+@pytest.mark.parametrize("name", ["rgbd", "depth"])
 def test_what_left_is_found_again(name, run):
     """When all of it has been back for 10 frames it is TRACKED where it is, and stays so."""
     done = run("leaving", name)

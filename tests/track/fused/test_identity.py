@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The log-odds that a place shows the target, and the colors and ranks that they are computed from."""
+"""The log-odds that a place shows the target, and the colors that they are computed from."""
 
 import math
 
@@ -8,9 +8,8 @@ import pytest
 from tricue import Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.identity import (
-    CHANNEL_CALIBRATION,
+    FirstColors,
     IdentityFeatures,
-    IdentityModel,
     color_histogram,
     probability,
 )
@@ -18,10 +17,9 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
 
-AVERAGE = IdentityFeatures(
-    peak_sharpness=5.0, rank_distance=0.2, color_similarity=0.6, contrast=0.2, first_response=0.3
-)
-BETTER = {"peak_sharpness": 1, "rank_distance": -1, "color_similarity": 1, "contrast": 1, "first_response": 1}
+AVERAGE = IdentityFeatures(peak_sharpness=5.0, color_similarity=0.6, contrast=0.2, first_response=0.3)
+BETTER = {"peak_sharpness": 1, "color_similarity": 1, "contrast": 1, "first_response": 1}
+KINDS = ("color", "depth")
 CAMERA = Intrinsics.from_fov(160, 120, 60)
 RED, BLUE = (20, 30, 220), (210, 40, 20)
 
@@ -34,36 +32,28 @@ def window_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> Window
     return extract_windows(observation, [Target(80.0, 60.0, 24.0, 24.0)], 3.0)[0]
 
 
-@pytest.mark.parametrize("channels", CHANNEL_CALIBRATION)
+@pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("feature", IdentityFeatures._fields)
-def test_odds_are_monotone(feature, channels):
+def test_odds_are_monotone(feature, kind):
     """A feature that is nearer to the target's raises the log-odds, and never lowers those of structure."""
     value = getattr(AVERAGE, feature)
     better = AVERAGE._replace(**{feature: value + 0.1 * BETTER[feature]})
-    assert better.log_odds(channels) > AVERAGE.log_odds(channels)
+    assert better.log_odds(kind) > AVERAGE.log_odds(kind)
     assert better.structure_log_odds >= AVERAGE.structure_log_odds
 
 
-@pytest.mark.parametrize("channels", CHANNEL_CALIBRATION)
-def test_odds_separate_perfect_from_empty(channels):
-    """With each set of channels a perfect place has a high probability, and an empty one a low one."""
-    perfect = IdentityFeatures(
-        peak_sharpness=12.0, rank_distance=0.0, color_similarity=1.0, contrast=0.6, first_response=1.0
-    )
-    empty = IdentityFeatures(
-        peak_sharpness=2.0, rank_distance=0.35, color_similarity=0.0, contrast=-0.1, first_response=0.0
-    )
-    assert probability(perfect.log_odds(channels)) > 0.9
-    assert probability(empty.log_odds(channels)) < 0.1
+@pytest.mark.parametrize("kind", KINDS)
+def test_odds_separate_perfect_from_empty(kind):
+    """In each kind of picture a perfect place has a high probability, and an empty one a low one."""
+    perfect = IdentityFeatures(peak_sharpness=12.0, color_similarity=1.0, contrast=0.6, first_response=1.0)
+    empty = IdentityFeatures(peak_sharpness=0.0, color_similarity=0.0, contrast=-0.1, first_response=0.0)
+    assert probability(perfect.log_odds(kind)) > 0.9
+    assert probability(empty.log_odds(kind)) < 0.1
 
 
-def test_depth_lowers_the_odds():
-    """The same features give less with depth, whose contrasts are higher, than in color alone."""
-    assert AVERAGE.log_odds("both") < AVERAGE.log_odds("color")
-    perfect = IdentityFeatures(
-        peak_sharpness=12.0, rank_distance=0.0, color_similarity=1.0, contrast=0.6, first_response=1.0
-    )
-    assert perfect.log_odds("depth") < perfect.log_odds("both") < perfect.log_odds("color")
+def test_a_picture_of_depth_lowers_the_odds():
+    """The same features give less in a picture of depth, in which most things look alike."""
+    assert AVERAGE.log_odds("depth") < AVERAGE.log_odds("color")
 
 
 def test_structure_does_not_depend_on_colors():
@@ -75,21 +65,10 @@ def test_structure_does_not_depend_on_colors():
 
 def test_structure_separates_perfect_from_empty():
     """By structure alone a perfect place has a high probability, and an empty one a low one."""
-    perfect = IdentityFeatures(
-        peak_sharpness=12.0, rank_distance=0.0, color_similarity=0.0, contrast=0.0, first_response=1.0
-    )
-    empty = IdentityFeatures(
-        peak_sharpness=2.0, rank_distance=0.35, color_similarity=1.0, contrast=0.6, first_response=0.0
-    )
+    perfect = IdentityFeatures(peak_sharpness=12.0, color_similarity=0.0, contrast=0.0, first_response=1.0)
+    empty = IdentityFeatures(peak_sharpness=0.0, color_similarity=1.0, contrast=0.6, first_response=0.0)
     assert probability(perfect.structure_log_odds) > 0.9
     assert probability(empty.structure_log_odds) < 0.1
-
-
-def test_unknown_channels_are_refused():
-    """Log-odds are given for color, both and depth, and for nothing else."""
-    assert set(CHANNEL_CALIBRATION) == {"color", "both", "depth"}
-    with pytest.raises(KeyError, match="pair"):
-        AVERAGE.log_odds("pair")
 
 
 @pytest.mark.parametrize("odds", [0.01, 0.5, 1.0, 3.0, 99.0])
@@ -116,23 +95,9 @@ def test_colors_are_a_distribution():
 
 def test_color_similarity_is_bhattacharyyas():
     """It is 1 on the first frame's colors, 0 on others, and the root of the share on half of them."""
-    identity = IdentityModel.from_window(window_of(RED, RED), np.zeros((3, 4), np.float32))
-    assert identity.color_similarity(window_of(RED, RED), 0.0, 0.0) == pytest.approx(1, abs=1e-5)
-    assert identity.color_similarity(window_of(BLUE, BLUE), 0.0, 0.0) == pytest.approx(0, abs=1e-5)
-    assert identity.color_similarity(window_of(RED, BLUE), 0.0, 0.0) == pytest.approx(
-        math.sqrt(0.5), abs=0.05
-    )
-    assert identity.color_similarity(window_of(RED, BLUE), -15.0, 0.0) == pytest.approx(1, abs=1e-5)
-    assert identity.color_similarity(window_of(RED, BLUE), 15.0, 0.0) == pytest.approx(0, abs=1e-5)
-
-
-def test_ranks_are_learned_and_colors_are_not():
-    """Ranks move a tenth of the way to those found, and their distance with them; colors don't change."""
-    identity = IdentityModel.from_window(window_of(RED, BLUE), np.zeros((3, 4), np.float32))
-    found = np.full((3, 4), 0.5, np.float32)
-    assert identity.rank_distance(found) == pytest.approx(0.5)
-    learned = identity.learn(found, 0.1)
-    np.testing.assert_allclose(learned.ranks, 0.05, rtol=1e-6)
-    assert learned.rank_distance(found) == pytest.approx(0.45)
-    np.testing.assert_array_equal(learned.color_roots, identity.color_roots)
-    np.testing.assert_array_equal(identity.ranks, 0)
+    first = FirstColors.from_window(window_of(RED, RED))
+    assert first.similarity(window_of(RED, RED), 0.0, 0.0) == pytest.approx(1, abs=1e-5)
+    assert first.similarity(window_of(BLUE, BLUE), 0.0, 0.0) == pytest.approx(0, abs=1e-5)
+    assert first.similarity(window_of(RED, BLUE), 0.0, 0.0) == pytest.approx(math.sqrt(0.5), abs=0.05)
+    assert first.similarity(window_of(RED, BLUE), -15.0, 0.0) == pytest.approx(1, abs=1e-5)
+    assert first.similarity(window_of(RED, BLUE), 15.0, 0.0) == pytest.approx(0, abs=1e-5)

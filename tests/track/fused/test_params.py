@@ -27,7 +27,12 @@ def test_cues_need_one_that_finds(count):
 def test_parameters_come_back_from_a_file(tmp_path):
     """Written to TOML and read again they are the same, all changed at once."""
     changed = FusedParams(
-        cues=("color", "edges"), context=2.5, scales=7, size_range=(0.5, 2.0), lost_after=0.3, ridge=1.23e-7
+        cues=("color", "size"),
+        context=2.5,
+        candidates=7,
+        size_range=(0.5, 2.0),
+        lost_after=0.3,
+        ridge=1.23e-7,
     )
     for params in (FusedParams(), changed):
         params.to_toml(tmp_path / "fused.toml")
@@ -45,7 +50,7 @@ EXTREMES: list[dict[str, Any]] = [
     {"filter_learning_rate": 0.0, "color_learning_rate": 0.0},
     {"filter_learning_rate": 0.5, "color_learning_rate": 0.5},
     {"filter_learning_rate": 0.5, "color_learning_rate": 0.5, "learn_every": 1},
-    {"filter_learning_rate": 0.5, "color_learning_rate": 0.5, "learn_every": 2, "min_score_to_learn": 0.0},
+    {"filter_learning_rate": 0.5, "color_learning_rate": 0.5, "learn_every": 2, "min_score": 0.0},
     {"filter_learning_rate": 0.0, "color_learning_rate": 0.0, "learn_every": 30},
     {"filter_weight": 0.0, "color_weight": 0.0},
     {"filter_mask_size": 1.0000001},
@@ -55,16 +60,8 @@ EXTREMES: list[dict[str, Any]] = [
     {"surround_size": 1.0000001},
     {"surround_size": 1e6},
     {"surround_weight": 1e6},
-    {"scales": 3},
-    {"scales": 99},
-    {"scale_step": 1.0000001},
-    {"scale_step": 2.0},
-    {"scale_window": 1e-6},
-    {"scale_window": 1e3},
-    {"scale_label_width": 1e-9},
-    {"scale_label_width": 1e9},
-    {"scale_prior": 1e9},
-    {"rank_weight": 0.0, "edge_weight": 0.0},
+    {"size_change_penalty": 0.0},
+    {"size_change_penalty": 1e9},
     {"size_range": (1.0, 1.0)},
     {"size_range": (1e-6, 1e6)},
     {"depth_learning_rate": 1.0},
@@ -78,13 +75,10 @@ EXTREMES: list[dict[str, Any]] = [
     {"acceleration_noise": 1e6, "max_speed": 1e6},
     {"rate": 1e-9},
     {"rate": 1e9},
-    {"velocity_rate": 1.0, "velocity_gain": 1.0},
     {"min_response_share": 1.0, "distance_penalty": 0.0},
     {"min_response_share": 0.0, "distance_penalty": 1e9},
-    {"min_score_to_learn": 0.0, "min_score": 0.0, "min_score_to_move": 0.0},
-    {"uncertain_learning_factor": 0.0},
-    {"uncertain_learning_factor": 1.0},
-    {"min_score_to_learn": 1.0, "min_score": 1.0, "min_score_to_move": 1.0},
+    {"min_score": 0.0, "min_score_to_move": 0.0},
+    {"min_score": 1.0, "min_score_to_move": 1.0},
     {"lost_after": 0.0, "candidates": 99},
     {"lost_after": 1e9},
     {"max_structure_drop": 0.0, "min_recovery_share": 1.0},

@@ -20,11 +20,9 @@ from tricue.track.fused.target import Target
 
 P = FusedParams()
 HERE, THERE = Target(100.0, 80.0, 40.0, 40.0), Target(160.0, 80.0, 40.0, 40.0)
-ALIKE = IdentityFeatures(
-    peak_sharpness=12.0, rank_distance=0.1, color_similarity=1.0, contrast=0.7, first_response=0.9
-)
+ALIKE = IdentityFeatures(peak_sharpness=12.0, color_similarity=1.0, contrast=0.7, first_response=0.9)
 REPAINTED = ALIKE._replace(color_similarity=0.0, contrast=-0.4)
-REARRANGED = ALIKE._replace(peak_sharpness=5.0, rank_distance=0.35, first_response=0.1)
+REARRANGED = ALIKE._replace(peak_sharpness=5.0, first_response=0.1)
 DEPTH = DepthMeasurement(2.0, 0.05, 1.0)
 
 
@@ -37,7 +35,7 @@ def match(
     """A match with these features; odds: its log-odds, by default those by color."""
     odds = features.log_odds("color") if odds is None else odds
     observation: Any = None
-    return Match(target, observation, features, odds, odds, 0.5, measured, 0.0, None, None)
+    return Match(target, observation, features, odds, odds, 0.5, measured, 0.0, None)
 
 
 NEAR = match(HERE, odds=-6.0)
@@ -57,7 +55,7 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
         monkeypatch.setattr(search, "localize", localized)
         monkeypatch.setattr(search, "measure_candidate", lambda _, at: others[round(-at.evidence)])
         nothing: Any = None
-        model = TargetModel(nothing, None, None, HERE.side, P)
+        model = TargetModel(nothing, None, HERE.side, P)
         return search_frame(model, nothing, LostTarget(HERE, None, missed_frames, 0), near)
 
     return among
@@ -87,7 +85,7 @@ def test_with_depth_structure_does_not_matter(search_among):
 
 def test_elsewhere_needs_a_high_score(search_among):
     """Elsewhere a score under min_score_to_redetect isn't taken, even if there is nothing like it nearby."""
-    unlikely, likely = match(HERE, odds=0.8), match(HERE, odds=0.9)  # ln(0.7 / 0.3) is 0.847
+    unlikely, likely = match(HERE, odds=2.9), match(HERE, odds=3.0)  # ln(0.95 / 0.05) is 2.944
     nothing = match(HERE.shift(1.0, 0.0), odds=-40.0)
     assert search_among(unlikely, near=nothing).target == nothing.target
     assert search_among(likely, near=nothing).target == likely.target
@@ -117,7 +115,7 @@ def test_the_local_match_is_penalized_by_its_distance_too(search_among):
 
 def test_those_with_most_evidence_are_measured(search_among):
     """Of all places only the first ``candidates`` by evidence are measured, and the likeliest is taken."""
-    poor, good = match(THERE, odds=1.0), match(THERE.shift(5.0, 0.0), odds=4.0)
+    poor, good = match(THERE, odds=4.0), match(THERE.shift(5.0, 0.0), odds=7.0)
     assert P.candidates == 2
     assert search_among(poor, good).target == good.target
     assert search_among(poor, poor, good).target == poor.target

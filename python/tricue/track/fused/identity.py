@@ -9,15 +9,15 @@ import numpy as np
 
 from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.experts.color import HISTOGRAM_BINS
+from tricue.track.fused.target_observation import PictureKind
 from tricue.track.fused.window import INNER_SHARE, Window
 
-# Weights of the IdentityFeatures, in their order, by logistic regression with the signs that they have to
-# have: "the overlap is above 0.3" against "under 0.1". Samples are the tracker's own places, random places
-# and look-alikes, in six recorded videos and in scenes with other seeds than those of the tables.
-FEATURE_WEIGHTS, FEATURE_OFFSET = (0.32, -15.64, 7.33, 11.19, 12.29), -10.6
-STRUCTURE_WEIGHTS, STRUCTURE_OFFSET = (0.44, -7.19, 0.0, 0.0, 11.07), -4.91  # without what light changes
-# Slope and offset of the log-odds by channels: with depth contrasts are higher, so that they tell less.
-CHANNEL_CALIBRATION = {"color": (1.0, 0.0), "both": (1.0, -1.0), "depth": (0.36, -4.7)}
+# Weights of the IdentityFeatures, in their order, by logistic regression on 30 recorded color videos: "the
+# overlap is above 0.3" against "under 0.1". Samples are the tracker's own places and random ones, each video
+# with the same weight.
+FEATURE_WEIGHTS, FEATURE_OFFSET = (0.13, 3.7, 7.4, 8.8), -6.3
+STRUCTURE_WEIGHTS, STRUCTURE_OFFSET = (0.16, 0.0, 0.0, 12.3), -2.4  # without what light changes
+DEPTH_PICTURE_OFFSET = -6.0  # of the log-odds in a picture of depth, in which most things look alike
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 
 
@@ -25,22 +25,20 @@ class IdentityFeatures(NamedTuple):
     """What tells whether a place shows the target.
 
     peak_sharpness: standard deviations of the filter's peak above its mean response.
-    rank_distance: mean distance of its ranks from the learned ones, in [0, 1].
     color_similarity: Bhattacharyya coefficient with the first frame's colors.
     contrast: mean P(target | pixel) in the box less a share of that in its surround.
     first_response: of the first frame's filter.
     """
 
     peak_sharpness: float
-    rank_distance: float
     color_similarity: float
     contrast: float
     first_response: float
 
-    def log_odds(self, channels: str) -> float:
-        """Of the target against anything else; channels: a key of CHANNEL_CALIBRATION."""
-        slope, offset = CHANNEL_CALIBRATION[channels]
-        return slope * (FEATURE_OFFSET + self._weighted_sum(FEATURE_WEIGHTS)) + offset
+    def log_odds(self, kind: PictureKind) -> float:
+        """Of the target against anything else, in a picture of color or of depth."""
+        offset = DEPTH_PICTURE_OFFSET if kind == "depth" else 0.0
+        return FEATURE_OFFSET + self._weighted_sum(FEATURE_WEIGHTS) + offset
 
     @property
     def structure_log_odds(self) -> float:
@@ -56,32 +54,22 @@ def probability(log_odds: float) -> float:
     return 1 / (1 + math.exp(-min(max(log_odds, -MAX_LOG_ODDS), MAX_LOG_ODDS)))
 
 
-class IdentityModel(NamedTuple):
-    """What the target is compared with.
+class FirstColors(NamedTuple):
+    """The target's colors in the first frame, which never learn.
 
-    color_roots: (4096,) square roots of its color histogram in the first frame, which never learn.
-    ranks: (3, n), which do.
+    roots: (4096,) square roots of its histogram.
     """
 
-    color_roots: Plane
-    ranks: Plane
+    roots: Plane
 
     @classmethod
-    def from_window(cls, window: Window, ranks: Plane) -> "IdentityModel":
-        """Of the first frame, whose target is at the window's center."""
-        return cls(np.sqrt(color_histogram(window, 0.0, 0.0)), ranks)
+    def from_window(cls, window: Window) -> "FirstColors":
+        """Of the target at the window's center."""
+        return cls(np.sqrt(color_histogram(window, 0.0, 0.0)))
 
-    def color_similarity(self, window: Window, right: float, down: float) -> float:
+    def similarity(self, window: Window, right: float, down: float) -> float:
         """Bhattacharyya coefficient of the colors so many patch pixels off the window's center."""
-        return float(np.vdot(np.sqrt(color_histogram(window, right, down)), self.color_roots))
-
-    def rank_distance(self, ranks: Plane) -> float:
-        """Mean absolute difference from ranks (3, n)."""
-        return float(np.abs(ranks - self.ranks).sum()) / ranks.size
-
-    def learn(self, ranks: Plane, rate: float) -> "IdentityModel":
-        """The model with ranks (3, n) blended in."""
-        return IdentityModel(self.color_roots, self.ranks + np.float32(rate) * (ranks - self.ranks))
+        return float(np.vdot(np.sqrt(color_histogram(window, right, down)), self.roots))
 
 
 def color_histogram(window: Window, right: float, down: float) -> Plane:

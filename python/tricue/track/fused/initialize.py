@@ -3,13 +3,12 @@
 
 from tricue.kernels import Kernels
 from tricue.track.fused.depth_sources import ExpectedDepth
-from tricue.track.fused.experts import combine_posteriors, size
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
 from tricue.track.fused.experts.depth import DepthExpert, DepthMeasurement, measure_depth
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.frame_observation import FrameObservation
-from tricue.track.fused.identity import IdentityModel
+from tricue.track.fused.identity import FirstColors
 from tricue.track.fused.localize import TargetModel, localize
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
@@ -28,7 +27,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     observation = frame.for_target(k, expected)
     depth, position = _depth_models(observation, target, measured, p)
     appearance = _appearance_models(observation, target, p)
-    model = TargetModel(appearance, depth, None, target.side, p)
+    model = TargetModel(appearance, depth, target.side, p)
     window = extract_windows(observation, [target], p.context)[0]
     return State(
         shape=frame.shape,
@@ -64,17 +63,11 @@ def ensure_models(state: State, observation: TargetObservation, p: FusedParams) 
 def _appearance_models(observation: TargetObservation, target: Target, p: FusedParams) -> AppearanceModels:
     """Learned from one window."""
     window = extract_windows(observation, [target], p.context)[0]
-    color = ColorExpert.from_window(window)
-    samples = size.sample_scales(observation, target, color.table, p)
-    by_depth = None if window.depth is None else window.depth[0]
-    posterior = combine_posteriors([color.posterior(window), by_depth])
-    assert posterior is not None, "colors have a posterior"
     return AppearanceModels(
         CorrelationFilterExpert.from_window(window, p),
-        color,
-        SizeExpert.from_samples(observation.k, samples, p),
-        IdentityModel.from_window(window, samples.ranks[p.scales // 2]),
-        size.edge_level(observation.k, posterior, window.size, p.scale_step),
+        ColorExpert.from_window(window),
+        SizeExpert.from_target(observation, target, p),
+        FirstColors.from_window(window),
     )
 
 

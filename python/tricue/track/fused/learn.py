@@ -3,7 +3,6 @@
 
 import math
 
-from tricue.track.fused.experts import size
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
@@ -11,51 +10,34 @@ from tricue.track.fused.state import AppearanceModels, State
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
 
-MAX_UNCERTAIN_RESPONSE = 0.5  # of the mean response
-
 
 def update_models(
     before: State, state: State, observation: TargetObservation, match: Match, p: FusedParams
 ) -> State:
     """The state with a match blended into its models; before: the state after the last frame.
 
-    Nothing is learned where the target wasn't moved to the match. Appearance is learned only with a high
-    score, and only in some frames, at rates that are higher for it.
+    Nothing is learned where the target wasn't moved to the match. Appearance is learned only where it is
+    recognized, and only in some frames, at rates that are higher for it.
     """
     if state.target is not match.target:
         return state
     state = _update_depth(state, observation, match, before.is_lost(p), p)
     state = _update_outline(state, match, p)
-    if state.missed_frames or state.score < p.min_score_to_learn or state.frames % p.learn_every:
+    if state.missed_frames or state.frames % p.learn_every:
         return state
     window = extract_windows(observation, [state.target], p.context)[0]
-    factor = _learning_factor(state, match, p)
-    appearance = _learn_appearance(state.models[observation.kind], window, factor, p)
+    appearance = _learn_appearance(state.models[observation.kind], window, p)
     return state._replace(models={**state.models, observation.kind: appearance})
 
 
-def _learning_factor(state: State, match: Match, p: FusedParams) -> float:
-    """The share of the learning rates: smaller where structure and filter tell that it may not be the target.
-
-    Something of its colors may cover it, which only depth would show.
-    """
-    weak = match.response < MAX_UNCERTAIN_RESPONSE * state.mean_response
-    uncertain = match.features.structure_log_odds < 0 and weak
-    return p.uncertain_learning_factor if uncertain and match.depth is None else 1.0
-
-
-def _learn_appearance(
-    models: AppearanceModels, window: Window, factor: float, p: FusedParams
-) -> AppearanceModels:
+def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
     observation = window.observation
-    filter_rate = factor * _rate_between_learning(p.filter_learning_rate, p)
-    color_rate = factor * _rate_between_learning(p.color_learning_rate, p)
-    samples = size.sample_scales(observation, window.target, models.color.table, p)
+    filter_rate = _rate_between_learning(p.filter_learning_rate, p)
+    color_rate = _rate_between_learning(p.color_learning_rate, p)
     return models._replace(
         filter=models.filter.learn(window, filter_rate),
         color=models.color.learn(window, color_rate),
-        size=models.size.learn(observation.k, samples, filter_rate),
-        identity=models.identity.learn(samples.ranks[p.scales // 2], filter_rate),
+        size=models.size.learn(observation, window.target, filter_rate),
     )
 
 

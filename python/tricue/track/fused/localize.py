@@ -5,13 +5,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts import PixelExpert, combine_posteriors
 from tricue.track.fused.experts.depth import DepthExpert
-from tricue.track.fused.experts.flow import FlowPatch
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.peak import peak_offset
 from tricue.track.fused.state import AppearanceModels
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import CELL_PIXELS, WINDOW_CELLS, Window, extract_windows
@@ -21,11 +20,10 @@ MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized ag
 
 
 class TargetModel(NamedTuple):
-    """All that the target is searched by. flow_patch: of the last frame."""
+    """All that the target is searched by."""
 
     appearance: AppearanceModels
     depth: DepthExpert | None
-    flow_patch: FlowPatch | None
     first_side: float
     params: FusedParams
 
@@ -85,15 +83,6 @@ def recenter(model: TargetModel, candidate: Candidate) -> Candidate:
         return candidate
     observation = candidate.window.observation
     return localize(model, extract_windows(observation, [candidate.target], model.params.context)[0])
-
-
-def peak_offset(values: NDArray[np.floating], index: int) -> float:
-    """Offset of a peak from the largest value, by a parabola through it and its neighbors."""
-    if not 0 < index < len(values) - 1:
-        return 0.0
-    before, top, after = values[index - 1 : index + 2].tolist()
-    bend = before - 2 * top + after
-    return 0.5 * (before - after) / bend if bend < 0 else 0.0
 
 
 def _pixel_experts(model: TargetModel) -> list[PixelExpert]:

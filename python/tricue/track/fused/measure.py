@@ -3,16 +3,13 @@
 
 from typing import NamedTuple
 
-from tricue.track.fused.experts import size
 from tricue.track.fused.experts.depth import DepthMeasurement, measure_depth
-from tricue.track.fused.experts.flow import FlowPatch, measure_growth
-from tricue.track.fused.experts.size import ScaleSamples
 from tricue.track.fused.identity import IdentityFeatures, probability
-from tricue.track.fused.localize import Candidate, TargetModel, peak_offset, recenter
+from tricue.track.fused.localize import Candidate, TargetModel, recenter
 from tricue.track.fused.outline import Outline, measure_outline
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import INNER_SHARE, PATCH_PIXELS, Window
+from tricue.track.fused.window import INNER_SHARE, Window
 
 OUTER_SIZE = 2.0  # of the box: the surround of depth_continuity
 FULL_WEIGHT_SIGMA = 0.25  # meters; a vaguer expected depth counts less in depth_continuity
@@ -34,7 +31,6 @@ class Match(NamedTuple):
     response: float
     depth: DepthMeasurement | None
     covered: float
-    flow_patch: FlowPatch | None
     outline: Outline | None
 
     @property
@@ -51,23 +47,20 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
     depth = None
     if model.depth is not None:
         depth = measure_depth(observation, candidate.target, observation.expected_depth)
-    flow_patch = FlowPatch.cut(window, *offset) if "flow" in p.cues else None
-    growth = _predict_growth(model, candidate, depth, flow_patch)
-    predicted = candidate.target.scale(growth)
-    samples = size.sample_scales(observation, predicted, appearance.color.table, p)
-    step, factor = _measure_scale(model, candidate, samples, growth)
-    low, high = (bound * model.first_side / candidate.target.side for bound in p.size_range)
+    predicted = candidate.target.scale(_growth_by_depth(model, candidate, depth))
+    growth = appearance.size.growth(observation, predicted) if "size" in p.cues else 1.0
+    measured = predicted.scale(growth)
+    low, high = (bound * model.first_side / measured.side for bound in p.size_range)
     features = IdentityFeatures(
         peak_sharpness=candidate.peak_sharpness,
-        rank_distance=appearance.identity.rank_distance(samples.ranks[step]),
-        color_similarity=appearance.identity.color_similarity(window, *offset),
+        color_similarity=appearance.first_colors.similarity(window, *offset),
         contrast=candidate.contrast,
         first_response=candidate.responses[1],
     )
     covered = covered_share(window, *offset)
-    log_odds = features.log_odds(_calibration_key(model, window))
+    log_odds = features.log_odds(observation.kind)
     return Match(
-        target=candidate.target.scale(min(max(factor, low), high)),
+        target=measured.scale(min(max(1.0, low), high)),
         observation=observation,
         features=features,
         appearance_log_odds=log_odds,
@@ -75,7 +68,6 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
         response=candidate.responses[0],
         depth=depth,
         covered=covered,
-        flow_patch=flow_patch,
         outline=measure_outline(window, *offset, covered),
     )
 
@@ -106,38 +98,9 @@ def depth_continuity(candidate: Candidate) -> float:
     return max(contrast, 0.0) * min(FULL_WEIGHT_SIGMA / expected.sigma, 1.0) ** 2
 
 
-def _predict_growth(
-    model: TargetModel, candidate: Candidate, depth: DepthMeasurement | None, flow_patch: FlowPatch | None
-) -> float:
-    """The ratio of the target's size to the last one, by its depth, or else by the flow of its pixels."""
-    if depth is not None and model.depth is not None:
-        growth = model.depth.length / (depth.z * candidate.target.side)
-    elif model.flow_patch is not None and flow_patch is not None:
-        growth = measure_growth(model.flow_patch, flow_patch, candidate.window) or 1.0
-    else:
+def _growth_by_depth(model: TargetModel, candidate: Candidate, depth: DepthMeasurement | None) -> float:
+    """The ratio of the target's size to the last one, by its depth; 1 without."""
+    if depth is None or model.depth is None:
         return 1.0
+    growth = model.depth.length / (depth.z * candidate.target.side)
     return min(max(growth, 1 / MAX_GROWTH_PER_FRAME), MAX_GROWTH_PER_FRAME)
-
-
-def _measure_scale(
-    model: TargetModel, candidate: Candidate, samples: ScaleSamples, growth: float
-) -> tuple[int, float]:
-    """The step of scale with most evidence, and the ratio of the size there to the last one."""
-    appearance, p, k = model.appearance, model.params, candidate.window.observation.k
-    evidence = size.scale_steps(p).prior
-    if "ranks" in p.cues:
-        evidence = evidence + p.rank_weight * appearance.size.response(k, samples)
-    if "edges" in p.cues and candidate.posterior is not None:
-        center = PATCH_PIXELS / 2 + candidate.right, PATCH_PIXELS / 2 + candidate.down
-        width, height = (growth * each for each in candidate.window.size)
-        level = appearance.edge_level
-        edges = size.edge_evidence(k, candidate.posterior, center, (width, height), p, level)
-        evidence = evidence + p.edge_weight * edges
-    best = int(evidence.argmax())
-    return best, growth * p.scale_step ** (best - p.scales // 2 + peak_offset(evidence, best))
-
-
-def _calibration_key(model: TargetModel, window: Window) -> str:
-    if window.observation.kind == "depth":
-        return "depth"
-    return "color" if model.depth is None or window.depth is None else "both"

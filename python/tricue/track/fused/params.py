@@ -8,7 +8,7 @@ from tricue.track.base.params import Params, parameter, seconds_of_frames
 
 FAST = "our experiment on sparse and shaken frames"
 OURS = "our prototype, or a choice not yet compared with others"
-Cue = Literal["filter", "color", "ranks", "edges", "depth", "flow"]
+Cue = Literal["filter", "color", "size", "depth"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -16,7 +16,7 @@ class FusedParams(Params):
     """Units: "target" is the side of the square with the target's area, "box" a side of its box."""
 
     cues: tuple[Cue, ...] = parameter(
-        ("filter", "color", "ranks", "edges", "depth", "flow"),
+        ("filter", "color", "size", "depth"),
         unit="-",
         source="fused.md",
         doc="the experts that are used",
@@ -42,11 +42,11 @@ class FusedParams(Params):
         source="Danelljan et al. 2014",
         low=0,
         high=0.5,
-        doc="of both filters and of the ranks",
+        doc="of both filters",
         was="filter_rate",
     )
     first_frame_weight: float = parameter(
-        0.1, unit="-", source=OURS, low=0, high=1, doc="share of the first frame's filter", was="anchor"
+        0.1, unit="-", source=OURS, low=0, high=1, doc="share of the first frame's filters", was="anchor"
     )
     filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="of its response")
     filter_mask_size: float = parameter(
@@ -80,36 +80,10 @@ class FusedParams(Params):
         0.5, unit="-", source=OURS, low=0, doc="of the surround in the contrast", was="around"
     )
 
-    # size: cues "ranks" and "edges"
-    scales: int = parameter(11, unit="steps", source=OURS, low=3, high=99, doc="sizes that are compared; odd")
-    scale_step: float = parameter(
-        1.04, unit="-", source=OURS, above=1, high=2, doc="ratio of a size to the one before"
+    # size: cue "size"
+    size_change_penalty: float = parameter(
+        0.05, unit="per squared cell", source=OURS, low=0, doc="on the evidence of another size than the last"
     )
-    scale_window: float = parameter(
-        1.5, unit="box", source=OURS, above=0, doc="size of the part that is sampled", was="scale_reach"
-    )
-    scale_label_width: float = parameter(
-        1.0,
-        unit="steps",
-        source=OURS,
-        above=0,
-        doc="standard deviation of the desired response",
-        was="scale_label",
-    )
-    scale_prior: float = parameter(
-        0.02, unit="per step²", source=OURS, low=0, doc="cost of another size than predicted"
-    )
-    scale_first_frame_weight: float = parameter(
-        0.4,
-        unit="-",
-        source=OURS,
-        low=0,
-        high=1,
-        doc="share of the first frame's filter",
-        was="scale_anchor",
-    )
-    rank_weight: float = parameter(1.0, unit="-", source=OURS, low=0, doc="of the filter over sizes")
-    edge_weight: float = parameter(1.0, unit="-", source=OURS, low=0, doc="of the posterior's edges")
     size_range: tuple[float, float] = parameter(
         (0.2, 5.0), unit="of the first size", source=OURS, above=0, doc="limits of the size"
     )
@@ -157,15 +131,9 @@ class FusedParams(Params):
     )
     rate: float = parameter(30.0, unit="frames/s", source=OURS, above=0, doc="where timestamps tell nothing")
 
-    # motion in the image, and the search around the predicted place
-    velocity_rate: float = parameter(
-        0.5, unit="-", source=OURS, low=0, high=1, doc="share of the last shift in the smoothed velocity"
-    )
-    velocity_gain: float = parameter(
-        0.5, unit="of the velocity", source=OURS, low=0, high=1, doc="predicted shift", was="drift"
-    )
+    # the search around the last place
     min_response_share: float = parameter(
-        0.6,
+        0.5,
         unit="of the mean response",
         source=OURS,
         low=0,
@@ -174,7 +142,7 @@ class FusedParams(Params):
         was="doubt",
     )
     distance_penalty: float = parameter(
-        0.2,
+        0.08,
         unit="per squared half window",
         source=OURS,
         low=0,
@@ -186,26 +154,8 @@ class FusedParams(Params):
     learn_every: int = parameter(
         3, unit="frames", source=OURS, low=1, high=30, doc="between two in which appearance is learned"
     )
-    min_score_to_learn: float = parameter(
-        0.4,
-        unit="score",
-        source=OURS,
-        low=0,
-        high=1,
-        doc="under it appearance isn't learned",
-        was="learn_above",
-    )
-    uncertain_learning_factor: float = parameter(
-        0.2,
-        unit="of the learning rates",
-        source=OURS,
-        low=0,
-        high=1,
-        doc="where its structure is another",
-        was="learn_odd",
-    )
     min_score: float = parameter(
-        0.3,
+        0.15,
         unit="score",
         source=OURS,
         low=0,
@@ -226,7 +176,7 @@ class FusedParams(Params):
         0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
     )
     max_structure_drop: float = parameter(
-        5.0,
+        3.5,
         unit="log-odds",
         source=OURS,
         low=0,
@@ -251,7 +201,7 @@ class FusedParams(Params):
         was="reach",
     )
     min_score_to_redetect: float = parameter(
-        0.7,
+        0.95,
         unit="score",
         source=OURS,
         low=0,
@@ -269,7 +219,5 @@ class FusedParams(Params):
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if not {"filter", "color"} & set(self.cues):
             raise ValueError(f"cues: expected filter or color, which localize the target, among {self.cues}")
-        if self.scales % 2 == 0:
-            raise ValueError(f"scales: expected an odd number, got {self.scales}")
         if self.size_range[0] > self.size_range[1]:
             raise ValueError(f"size_range: expected the lower number first, got {self.size_range}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Search for the target: around its predicted place, and in the whole frame once it was missed."""
+"""Search for the target: around its last place, and in the whole frame once it was missed."""
 
 import math
 
@@ -16,7 +16,7 @@ STRUCTURE_ONLY_PENALTY = 2.0  # log-odds
 
 
 def search_local(
-    model: TargetModel, observation: TargetObservation, predicted: Target, mean_response: float | None
+    model: TargetModel, observation: TargetObservation, last: Target, mean_response: float | None
 ) -> Match:
     """Search where the target should be; where the filter responds little there, beside it, too.
 
@@ -24,11 +24,11 @@ def search_local(
     frame anyway.
     """
     p = model.params
-    window = extract_windows(observation, [predicted], p.context)[0]
+    window = extract_windows(observation, [last], p.context)[0]
     candidate = localize(model, window)
     if mean_response is not None and candidate.responses[0] < p.min_response_share * mean_response:
-        neighbors = _neighboring_windows(observation, predicted, p.context)
-        candidates = [_localize_beside(model, each, predicted) for each in neighbors]
+        neighbors = _neighboring_windows(observation, last, p.context)
+        candidates = [_localize_beside(model, each, last) for each in neighbors]
         candidate = max([candidate, *candidates], key=lambda each: each.evidence)
     match = measure_candidate(model, candidate)
     log_odds = match.log_odds + p.depth_continuity_weight * depth_continuity(candidate)
@@ -54,10 +54,10 @@ def search_frame(model: TargetModel, observation: TargetObservation, lost: LostT
     return best if found else local
 
 
-def _localize_beside(model: TargetModel, window: Window, predicted: Target) -> Candidate:
+def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candidate:
     """The best place of a neighboring window, its evidence less a penalty for the window's distance."""
-    half = model.params.context * predicted.side / 2
-    squared = (window.target.x - predicted.x) ** 2 + (window.target.y - predicted.y) ** 2
+    half = model.params.context * last.side / 2
+    squared = (window.target.x - last.x) ** 2 + (window.target.y - last.y) ** 2
     candidate = localize(model, window)
     penalty = model.params.distance_penalty * squared / half**2
     return candidate._replace(evidence=candidate.evidence - penalty)

@@ -6,9 +6,8 @@ from typing import NamedTuple
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
 from tricue.track.fused.experts.depth import DepthExpert
-from tricue.track.fused.experts.flow import FlowPatch
 from tricue.track.fused.experts.size import SizeExpert
-from tricue.track.fused.identity import IdentityFeatures, IdentityModel
+from tricue.track.fused.identity import FirstColors, IdentityFeatures
 from tricue.track.fused.outline import BOX_OUTLINE, Outline
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
@@ -19,16 +18,12 @@ MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
 
 class AppearanceModels(NamedTuple):
-    """The target's appearance in one kind of picture.
-
-    edge_level: P(target | pixel) along the target's edge in the first frame.
-    """
+    """The target's appearance in one kind of picture."""
 
     filter: CorrelationFilterExpert
     color: ColorExpert
     size: SizeExpert
-    identity: IdentityModel
-    edge_level: float
+    first_colors: FirstColors
 
 
 class State(NamedTuple):
@@ -44,10 +39,8 @@ class State(NamedTuple):
     score: float = 1.0
     mean_log_odds: float = 0.0  # running mean of its log-odds by appearance
     mean_structure_log_odds: float = 0.0  # the same by its structure alone
-    velocity: tuple[float, float] = (0.0, 0.0)  # pixels per frame, smoothed
     depth: DepthExpert | None = None  # None until depth was measured
     position: PositionFilter | None = None  # None until depth was measured
-    flow_patch: FlowPatch | None = None  # of the last frame, None if it was missed there
     outline: Outline = BOX_OUTLINE
     occluded: bool = False  # by something nearer
     missed_frames: int = 0  # in a row, in which it was not recognized

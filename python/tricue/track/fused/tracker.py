@@ -36,9 +36,9 @@ MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 class FusedTracker(TrackerBase[FusedParams, State]):
     """Follows any target by experts whose evidence adds up, in whatever channels a frame has.
 
-    A correlation filter, the target's colors and its depth localize it. Its ranks at eleven sizes, the edges
-    of its colors and its distance give its size. Models that keep the first frame verify that it is the
-    target: where it isn't, nothing is learned, and the search widens to the whole frame.
+    A correlation filter, the target's colors and its depth localize it. A second filter, in log-polar
+    coordinates, and its distance give its size. Features of the first frame verify that it is the target:
+    where it isn't, nothing is learned, and the search widens to the whole frame.
 
     Frames have ``color`` (BGR or gray), alone or with registered ``depth`` or with ``right``, or ``depth``
     alone; channels may come and go. ``position`` and ``covariance`` are given once depth was measured, in the
@@ -120,14 +120,12 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return state._replace(position=position, timestamp=timestamp, seconds=seconds, frames=frames)
 
     def _localize(self, state: State, observation: TargetObservation) -> Match:
-        """The target near its predicted place; if it was missed in the last frame, in the whole frame."""
+        """The target near its last place; if it was missed in the last frame, in the whole frame."""
         models, p = state.models[observation.kind], self.params
-        model = TargetModel(models, state.depth, state.flow_patch, state.first_side, p)
-        u, v = state.velocity
-        predicted = state.target.shift(p.velocity_gain * u, p.velocity_gain * v)
+        model = TargetModel(models, state.depth, state.first_side, p)
         if not state.missed_frames:
-            return search_local(model, observation, predicted, state.mean_response)
-        local = search_local(model, observation, predicted, None)
+            return search_local(model, observation, state.target, state.mean_response)
+        local = search_local(model, observation, state.target, None)
         last = state.target.scale(state.recognized_side / state.target.side)
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
         return search_frame(model, observation, lost, local)

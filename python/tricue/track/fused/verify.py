@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Verify: whether a match is the target, and the state that follows from it."""
 
-import math
-
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import State
-from tricue.track.fused.target import Target
 
 VERIFIED_MEAN_RATE = 0.05  # per frame, of the running means over frames in which the target is recognized
-MISSED_VELOCITY_FACTOR = 0.5  # per frame in which the box isn't moved
 
 
 def verify(state: State, match: Match, p: FusedParams) -> State:
@@ -17,24 +13,21 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     occluded = match.covered > p.max_covered
     recognized = not occluded and _is_recognized(state, match, p)
     score = match.score if recognized else min(match.score, p.min_score)
-    state = state._replace(features=match.features, score=score, occluded=occluded, flow_patch=None)
+    state = state._replace(features=match.features, score=score, occluded=occluded)
     if occluded or score < p.min_score_to_move:
-        u, v = state.velocity
-        velocity = MISSED_VELOCITY_FACTOR * u, MISSED_VELOCITY_FACTOR * v
-        return _count_missed(state._replace(velocity=velocity))
-    jumped = _has_jumped(state.target, match.target, p)
-    state = state._replace(target=match.target, velocity=_smooth_velocity(state, match.target, jumped, p))
+        return _count_missed(state)
+    state = state._replace(target=match.target)
     if not recognized:
         return _count_missed(state)
     structure = match.features.structure_log_odds
+    rate = max(1 / state.frames, VERIFIED_MEAN_RATE)  # the mean of all frames at first
     return state._replace(
         missed_frames=0,
         missed_seconds=0.0,
         recognized_side=match.target.side,
-        mean_response=_update_mean(state.mean_response, match.response),
-        mean_log_odds=_update_mean(state.mean_log_odds, match.appearance_log_odds),
-        mean_structure_log_odds=_update_mean(state.mean_structure_log_odds, structure),
-        flow_patch=None if jumped else match.flow_patch,
+        mean_response=_blend(state.mean_response, match.response, rate),
+        mean_log_odds=_blend(state.mean_log_odds, match.appearance_log_odds, rate),
+        mean_structure_log_odds=_blend(state.mean_structure_log_odds, structure, rate),
     )
 
 
@@ -57,19 +50,5 @@ def _count_missed(state: State) -> State:
     )
 
 
-def _has_jumped(before: Target, after: Target, p: FusedParams) -> bool:
-    """Whether it was found outside of the window around its last place."""
-    return math.hypot(after.x - before.x, after.y - before.y) > p.context / 2 * before.side
-
-
-def _smooth_velocity(state: State, target: Target, jumped: bool, p: FusedParams) -> tuple[float, float]:
-    """Pixels per frame; 0 after a jump."""
-    if jumped:
-        return 0.0, 0.0
-    (u, v), rate = state.velocity, p.velocity_rate
-    right, down = target.x - state.target.x, target.y - state.target.y
-    return u + rate * (right - u), v + rate * (down - v)
-
-
-def _update_mean(mean: float, value: float) -> float:
-    return mean + VERIFIED_MEAN_RATE * (value - mean)
+def _blend(mean: float, value: float, rate: float) -> float:
+    return mean + rate * (value - mean)

@@ -30,13 +30,13 @@ class CorrelationFilterExpert(NamedTuple):
     @classmethod
     def from_window(cls, window: Window, p: FusedParams) -> "CorrelationFilterExpert":
         """Learned from the first frame."""
-        label = _label_spectrum(p.label_width * WINDOW_CELLS / p.context)
+        label = label_spectrum(p.label_width * WINDOW_CELLS / p.context)
         shape = (len(window.cells), *label.shape)
         empty = np.zeros(shape, np.complex64), np.zeros(label.shape, np.float32)
         mask = target_mask(window.size, p.filter_mask_size)
         k = window.observation.k
         first = k.correlation_train(window.cells, mask, label, *empty, 1.0, p.background_weight)
-        return cls(first, _stack(first, first), label, p)
+        return cls(first, stack(first, first), label, p)
 
     def responses(self, window: Window) -> Plane:
         """(2, 32, 32) responses of the learned and of the first frame's filter."""
@@ -50,7 +50,7 @@ class CorrelationFilterExpert(NamedTuple):
             window.cells, mask, self.label, *self.learned, rate, p.background_weight
         )
         first = self.applied[0][1], self.applied[1][1]
-        applied = _stack(blend_filters(learned, first, p.first_frame_weight), first)
+        applied = stack(blend_filters(learned, first, p.first_frame_weight), first)
         return CorrelationFilterExpert(learned, applied, self.label, p)
 
 
@@ -60,8 +60,9 @@ def blend_filters(learned: Filter, first: Filter, first_weight: float) -> Filter
     return learned[0] + share * (first[0] - learned[0]), learned[1] + share * (first[1] - learned[1])
 
 
-def _stack(learned: Filter, first: Filter) -> Filter:
-    return np.stack([learned[0], first[0]]), np.stack([learned[1], first[1]])
+def stack(*filters: Filter) -> Filter:
+    """Filters as one argument of correlation_response."""
+    return np.stack([each[0] for each in filters]), np.stack([each[1] for each in filters])
 
 
 @lru_cache(maxsize=64)
@@ -80,7 +81,7 @@ def target_mask(size: tuple[float, float], outer: float) -> Plane:
     return np.outer(_mask_profile(size[1], outer), _mask_profile(size[0], outer)).astype(np.float32)
 
 
-def _label_spectrum(width: float) -> NDArray[np.complex64]:
+def label_spectrum(width: float) -> NDArray[np.complex64]:
     """The spectrum of the desired response: a Gaussian at (0, 0) with that standard deviation in cells."""
     offset = np.fft.fftfreq(WINDOW_CELLS, 1 / WINDOW_CELLS)
     profile = np.exp(-0.5 * (offset / width) ** 2)

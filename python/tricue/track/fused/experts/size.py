@@ -1,135 +1,108 @@
 # SPDX-License-Identifier: MIT
-"""The target's size: its spatial ranks at eleven scales, and the edges of its posterior."""
+"""The target's size: in log-polar coordinates around its center a change of size is a shift.
 
-from functools import lru_cache
+A correlation filter answers to it as to a shift in the image (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song,
+Wang and Liu 2019).
+"""
+
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.kernels import Kernels
-from tricue.track.fused.arrays import Floats, Plane
-from tricue.track.fused.experts.correlation_filter import Filter, blend_filters
+from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.experts.correlation_filter import Filter, blend_filters, label_spectrum, stack
 from tricue.track.fused.params import FusedParams
+from tricue.track.fused.peak import gaussian_peak_offset
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
 
-SCALE_SAMPLES = 12  # on a side of the target's part
-POSTERIOR_WEIGHT = np.float32(0.5)  # of the posterior beside a channel's ranks
-CHANNEL_MEAN = np.float32(0.5)  # of ranks and posterior, subtracted
-
-
-class ScaleSamples(NamedTuple):
-    """A target's place sampled at S scales.
-
-    ranks: (S, 3, n) of n samples. channels: (S, 4 n) that the filter reads, ranks and posterior.
-    """
-
-    ranks: Plane
-    channels: Plane
+INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
+LABEL_WIDTH = 0.7  # cells
+MAX_SHIFT = 2  # cells of radius, from one frame to the next
+MAX_TURN = 1  # cells of angle
+LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
+CENTER = WINDOW_CELLS // 2  # where the response to the model's own size is
+ROWS = slice(CENTER - MAX_TURN, CENTER + MAX_TURN + 1)
+COLUMNS = slice(CENTER - MAX_SHIFT, CENTER + MAX_SHIFT + 1)
+SQUARED_SHIFTS = np.arange(-MAX_SHIFT, MAX_SHIFT + 1, dtype=np.float32) ** 2
 
 
 class SizeExpert(NamedTuple):
-    """A correlation filter over scales (Danelljan et al. 2014).
+    """A correlation filter on a log-polar patch.
 
-    It reads spatial ranks, which monotonic changes of light don't change (Sabeti, Parvizi and Wu 2008).
-    learned, first, applied: numerator (S // 2 + 1, 4 n) and denominator (S // 2 + 1,), as they are learned,
-    of the first frame, and a blend of both. label: spectrum of the desired response.
+    learned, first, applied: numerator (19, 32, 17) and denominator (32, 17), as they are learned, of the
+    first frame, and a blend of both.
     """
 
     learned: Filter
     first: Filter
     applied: Filter
-    label: NDArray[np.complex64]
     params: FusedParams
 
     @classmethod
-    def from_samples(cls, k: Kernels, samples: ScaleSamples, p: FusedParams) -> "SizeExpert":
+    def from_target(cls, observation: TargetObservation, target: Target, p: FusedParams) -> "SizeExpert":
         """Learned from the first frame."""
-        channels = samples.channels.shape[1]
-        offset = np.fft.fftfreq(p.scales, 1 / p.scales)
-        label = np.fft.rfft(np.exp(-0.5 * (offset / p.scale_label_width) ** 2)).astype(np.complex64)
-        empty = np.zeros((len(label), channels), np.complex64), np.zeros(len(label), np.float32)
-        first = k.scale_train(samples.channels, label, *empty, 1.0)
-        return cls(first, first, first, label, p)
+        cells = log_polar_cells(observation, target)
+        empty = np.zeros((len(cells), *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
+        first = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *empty, 1.0, 0.0)
+        return cls(first, first, stack(first), p)
 
-    def response(self, k: Kernels, samples: ScaleSamples) -> Plane:
-        """(S,), about 1 at the target's scale."""
-        return k.scale_response(samples.channels, *self.applied, self.params.ridge)
+    def growth(self, observation: TargetObservation, target: Target) -> float:
+        """The ratio of the size of what is at a target's place to the target's."""
+        p, cells = self.params, log_polar_cells(observation, target)
+        response = observation.k.correlation_response(cells, *self.applied, p.ridge)[0]
+        evidence = response[ROWS, COLUMNS] - p.size_change_penalty * SQUARED_SHIFTS
+        row, column = divmod(int(evidence.argmax()), evidence.shape[1])
+        shift = column + gaussian_peak_offset(response[ROWS, COLUMNS][row], column) - MAX_SHIFT
+        return math.exp(shift * LOG_PER_CELL)
 
-    def learn(self, k: Kernels, samples: ScaleSamples, rate: float) -> "SizeExpert":
-        """The expert with samples blended in, of which the middle scale is the target's."""
-        learned = k.scale_train(samples.channels, self.label, *self.learned, rate)
-        applied = blend_filters(learned, self.first, self.params.scale_first_frame_weight)
-        return SizeExpert(learned, self.first, applied, self.label, self.params)
+    def learn(self, observation: TargetObservation, target: Target, rate: float) -> "SizeExpert":
+        """The expert with a target blended in."""
+        cells = log_polar_cells(observation, target)
+        learned = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *self.learned, rate, 0.0)
+        applied = stack(blend_filters(learned, self.first, self.params.first_frame_weight))
+        return SizeExpert(learned, self.first, applied, self.params)
 
 
-class ScaleSteps(NamedTuple):
-    """S steps of scale, the middle one with factor 1.
+def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
+    """(19, 32, 32) orientations and colors around a target: angles downwards, log radii to the right.
 
-    factors: of the sides. areas: factors of the area. windows: (S, 4) sampled parts of a target of width and
-    height 1 at (0, 0). prior: evidence against another size than predicted.
+    Radii are in halves of its width and height, so that its surround has the same share on all sides.
     """
-
-    factors: Floats
-    areas: Floats
-    windows: Floats
-    prior: Floats
-
-
-@lru_cache(maxsize=8)
-def _scale_steps(count: int, step: float, window: float, prior: float) -> ScaleSteps:
-    offset = np.arange(count) - count // 2.0
-    factors: Floats = np.power(step, offset)
-    sides = window * factors
-    windows = np.stack([-sides / 2, -sides / 2, sides, sides], axis=1)
-    return ScaleSteps(factors, factors * factors, windows, -prior * offset * offset)
+    width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
+    square = np.array([[target.x - width / 2, target.y - height / 2, width, height]])
+    patch = observation.k.sample_windows(observation.picture, square, PATCH_PIXELS, PATCH_PIXELS)
+    log_polar: Image = patch.reshape(-1, 3).take(LOG_POLAR_PIXELS, axis=0)
+    return observation.k.hog_color_cells(log_polar, TAPER)
 
 
-def scale_steps(p: FusedParams) -> ScaleSteps:
-    """The steps of scale of some parameters."""
-    return _scale_steps(p.scales, p.scale_step, p.scale_window, p.scale_prior)
+def _log_polar_pixels() -> NDArray[np.intp]:
+    """(64, 64) indices of the nearest pixels of a square patch.
 
-
-def sample_scales(
-    observation: TargetObservation, target: Target, table: Plane, p: FusedParams
-) -> ScaleSamples:
-    """Sample a target's place at every scale; table: (16, 16, 16) P(target | color)."""
-    k, size = observation.k, (target.width, target.height)
-    windows = scale_steps(p).windows * (*size, *size)
-    windows += (target.x, target.y, 0, 0)
-    samples = k.sample_windows(observation.picture, windows, SCALE_SAMPLES, SCALE_SAMPLES)
-    flat = np.ascontiguousarray(samples.reshape(p.scales, -1, 3).transpose(0, 2, 1))
-    ranks = k.color_ranks(flat)
-    count = 3 * SCALE_SAMPLES * SCALE_SAMPLES
-    channels = np.empty((p.scales, 4 * SCALE_SAMPLES * SCALE_SAMPLES), np.float32)
-    np.subtract(ranks.reshape(p.scales, -1), CHANNEL_MEAN, out=channels[:, :count])
-    posterior = np.subtract(k.color_lookup(flat, table), CHANNEL_MEAN, out=channels[:, count:])
-    posterior *= POSTERIOR_WEIGHT
-    return ScaleSamples(ranks, channels)
-
-
-def edge_evidence(
-    k: Kernels,
-    posterior: Plane,
-    center: tuple[float, float],
-    size: tuple[float, float],
-    p: FusedParams,
-    level: float,
-) -> Floats:
-    """(S,) sums of the posterior less a level in the boxes of every scale, in areas of the middle box.
-
-    It is largest where the box ends at the posterior's edge. center, size: pixels of the posterior.
+    At small radii several samples share a pixel, which speaks for the size as it is: a new one is approached
+    over a few frames. Bilinear samples, which find it at once, let the size wander on recorded video.
     """
-    factors, areas, _, _ = scale_steps(p)
-    means = k.box_means(posterior, *center, size[0] * factors, size[1] * factors)
-    sums: Floats = (means - level) * areas
-    return sums
+    steps = (np.arange(PATCH_PIXELS) + 0.5) / PATCH_PIXELS
+    radius = PATCH_PIXELS / 2 * (INNER_RADIUS / OUTER_RADIUS) ** (1 - steps)
+    angle = 2 * math.pi * steps[:, None]
+    x, y = (
+        np.clip(np.floor(PATCH_PIXELS / 2 + radius * unit), 0, PATCH_PIXELS - 1)
+        for unit in (np.cos(angle), np.sin(angle))
+    )
+    pixels: NDArray[np.intp] = (y * PATCH_PIXELS + x).astype(np.intp)
+    return pixels
 
 
-def edge_level(k: Kernels, posterior: Plane, size: tuple[float, float], step: float) -> float:
-    """The posterior's mean along the target's edge: between the boxes one step smaller and larger."""
-    factors = np.array([1 / step, step])
-    rows, columns = posterior.shape
-    inner, outer = k.box_means(posterior, columns / 2, rows / 2, size[0] * factors, size[1] * factors)
-    return float((outer * step**2 - inner / step**2) / (step**2 - step**-2))
+def _taper() -> Plane:
+    """(32, 32), so that the cells fade out towards the least and the largest radius; angles have no ends."""
+    profile = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS)
+    return np.tile(profile, (WINDOW_CELLS, 1)).astype(np.float32)
+
+
+LOG_POLAR_PIXELS = _log_polar_pixels()
+TAPER = _taper()
+LABEL = label_spectrum(LABEL_WIDTH)
+EVERYWHERE = np.ones((WINDOW_CELLS, WINDOW_CELLS), np.float32)
