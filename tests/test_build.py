@@ -62,9 +62,9 @@ def test_starts_no_thread(tmp_path: Path) -> None:
 import os, numpy
 from tricue import _core
 cells = numpy.ones((64, 128, 128), numpy.float32)
-filters = numpy.ones((2, 64, 128, 65), numpy.complex64), numpy.ones((2, 128, 65), numpy.float32)
+filters = numpy.ones((2, 64, 128, 65), numpy.complex64)
 before = len(os.listdir("/proc/self/task"))
-_core.correlation_response(cells, *filters, 0.1)
+_core.correlation_response(cells, filters)
 after = len(os.listdir("/proc/self/task"))
 assert before == after, (before, after)
 """

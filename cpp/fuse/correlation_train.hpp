@@ -6,7 +6,7 @@
 
 namespace tricue {
 
-/// A correlation filter with K channels: what correlation_response takes.
+/// A correlation filter with K channels as it is learned. correlation_response takes A / (B + λ) with a small λ > 0.
 struct CorrelationFilter {
     Complexes numerator;  ///< complex64 (K, R, C // 2 + 1), A; in C++ the planes one below the other
     Floats denominator;   ///< float32 (R, C // 2 + 1), B

@@ -20,20 +20,17 @@ std::ptrdiff_t work(const FloatStack& cells) {
     return std::ptrdiff_t{cells.planes} * cells.rows * cells.cols;
 }
 
-FilterStack filter_stack(const Complex& numerators) {
-    const auto array =
-        require<std::complex<float>>(numerators, "numerators", 4, "complex64 (F, K, R, C // 2 + 1)");
+FilterStack filter_stack(const Complex& filters) {
+    const auto array = require<std::complex<float>>(filters, "filters", 4, "complex64 (F, K, R, C // 2 + 1)");
     const auto size = [&](int axis) { return static_cast<int>(array.shape(axis)); };
-    return {contiguous<std::complex<float>>(array, "numerators"), size(0), size(1), size(2), size(3)};
+    return {contiguous<std::complex<float>>(array, "filters"), size(0), size(1), size(2), size(3)};
 }
 
-Floating correlation_response_arrays(const Floating& cells, const Complex& numerators,
-                                     const Floating& denominators, double ridge) {
+Floating correlation_response_arrays(const Floating& cells, const Complex& filters) {
     const auto planes = stack<float>(cells, "cells", kCells);
-    const auto upper = filter_stack(numerators);
-    const auto lower = stack<float>(denominators, "denominators", "float32 (F, R, C // 2 + 1)");
-    return give(unlocked(work(planes), [&] { return correlation_response(planes, upper, lower, ridge); }),
-                {upper.filters, planes.rows, planes.cols});
+    const auto each = filter_stack(filters);
+    return give(unlocked(work(planes), [&] { return correlation_response(planes, each); }),
+                {each.filters, planes.rows, planes.cols});
 }
 
 std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, const Floating& focus,
@@ -80,8 +77,8 @@ std::tuple<Complex, Floating> scale_train_arrays(const Floating& looks, const Co
 }  // namespace
 
 void define_correlation(py::module_& m) {
-    m.def("correlation_response", correlation_response_arrays, py::arg("cells"), py::arg("numerators"),
-          py::arg("denominators"), py::arg("ridge"), docs::correlation_response);
+    m.def("correlation_response", correlation_response_arrays, py::arg("cells"), py::arg("filters"),
+          docs::correlation_response);
     m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
           py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
           docs::correlation_train);

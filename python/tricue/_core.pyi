@@ -292,31 +292,26 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     """
 
 def correlation_response(
-    cells: numpy.typing.NDArray[numpy.float32],
-    numerators: numpy.typing.NDArray[numpy.complex64],
-    denominators: numpy.typing.NDArray[numpy.float32],
-    ridge: float,
+    cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
 ) -> numpy.typing.NDArray[numpy.float32]:
     """
-    Responses of F correlation filters with K channels to the same cells, equation (6): the inverse
-    Fourier transform of Σ_k A_k Z_k / (B + λ).
+    Responses of F correlation filters with K channels to the same cells: the inverse Fourier transform
+    of Σ_k A_k Z_k.
 
-    Z_k is the spectrum of channel k, computed once for all filters; A_k stands for the conjugate of the
-    paper's. λ is ridge max(mean of the filter's B, 1e-12).
+    Z_k is the spectrum of channel k, computed once for all filters; A_k, channel k of a filter, stands
+    for the conjugate of the paper's, and for the quotient where that has one, equation (6).
 
     Args:
         cells: float32 (K, R, C), already tapered; at least one channel and cell
-        numerators: complex64 (F, K, R, C // 2 + 1), A: non-negative frequencies along x, in the order
-            of numpy.fft.rfft2; F at least 1
-        denominators: float32 (F, R, C // 2 + 1), B, at least 0
-        ridge: finite, above 0
+        filters: complex64 (F, K, R, C // 2 + 1), A: non-negative frequencies along x, in the order of
+            numpy.fft.rfft2; F at least 1
 
     Returns:
         float32 (F, R, C): what is shifted by (x, y) cells has its peak at row R // 2 + y, column C //
             2 + x; in C++ the responses one below the other
 
     Raises:
-        ValueError: on other shapes, or a ridge out of range
+        ValueError: on other shapes
 
     Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.1; for one channel Bolme et al.
     2010.
@@ -2251,11 +2246,7 @@ class Kernels(Protocol):
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def correlation_response(
-        self,
-        cells: numpy.typing.NDArray[numpy.float32],
-        numerators: numpy.typing.NDArray[numpy.complex64],
-        denominators: numpy.typing.NDArray[numpy.float32],
-        ridge: float,
+        self, cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def correlation_train(
         self,

@@ -13,9 +13,9 @@ std::string shape(int planes, int rows, int cols) {
     return "(" + std::to_string(planes) + ", " + std::to_string(rows) + ", " + std::to_string(cols) + ")";
 }
 
-std::string shape(const FilterStack& numerators) {
-    return "(" + std::to_string(numerators.filters) + ", " + std::to_string(numerators.planes) + ", " +
-           std::to_string(numerators.rows) + ", " + std::to_string(numerators.cols) + ")";
+std::string shape(const FilterStack& filters) {
+    return "(" + std::to_string(filters.filters) + ", " + std::to_string(filters.planes) + ", " +
+           std::to_string(filters.rows) + ", " + std::to_string(filters.cols) + ")";
 }
 
 std::string shape(Eigen::Index rows, Eigen::Index cols) {
@@ -29,16 +29,11 @@ void require_cells(const FloatStack& cells) {
         refuse("cells", "at least one channel and cell", shape(cells.planes, cells.rows, cells.cols));
 }
 
-void require_filters(const FilterStack& numerators, const FloatStack& denominators, const FloatStack& cells) {
-    const FilterStack expected{nullptr, numerators.filters, cells.planes, cells.rows, cells.cols / 2 + 1};
-    if (numerators.filters < 1) refuse("numerators", "at least one filter", shape(numerators));
-    if (numerators.planes != expected.planes || numerators.rows != expected.rows ||
-        numerators.cols != expected.cols)
-        refuse("numerators", "shape " + shape(expected), shape(numerators));
-    if (denominators.planes != expected.filters || denominators.rows != expected.rows ||
-        denominators.cols != expected.cols)
-        refuse("denominators", "shape " + shape(expected.filters, expected.rows, expected.cols),
-               shape(denominators.planes, denominators.rows, denominators.cols));
+void require_filters(const FilterStack& filters, const FloatStack& cells) {
+    const FilterStack expected{nullptr, filters.filters, cells.planes, cells.rows, cells.cols / 2 + 1};
+    if (filters.filters < 1) refuse("filters", "at least one filter", shape(filters));
+    if (filters.planes != expected.planes || filters.rows != expected.rows || filters.cols != expected.cols)
+        refuse("filters", "shape " + shape(expected), shape(filters));
 }
 
 void require_numerator(const ComplexStack& numerator, const FloatStack& cells) {

@@ -8,8 +8,8 @@ namespace tricue {
 
 /// Each throws std::invalid_argument that names the argument, what was expected and what was given.
 void require_cells(const FloatStack& cells);
-/// Of filters for such cells, at least one: numerators (filters, planes, rows, cols / 2 + 1), denominators without the planes.
-void require_filters(const FilterStack& numerators, const FloatStack& denominators, const FloatStack& cells);
+/// At least one filter for such cells: (filters, planes, rows, cols / 2 + 1).
+void require_filters(const FilterStack& filters, const FloatStack& cells);
 void require_numerator(const ComplexStack& numerator, const FloatStack& cells);
 void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
                    int expected_cols);

@@ -10,30 +10,23 @@ Floats = NDArray[np.float32]
 Complexes = NDArray[np.complex64]
 
 
-def correlation_response(cells: Floats, numerators: Complexes, denominators: Floats, ridge: float) -> Floats:
-    """Takes the transforms of numpy.fft, channel by channel: F⁻¹{sum_k A_k Z_k / (B + λ)}."""
-    require_filters(cells, numerators, denominators)
-    require_ridge(ridge)
+def correlation_response(cells: Floats, filters: Complexes) -> Floats:
+    """Takes the transforms of numpy.fft, channel by channel: F⁻¹{sum_k A_k Z_k}."""
+    require_filters(cells, filters)
     spectrum = np.fft.rfft2(cells.astype(np.float64))
-    answers = []
-    for numerator, denominator in zip(numerators, denominators, strict=True):
-        shrunk = denominator + ridge * max(float(denominator.mean(dtype=np.float64)), 1e-12)
-        answer = np.fft.irfft2((numerator * spectrum).sum(axis=0) / shrunk, cells.shape[1:])
-        answers.append(np.fft.fftshift(answer))
-    return np.array(answers, np.float32)
+    answers = [np.fft.irfft2((each * spectrum).sum(axis=0), cells.shape[1:]) for each in filters]
+    return np.fft.fftshift(answers, axes=(1, 2)).astype(np.float32)
 
 
-def require_filters(cells: Floats, numerators: Complexes, denominators: Floats) -> None:
+def require_filters(cells: Floats, filters: Complexes) -> None:
     """Refuse no cells, no filters, and filters that aren't for them."""
     require_cells(cells)
     channels, rows, columns = cells.shape
-    count, half = len(numerators), (rows, columns // 2 + 1)
-    if count < 1:
-        refuse("numerators", "at least one filter", numerators.shape)
-    if numerators.shape != (count, channels, *half):
-        refuse("numerators", f"shape {(count, channels, *half)}", numerators.shape)
-    if denominators.shape != (count, *half):
-        refuse("denominators", f"shape {(count, *half)}", denominators.shape)
+    expected = (len(filters), channels, rows, columns // 2 + 1)
+    if len(filters) < 1:
+        refuse("filters", "at least one filter", filters.shape)
+    if filters.shape != expected:
+        refuse("filters", f"shape {expected}", filters.shape)
 
 
 def require_cells(cells: Floats) -> None:

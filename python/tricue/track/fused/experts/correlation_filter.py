@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The correlation filter: it responds where orientations and colors are arranged as on the target."""
 
+from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -11,20 +12,22 @@ from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.window import WINDOW_CELLS, Window
 
-Filter = tuple[NDArray[np.complex64], Plane]  # numerator and denominator
+Spectra = NDArray[np.complex64]
+Filter = tuple[Spectra, Plane]  # numerator and denominator
 
 
 class CorrelationFilterExpert(NamedTuple):
     """A filter on orientations and colors (Danelljan et al. 2014, Bolme et al. 2010).
 
-    learned: numerator (19, 32, 17) and denominator (32, 17), as they are learned. applied: two filters,
-    stacked: the learned one with a share of the first frame's, and the first frame's alone. label: spectrum
-    of the desired response.
+    learned, first: numerator (19, 32, 17) and denominator (32, 17), as they are learned, and of the first
+    frame. applied: two filters, divided: the learned one with a share of the first frame's, and the first
+    frame's alone. label: spectrum of the desired response.
     """
 
     learned: Filter
-    applied: Filter
-    label: NDArray[np.complex64]
+    first: Filter
+    applied: Spectra
+    label: Spectra
     params: FusedParams
 
     @classmethod
@@ -36,11 +39,11 @@ class CorrelationFilterExpert(NamedTuple):
         mask = target_mask(window.size, p.filter_mask_size)
         k = window.observation.k
         first = k.correlation_train(window.cells, mask, label, *empty, 1.0, p.background_weight)
-        return cls(first, stack(first, first), label, p)
+        return cls(first, first, divide([first, first], p.ridge), label, p)
 
     def responses(self, window: Window) -> Plane:
         """(2, 32, 32) responses of the learned and of the first frame's filter."""
-        return window.observation.k.correlation_response(window.cells, *self.applied, self.params.ridge)
+        return window.observation.k.correlation_response(window.cells, self.applied)
 
     def learn(self, window: Window, rate: float) -> "CorrelationFilterExpert":
         """The expert with a window blended in, whose center is the target's."""
@@ -49,9 +52,8 @@ class CorrelationFilterExpert(NamedTuple):
         learned = k.correlation_train(
             window.cells, mask, self.label, *self.learned, rate, p.background_weight
         )
-        first = self.applied[0][1], self.applied[1][1]
-        applied = stack(blend_filters(learned, first, p.first_frame_weight), first)
-        return CorrelationFilterExpert(learned, applied, self.label, p)
+        blended = blend_filters(learned, self.first, p.first_frame_weight)
+        return self._replace(learned=learned, applied=divide([blended, self.first], p.ridge))
 
 
 def blend_filters(learned: Filter, first: Filter, first_weight: float) -> Filter:
@@ -60,9 +62,9 @@ def blend_filters(learned: Filter, first: Filter, first_weight: float) -> Filter
     return learned[0] + share * (first[0] - learned[0]), learned[1] + share * (first[1] - learned[1])
 
 
-def stack(*filters: Filter) -> Filter:
-    """Filters as one argument of correlation_response."""
-    return np.stack([each[0] for each in filters]), np.stack([each[1] for each in filters])
+def divide(filters: Sequence[Filter], ridge: float) -> Spectra:
+    """(F, 19, 32, 17), as correlation_response takes filters. ridge: in parts of the mean denominator."""
+    return np.stack([a / (b + np.float32(ridge * max(float(b.mean()), 1e-12))) for a, b in filters])
 
 
 @lru_cache(maxsize=64)
@@ -81,7 +83,7 @@ def target_mask(size: tuple[float, float], outer: float) -> Plane:
     return np.outer(_mask_profile(size[1], outer), _mask_profile(size[0], outer)).astype(np.float32)
 
 
-def label_spectrum(width: float) -> NDArray[np.complex64]:
+def label_spectrum(width: float) -> Spectra:
     """The spectrum of the desired response: a Gaussian at (0, 0) with that standard deviation in cells."""
     offset = np.fft.fftfreq(WINDOW_CELLS, 1 / WINDOW_CELLS)
     profile = np.exp(-0.5 * (offset / width) ** 2)

@@ -12,7 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.track.fused.arrays import Image, Plane
-from tricue.track.fused.experts.correlation_filter import Filter, blend_filters, label_spectrum, stack
+from tricue.track.fused.experts.correlation_filter import (
+    Filter,
+    Spectra,
+    blend_filters,
+    divide,
+    label_spectrum,
+)
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.peak import gaussian_peak_offset
 from tricue.track.fused.target import Target
@@ -33,13 +39,13 @@ SQUARED_SHIFTS = np.arange(-MAX_SHIFT, MAX_SHIFT + 1, dtype=np.float32) ** 2
 class SizeExpert(NamedTuple):
     """A correlation filter on a log-polar patch.
 
-    learned, first, applied: numerator (19, 32, 17) and denominator (32, 17), as they are learned, of the
-    first frame, and a blend of both.
+    learned, first: numerator (19, 32, 17) and denominator (32, 17), as they are learned, and of the first
+    frame. applied: a blend of both, divided.
     """
 
     learned: Filter
     first: Filter
-    applied: Filter
+    applied: Spectra
     params: FusedParams
 
     @classmethod
@@ -48,12 +54,12 @@ class SizeExpert(NamedTuple):
         cells = log_polar_cells(observation, target)
         empty = np.zeros((len(cells), *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
         first = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *empty, 1.0, 0.0)
-        return cls(first, first, stack(first), p)
+        return cls(first, first, divide([first], p.ridge), p)
 
     def growth(self, observation: TargetObservation, target: Target) -> float:
         """The ratio of the size of what is at a target's place to the target's."""
         p, cells = self.params, log_polar_cells(observation, target)
-        response = observation.k.correlation_response(cells, *self.applied, p.ridge)[0]
+        response = observation.k.correlation_response(cells, self.applied)[0]
         evidence = response[ROWS, COLUMNS] - p.size_change_penalty * SQUARED_SHIFTS
         row, column = divmod(int(evidence.argmax()), evidence.shape[1])
         shift = column + gaussian_peak_offset(response[ROWS, COLUMNS][row], column) - MAX_SHIFT
@@ -63,8 +69,8 @@ class SizeExpert(NamedTuple):
         """The expert with a target blended in."""
         cells = log_polar_cells(observation, target)
         learned = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *self.learned, rate, 0.0)
-        applied = stack(blend_filters(learned, self.first, self.params.first_frame_weight))
-        return SizeExpert(learned, self.first, applied, self.params)
+        blended = blend_filters(learned, self.first, self.params.first_frame_weight)
+        return self._replace(learned=learned, applied=divide([blended], self.params.ridge))
 
 
 def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
