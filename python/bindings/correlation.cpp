@@ -2,8 +2,6 @@
 #include "arrays.hpp"
 #include "fuse/correlation_response.hpp"
 #include "fuse/correlation_train.hpp"
-#include "fuse/scale_response.hpp"
-#include "fuse/scale_train.hpp"
 #include "kernel_docs.hpp"
 
 namespace tricue::bindings {
@@ -49,31 +47,6 @@ std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, co
             give(std::move(filter.denominator))};
 }
 
-constexpr const char* kLooks = "float32 looks (S, D)";
-constexpr const char* kFrequencies = "complex64 (S // 2 + 1, D)";
-constexpr const char* kLine = "float32 (S // 2 + 1,)";
-
-Floating scale_response_arrays(const Floating& looks, const Complex& numerator, const Floating& denominator,
-                               double ridge) {
-    const auto seen = floats(looks, "looks", {-1, -1}, kLooks);
-    const auto upper = complexes(numerator, "numerator", kFrequencies);
-    const auto lower = floats(denominator, "denominator", {-1}, kLine);
-    return give(unlocked(seen.size(), [&] { return scale_response(seen, upper, lower, ridge); }));
-}
-
-std::tuple<Complex, Floating> scale_train_arrays(const Floating& looks, const Complex& label,
-                                                 const Complex& numerator, const Floating& denominator,
-                                                 double rate) {
-    const auto seen = floats(looks, "looks", {-1, -1}, kLooks);
-    const auto wanted = require<std::complex<float>>(label, "label", 1, "complex64 (S // 2 + 1,)");
-    const Eigen::Map<const Complexes> spectrum(contiguous<std::complex<float>>(wanted, "label"), 1,
-                                               wanted.shape(0));
-    const auto upper = complexes(numerator, "numerator", kFrequencies);
-    const auto lower = floats(denominator, "denominator", {-1}, kLine);
-    auto filter = unlocked(seen.size(), [&] { return scale_train(seen, spectrum, upper, lower, rate); });
-    return {give(std::move(filter.numerator)), give(std::move(filter.denominator))};
-}
-
 }  // namespace
 
 void define_correlation(py::module_& m) {
@@ -82,10 +55,6 @@ void define_correlation(py::module_& m) {
     m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
           py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
           docs::correlation_train);
-    m.def("scale_response", scale_response_arrays, py::arg("looks"), py::arg("numerator"),
-          py::arg("denominator"), py::arg("ridge"), docs::scale_response);
-    m.def("scale_train", scale_train_arrays, py::arg("looks"), py::arg("label"), py::arg("numerator"),
-          py::arg("denominator"), py::arg("rate"), docs::scale_train);
 }
 
 }  // namespace tricue::bindings

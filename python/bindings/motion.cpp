@@ -2,7 +2,6 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "cues/motion/flow_scale.hpp"
 #include "cues/motion/gradient_flow.hpp"
 #include "cues/motion/pyramid_flow.hpp"
 #include "kernel_docs.hpp"
@@ -53,15 +52,6 @@ Planes pyramid_flow_arrays(const Bytes& previous, const Bytes& current, double s
     }));
 }
 
-std::tuple<double, double, std::int64_t> flow_scale_arrays(const Array<float>& u, const Array<float>& v,
-                                                           double outliers, int min_pixels) {
-    constexpr const char* kFlow = "float32 flow (h, w)";
-    const auto across = plane_view(u, "u", kFlow), down = plane_view(v, "v", kFlow);
-    const auto found = unlocked(std::ptrdiff_t{across.rows} * across.cols,
-                                [&] { return flow_scale(across, down, outliers, min_pixels); });
-    return {found.a, found.spread, found.count};
-}
-
 }  // namespace
 
 void define_motion(py::module_& m) {
@@ -70,8 +60,6 @@ void define_motion(py::module_& m) {
     m.def("pyramid_flow", pyramid_flow_arrays, py::arg("previous"), py::arg("current"), py::arg("sigma"),
           py::arg("levels"), py::arg("min_angle"), py::arg("min_contrast"), py::arg("region") = py::none(),
           py::arg("pool") = 3, py::arg("max_step") = 0.4, docs::pyramid_flow);
-    m.def("flow_scale", flow_scale_arrays, py::arg("u"), py::arg("v"), py::arg("outliers"),
-          py::arg("min_pixels"), docs::flow_scale);
 }
 
 }  // namespace tricue::bindings

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 #include "cues/color/box_contrast.hpp"
-#include "cues/color/box_means.hpp"
 #include "cues/color/hog_color_cells.hpp"
 #include "cues/color/sample_windows.hpp"
 #include "kernel_docs.hpp"
@@ -38,14 +37,6 @@ Array<float> box_contrast_arrays(const Array<float>& plane, double width, double
                          [&] { return box_contrast(view, {width, height, outer}, around); }));
 }
 
-Array<double> box_means_arrays(const Array<float>& plane, double x, double y, const Array<double>& widths,
-                               const Array<double>& heights) {
-    const auto view = map(plane);
-    const auto across = vector(widths, "widths"), down = vector(heights, "heights");
-    return give(
-        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return box_means(view, x, y, across, down); }));
-}
-
 }  // namespace
 
 void define_patch(py::module_& m) {
@@ -55,8 +46,6 @@ void define_patch(py::module_& m) {
           docs::hog_color_cells);
     m.def("box_contrast", box_contrast_arrays, py::arg("plane"), py::arg("width"), py::arg("height"),
           py::arg("outer"), py::arg("around"), docs::box_contrast);
-    m.def("box_means", box_means_arrays, py::arg("plane"), py::arg("x"), py::arg("y"), py::arg("widths"),
-          py::arg("heights"), docs::box_means);
 }
 
 }  // namespace tricue::bindings

@@ -170,34 +170,6 @@ def box_contrast(
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
     """
 
-def box_means(
-    plane: numpy.typing.NDArray[numpy.float32],
-    x: float,
-    y: float,
-    widths: numpy.typing.NDArray[numpy.float64],
-    heights: numpy.typing.NDArray[numpy.float64],
-) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    Means of a map in N boxes of different sizes around one place.
-
-    A pixel counts by the part of it that is covered; outside the map the values are 0. Sums are
-    float64. The means of two boxes give what lies between them, along a target's edge.
-
-    Args:
-        plane: float32 (H, W), finite, at least one pixel
-        x, y: center of the boxes, finite, pixels from the map's top left corner
-        widths: float64 (N,), finite, above 0, pixels
-        heights: float64 (N,), finite, above 0, pixels
-
-    Returns:
-        float64 (N,)
-
-    Raises:
-        ValueError: on a plane without pixels, unlike sizes, or numbers out of range
-
-    Source: ours.
-    """
-
 def color_bins(
     image: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
@@ -866,42 +838,6 @@ def floor_plane(
         ValueError: on other shapes or values
 
     Source: ours; RANSAC after Fischler, Bolles 1981.
-    """
-
-def flow_scale(
-    u: numpy.typing.NDArray[numpy.float32],
-    v: numpy.typing.NDArray[numpy.float32],
-    outliers: float,
-    min_pixels: int,
-) -> tuple[float, float, int]:
-    """
-    How much a flow field stretches: where the pixels (x, y) came from is a similarity without rotation,
-        x - u = a x + b,   y - v = a y + c
-
-    by least squares over the n pixels where u and v are finite; with p = (x, y), f = (u, v)
-        a = 1 - s,   s = (Σ p f - Σp Σf / n) / (Σ p² - (Σp)² / n),   (b, c) = s Σp / n - Σf / n
-
-    and once more without the pixels whose squared residual |f - s p + (b, c)|² is above outliers² times
-    the first fit's mean: at most 1 / outliers² of all. In float64, with x and y from the middle of the
-    planes. A sum is that of four partial sums by x mod 4, each row by row from the left, the first two
-    plus the last two: so all machines give the same bits.
-
-    Args:
-        u, v: float32 (h, w), pixels per frame, NaN where unknown, as pyramid_flow gives them
-        outliers: multiple of the root mean square residual above which a pixel is left out of the
-            second fit, finite, above 0
-        min_pixels: pixels that each fit needs, at least 1
-
-    Returns:
-        a: scale of the previous frame relative to this one; NaN with too few pixels, or just one
-        spread: mean squared residual of the last fit, pixels²; NaN with a
-        count: pixels of the last fit, or, with a NaN, those that were too few for one
-
-    Raises:
-        ValueError: on unlike shapes, or numbers out of range
-
-    Source: Umeyama 1991, equation (42) with R = 1, from the places now to those before; the second fit
-    is one round of sigma clipping.
     """
 
 def gradient_disparity(
@@ -1749,66 +1685,6 @@ def sample_windows(
     Source: ours; bilinear readings that cover the sample, as mipmaps and OpenCV's INTER_AREA have.
     """
 
-def scale_response(
-    looks: numpy.typing.NDArray[numpy.float32],
-    numerator: numpy.typing.NDArray[numpy.complex64],
-    denominator: numpy.typing.NDArray[numpy.float32],
-    ridge: float,
-) -> numpy.typing.NDArray[numpy.float32]:
-    """
-    Response of a correlation filter over scales, equation (6) along one dimension: the inverse Fourier
-    transform of Σ_d A_d Z_d / (B + λ).
-
-    λ is ridge max(mean of B, 1e-12). Sums over the channels have sixteen parts, d modulo 16.
-
-    Args:
-        looks: float32 (S, D): D features of a target at S steps of scale, D at least 1
-        numerator: complex64 (S // 2 + 1, D), A: non-negative frequencies, in the order of
-            numpy.fft.rfft
-        denominator: float32 (S // 2 + 1,), B, at least 0
-        ridge: finite, above 0
-
-    Returns:
-        float32 (S,): no change of scale is at S // 2
-
-    Raises:
-        ValueError: on other shapes, or a ridge out of range
-
-    Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.2.
-    """
-
-def scale_train(
-    looks: numpy.typing.NDArray[numpy.float32],
-    label: numpy.typing.NDArray[numpy.complex64],
-    numerator: numpy.typing.NDArray[numpy.complex64],
-    denominator: numpy.typing.NDArray[numpy.float32],
-    rate: float,
-) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]:
-    """
-    Updates a correlation filter over scales with new looks of a target, equation (5) along one
-    dimension:
-        A_d = Y conj(X_d),   B = Σ_d |X_d|²,   both become (1 - rate) old + rate new
-
-    Sums over the channels have sixteen parts, d modulo 16.
-
-    Args:
-        looks: float32 (S, D): D features of a target at S steps of scale, D at least 1
-        label: complex64 (S // 2 + 1,), Y: the spectrum of the desired response, its peak at 0, as of
-            numpy.fft.rfft
-        numerator: complex64 (S // 2 + 1, D), A so far
-        denominator: float32 (S // 2 + 1,), B so far
-        rate: learning rate, in [0, 1]; 1 starts the filter
-
-    Returns:
-        numerator: complex64 (S // 2 + 1, D), A: a frequency per row
-        denominator: float32 (S // 2 + 1,), B
-
-    Raises:
-        ValueError: on other shapes, or a rate out of range
-
-    Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.2.
-    """
-
 def section_distance(
     sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -2220,14 +2096,6 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
-    def box_means(
-        self,
-        plane: numpy.typing.NDArray[numpy.float32],
-        x: float,
-        y: float,
-        widths: numpy.typing.NDArray[numpy.float64],
-        heights: numpy.typing.NDArray[numpy.float64],
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def color_bins(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
@@ -2375,13 +2243,6 @@ class Kernels(Protocol):
         up: numpy.typing.NDArray[numpy.float64],
         min_cosine: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
-    def flow_scale(
-        self,
-        u: numpy.typing.NDArray[numpy.float32],
-        v: numpy.typing.NDArray[numpy.float32],
-        outliers: float,
-        min_pixels: int,
-    ) -> tuple[float, float, int]: ...
     def gradient_disparity(
         self,
         left: numpy.typing.NDArray[numpy.uint8],
@@ -2580,21 +2441,6 @@ class Kernels(Protocol):
         rows: int,
         columns: int,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
-    def scale_response(
-        self,
-        looks: numpy.typing.NDArray[numpy.float32],
-        numerator: numpy.typing.NDArray[numpy.complex64],
-        denominator: numpy.typing.NDArray[numpy.float32],
-        ridge: float,
-    ) -> numpy.typing.NDArray[numpy.float32]: ...
-    def scale_train(
-        self,
-        looks: numpy.typing.NDArray[numpy.float32],
-        label: numpy.typing.NDArray[numpy.complex64],
-        numerator: numpy.typing.NDArray[numpy.complex64],
-        denominator: numpy.typing.NDArray[numpy.float32],
-        rate: float,
-    ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]: ...
     def section_distance(
         self, sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float64]: ...

@@ -53,26 +53,8 @@ void require_denominator(FloatsRef denominator, const FloatStack& cells) {
     require_plane("denominator", denominator.rows(), denominator.cols(), cells.rows, cells.cols / 2 + 1);
 }
 
-void require_looks(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator) {
-    if (looks.size() < 1)
-        refuse("looks", "at least one scale and channel", shape(looks.rows(), looks.cols()));
-    const Eigen::Index half = looks.rows() / 2 + 1;
-    if (numerator.rows() != half || numerator.cols() != looks.cols())
-        refuse("numerator", "shape " + shape(half, looks.cols()), shape(numerator.rows(), numerator.cols()));
-    require_frequencies("denominator", denominator.cols(), half);
-}
-
-void require_frequencies(const char* name, Eigen::Index count, Eigen::Index expected) {
-    if (count != expected)
-        refuse(name, "shape (" + std::to_string(expected) + ",)", "(" + std::to_string(count) + ",)");
-}
-
 void require_rate(double rate) {
     if (!(rate >= 0.0 && rate <= 1.0)) refuse("rate", "a number in [0, 1]", rate);
-}
-
-void require_ridge(double ridge) {
-    if (!(ridge > 0.0 && std::isfinite(ridge))) refuse("ridge", "a finite number above 0", ridge);
 }
 
 }  // namespace tricue

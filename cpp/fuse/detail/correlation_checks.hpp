@@ -15,10 +15,6 @@ void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int e
                    int expected_cols);
 /// One plane of such spectra.
 void require_denominator(FloatsRef denominator, const FloatStack& cells);
-/// Of S scales with D channels: both at least 1, the numerator of S / 2 + 1 x D, the denominator of S / 2 + 1.
-void require_looks(FloatsRef looks, ComplexesRef numerator, FloatsRef denominator);
-void require_frequencies(const char* name, Eigen::Index count, Eigen::Index expected);
 void require_rate(double rate);
-void require_ridge(double ridge);
 
 }  // namespace tricue

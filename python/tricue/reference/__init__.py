@@ -8,7 +8,6 @@ from tricue.reference.camera.back_project import back_project
 from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.box_contrast import box_contrast
-from tricue.reference.cues.color.box_means import box_means
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -49,7 +48,6 @@ from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
-from tricue.reference.cues.motion.flow_scale import flow_scale
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
 from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
@@ -64,8 +62,6 @@ from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
-from tricue.reference.fuse.scale_response import scale_response
-from tricue.reference.fuse.scale_train import scale_train
 from tricue.reference.fuse.summarize import summarize
 from tricue.reference.fuse.target_distribution import target_distribution
 from tricue.reference.fuse.target_pixels import target_pixels
@@ -79,7 +75,6 @@ __all__ = [
     "block_counts",
     "block_mask",
     "box_contrast",
-    "box_means",
     "color_bins",
     "color_histogram",
     "color_lookup",
@@ -101,7 +96,6 @@ __all__ = [
     "ellipse_search",
     "fill_gaps",
     "floor_plane",
-    "flow_scale",
     "gradient_disparity",
     "gradient_flow",
     "histogram_mean",
@@ -125,8 +119,6 @@ __all__ = [
     "sad_disparity",
     "sample_ellipses",
     "sample_windows",
-    "scale_response",
-    "scale_train",
     "section_distance",
     "shift_histogram",
     "skin_blobs",

@@ -44,9 +44,3 @@ def require_filter(cells: Floats, numerator: Complexes, denominator: Floats) -> 
         refuse("numerator", f"shape {(count, *half)}", numerator.shape)
     if denominator.shape != half:
         refuse("denominator", f"shape {half}", denominator.shape)
-
-
-def require_ridge(ridge: float) -> None:
-    """Refuse what doesn't keep a division from nothing."""
-    if not 0 < ridge < np.inf:
-        refuse("ridge", "a finite number above 0", float(ridge))

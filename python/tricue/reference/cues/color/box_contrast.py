@@ -5,9 +5,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse, require_finite
-from tricue.reference.cues.color.box_means import covered
 
 Plane = NDArray[np.float32]
+Floats = NDArray[np.float64]
 
 
 def box_contrast(plane: Plane, width: float, height: float, outer: float, around: float) -> Plane:
@@ -16,11 +16,18 @@ def box_contrast(plane: Plane, width: float, height: float, outer: float, around
     rows, columns = plane.shape[0] // 2, plane.shape[1] // 2
     y, x = (count + 2.0 * (np.arange(count) - count // 2) for count in (rows, columns))
     values = plane.astype(np.float64)
-    inner = covered(2 * rows, y, height) @ values @ covered(2 * columns, x, width).T
-    whole = covered(2 * rows, y, height * outer) @ values @ covered(2 * columns, x, width * outer).T
+    inner = _covered(2 * rows, y, height) @ values @ _covered(2 * columns, x, width).T
+    whole = _covered(2 * rows, y, height * outer) @ values @ _covered(2 * columns, x, width * outer).T
     area = width * height
-    contrast: NDArray[np.float64] = inner / area - around * (whole - inner) / (area * (outer * outer - 1))
+    contrast: Floats = inner / area - around * (whole - inner) / (area * (outer * outer - 1))
     return contrast.astype(np.float32)
+
+
+def _covered(size: int, centers: Floats, length: float) -> Floats:
+    """(N, size): how much of each pixel a length around each of N centers covers."""
+    low, high, pixel = centers - length / 2, centers + length / 2, np.arange(size)
+    overlap: Floats = np.minimum(high[:, None], pixel + 1) - np.maximum(low[:, None], pixel)
+    return np.clip(overlap, 0, 1)
 
 
 def _require_arguments(plane: Plane, width: float, height: float, outer: float, around: float) -> None:
