@@ -6,51 +6,69 @@
 namespace tricue {
 namespace {
 
-struct Factors {
-    const float *left, *right;
-    int rows, inner, cols;
-    std::ptrdiff_t left_pitch, right_pitch, product_pitch;  ///< numbers from a row to the next
+struct Product {
+    Rows left, right;
+    int cols;
+    float* to;
+    std::ptrdiff_t pitch;
 };
 
-/// kRows rows of the product, one register of each at a time: no sum waits for the one before, and the right factor is read once
-/// for all rows.
-template <int kLanes, int kRows>
-TRICUE_INLINE void multiply_rows(const Factors& factors, int y, float* product) {
+/// kRows rows of the product, kRegisters registers of each, at a time: no sum waits for the one before, and what was loaded of a
+/// factor is used for many.
+template <int kLanes, int kRows, int kRegisters>
+TRICUE_INLINE void multiply_block(const Product& product, int y, int x) {
     using Register = Pack<float, kLanes>;
-    const float* left = factors.left + factors.left_pitch * y;
-    for (int x = 0; x < factors.cols; x += kLanes) {
-        Register sums[std::size_t{kRows}] = {};
-        for (int i = 0; i < factors.inner; ++i) {
-            Register right;
-            load(factors.right + factors.right_pitch * i + x, right);
-            for (int row = 0; row < kRows; ++row) sums[row] += left[factors.left_pitch * row + i] * right;
-        }
+    const Rows left = product.left, right = product.right;
+    const float *column = left.numbers + left.pitch * y, *numbers = right.numbers + x;
+    Register sums[std::size_t{kRows}][std::size_t{kRegisters}] = {};
+    for (int i = 0; i < right.count; ++i, ++column, numbers += right.pitch) {
+        Register row_part[std::size_t{kRegisters}];
+        for (int part = 0; part < kRegisters; ++part) load(numbers + part * kLanes, row_part[part]);
         for (int row = 0; row < kRows; ++row)
-            store(sums[row], product + factors.product_pitch * (y + row) + x);
+            for (int part = 0; part < kRegisters; ++part)
+                sums[row][part] += column[left.pitch * row] * row_part[part];
+    }
+    const std::ptrdiff_t pitch = product.pitch;
+    float* to = product.to + pitch * y + x;
+    for (int row = 0; row < kRows; ++row, to += pitch)
+        for (int part = 0; part < kRegisters; ++part) store(sums[row][part], to + part * kLanes);
+}
+
+template <int kLanes, int kRows, int kRegisters>
+TRICUE_INLINE void multiply_rows(const Product& product, int y) {
+    int x = 0;
+    for (; x + (kRegisters - 1) * kLanes < product.cols; x += kRegisters * kLanes)
+        multiply_block<kLanes, kRows, kRegisters>(product, y, x);
+    if constexpr (kRegisters > 1)
+        for (; x < product.cols; x += kLanes) multiply_block<kLanes, kRows, 1>(product, y, x);
+}
+
+/// `rows` rows, 1 to kRows.
+template <int kLanes, int kRows, int kRegisters>
+TRICUE_INLINE void multiply_some(const Product& product, int y, int rows) {
+    if (rows == kRows) return multiply_rows<kLanes, kRows, kRegisters>(product, y);
+    if constexpr (kRows > 1) multiply_some<kLanes, kRows - 1, kRegisters>(product, y, rows);
+}
+
+/// All rows, in blocks of equal heights, but for one row: few sums at a time would wait for each other. AVX-512 has twice as many
+/// registers as others.
+template <int kBytes>
+TRICUE_INLINE void multiply_by(const Product& product) {
+    constexpr int kLanes = kBytes / int{sizeof(float)}, kRows = 8;
+    int blocks = (product.left.count + kRows - 1) / kRows;
+    for (int y = 0; blocks > 0; --blocks) {
+        const int rows = (product.left.count - y + blocks - 1) / blocks;
+        multiply_some<kLanes, kRows, kBytes == 64 ? 2 : 1>(product, y, rows);
+        y += rows;
     }
 }
 
-/// All rows from y on: kRows at a time, then the remaining ones fewer at a time.
-template <int kLanes, int kRows>
-TRICUE_INLINE void multiply_from(const Factors& factors, int y, float* product) {
-    for (; y + kRows <= factors.rows; y += kRows) multiply_rows<kLanes, kRows>(factors, y, product);
-    if constexpr (kRows > 1) multiply_from<kLanes, kRows / 2>(factors, y, product);
-}
-
-template <int kBytes>
-TRICUE_INLINE void multiply_by(const Factors& factors, float* product) {
-    constexpr int kRows = 8;
-    multiply_from<kBytes / int{sizeof(float)}, kRows>(factors, 0, product);
-}
-
-TRICUE_MULTIWIDTH(multiply_all, multiply_by, (const Factors& factors, float* product), (factors, product))
+TRICUE_MULTIWIDTH(multiply_all, multiply_by, (const Product& product), (product))
 
 }  // namespace
 
-void multiply(const LeftFactor& left, const AlignedMatrix& right, int cols, AlignedMatrix& product) {
-    multiply_all({left.numbers, right.row(0), left.rows, right.rows(), cols, left.pitch, right.pitch(),
-                  product.pitch()},
-                 product.row(0));
+void multiply(const Rows& left, const Rows& right, int cols, AlignedMatrix& product, int first_row) {
+    multiply_all({left, right, cols, product.row(first_row), product.pitch()});
 }
 
 }  // namespace tricue

@@ -5,22 +5,21 @@
 
 namespace tricue {
 
-/// A non-owning view of a matrix with any number of columns.
-struct LeftFactor {
-    LeftFactor(const AlignedMatrix& matrix)
-        : numbers(matrix.row(0)), pitch(matrix.pitch()), rows(matrix.rows()) {}
-    LeftFactor(const float* first, std::ptrdiff_t apart, int count)
-        : numbers(first), pitch(apart), rows(count) {}
+/// A non-owning view of some rows of a matrix, with any number of columns.
+struct Rows {
+    Rows(const AlignedMatrix& matrix) : Rows(matrix.row(0), matrix.pitch(), matrix.rows()) {}
+    Rows(const float* first, std::ptrdiff_t apart, int many) : numbers(first), pitch(apart), count(many) {}
 
     const float* numbers;
     std::ptrdiff_t pitch;  ///< numbers from a row to the next
-    int rows;
+    int count;
 };
 
-/// left (m, k or more) times the first `cols` columns of right (k, n), into those of the first m rows of `product`. Sums go along k
-/// in order on every machine.
+/// left (m, k or more) times the first `cols` columns of right (k, n), into those of the rows of `product` from `first_row` on. Sums go
+/// along k in order on every machine.
 ///
-/// For small matrices: Eigen's products use only the registers that every machine has.
-void multiply(const LeftFactor& left, const AlignedMatrix& right, int cols, AlignedMatrix& product);
+/// For small matrices: Eigen's products use only the registers that every machine has. Whole registers are read and written: rows of
+/// `right` begin as those of an AlignedMatrix do.
+void multiply(const Rows& left, const Rows& right, int cols, AlignedMatrix& product, int first_row = 0);
 
 }  // namespace tricue

@@ -91,10 +91,10 @@ PlaneFourier::PlaneFourier(int rows, int cols) : rows_(rows), cols_(cols) {
 }
 
 void PlaneFourier::transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
-                             float* two_im) {
+                             float* two_im, const Margins& margins) {
     if (small_) {
-        small_->transform(one, one_re, one_im);
-        if (two != one) small_->transform(two, two_re, two_im);
+        small_->transform(one, one_re, one_im, margins);
+        if (two != one) small_->transform(two, two_re, two_im, margins);
         return;
     }
     interleave(one, two, pairs_.size(), as_floats(pairs_.data()));
@@ -113,10 +113,10 @@ void PlaneFourier::transform(const float* one, const float* two, float* one_re, 
 }
 
 void PlaneFourier::invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
-                          float* one, float* two) {
+                          float* one, float* two, const Margins& margins) {
     if (small_) {
-        small_->invert(one_re, one_im, one);
-        if (two != one) small_->invert(two_re, two_im, two);
+        small_->invert(one_re, one_im, one, margins);
+        if (two != one) small_->invert(two_re, two_im, two, margins);
         return;
     }
     const int half = this->half();

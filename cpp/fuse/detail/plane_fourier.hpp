@@ -23,14 +23,14 @@ public:
     /// How many numbers a spectrum's real or imaginary part has.
     std::size_t count() const { return static_cast<std::size_t>(rows_) * static_cast<std::size_t>(half()); }
 
-    /// Both planes, contiguous. To transform one alone give it as the second too, and leave out that spectrum.
+    /// Both planes, contiguous, with 0 in the margins. To transform one alone give it as the second too, and leave out that spectrum.
     void transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
-                   float* two_im);
+                   float* two_im, const Margins& margins = {});
 
-    /// The planes of two spectra, contiguous. Like numpy.fft.irfft2 it ignores imaginary parts that have to be 0 in the spectrum of a
-    /// real plane. To invert one alone give it as the second too, and the same plane.
+    /// The planes of two spectra, contiguous; what the margins then hold is unspecified. Like numpy.fft.irfft2 it ignores imaginary
+    /// parts that have to be 0 in the spectrum of a real plane. To invert one alone give it as the second too, and the same plane.
     void invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
-                float* one, float* two);
+                float* one, float* two, const Margins& margins = {});
 
 private:
     int rows_, cols_;

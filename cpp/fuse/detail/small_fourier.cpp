@@ -11,83 +11,136 @@
 namespace tricue {
 namespace {
 
-/// Cosines and negative sines of the multiples of 2 pi / parts.
-class TwiddleFactors {
-public:
-    explicit TwiddleFactors(int parts) : parts_(parts) {
-        constexpr double kTwoPi = 6.283185307179586;
-        cosines_.reserve(static_cast<std::size_t>(parts));
-        sines_.reserve(cosines_.capacity());
-        for (int k = 0; k < parts; ++k) {
-            cosines_.push_back(static_cast<float>(std::cos(kTwoPi * k / parts)));
-            sines_.push_back(static_cast<float>(-std::sin(kTwoPi * k / parts)));
-        }
-    }
-
-    /// n numbers of frequency u, from index `first` on.
-    void cosines(int u, int first, int n, float* out) const { write(cosines_, u, first, n, out); }
-    void sines(int u, int first, int n, float* out) const { write(sines_, u, first, n, out); }
-
-private:
-    void write(const std::vector<float>& numbers, int u, int first, int n, float* out) const {
-        int at = u * first % parts_;
-        for (int i = 0; i < n; ++i) {
-            out[i] = numbers[static_cast<std::size_t>(at)];
-            at = at + u < parts_ ? at + u : at + u - parts_;
-        }
-    }
-
-    int parts_;
-    std::vector<float> cosines_, sines_;
-};
-
 /// How many of n numbers (or frequencies) have a mirror image among the others.
 constexpr int mirrored_count(int n) {
     return (n - 1) / 2;
 }
 
-TRICUE_MULTIVERSION
-void fold_lines(const float* __restrict line, const float* __restrict mirror, int n, float* __restrict sums,
-                float* __restrict differences) {
-    for (int x = 0; x < n; ++x) {
-        sums[x] = line[x] + mirror[x];
-        differences[x] = line[x] - mirror[x];
-    }
-}
+/// The numbers of n that margins leave.
+struct Inside {
+    Inside(int n, int margin) : first(margin), count(margin > 0 ? n - 2 * margin + 1 : n) {}
 
-/// A row of a spectrum.
-struct SpectrumRow {
-    float *re, *im;
+    int first, count;
 };
 
-/// A row of a spectrum and the mirrored row. Imaginary parts of a line begin at `half`, with the first that isn't 0.
 TRICUE_MULTIVERSION
-void combine(const float* cosine_part, const float* sine_part, int half, int pairs, const SpectrumRow& row,
-             const SpectrumRow& mirror) {
-    const float *cosine_im = cosine_part + half - 1, *sine_im = sine_part + half - 1;
-    const SpectrumRow to = row, opposite = mirror;
-    TRICUE_INDEPENDENT
-    for (int v = 0; v < half; ++v) {
-        const bool paired = v >= 1 && v <= pairs;
-        const float re = cosine_part[v], im = paired ? cosine_im[v] : 0.0F;
-        const float re_turned = paired ? sine_im[v] : 0.0F, im_turned = sine_part[v];
-        opposite.re[v] = re + re_turned;
-        opposite.im[v] = im - im_turned;
-        to.re[v] = re - re_turned;
-        to.im[v] = im + im_turned;
+void look_up(const float* __restrict table, const int* __restrict index, int n, float* __restrict out) {
+    for (int i = 0; i < n; ++i) out[i] = table[index[i]];
+}
+
+TRICUE_MULTIVERSION
+void advance(int period, int n, int* __restrict products) {
+    for (int v = 0; v < n; ++v) {
+        const int next = products[v] + v;
+        products[v] = next < period ? next : next - period;
     }
 }
 
-/// A line from a row of a spectrum and the mirrored row; imaginary parts begin at `half`. A frequency with a mirror image counts twice.
-TRICUE_MULTIVERSION
-void combine_inverse(const float* __restrict cosine_part, const float* __restrict sine_part, float sign,
-                     float scale, int half, int pairs, float* __restrict line) {
-    for (int v = 0; v < half; ++v) {
-        const float weight = v >= 1 && v <= pairs ? 2 * scale : scale;
-        line[v] = weight * (cosine_part[v] + sign * sine_part[half + v]);
+/// For each of some numbers x cosines of the n frequencies that aren't negative, behind them minus sines, but for those that are 0.
+void write_basis(int n, AlignedMatrix& basis) {
+    constexpr double kTwoPi = 6.283185307179586;
+    const auto count = static_cast<std::size_t>(n);
+    std::vector<float> cosines(count), sines(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double angle = kTwoPi * static_cast<double>(k) / n;
+        cosines[k] = static_cast<float>(std::cos(angle));
+        sines[k] = static_cast<float>(-std::sin(angle));
     }
-    for (int v = 1; v <= pairs; ++v)
-        line[half + v - 1] = 2 * scale * (cosine_part[half + v] - sign * sine_part[v]);
+    const int half = n / 2 + 1;
+    std::vector<int> products(static_cast<std::size_t>(half));  // of x and each frequency, modulo n
+    for (int x = 0; x < basis.rows(); ++x) {
+        look_up(cosines.data(), products.data(), half, basis.row(x));
+        look_up(sines.data(), products.data() + 1, mirrored_count(n), basis.row(x) + half);
+        advance(n, half, products.data());
+    }
+}
+
+/// The transpose of a basis, times `scale`, and twice that for a frequency with a mirror image.
+void write_inverse(const AlignedMatrix& basis, float scale, AlignedMatrix& inverse) {
+    const int n = basis.cols(), half = n / 2 + 1;
+    for (int part = 0; part < n; ++part) {
+        const bool single = part == 0 || (n % 2 == 0 && part == half - 1);
+        const float weight = single ? scale : 2 * scale;
+        for (int x = 0; x < n; ++x) inverse.row(part)[x] = weight * basis.row(x)[part];
+    }
+}
+
+/// Sums and differences of the rows `first` to `last` and their mirror images; all matrices have the same pitch.
+TRICUE_MULTIVERSION
+void fold(const float* __restrict lines, std::ptrdiff_t pitch, int rows, int cols, int first, int last,
+          float* __restrict sums, float* __restrict differences) {
+    for (int y = first; y <= last; ++y) {
+        const float *line = lines + pitch * y, *mirror = lines + pitch * (rows - y);
+        float *sum = sums + pitch * y, *difference = differences + pitch * y;
+        TRICUE_INDEPENDENT
+        for (int x = 0; x < cols; ++x) {
+            sum[x] = line[x] + mirror[x];
+            difference[x] = line[x] - mirror[x];
+        }
+    }
+}
+
+/// The rows `first` to `last` and their mirror images from sums and differences.
+TRICUE_MULTIVERSION
+void unfold(const float* __restrict sums, const float* __restrict differences, std::ptrdiff_t pitch, int rows,
+            int cols, int first, int last, float* __restrict lines) {
+    for (int y = first; y <= last; ++y) {
+        const float *sum = sums + pitch * y, *difference = differences + pitch * y;
+        float *line = lines + pitch * y, *mirror = lines + pitch * (rows - y);
+        TRICUE_INDEPENDENT
+        for (int x = 0; x < cols; ++x) {
+            line[x] = sum[x] + difference[x];
+            mirror[x] = sum[x] - difference[x];
+        }
+    }
+}
+
+/// Like fold, of a spectrum's rows. Columns are as in lines: sums of real parts, behind them of imaginary ones; what each is turned
+/// into by a sine stands in the same place of `differences`. Whatever the middle frequency of an even count has there is behind all.
+TRICUE_MULTIVERSION
+void fold_spectrum(const float* __restrict re, const float* __restrict im, std::ptrdiff_t pitch, int rows,
+                   int half, int last, float* __restrict sums, float* __restrict differences) {
+    for (int u = 1; u <= last; ++u) {
+        const float *row_re = re + std::ptrdiff_t{half} * u, *row_im = im + std::ptrdiff_t{half} * u;
+        const float *mirror_re = re + std::ptrdiff_t{half} * (rows - u),
+                    *mirror_im = im + std::ptrdiff_t{half} * (rows - u);
+        float *sum = sums + pitch * u, *difference = differences + pitch * u;
+        TRICUE_INDEPENDENT
+        for (int v = 0; v < half; ++v) {
+            sum[v] = row_re[v] + mirror_re[v];
+            difference[v] = row_im[v] - mirror_im[v];
+        }
+        TRICUE_INDEPENDENT
+        for (int v = 1; v < half; ++v) {
+            sum[half - 1 + v] = row_im[v] + mirror_im[v];
+            difference[half - 1 + v] = mirror_re[v] - row_re[v];
+        }
+    }
+}
+
+/// A spectrum from what cosines and sines make of lines.
+TRICUE_MULTIVERSION
+void combine(const float* __restrict cosine_part, const float* __restrict sine_part, std::ptrdiff_t pitch,
+             int rows, int half, int pairs, float* __restrict re, float* __restrict im) {
+    for (int u = 0; u <= rows / 2; ++u) {
+        const float *cosine = cosine_part + pitch * u, *sine = sine_part + pitch * u;
+        const float *cosine_im = cosine + half - 1, *sine_im = sine + half - 1;
+        const bool mirrored = u >= 1 && 2 * u < rows;
+        float *row_re = re + std::ptrdiff_t{half} * u, *row_im = im + std::ptrdiff_t{half} * u;
+        // A row without a mirror image is written twice, the right one last.
+        float* mirror_re = mirrored ? re + std::ptrdiff_t{half} * (rows - u) : row_re;
+        float* mirror_im = mirrored ? im + std::ptrdiff_t{half} * (rows - u) : row_im;
+        TRICUE_INDEPENDENT
+        for (int v = 0; v < half; ++v) {
+            const bool paired = v >= 1 && v <= pairs;
+            const float own_re = cosine[v], own_im = paired ? cosine_im[v] : 0.0F;
+            const float turned_re = paired ? sine_im[v] : 0.0F, turned_im = sine[v];
+            mirror_re[v] = own_re + turned_re;
+            mirror_im[v] = own_im - turned_im;
+            row_re[v] = own_re - turned_re;
+            row_im[v] = own_im + turned_im;
+        }
+    }
 }
 
 }  // namespace
@@ -98,63 +151,65 @@ SmallFourier::SmallFourier(int rows, int cols)
       half_(cols / 2 + 1),
       row_basis_(cols, cols),
       inverse_row_basis_(cols, cols),
-      cosines_(rows / 2 + 1, rows / 2 + 1),
-      sines_(rows / 2 + 1, mirrored_count(rows)),
-      plane_(rows, cols),
+      column_basis_(rows / 2 + 1, rows),
       lines_(rows, 2 * half_),
       sums_(rows / 2 + 1, 2 * half_),
-      differences_(mirrored_count(rows), 2 * half_),
+      differences_(rows / 2 + 1, 2 * half_),
       cosine_part_(rows / 2 + 1, 2 * half_),
-      sine_part_(rows / 2 + 1, 2 * half_) {
-    const TwiddleFactors along_x(cols), along_y = rows == cols ? along_x : TwiddleFactors(rows);
-    for (int v = 0; v < half_; ++v) along_x.cosines(v, 0, cols, inverse_row_basis_.row(v));
-    for (int v = 1; v <= mirrored_count(cols); ++v)
-        along_x.sines(v, 0, cols, inverse_row_basis_.row(half_ + v - 1));
-    for (int x = 0; x < cols; ++x) {
-        along_x.cosines(x, 0, half_, row_basis_.row(x));
-        along_x.sines(x, 1, mirrored_count(cols), row_basis_.row(x) + half_);
-    }
-    for (int u = 0; u < cosines_.rows(); ++u) {
-        along_y.cosines(u, 0, cosines_.cols(), cosines_.row(u));
-        along_y.sines(u, 1, sines_.cols(), sines_.row(u));
-    }
+      sine_part_(rows / 2 + 1, 2 * half_),
+      plane_(rows, cols) {
+    write_basis(cols, row_basis_);
+    write_inverse(row_basis_, 1.0F / static_cast<float>(rows * cols), inverse_row_basis_);
+    if (rows == cols)
+        for (int y = 0; y < column_basis_.rows(); ++y)
+            std::copy_n(row_basis_.row(y), rows, column_basis_.row(y));
+    else
+        write_basis(rows, column_basis_);
 }
 
-void SmallFourier::multiply_down(int cols) {
-    std::copy_n(lines_.row(0), cols, sums_.row(0));
-    for (int y = 1; y <= mirrored_count(rows_); ++y)
-        fold_lines(lines_.row(y), lines_.row(rows_ - y), cols, sums_.row(y), differences_.row(y - 1));
-    if (rows_ % 2 == 0) std::copy_n(lines_.row(rows_ / 2), cols, sums_.row(rows_ / 2));
-    multiply(cosines_, sums_, cols, cosine_part_);
-    multiply(sines_, differences_, cols, sine_part_);
+void SmallFourier::multiply_down(int first_input, int first_output) {
+    const int half = rows_ / 2 + 1;
+    multiply({column_basis_.row(first_output) + first_input, column_basis_.pitch(), half - first_output},
+             {sums_.row(first_input), sums_.pitch(), half - first_input}, cols_, cosine_part_, first_output);
+    // Sines of 0 are 0, and so is the first row of sine_part_.
+    const int from = std::max(first_input, 1), to = std::max(first_output, 1);
+    multiply({column_basis_.row(to) + half + from - 1, column_basis_.pitch(), half - to},
+             {differences_.row(from), differences_.pitch(), mirrored_count(rows_) - from + 1}, cols_,
+             sine_part_, to);
 }
 
-void SmallFourier::transform(const float* plane, float* re, float* im) {
-    multiply({plane, cols_, rows_}, row_basis_, cols_, lines_);
-    multiply_down(cols_);
-    const auto row = [&](int u) {
-        return SpectrumRow{re + std::ptrdiff_t{u} * half_, im + std::ptrdiff_t{u} * half_};
+void SmallFourier::transform(const float* plane, float* re, float* im, const Margins& margins) {
+    const Inside inside(rows_, margins.rows), across(cols_, margins.cols);
+    multiply({plane + std::ptrdiff_t{cols_} * inside.first + across.first, cols_, inside.count},
+             {row_basis_.row(across.first), row_basis_.pitch(), across.count}, cols_, lines_, inside.first);
+    if (inside.first == 0) std::copy_n(lines_.row(0), cols_, sums_.row(0));
+    if (rows_ % 2 == 0) std::copy_n(lines_.row(rows_ / 2), cols_, sums_.row(rows_ / 2));
+    fold(lines_.row(0), lines_.pitch(), rows_, cols_, std::max(inside.first, 1), mirrored_count(rows_),
+         sums_.row(0), differences_.row(0));
+    multiply_down(inside.first, 0);
+    combine(cosine_part_.row(0), sine_part_.row(0), cosine_part_.pitch(), rows_, half_, mirrored_count(cols_),
+            re, im);
+}
+
+void SmallFourier::invert(const float* re, const float* im, float* plane, const Margins& margins) {
+    const Inside inside(rows_, margins.rows);
+    const auto copy_row = [&](int u) {
+        std::copy_n(re + std::ptrdiff_t{half_} * u, half_, sums_.row(u));
+        std::copy_n(im + std::ptrdiff_t{half_} * u + 1, half_ - 1, sums_.row(u) + half_);
     };
-    const SpectrumRow unassigned{lines_.row(0), lines_.row(0) + half_};
-    for (int u = 0; u <= rows_ / 2; ++u)
-        combine(cosine_part_.row(u), sine_part_.row(u), half_, mirrored_count(cols_), row(u),
-                u >= 1 && u <= mirrored_count(rows_) ? row(rows_ - u) : unassigned);
-}
-
-void SmallFourier::invert(const float* re, const float* im, float* plane) {
-    for (int u = 0; u < rows_; ++u, re += half_, im += half_) {
-        std::copy_n(re, half_, lines_.row(u));
-        std::copy_n(im, half_, lines_.row(u) + half_);
-    }
-    multiply_down(2 * half_);
-    const float scale = 1.0F / static_cast<float>(rows_ * cols_);
-    for (int y = 0; y < rows_; ++y) {
-        const int from = std::min(y, rows_ - y);
-        combine_inverse(cosine_part_.row(from), sine_part_.row(from), y == from ? 1.0F : -1.0F, scale, half_,
-                        mirrored_count(cols_), lines_.row(y));
-    }
-    multiply(lines_, inverse_row_basis_, cols_, plane_);
-    for (int y = 0; y < rows_; ++y) std::copy_n(plane_.row(y), cols_, plane + std::ptrdiff_t{y} * cols_);
+    copy_row(0);
+    if (rows_ % 2 == 0) copy_row(rows_ / 2);
+    fold_spectrum(re, im, sums_.pitch(), rows_, half_, mirrored_count(rows_), sums_.row(0),
+                  differences_.row(0));
+    multiply_down(0, inside.first);
+    if (inside.first == 0) std::copy_n(cosine_part_.row(0), cols_, lines_.row(0));
+    if (rows_ % 2 == 0) std::copy_n(cosine_part_.row(rows_ / 2), cols_, lines_.row(rows_ / 2));
+    unfold(cosine_part_.row(0), sine_part_.row(0), lines_.pitch(), rows_, cols_, std::max(inside.first, 1),
+           mirrored_count(rows_), lines_.row(0));
+    multiply({lines_.row(inside.first), lines_.pitch(), inside.count}, inverse_row_basis_, cols_, plane_,
+             inside.first);
+    for (int y = inside.first; y < inside.first + inside.count; ++y)
+        std::copy_n(plane_.row(y), cols_, plane + std::ptrdiff_t{y} * cols_);
 }
 
 }  // namespace tricue

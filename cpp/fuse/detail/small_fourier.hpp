@@ -5,6 +5,12 @@
 
 namespace tricue {
 
+/// Of a plane (R, C): the rows y with min(y, R - y) < `rows`, and the columns x with min(x, C - x) < `cols`. What is left lies around
+/// row R / 2 and column C / 2.
+struct Margins {
+    int rows = 0, cols = 0;  ///< at most R / 2, C / 2
+};
+
 /// Two-dimensional spectra of real planes (R, C) by matrix products. They take C + R / 2 steps per number where a fast transform
 /// takes about log(R C), but steps that fill the widest registers: for small planes they are several times faster.
 ///
@@ -13,24 +19,27 @@ class SmallFourier {
 public:
     SmallFourier(int rows, int cols);
 
-    void transform(const float* plane, float* re, float* im);
+    /// Takes the margins for 0, whatever they hold.
+    void transform(const float* plane, float* re, float* im, const Margins& margins = {});
 
-    /// Like numpy.fft.irfft2 it ignores imaginary parts that have to be 0 in the spectrum of a real plane.
-    void invert(const float* re, const float* im, float* plane);
+    /// Like numpy.fft.irfft2 it ignores imaginary parts that have to be 0 in the spectrum of a real plane. Rows in the margins stay as
+    /// they are.
+    void invert(const float* re, const float* im, float* plane, const Margins& margins = {});
 
 private:
-    /// Multiplies the first columns of lines_ by the cosines and the sines of the first half of the frequencies.
-    void multiply_down(int cols);
+    /// Multiplies sums_ and differences_ of lines, from a first one on, into the first rows of cosine_part_ and sine_part_.
+    void multiply_down(int first_input, int first_output);
 
     int rows_, cols_, half_;
-    /// (C, C): for each frequency along x cosines, behind them minus sines, but for those that are 0.
+    /// (C, C), for each x: of the frequencies cosines, behind them minus sines, but for those that are 0.
     AlignedMatrix row_basis_;
-    AlignedMatrix inverse_row_basis_;  ///< the transpose
-    AlignedMatrix cosines_, sines_;    ///< of frequencies along y
-    AlignedMatrix plane_;
-    AlignedMatrix lines_;  ///< of a row along x the real parts, and behind them the imaginary ones
+    AlignedMatrix inverse_row_basis_;  ///< the transpose, times the frequencies' weights
+    AlignedMatrix column_basis_;       ///< (R / 2 + 1, R), like row_basis_
+    /// Of a row along x the real parts, and behind them the imaginary ones that aren't 0.
+    AlignedMatrix lines_;
     AlignedMatrix sums_, differences_;  ///< of lines that mirror each other
     AlignedMatrix cosine_part_, sine_part_;
+    AlignedMatrix plane_;
 };
 
 }  // namespace tricue
