@@ -82,7 +82,7 @@ CorrelationFilter correlation_train(const FloatStack& cells, FloatsRef focus, Co
                                     const ComplexStack& numerator, FloatsRef denominator, double rate,
                                     double background) {
     require_arguments(cells, focus, label, rate, background);
-    require_numerator(numerator, cells);
+    require_filter("numerator", numerator, cells);
     require_denominator(denominator, cells);
     CorrelationFilter filter{Complexes(cells.planes * cells.rows, numerator.cols),
                              Floats::Zero(cells.rows, numerator.cols)};

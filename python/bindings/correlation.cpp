@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "fuse/correlation_response.hpp"
 #include "fuse/correlation_train.hpp"
+#include "fuse/regularized_filter.hpp"
 #include "kernel_docs.hpp"
 
 namespace tricue::bindings {
@@ -11,7 +12,9 @@ using Floating = Array<float>;
 using Complex = Array<std::complex<float>>;
 
 constexpr const char* kCells = "float32 cells (K, R, C)";
-constexpr const char* kNumerator = "complex64 (K, R, C // 2 + 1)";
+constexpr const char* kPlane = "float32 (R, C)";
+constexpr const char* kSpectrum = "complex64 (R, C // 2 + 1)";
+constexpr const char* kFilter = "complex64 (K, R, C // 2 + 1)";
 constexpr const char* kHalf = "float32 (R, C // 2 + 1)";
 
 std::ptrdiff_t work(const FloatStack& cells) {
@@ -36,15 +39,27 @@ std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, co
                                                        const Floating& denominator, double rate,
                                                        double background) {
     const auto planes = stack<float>(cells, "cells", kCells);
-    const auto part = floats(focus, "focus", {-1, -1}, "float32 (R, C)");
-    const auto wanted = complexes(label, "label", "complex64 (R, C // 2 + 1)");
-    const auto upper = stack<std::complex<float>>(numerator, "numerator", kNumerator);
+    const auto part = floats(focus, "focus", {-1, -1}, kPlane);
+    const auto wanted = complexes(label, "label", kSpectrum);
+    const auto upper = stack<std::complex<float>>(numerator, "numerator", kFilter);
     const auto lower = floats(denominator, "denominator", {-1, -1}, kHalf);
     auto filter = unlocked(work(planes), [&] {
         return correlation_train(planes, part, wanted, upper, lower, rate, background);
     });
     return {give(std::move(filter.numerator), {upper.planes, upper.rows, upper.cols}),
             give(std::move(filter.denominator))};
+}
+
+Complex regularized_filter_arrays(const Floating& cells, const Floating& mask, const Complex& label,
+                                  const Complex& previous, double temporal_weight, double penalty) {
+    const auto planes = stack<float>(cells, "cells", kCells);
+    const auto part = floats(mask, "mask", {-1, -1}, kPlane);
+    const auto wanted = complexes(label, "label", kSpectrum);
+    const auto old = stack<std::complex<float>>(previous, "previous", kFilter);
+    auto filter = unlocked(work(planes), [&] {
+        return regularized_filter(planes, part, wanted, old, temporal_weight, penalty);
+    });
+    return give(std::move(filter), {old.planes, old.rows, old.cols});
 }
 
 }  // namespace
@@ -55,6 +70,9 @@ void define_correlation(py::module_& m) {
     m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
           py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
           docs::correlation_train);
+    m.def("regularized_filter", regularized_filter_arrays, py::arg("cells"), py::arg("mask"),
+          py::arg("label"), py::arg("previous"), py::arg("temporal_weight"), py::arg("penalty"),
+          docs::regularized_filter);
 }
 
 }  // namespace tricue::bindings

@@ -1503,6 +1503,49 @@ def rectify_verged(
     Source: Okada, Shirai, Miura 1996, section 3.1 and figure 3.
     """
 
+def regularized_filter(
+    cells: numpy.typing.NDArray[numpy.float32],
+    mask: numpy.typing.NDArray[numpy.float32],
+    label: numpy.typing.NDArray[numpy.complex64],
+    previous: numpy.typing.NDArray[numpy.complex64],
+    temporal_weight: float,
+    penalty: float,
+) -> numpy.typing.NDArray[numpy.complex64]:
+    """
+    Learns a correlation filter with K channels from one frame, near the filter before it, and 0 outside
+    of a mask:
+        A = argmin |Σ_k A_k X_k − Y|² + μ Σ_k |A_k − P_k|²
+
+    X_k is the spectrum of channel k; A_k stands for the conjugate of the papers' filter, as in
+    correlation_response, which takes the result. Nothing outside of the mask adds to the response of
+    what is in the window's center; but from the response to the rest the filter learns, too.
+
+    Two iterations of the alternating direction method of multipliers, from G = H = 0: A minimizes the
+    sum above plus γ Σ_k |A_k − G_k + H_k|², which has a closed form (Sherman and Morrison); G is A + H
+    times the mask; H grows by A − G, γ to its tenfold. The result is G. With T = R C, μ is
+    temporal_weight T, and γ begins with penalty T.
+
+    Args:
+        cells: float32 (K, R, C), already tapered; at least one channel and cell
+        mask: float32 (R, C), in [0, 1]: of the window's cells those that may add to its response,
+            usually around its center
+        label: complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0),
+            as of numpy.fft.rfft2
+        previous: complex64 (K, R, C // 2 + 1), P: the filter so far, finite
+        temporal_weight: how much the filter keeps to the one before, finite, at least 0; 0 starts a
+            filter
+        penalty: how much A keeps to G in the first iteration, finite, above 0
+
+    Returns:
+        complex64 (K, R, C // 2 + 1), A; in C++ the planes one below the other
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: Li, Tian, Zuo, Zhang, Yang 2018 (STRCF); the mask is that of Galoogahi, Fagg, Lucey 2017
+    (BACF).
+    """
+
 def resample(
     weights: numpy.typing.NDArray[numpy.float64], offset: float
 ) -> numpy.typing.NDArray[numpy.int64]:
@@ -2401,6 +2444,15 @@ class Kernels(Protocol):
         shift: float = 0.0,
         rows_only: bool = False,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def regularized_filter(
+        self,
+        cells: numpy.typing.NDArray[numpy.float32],
+        mask: numpy.typing.NDArray[numpy.float32],
+        label: numpy.typing.NDArray[numpy.complex64],
+        previous: numpy.typing.NDArray[numpy.complex64],
+        temporal_weight: float,
+        penalty: float,
+    ) -> numpy.typing.NDArray[numpy.complex64]: ...
     def resample(
         self, weights: numpy.typing.NDArray[numpy.float64], offset: float
     ) -> numpy.typing.NDArray[numpy.int64]: ...

@@ -36,11 +36,11 @@ void require_filters(const FilterStack& filters, const FloatStack& cells) {
         refuse("filters", "shape " + shape(expected), shape(filters));
 }
 
-void require_numerator(const ComplexStack& numerator, const FloatStack& cells) {
+void require_filter(const char* name, const ComplexStack& filter, const FloatStack& cells) {
     const int half = cells.cols / 2 + 1;
-    if (numerator.planes != cells.planes || numerator.rows != cells.rows || numerator.cols != half)
-        refuse("numerator", "shape " + shape(cells.planes, cells.rows, half),
-               shape(numerator.planes, numerator.rows, numerator.cols));
+    if (filter.planes != cells.planes || filter.rows != cells.rows || filter.cols != half)
+        refuse(name, "shape " + shape(cells.planes, cells.rows, half),
+               shape(filter.planes, filter.rows, filter.cols));
 }
 
 void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,

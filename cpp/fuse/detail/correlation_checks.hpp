@@ -10,7 +10,8 @@ namespace tricue {
 void require_cells(const FloatStack& cells);
 /// At least one filter for such cells: (filters, planes, rows, cols / 2 + 1).
 void require_filters(const FilterStack& filters, const FloatStack& cells);
-void require_numerator(const ComplexStack& numerator, const FloatStack& cells);
+/// One filter for such cells.
+void require_filter(const char* name, const ComplexStack& filter, const FloatStack& cells);
 void require_plane(const char* name, Eigen::Index rows, Eigen::Index cols, int expected_rows,
                    int expected_cols);
 /// One plane of such spectra.

@@ -60,6 +60,7 @@ from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
+from tricue.reference.fuse.regularized_filter import regularized_filter
 from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
@@ -114,6 +115,7 @@ __all__ = [
     "rectangle_histogram",
     "rectangle_prior",
     "rectify_verged",
+    "regularized_filter",
     "resample",
     "reweight",
     "sad_disparity",
