@@ -3,20 +3,28 @@
 
 import math
 import operator
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
 from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.experts.color import HISTOGRAM_BINS
-from tricue.track.fused.target_observation import PictureKind
 from tricue.track.fused.window import INNER_SHARE, Window
 
-# Weights of the IdentityFeatures, in their order, by logistic regression on 30 recorded color videos: "the
-# overlap is above 0.3" against "under 0.1". Samples are the tracker's own places and random ones, each video
-# with the same weight.
-FEATURE_WEIGHTS, FEATURE_OFFSET = (0.13, 3.7, 7.4, 8.8), -6.3
-STRUCTURE_WEIGHTS, STRUCTURE_OFFSET = (0.16, 0.0, 0.0, 12.3), -2.4  # without what light changes
+
+class Weights(NamedTuple):
+    """Log-odds per unit of the IdentityFeatures, in their order, and of their change; and an offset."""
+
+    features: tuple[float, float, float, float]
+    change: tuple[float, float, float, float]
+    offset: float
+
+
+# By logistic regression on 30 recorded color videos: "the overlap is above 0.3" against "under 0.1, or the
+# target is covered" (python -m benchmarks.quality.identity_fit). Features that added nothing are 0.
+APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.7)
+STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.9)  # without what light changes
 DEPTH_PICTURE_OFFSET = -6.0  # of the log-odds in a picture of depth, in which most things look alike
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 
@@ -35,18 +43,21 @@ class IdentityFeatures(NamedTuple):
     contrast: float
     first_response: float
 
-    def log_odds(self, kind: PictureKind) -> float:
-        """Of the target against anything else, in a picture of color or of depth."""
-        offset = DEPTH_PICTURE_OFFSET if kind == "depth" else 0.0
-        return FEATURE_OFFSET + self._weighted_sum(FEATURE_WEIGHTS) + offset
+    def log_odds(self, typical: "IdentityFeatures | None", weights: Weights) -> float:
+        """Of the target against anything else, by the features and their difference from typical ones.
 
-    @property
-    def structure_log_odds(self) -> float:
-        """The same by the features that light doesn't change."""
-        return STRUCTURE_OFFSET + self._weighted_sum(STRUCTURE_WEIGHTS)
+        None if nothing is typical yet.
+        """
+        change = map(operator.sub, self, typical or self)
+        return weights.offset + _weighted_sum(weights.features, self) + _weighted_sum(weights.change, change)
 
-    def _weighted_sum(self, weights: tuple[float, ...]) -> float:
-        return float(sum(map(operator.mul, weights, self)))
+    def blend(self, other: "IdentityFeatures", rate: float) -> "IdentityFeatures":
+        """The features moved towards other ones by a share of their difference."""
+        return IdentityFeatures(*(old + rate * (new - old) for old, new in zip(self, other, strict=True)))
+
+
+def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:
+    return sum(map(operator.mul, weights, values))
 
 
 def probability(log_odds: float) -> float:

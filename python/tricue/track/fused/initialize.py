@@ -27,7 +27,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     observation = frame.for_target(k, expected)
     depth, position = _depth_models(observation, target, measured, p)
     appearance = _appearance_models(observation, target, p)
-    model = TargetModel(appearance, depth, target.side, p)
+    model = TargetModel(appearance, depth, target.side, None, p)
     window = extract_windows(observation, [target], p.context)[0]
     return State(
         shape=frame.shape,

@@ -16,14 +16,14 @@ def update_models(
 ) -> State:
     """The state with a match blended into its models; before: the state after the last frame.
 
-    Nothing is learned where the target wasn't moved to the match. Appearance is learned only where it is
-    recognized, and only in some frames, at rates that are higher for it.
+    Nothing is learned where the target wasn't moved to the match. Appearance is learned as long as the target
+    is followed, and only in some frames, at rates that are higher for it.
     """
     if state.target is not match.target:
         return state
     state = _update_depth(state, observation, match, before.is_lost(p), p)
     state = _update_outline(state, match, p)
-    if state.missed_frames or state.frames % p.learn_every:
+    if not state.is_followed(p) or state.frames % p.learn_every:
         return state
     window = extract_windows(observation, [state.target], p.context)[0]
     appearance = _learn_appearance(state.models[observation.kind], window, p)
@@ -32,12 +32,12 @@ def update_models(
 
 def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
     observation = window.observation
-    filter_rate = _rate_between_learning(p.filter_learning_rate, p)
+    size_rate = _rate_between_learning(p.size_learning_rate, p)
     color_rate = _rate_between_learning(p.color_learning_rate, p)
     return models._replace(
-        filter=models.filter.learn(window, filter_rate),
+        filter=models.filter.learn(window),
         color=models.color.learn(window, color_rate),
-        size=models.size.learn(observation, window.target, filter_rate),
+        size=models.size.learn(observation, window.target, size_rate),
     )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts import PixelExpert, combine_posteriors
 from tricue.track.fused.experts.depth import DepthExpert
+from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.peak import peak_offset
 from tricue.track.fused.state import AppearanceModels
@@ -20,11 +21,15 @@ MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized ag
 
 
 class TargetModel(NamedTuple):
-    """All that the target is searched by."""
+    """All that the target is searched by.
+
+    typical: features of it in the last frames, None after the first.
+    """
 
     appearance: AppearanceModels
     depth: DepthExpert | None
     first_side: float
+    typical: IdentityFeatures | None
     params: FusedParams
 
 

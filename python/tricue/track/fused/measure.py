@@ -4,7 +4,13 @@
 from typing import NamedTuple
 
 from tricue.track.fused.experts.depth import DepthMeasurement, measure_depth
-from tricue.track.fused.identity import IdentityFeatures, probability
+from tricue.track.fused.identity import (
+    APPEARANCE,
+    DEPTH_PICTURE_OFFSET,
+    STRUCTURE,
+    IdentityFeatures,
+    probability,
+)
 from tricue.track.fused.localize import Candidate, TargetModel, recenter
 from tricue.track.fused.outline import Outline, measure_outline
 from tricue.track.fused.target import Target
@@ -19,15 +25,15 @@ MAX_GROWTH_PER_FRAME = 1.25  # times
 class Match(NamedTuple):
     """A candidate that was measured.
 
-    appearance_log_odds, log_odds: of its being the target by its appearance, and by all that is known.
-    response: of the learned filter. covered: the share of its box that an occluder covers.
+    log_odds, structure_log_odds: of its being the target, by all that is known, and by what light doesn't
+    change. response: of the learned filter. covered: the share of its box that an occluder covers.
     """
 
     target: Target
     observation: TargetObservation
     features: IdentityFeatures
-    appearance_log_odds: float
     log_odds: float
+    structure_log_odds: float
     response: float
     depth: DepthMeasurement | None
     covered: float
@@ -58,13 +64,13 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
         first_response=candidate.responses[1],
     )
     covered = covered_share(window, *offset)
-    log_odds = features.log_odds(observation.kind)
+    offset_of_kind = DEPTH_PICTURE_OFFSET if observation.kind == "depth" else 0.0
     return Match(
         target=measured.scale(min(max(1.0, low), high)),
         observation=observation,
         features=features,
-        appearance_log_odds=log_odds,
-        log_odds=log_odds,
+        log_odds=features.log_odds(model.typical, APPEARANCE) + offset_of_kind,
+        structure_log_odds=features.log_odds(model.typical, STRUCTURE),
         response=candidate.responses[0],
         depth=depth,
         covered=covered,

@@ -6,7 +6,6 @@ from typing import Literal
 
 from tricue.track.base.params import Params, parameter, seconds_of_frames
 
-FAST = "our experiment on sparse and shaken frames"
 OURS = "our prototype, or a choice not yet compared with others"
 Cue = Literal["filter", "color", "size", "depth"]
 
@@ -33,33 +32,30 @@ class FusedParams(Params):
         high=1,
         doc="standard deviation of the desired response",
     )
-    ridge: float = parameter(
-        1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of both filters"
+    temporal_weight: float = parameter(
+        2.0, unit="-", source="Li et al. 2018", low=0, doc="that keeps the filter near the one before"
     )
-    filter_learning_rate: float = parameter(
-        0.025,
-        unit="per frame",
-        source="Danelljan et al. 2014",
-        low=0,
-        high=0.5,
-        doc="of both filters",
-        was="filter_rate",
+    filter_penalty: float = parameter(
+        0.05, unit="-", source="Li et al. 2018", above=0, doc="that keeps the filter in its mask, at first"
     )
     first_frame_weight: float = parameter(
-        0.1, unit="-", source=OURS, low=0, high=1, doc="share of the first frame's filters", was="anchor"
+        0.1,
+        unit="-",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="share of the first frame's filter, for place and size",
+        was="anchor",
     )
     filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="of its response")
     filter_mask_size: float = parameter(
-        2.0,
+        1.3,
         unit="box",
-        source=FAST,
+        source=OURS,
         above=1,
         high=99,
-        doc="outer size of the part to respond to; it fades out from the box on",
+        doc="outer size of what adds to the response; it fades out from the box on",
         was="focus",
-    )
-    background_weight: float = parameter(
-        1.0, unit="-", source=FAST, low=0, doc="of the rest, to respond to by 0", was="background"
     )
 
     # colors: cue "color"
@@ -81,6 +77,12 @@ class FusedParams(Params):
     )
 
     # size: cue "size"
+    size_learning_rate: float = parameter(
+        0.025, unit="per frame", source="Danelljan et al. 2014", low=0, high=0.5, doc="of its filter"
+    )
+    ridge: float = parameter(
+        1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of its filter"
+    )
     size_change_penalty: float = parameter(
         0.05, unit="per squared cell", source=OURS, low=0, doc="on the evidence of another size than the last"
     )
@@ -155,7 +157,7 @@ class FusedParams(Params):
         3, unit="frames", source=OURS, low=1, high=30, doc="between two in which appearance is learned"
     )
     min_score: float = parameter(
-        0.15,
+        0.2,
         unit="score",
         source=OURS,
         low=0,
@@ -164,7 +166,7 @@ class FusedParams(Params):
         was="lost_below",
     )
     min_score_to_move: float = parameter(
-        0.02,
+        0.01,
         unit="score",
         source=OURS,
         low=0,
@@ -175,22 +177,8 @@ class FusedParams(Params):
     lost_after: float = parameter(
         0.08, unit="s", source=OURS, low=0, doc="missed, and in three frames at least, until LOST"
     )
-    max_structure_drop: float = parameter(
-        3.5,
-        unit="log-odds",
-        source=OURS,
-        low=0,
-        doc="of its structure under their mean, above which it counts as missed",
-        was="collapse",
-    )
-    min_recovery_share: float = parameter(
-        0.4,
-        unit="of the mean log-odds",
-        source=OURS,
-        low=0,
-        high=1,
-        doc="that a missed target needs to be TRACKED again",
-        was="again",
+    max_doubt: float = parameter(
+        1 / 3, unit="s", source=OURS, low=0, doc="missed, in which it is still followed and learned"
     )
     lost_position_noise: float = parameter(
         0.5,
@@ -201,12 +189,12 @@ class FusedParams(Params):
         was="reach",
     )
     min_score_to_redetect: float = parameter(
-        0.95,
+        0.8,
         unit="score",
         source=OURS,
         low=0,
         high=1,
-        doc="that is needed elsewhere in the frame",
+        doc="that a LOST target needs to be TRACKED again",
         was="found_above",
     )
     candidates: int = parameter(

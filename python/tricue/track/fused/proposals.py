@@ -21,7 +21,9 @@ from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import WINDOW_CELLS, Window, extract_windows
 
 SEGMENTATION = SegmentationParams()
-MAX_CUE_PROPOSALS = 3  # per frame, by the target's colors or by objects in depth
+MAX_OBJECT_PROPOSALS = 3  # per frame, of objects in depth
+MAX_COLOR_PLACES = 10  # in a frame, where the target's colors stand out
+COLOR_PLACES_IN_TURN = 2  # per frame, beside the one where they do most
 MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
 SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
 MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
@@ -47,7 +49,7 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
     With depth each is as large as the target would be there.
     """
     propose = _color_proposals if observation.depth_image is None else _object_proposals
-    targets = propose(model, observation, lost.target) + _grid_proposals(observation, lost, model.params)
+    targets = propose(model, observation, lost) + _grid_proposals(observation, lost, model.params)
     context = model.params.context
     if model.depth is None or observation.depth_source is None:
         factor = PROPOSED_SCALES[lost.frame % len(PROPOSED_SCALES)]
@@ -72,7 +74,7 @@ def _at_measured_depth(
     return observation.expect(expected, scaled.search_region), [scaled]
 
 
-def _object_proposals(model: TargetModel, observation: TargetObservation, target: Target) -> list[Target]:
+def _object_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
     """The target at the objects of a depth image, those of its size in meters first.
 
     Sabeti, Parvizi and Wu 2008, section IV.A.
@@ -87,15 +89,15 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, target
         side = Target.of(box).side
         mismatch = abs(math.log(side * state[2] / model.depth.length)) if model.depth else 0.0
         x, y = box.center
-        found.append((mismatch, target._replace(x=x, y=y)))
+        found.append((mismatch, lost.target._replace(x=x, y=y)))
     found.sort(key=lambda each: each[0])
-    return [each for _, each in found[:MAX_CUE_PROPOSALS]]
+    return [each for _, each in found[:MAX_OBJECT_PROPOSALS]]
 
 
-def _color_proposals(model: TargetModel, observation: TargetObservation, target: Target) -> list[Target]:
-    """The target where its colors stand out most, at places at least its side apart."""
+def _color_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
+    """The target where its colors stand out most, and at some of the next such places in turn."""
     height, width = observation.picture.shape[:2]
-    k = observation.k
+    k, target = observation.k, lost.target
     step = max(target.side / SAMPLES_PER_TARGET, max(height, width) / MAX_FRAME_SAMPLES)
     rows, columns = (max(2 * round(length / step / 2), 2) for length in (height, width))
     whole = np.array([[0.0, 0.0, width, height]])
@@ -108,16 +110,19 @@ def _color_proposals(model: TargetModel, observation: TargetObservation, target:
     y = down * (rows // 2 + 2.0 * (np.arange(rows // 2) - rows // 4))[:, None]
     x = across * (columns // 2 + 2.0 * (np.arange(columns // 2) - columns // 4))[None]
     targets = []
-    for _ in range(MAX_CUE_PROPOSALS):
+    for _ in range(MAX_COLOR_PLACES):
         i, j = np.unravel_index(np.argmax(contrast), contrast.shape)
+        if not np.isfinite(contrast[i, j]):
+            break
         targets.append(target._replace(x=float(x[0, j]), y=float(y[i, 0])))
         near = (np.abs(x - x[0, j]) < target.side) & (np.abs(y - y[i, 0]) < target.side)
         contrast = np.where(near, -np.inf, contrast)
-    return targets
+    best, *others = targets
+    return [best, *_in_turn(others, COLOR_PLACES_IN_TURN, lost.frame)]
 
 
 def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedParams) -> list[Target]:
-    """The target at the next places of a grid over the whole frame, half a window apart."""
+    """The target at places of a grid over the whole frame, half a window apart, in turn from near to far."""
     target = lost.target
     half = p.context * target.side / 2
     height, width = observation.picture.shape[:2]
@@ -127,5 +132,11 @@ def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedPa
         for i in range(rows)
         for j in range(columns)
     ]
-    first = lost.frame * MAX_GRID_PROPOSALS
-    return [grid[(first + i) % len(grid)] for i in range(min(MAX_GRID_PROPOSALS, len(grid)))]
+    grid.sort(key=lambda each: (each.x - target.x) ** 2 + (each.y - target.y) ** 2)
+    return _in_turn(grid, MAX_GRID_PROPOSALS, lost.frame)
+
+
+def _in_turn(targets: list[Target], count: int, frame: int) -> list[Target]:
+    """The next few of a list that starts again at its end."""
+    first = frame * count
+    return [targets[(first + i) % len(targets)] for i in range(min(count, len(targets)))]

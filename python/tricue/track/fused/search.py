@@ -33,7 +33,7 @@ def search_local(
     match = measure_candidate(model, candidate)
     log_odds = match.log_odds + p.depth_continuity_weight * depth_continuity(candidate)
     if observation.kind == "color":  # light may have changed its colors: its structure is enough
-        log_odds = max(log_odds, match.features.structure_log_odds - STRUCTURE_ONLY_PENALTY)
+        log_odds = max(log_odds, match.structure_log_odds - STRUCTURE_ONLY_PENALTY)
     return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(window)))
 
 
@@ -76,7 +76,7 @@ def _match_elsewhere(model: TargetModel, lost: LostTarget, candidate: Candidate)
     """
     match = measure_candidate(model, candidate)
     if match.depth is None:
-        match = match._replace(log_odds=min(match.log_odds, match.features.structure_log_odds))
+        match = match._replace(log_odds=min(match.log_odds, match.structure_log_odds))
     return _penalize_distance(model, lost, match)
 
 

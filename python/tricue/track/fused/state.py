@@ -14,6 +14,7 @@ from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import PictureKind
 
+CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
 
@@ -37,8 +38,7 @@ class State(NamedTuple):
     mean_response: float  # running mean of the filter's response on the target
     features: IdentityFeatures | None = None
     score: float = 1.0
-    mean_log_odds: float = 0.0  # running mean of its log-odds by appearance
-    mean_structure_log_odds: float = 0.0  # the same by its structure alone
+    typical: IdentityFeatures | None = None  # running means of its features, None after the first frame
     depth: DepthExpert | None = None  # None until depth was measured
     position: PositionFilter | None = None  # None until depth was measured
     outline: Outline = BOX_OUTLINE
@@ -52,3 +52,7 @@ class State(NamedTuple):
     def is_lost(self, p: FusedParams) -> bool:
         """Whether it was missed for long enough to be LOST."""
         return self.missed_frames >= MIN_LOST_FRAMES and self.missed_seconds >= p.lost_after
+
+    def is_followed(self, p: FusedParams) -> bool:
+        """Whether it is where it should be, or was missed for so short a time that it may still be."""
+        return self.missed_frames == 0 or self.missed_seconds <= p.max_doubt + CLOCK_ERROR

@@ -120,10 +120,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         return state._replace(position=position, timestamp=timestamp, seconds=seconds, frames=frames)
 
     def _localize(self, state: State, observation: TargetObservation) -> Match:
-        """The target near its last place; if it was missed in the last frame, in the whole frame."""
+        """The target near its last place; in the whole frame once it isn't followed any more."""
         models, p = state.models[observation.kind], self.params
-        model = TargetModel(models, state.depth, state.first_side, p)
-        if not state.missed_frames:
+        model = TargetModel(models, state.depth, state.first_side, state.typical, p)
+        if state.is_followed(p):
             return search_local(model, observation, state.target, state.mean_response)
         local = search_local(model, observation, state.target, None)
         last = state.target.scale(state.recognized_side / state.target.side)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The correlation filter: it responds where orientations and colors are arranged as on the target."""
 
-from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -13,19 +12,21 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.window import WINDOW_CELLS, Window
 
 Spectra = NDArray[np.complex64]
-Filter = tuple[Spectra, Plane]  # numerator and denominator
 
 
 class CorrelationFilterExpert(NamedTuple):
-    """A filter on orientations and colors (Danelljan et al. 2014, Bolme et al. 2010).
+    """A filter on orientations and colors, learned from one frame at a time (Li et al. 2018).
 
-    learned, first: numerator (19, 32, 17) and denominator (32, 17), as they are learned, and of the first
-    frame. applied: two filters, divided: the learned one with a share of the first frame's, and the first
-    frame's alone. label: spectrum of the desired response.
+    It keeps near the filter before it, which remembers former frames, and is 0 outside of the target, so that
+    it learns to tell the target from what surrounds it.
+
+    learned, first: (19, 32, 17) the filter as it is now, and that of the first frame. applied: two filters,
+    the learned one with a share of the first frame's, against forgetting, and the first frame's alone. label:
+    spectrum of the desired response.
     """
 
-    learned: Filter
-    first: Filter
+    learned: Spectra
+    first: Spectra
     applied: Spectra
     label: Spectra
     params: FusedParams
@@ -34,37 +35,26 @@ class CorrelationFilterExpert(NamedTuple):
     def from_window(cls, window: Window, p: FusedParams) -> "CorrelationFilterExpert":
         """Learned from the first frame."""
         label = label_spectrum(p.label_width * WINDOW_CELLS / p.context)
-        shape = (len(window.cells), *label.shape)
-        empty = np.zeros(shape, np.complex64), np.zeros(label.shape, np.float32)
         mask = target_mask(window.size, p.filter_mask_size)
-        k = window.observation.k
-        first = k.correlation_train(window.cells, mask, label, *empty, 1.0, p.background_weight)
-        return cls(first, first, divide([first, first], p.ridge), label, p)
+        nothing = np.zeros((len(window.cells), *label.shape), np.complex64)
+        first = window.observation.k.regularized_filter(
+            window.cells, mask, label, nothing, 0.0, p.filter_penalty
+        )
+        return cls(first, first, np.stack([first, first]), label, p)
 
     def responses(self, window: Window) -> Plane:
         """(2, 32, 32) responses of the learned and of the first frame's filter."""
         return window.observation.k.correlation_response(window.cells, self.applied)
 
-    def learn(self, window: Window, rate: float) -> "CorrelationFilterExpert":
-        """The expert with a window blended in, whose center is the target's."""
+    def learn(self, window: Window) -> "CorrelationFilterExpert":
+        """The expert after a window whose center is the target's."""
         p, k = self.params, window.observation.k
         mask = target_mask(window.size, p.filter_mask_size)
-        learned = k.correlation_train(
-            window.cells, mask, self.label, *self.learned, rate, p.background_weight
+        learned = k.regularized_filter(
+            window.cells, mask, self.label, self.learned, p.temporal_weight, p.filter_penalty
         )
-        blended = blend_filters(learned, self.first, p.first_frame_weight)
-        return self._replace(learned=learned, applied=divide([blended, self.first], p.ridge))
-
-
-def blend_filters(learned: Filter, first: Filter, first_weight: float) -> Filter:
-    """A filter with a share of the first frame's, against forgetting."""
-    share = np.float32(first_weight)
-    return learned[0] + share * (first[0] - learned[0]), learned[1] + share * (first[1] - learned[1])
-
-
-def divide(filters: Sequence[Filter], ridge: float) -> Spectra:
-    """(F, 19, 32, 17), as correlation_response takes filters. ridge: in parts of the mean denominator."""
-    return np.stack([a / (b + np.float32(ridge * max(float(b.mean()), 1e-12))) for a, b in filters])
+        blended = learned + np.float32(p.first_frame_weight) * (self.first - learned)
+        return self._replace(learned=learned, applied=np.stack([blended, self.first]))
 
 
 @lru_cache(maxsize=64)
@@ -76,7 +66,7 @@ def _mask_profile(length: float, outer: float) -> Floats:
 
 
 def target_mask(size: tuple[float, float], outer: float) -> Plane:
-    """(32, 32) weights of the cells that the filter has to respond to.
+    """(32, 32) weights of the cells that may add to the filter's response.
 
     1 in the box of a target's size, in patch pixels, falling to 0 at ``outer`` times that size.
     """

@@ -2,28 +2,25 @@
 """The target's size: in log-polar coordinates around its center a change of size is a shift.
 
 A correlation filter answers to it as to a shift in the image (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song,
-Wang and Liu 2019).
+Wang and Liu 2019). This one is a running mean over frames (Danelljan et al. 2014): one that is learned from a
+frame at a time lets the size wander.
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.track.fused.arrays import Image, Plane
-from tricue.track.fused.experts.correlation_filter import (
-    Filter,
-    Spectra,
-    blend_filters,
-    divide,
-    label_spectrum,
-)
+from tricue.track.fused.experts.correlation_filter import Spectra, label_spectrum
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.peak import gaussian_peak_offset
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
+
+Filter = tuple[Spectra, Plane]  # numerator and denominator
 
 INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
 LABEL_WIDTH = 0.7  # cells
@@ -40,7 +37,7 @@ class SizeExpert(NamedTuple):
     """A correlation filter on a log-polar patch.
 
     learned, first: numerator (19, 32, 17) and denominator (32, 17), as they are learned, and of the first
-    frame. applied: a blend of both, divided.
+    frame. applied: (1, 19, 32, 17) the learned one with a share of the first frame's, divided.
     """
 
     learned: Filter
@@ -54,7 +51,7 @@ class SizeExpert(NamedTuple):
         cells = log_polar_cells(observation, target)
         empty = np.zeros((len(cells), *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
         first = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *empty, 1.0, 0.0)
-        return cls(first, first, divide([first], p.ridge), p)
+        return cls(first, first, divide(first, p.ridge), p)
 
     def growth(self, observation: TargetObservation, target: Target) -> float:
         """The ratio of the size of what is at a target's place to the target's."""
@@ -69,8 +66,17 @@ class SizeExpert(NamedTuple):
         """The expert with a target blended in."""
         cells = log_polar_cells(observation, target)
         learned = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *self.learned, rate, 0.0)
-        blended = blend_filters(learned, self.first, self.params.first_frame_weight)
-        return self._replace(learned=learned, applied=divide([blended], self.params.ridge))
+        share = np.float32(self.params.first_frame_weight)
+        blended = _blend(learned[0], self.first[0], share), _blend(learned[1], self.first[1], share)
+        return self._replace(learned=learned, applied=divide(blended, self.params.ridge))
+
+
+def divide(learned: Filter, ridge: float) -> Spectra:
+    """(1, 19, 32, 17) as correlation_response takes filters. ridge: in parts of the mean denominator."""
+    numerator, denominator = learned
+    least = np.float32(ridge * max(float(denominator.mean()), 1e-12))
+    divided: Spectra = (numerator / (denominator + least))[None]
+    return divided
 
 
 def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
@@ -83,6 +89,10 @@ def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
     patch = observation.k.sample_windows(observation.picture, square, PATCH_PIXELS, PATCH_PIXELS)
     log_polar: Image = patch.reshape(-1, 3).take(LOG_POLAR_PIXELS, axis=0)
     return observation.k.hog_color_cells(log_polar, TAPER)
+
+
+def _blend(old: NDArray[Any], new: NDArray[Any], share: np.float32) -> NDArray[Any]:
+    return old + share * (new - old)
 
 
 def _log_polar_pixels() -> NDArray[np.intp]:
