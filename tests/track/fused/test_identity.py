@@ -8,6 +8,8 @@ import pytest
 from tricue import Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.identity import (
+    APPEARANCE,
+    STRUCTURE,
     FirstColors,
     IdentityFeatures,
     color_histogram,
@@ -18,8 +20,9 @@ from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
 
 AVERAGE = IdentityFeatures(peak_sharpness=5.0, color_similarity=0.6, contrast=0.2, first_response=0.3)
-BETTER = {"peak_sharpness": 1, "color_similarity": 1, "contrast": 1, "first_response": 1}
-KINDS = ("color", "depth")
+TYPICAL = IdentityFeatures(peak_sharpness=7.0, color_similarity=0.8, contrast=0.4, first_response=0.5)
+PERFECT = IdentityFeatures(peak_sharpness=12.0, color_similarity=1.0, contrast=0.6, first_response=1.0)
+EMPTY = IdentityFeatures(peak_sharpness=0.0, color_similarity=0.0, contrast=-0.1, first_response=0.0)
 CAMERA = Intrinsics.from_fov(160, 120, 60)
 RED, BLUE = (20, 30, 220), (210, 40, 20)
 
@@ -32,43 +35,45 @@ def window_of(left: tuple[int, int, int], right: tuple[int, int, int]) -> Window
     return extract_windows(observation, [Target(80.0, 60.0, 24.0, 24.0)], 3.0)[0]
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("typical", [None, TYPICAL], ids=["nothing typical yet", "typical"])
 @pytest.mark.parametrize("feature", IdentityFeatures._fields)
-def test_odds_are_monotone(feature, kind):
-    """A feature that is nearer to the target's raises the log-odds, and never lowers those of structure."""
-    value = getattr(AVERAGE, feature)
-    better = AVERAGE._replace(**{feature: value + 0.1 * BETTER[feature]})
-    assert better.log_odds(kind) > AVERAGE.log_odds(kind)
-    assert better.structure_log_odds >= AVERAGE.structure_log_odds
+def test_odds_are_monotone(feature, typical):
+    """A feature that is nearer to the target's never lowers the log-odds, and raises those by appearance,
+    but for the peak's sharpness, which counts only against a typical one.
+    """
+    better = AVERAGE._replace(**{feature: getattr(AVERAGE, feature) + 0.1})
+    raised = better.log_odds(typical, APPEARANCE) > AVERAGE.log_odds(typical, APPEARANCE)
+    assert raised == (typical is not None or feature != "peak_sharpness")
+    assert better.log_odds(typical, STRUCTURE) >= AVERAGE.log_odds(typical, STRUCTURE)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_odds_separate_perfect_from_empty(kind):
-    """In each kind of picture a perfect place has a high probability, and an empty one a low one."""
-    perfect = IdentityFeatures(peak_sharpness=12.0, color_similarity=1.0, contrast=0.6, first_response=1.0)
-    empty = IdentityFeatures(peak_sharpness=0.0, color_similarity=0.0, contrast=-0.1, first_response=0.0)
-    assert probability(perfect.log_odds(kind)) > 0.9
-    assert probability(empty.log_odds(kind)) < 0.1
+@pytest.mark.parametrize("weights", [APPEARANCE, STRUCTURE], ids=["appearance", "structure"])
+@pytest.mark.parametrize("typical", [None, TYPICAL], ids=["nothing typical yet", "typical"])
+def test_odds_separate_perfect_from_empty(typical, weights):
+    """A perfect place has a high probability, and an empty one a low one."""
+    assert probability(PERFECT.log_odds(typical, weights)) > 0.9
+    assert probability(EMPTY.log_odds(typical, weights)) < 0.15
 
 
-def test_a_picture_of_depth_lowers_the_odds():
-    """The same features give less in a picture of depth, in which most things look alike."""
-    assert AVERAGE.log_odds("depth") < AVERAGE.log_odds("color")
+def test_a_drop_lowers_the_odds():
+    """The same features tell more against the target that had better ones than against one that never had."""
+    for weights in (APPEARANCE, STRUCTURE):
+        assert AVERAGE.log_odds(PERFECT, weights) < AVERAGE.log_odds(AVERAGE, weights) - 1
+        assert AVERAGE.log_odds(AVERAGE, weights) == AVERAGE.log_odds(None, weights)
 
 
 def test_structure_does_not_depend_on_colors():
     """Colors and their contrast, which light changes, don't change the log-odds of structure."""
     other = AVERAGE._replace(color_similarity=0.0, contrast=-0.4)
-    assert other.structure_log_odds == AVERAGE.structure_log_odds
-    assert other.log_odds("color") < AVERAGE.log_odds("color")
+    assert other.log_odds(TYPICAL, STRUCTURE) == AVERAGE.log_odds(TYPICAL, STRUCTURE)
+    assert other.log_odds(TYPICAL, APPEARANCE) < AVERAGE.log_odds(TYPICAL, APPEARANCE)
 
 
-def test_structure_separates_perfect_from_empty():
-    """By structure alone a perfect place has a high probability, and an empty one a low one."""
-    perfect = IdentityFeatures(peak_sharpness=12.0, color_similarity=0.0, contrast=0.0, first_response=1.0)
-    empty = IdentityFeatures(peak_sharpness=0.0, color_similarity=1.0, contrast=0.6, first_response=0.0)
-    assert probability(perfect.structure_log_odds) > 0.9
-    assert probability(empty.structure_log_odds) < 0.1
+def test_blend_moves_by_a_share():
+    """Blended by a rate, each feature moves by that share of the difference."""
+    middle = EMPTY.blend(PERFECT, 0.5)
+    assert middle == pytest.approx([(a + b) / 2 for a, b in zip(EMPTY, PERFECT, strict=True)])
+    assert EMPTY.blend(PERFECT, 0.0) == EMPTY
 
 
 @pytest.mark.parametrize("odds", [0.01, 0.5, 1.0, 3.0, 99.0])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Which match elsewhere in a frame the fused tracker takes for its lost target."""
 
+import importlib
 from collections.abc import Callable
 from typing import Any
 
@@ -8,21 +9,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, FusedTracker, Status
-from tricue.track.fused import search
 from tricue.track.fused.experts.depth import DepthMeasurement
-from tricue.track.fused.identity import IdentityFeatures, probability
+from tricue.track.fused.identity import APPEARANCE, STRUCTURE, IdentityFeatures, probability
 from tricue.track.fused.localize import Candidate, TargetModel
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.proposals import LostTarget
-from tricue.track.fused.search import search_frame
+from tricue.track.fused.redetect import redetect
 from tricue.track.fused.target import Target
 
 P = FusedParams()
 HERE, THERE = Target(100.0, 80.0, 40.0, 40.0), Target(160.0, 80.0, 40.0, 40.0)
 ALIKE = IdentityFeatures(peak_sharpness=12.0, color_similarity=1.0, contrast=0.7, first_response=0.9)
 REPAINTED = ALIKE._replace(color_similarity=0.0, contrast=-0.4)
-REARRANGED = ALIKE._replace(peak_sharpness=5.0, first_response=0.1)
+REARRANGED = ALIKE._replace(peak_sharpness=9.0, first_response=0.45)
 DEPTH = DepthMeasurement(2.0, 0.05, 1.0)
 
 
@@ -33,17 +33,21 @@ def match(
     measured: DepthMeasurement | None = None,
 ) -> Match:
     """A match with these features; odds: its log-odds, by default those by color."""
-    odds = features.log_odds("color") if odds is None else odds
+    odds = features.log_odds(ALIKE, APPEARANCE) if odds is None else odds
+    structure = features.log_odds(ALIKE, STRUCTURE)
     observation: Any = None
-    return Match(target, observation, features, odds, odds, 0.5, measured, 0.0, None)
+    return Match(target, observation, features, odds, structure, 0.5, measured, 0.0, None)
 
 
 NEAR = match(HERE, odds=-6.0)
 
 
+module = importlib.import_module(redetect.__module__)
+
+
 @pytest.fixture
 def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
-    """``search_frame`` where these are the whole frame's matches, with evidence in their order."""
+    """``redetect`` where these are the whole frame's matches, with evidence in their order."""
 
     def among(*others: Match, near: Match = NEAR, missed_frames: int = 20) -> Match:
         def localized(_: TargetModel, window: int) -> Any:
@@ -51,12 +55,12 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
                 others[window].target, None, 0.0, 0.0, -float(window), (0.0, 0.0), 0.0, 0.0, None
             )
 
-        monkeypatch.setattr(search, "propose_windows", lambda *_: list(range(len(others)))[::-1])
-        monkeypatch.setattr(search, "localize", localized)
-        monkeypatch.setattr(search, "measure_candidate", lambda _, at: others[round(-at.evidence)])
+        monkeypatch.setattr(module, "propose_windows", lambda *_: list(range(len(others)))[::-1])
+        monkeypatch.setattr(module, "localize", localized)
+        monkeypatch.setattr(module, "measure_candidate", lambda _, at: others[round(-at.evidence)])
         nothing: Any = None
-        model = TargetModel(nothing, None, HERE.side, P)
-        return search_frame(model, nothing, LostTarget(HERE, None, missed_frames, 0), near)
+        model = TargetModel(nothing, None, HERE.side, ALIKE, P)
+        return redetect(model, nothing, LostTarget(HERE, None, missed_frames, 0), near)
 
     return among
 
@@ -72,20 +76,20 @@ def test_without_depth_color_and_structure_have_to_agree(features, search_among)
     though the one that agrees would be enough alone.
     """
     other = match(THERE, features)
-    assert probability(max(other.log_odds, features.structure_log_odds)) > P.min_score_to_redetect
+    assert probability(max(other.log_odds, other.structure_log_odds)) > P.min_score_to_redetect
     assert search_among(other).target == HERE
 
 
 def test_with_depth_structure_does_not_matter(search_among):
     """A match with measured depth is taken by its log-odds, whatever those of its structure are."""
-    odds = ALIKE.log_odds("color")
+    odds = match(THERE).log_odds
     assert search_among(match(THERE, REARRANGED, odds, DEPTH)).target == THERE
     assert search_among(match(THERE, REARRANGED, odds)).target == HERE
 
 
 def test_elsewhere_needs_a_high_score(search_among):
     """Elsewhere a score under min_score_to_redetect isn't taken, even if there is nothing like it nearby."""
-    unlikely, likely = match(HERE, odds=2.9), match(HERE, odds=3.0)  # ln(0.95 / 0.05) is 2.944
+    unlikely, likely = match(HERE, odds=1.38), match(HERE, odds=1.39)  # ln(0.8 / 0.2) is 1.386
     nothing = match(HERE.shift(1.0, 0.0), odds=-40.0)
     assert search_among(unlikely, near=nothing).target == nothing.target
     assert search_among(likely, near=nothing).target == likely.target

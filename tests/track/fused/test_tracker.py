@@ -157,15 +157,7 @@ def test_both_sets_of_kernels_agree_on_depth(name, film):
         np.testing.assert_allclose(ours.covariance, theirs.covariance, rtol=1e-3, atol=1e-6)
 
 
-UNKNOWN = pytest.mark.xfail(
-    strict=True,
-    raises=AssertionError,
-    reason="in other surroundings the face's own structure has log-odds that are less than the 2.9"
-    " that are needed elsewhere",
-)
-
-
-@pytest.mark.parametrize("seen", [pytest.param(2, marks=UNKNOWN), 6, 12])
+@pytest.mark.parametrize("seen", [2, 6, 12])
 def test_found_again_after_few_frames(seen, stage, follow):
     """A face that was visible in so few frames before it was lost is found within 10 where it comes back."""
     frames = stage(HERE[:seen]) + 3 * [BLANK["black"]] + stage(10 * [THERE])

@@ -25,7 +25,7 @@ class Weights(NamedTuple):
 # target is covered" (python -m benchmarks.quality.identity_fit). Features that added nothing are 0.
 APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.7)
 STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.9)  # without what light changes
-DEPTH_PICTURE_OFFSET = -6.0  # of the log-odds in a picture of depth, in which most things look alike
+DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look alike
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 
 
@@ -57,7 +57,7 @@ class IdentityFeatures(NamedTuple):
 
 
 def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:
-    return sum(map(operator.mul, weights, values))
+    return float(sum(map(operator.mul, weights, values)))
 
 
 def probability(log_odds: float) -> float:

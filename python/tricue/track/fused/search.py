@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""Search for the target: around its last place, and in the whole frame once it was missed."""
-
-import math
+"""Search for the target around its last place."""
 
 from tricue.track.fused.localize import Candidate, TargetModel, localize
 from tricue.track.fused.measure import Match, covered_share, depth_continuity, measure_candidate
-from tricue.track.fused.position_filter import back_project
-from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
@@ -37,23 +33,6 @@ def search_local(
     return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(window)))
 
 
-def search_frame(model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match) -> Match:
-    """Re-detect the target in the whole frame; local: what was found where it should be.
-
-    A match elsewhere needs ``min_score_to_redetect`` and higher log-odds than the local one.
-    """
-    p = model.params
-    windows = propose_windows(model, observation, lost)
-    candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
-    best = max(
-        (_match_elsewhere(model, lost, each) for each in candidates[: p.candidates]),
-        key=lambda each: each.log_odds,
-    )
-    local = _penalize_distance(model, lost, local)
-    found = best.score >= p.min_score_to_redetect and best.log_odds > local.log_odds
-    return best if found else local
-
-
 def _localize_beside(model: TargetModel, window: Window, last: Target) -> Candidate:
     """The best place of a neighboring window, its evidence less a penalty for the window's distance."""
     half = model.params.context * last.side / 2
@@ -67,27 +46,3 @@ def _neighboring_windows(observation: TargetObservation, target: Target, context
     """The eight windows around a target's own, half a window away."""
     half = context * target.side / 2
     return extract_windows(observation, [target.shift(i * half, j * half) for i, j in NEIGHBORS], context)
-
-
-def _match_elsewhere(model: TargetModel, lost: LostTarget, candidate: Candidate) -> Match:
-    """A candidate measured away from where the target should be.
-
-    Without its depth both color and structure have to agree: look-alikes share one of them.
-    """
-    match = measure_candidate(model, candidate)
-    if match.depth is None:
-        match = match._replace(log_odds=min(match.log_odds, match.structure_log_odds))
-    return _penalize_distance(model, lost, match)
-
-
-def _penalize_distance(model: TargetModel, lost: LostTarget, match: Match) -> Match:
-    """The match with less log-odds the farther it is from where the target can be by now."""
-    return match._replace(log_odds=match.log_odds - 0.5 * _distance(model, lost, match) ** 2)
-
-
-def _distance(model: TargetModel, lost: LostTarget, match: Match) -> float:
-    """Standard deviations from where the target can be by now, in meters if both depths are known."""
-    if lost.position is not None and match.depth is not None:
-        return lost.position.distance(*back_project(match.observation, match.target, match.depth))
-    sigma = lost.target.side * model.params.lost_position_noise * (1 + lost.missed_frames)
-    return math.hypot(match.target.x - lost.target.x, match.target.y - lost.target.y) / sigma

@@ -24,7 +24,8 @@ from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import MIN_POSITION_Z
 from tricue.track.fused.proposals import LostTarget
-from tricue.track.fused.search import search_frame, search_local
+from tricue.track.fused.redetect import redetect
+from tricue.track.fused.search import search_local
 from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
@@ -128,7 +129,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         local = search_local(model, observation, state.target, None)
         last = state.target.scale(state.recognized_side / state.target.side)
         lost = LostTarget(last, state.position, state.missed_frames, state.frames)
-        return search_frame(model, observation, lost, local)
+        return redetect(model, observation, lost, local)
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:

@@ -92,7 +92,8 @@ def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
 
 
 def _blend(old: NDArray[Any], new: NDArray[Any], share: np.float32) -> NDArray[Any]:
-    return old + share * (new - old)
+    blended: NDArray[Any] = old + share * (new - old)
+    return blended
 
 
 def _log_polar_pixels() -> NDArray[np.intp]:
