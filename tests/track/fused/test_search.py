@@ -89,7 +89,7 @@ def test_with_depth_structure_does_not_matter(search_among):
 
 def test_elsewhere_needs_a_high_score(search_among):
     """Elsewhere a score under min_score_to_redetect isn't taken, even if there is nothing like it nearby."""
-    unlikely, likely = match(HERE, odds=1.38), match(HERE, odds=1.39)  # ln(0.8 / 0.2) is 1.386
+    unlikely, likely = match(HERE, odds=2.19), match(HERE, odds=2.2)  # ln(0.9 / 0.1) is 2.197
     nothing = match(HERE.shift(1.0, 0.0), odds=-40.0)
     assert search_among(unlikely, near=nothing).target == nothing.target
     assert search_among(likely, near=nothing).target == likely.target

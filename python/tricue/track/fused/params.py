@@ -157,7 +157,7 @@ class FusedParams(Params):
         3, unit="frames", source=OURS, low=1, high=30, doc="between two in which appearance is learned"
     )
     min_score: float = parameter(
-        0.2,
+        0.33,
         unit="score",
         source=OURS,
         low=0,
@@ -166,7 +166,7 @@ class FusedParams(Params):
         was="lost_below",
     )
     min_score_to_move: float = parameter(
-        0.01,
+        0.02,
         unit="score",
         source=OURS,
         low=0,
@@ -189,7 +189,7 @@ class FusedParams(Params):
         was="reach",
     )
     min_score_to_redetect: float = parameter(
-        0.8,
+        0.9,
         unit="score",
         source=OURS,
         low=0,
