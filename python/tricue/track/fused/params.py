@@ -39,7 +39,7 @@ class FusedParams(Params):
         0.05, unit="-", source="Li et al. 2018", above=0, doc="that keeps the filter in its mask, at first"
     )
     first_frame_weight: float = parameter(
-        0.1,
+        0.2,
         unit="-",
         source=OURS,
         low=0,
@@ -78,7 +78,13 @@ class FusedParams(Params):
 
     # size: cue "size"
     size_learning_rate: float = parameter(
-        0.025, unit="per frame", source="Danelljan et al. 2014", low=0, high=0.5, doc="of its filter"
+        0.025,
+        unit="per frame",
+        source="Danelljan et al. 2014",
+        low=0,
+        high=0.5,
+        doc="of its filter",
+        was="filter_rate",
     )
     ridge: float = parameter(
         1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of its filter"
