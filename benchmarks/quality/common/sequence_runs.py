@@ -2,9 +2,9 @@
 """Trackers on whole recorded sequences: each is decoded once, for all trackers and all protocols."""
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from tricue.evaluation.dataset import Entry, find_entries
 
@@ -13,6 +13,8 @@ from benchmarks.quality.common.parallel import run_parallel
 from benchmarks.quality.common.protocols import PROTOCOLS, Order, run_orders
 from benchmarks.quality.common.tables import mean
 from benchmarks.quality.common.variants import Variant
+
+Result = TypeVar("Result")
 
 
 class SequenceTask(NamedTuple):
@@ -48,15 +50,22 @@ def find_tasks(variants: Sequence[Variant], root: Path, only: Sequence[str] = ()
     return [SequenceTask(entry, variants) for entry in entries if not only or entry.name in only]
 
 
-def run_sequences(tasks: Sequence[SequenceTask], jobs: int) -> list[SequenceResult]:
+def run_longest_first(
+    run: Callable[[SequenceTask], Result], tasks: Sequence[SequenceTask], jobs: int
+) -> list[Result]:
     """The results in the order of the tasks. The longest sequences run first, so that all processes end
-    together. What can't run is named on stderr.
+    together.
     """
     lengths = [len(task.entry.open().boxes) for task in tasks]
     longest_first = sorted(range(len(tasks)), key=lambda index: -lengths[index])
-    found = run_parallel(run_sequence, [tasks[index] for index in longest_first], jobs)
+    found = run_parallel(run, [tasks[index] for index in longest_first], jobs)
     by_index = dict(zip(longest_first, found, strict=True))
-    results = [each for index in range(len(tasks)) for each in by_index[index]]
+    return [by_index[index] for index in range(len(tasks))]
+
+
+def run_sequences(tasks: Sequence[SequenceTask], jobs: int) -> list[SequenceResult]:
+    """The results in the order of the tasks. What can't run is named on stderr."""
+    results = [each for several in run_longest_first(run_sequence, tasks, jobs) for each in several]
     for each in results:
         if each.unsupported:
             print(f"left out {each.tracker} on {each.sequence}: {each.unsupported}", file=sys.stderr)
