@@ -6,6 +6,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from tricue.camera.box import Box
+from tricue.camera.frame import Frame
 
 MARGIN = 0.15
 """Of the box's width and height, that is covered on each side, too: true boxes don't always hold all."""
@@ -31,6 +32,12 @@ def cover(image: Image, box: Box) -> Image:
             return covered
     covered[top:bottom, left:right] = image.mean(axis=(0, 1))
     return covered
+
+
+def cover_target(frame: Frame, box: NDArray[np.float64]) -> Frame:
+    """The frame's color alone, with a true box, (4,), covered."""
+    assert frame.color is not None, "the frame has color"
+    return Frame(cover(frame.color, Box(*box.tolist())))
 
 
 def _span(start: float, length: float, limit: int) -> tuple[int, int]:

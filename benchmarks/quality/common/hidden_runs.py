@@ -19,7 +19,7 @@ from tricue.evaluation.rows import clip_to_image
 from tricue.track.base.track import Status, Track
 
 from benchmarks.quality.common.confidence_summary import ON_TARGET_OVERLAP
-from benchmarks.quality.common.covering import cover
+from benchmarks.quality.common.covering import cover_target
 from benchmarks.quality.common.frame_results import GOOD_OVERLAP, Array, Flags
 from benchmarks.quality.common.scene_runs import longest_run
 from benchmarks.quality.common.sequence_runs import SequenceTask
@@ -98,7 +98,7 @@ def run_hidden(
         return None
     if hiding.kind == EMPTY:
         hidden = np.full_like(hidden, hidden[0])
-    wrong = _tracked(tracker.update(_covered(frames[number], truth[number])) for number in hidden)
+    wrong = _tracked(tracker.update(cover_target(frames[number], truth[number])) for number in hidden)
     tracks = [tracker.update(frames[number]) for number in after]
     right = _tracked(tracks) & (_overlaps(tracks, truth[after], opened) > ON_TARGET_OVERLAP)
     return HiddenResult(variant.label, opened.entry.name, hiding, bool(right.any()), longest_run(wrong))
@@ -108,11 +108,6 @@ def to_and_fro(frames: int, count: int, backward: bool) -> NDArray[np.intp]:
     """(count,) numbers of the frames of a sequence that is played again and again, turning at its ends."""
     way = np.arange(frames)[:: -1 if backward else 1]
     return np.resize(np.concatenate([way, way[-2:0:-1]]), count)
-
-
-def _covered(frame: Frame, box: Array) -> Frame:
-    assert frame.color is not None, "the frames have color"
-    return Frame(cover(frame.color, Box(*box.tolist())))
 
 
 def _tracked(tracks: Iterable[Track]) -> Flags:
