@@ -23,7 +23,7 @@ class Weights(NamedTuple):
 
 # By logistic regression on 30 recorded color videos: "the overlap is above 0.3" against "under 0.1, or the
 # target is covered" (python -m benchmarks.quality.identity_fit). Features that added nothing are 0. Offsets
-# are 0.7 higher: a target is covered more rarely in other video.
+# are 0.7 above the fitted ones, by the calibration that benchmarks.quality.color_video prints.
 APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.0)
 STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # without what light changes
 DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look alike
