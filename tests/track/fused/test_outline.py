@@ -6,7 +6,7 @@ import pytest
 from tricue import Intrinsics, StereoRig
 from tricue import kernels as kernel_sets
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth, StereoSource
-from tricue.track.fused.measure import covered_share
+from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.outline import (
     BOX_OUTLINE,
     MAX_COVERED_BY_OCCLUDER,

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: MIT
 """The parameters of the fused tracker: that they come back from a file, and extremes."""
 
+import inspect
 import itertools
 import typing
+from collections import Counter
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pytest
 from tricue import Frame, FusedTracker, Status, Track
-from tricue.track.fused.params import Cue, FusedParams
+from tricue.track.fused.experts import Cue
+from tricue.track.fused.params import FusedParams
 
 CUES = typing.get_args(Cue)
 
@@ -22,6 +26,12 @@ def test_cues_need_one_that_finds(count):
         else:
             with pytest.raises(ValueError, match=r"^cues: expected filter or color"):
                 FusedParams(cues=cues)
+
+
+def test_each_parameter_has_one_home():
+    """What two experts read is declared by one, so that nobody else overrides its default."""
+    declared = Counter(name for cls in FusedParams.__mro__ for name in inspect.get_annotations(cls))
+    assert declared == Counter(f.name for f in fields(FusedParams))
 
 
 def test_parameters_come_back_from_a_file(tmp_path):

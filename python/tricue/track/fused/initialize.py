@@ -5,7 +5,12 @@ from tricue.kernels import Kernels
 from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
-from tricue.track.fused.experts.depth import DepthExpert, DepthMeasurement, measure_depth
+from tricue.track.fused.experts.depth import (
+    INITIAL_DEPTH_SPREAD,
+    DepthExpert,
+    DepthMeasurement,
+    measure_depth,
+)
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.frame_observation import FrameObservation
 from tricue.track.fused.identity import FirstColors
@@ -16,8 +21,6 @@ from tricue.track.fused.state import AppearanceModels, State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import extract_windows
-
-INITIAL_DEPTH_SPREAD = 0.1  # meters, of a target that was never measured
 
 
 def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedParams) -> State:
@@ -77,6 +80,5 @@ def _depth_models(
     """The depth expert and the position filter after the first measurement; None without one."""
     if measured is None:
         return None, None
-    length = target.side * measured.z
-    expert = DepthExpert(INITIAL_DEPTH_SPREAD, length).learn(measured, length, 1.0)
+    expert = DepthExpert.from_measurement(measured, target.side * measured.z)
     return expert, PositionFilter.at_rest(*back_project(observation, target, measured), p)

@@ -14,9 +14,8 @@ from tricue.track.fused.params import FusedParams
 from tricue.track.fused.peak import peak_offset
 from tricue.track.fused.state import AppearanceModels
 from tricue.track.fused.target import Target
-from tricue.track.fused.window import CELL_PIXELS, WINDOW_CELLS, Window, extract_windows
+from tricue.track.fused.window import CELL_PIXELS, CENTER_CELL, WINDOW_CELLS, Window, extract_windows
 
-CENTER_CELL = WINDOW_CELLS // 2
 MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window of its own
 
 
@@ -31,6 +30,11 @@ class TargetModel(NamedTuple):
     first_side: float
     typical: IdentityFeatures | None
     params: FusedParams
+
+    def limit_growth(self, growth: float, target: Target) -> float:
+        """The growth of a target, or the nearest that leaves its size within ``size_range``."""
+        low, high = (bound * self.first_side / target.side for bound in self.params.size_range)
+        return min(max(growth, low), high)
 
 
 class Candidate(NamedTuple):

@@ -5,11 +5,14 @@ The outline gives the box that a track reports. The target's own box, in which i
 keeps its aspect ratio.
 """
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.base.params import Params, parameter
+from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
@@ -17,6 +20,20 @@ MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of t
 OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
 MIN_OUTLINE_SIDE, MAX_OUTLINE_SIDE = 0.3, 3.0  # of half the width or height
+
+
+@dataclass(frozen=True, kw_only=True)
+class OutlineParams(Params):
+    """Of the outline."""
+
+    outline_time_constant: float = parameter(
+        0.5,
+        unit="s",
+        source=OURS,
+        above=0,
+        doc="with which the box's sides follow the outline",
+        was="outline_time",
+    )
 
 
 class Outline(NamedTuple):

@@ -1,23 +1,40 @@
 # SPDX-License-Identifier: MIT
 """The target's position in meters: a Kalman filter over position and velocity in the camera's frame."""
 
+import math
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from tricue.kernels import Kernels
+from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Floats
+from tricue.track.fused.depth_sources import ExpectedDepth
 from tricue.track.fused.experts.depth import DEPTH_SAMPLES, DepthMeasurement
-from tricue.track.fused.params import FusedParams
+from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
 LATERAL_NOISE = 0.02  # of the target's side, standard deviation of its center
 MIN_POSITION_Z = 0.05  # meters in front of the camera
+MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
 MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
+
+
+@dataclass(frozen=True, kw_only=True)
+class PositionParams(Params):
+    """Of the position in meters."""
+
+    acceleration_noise: float = parameter(
+        4.0, unit="m/s²", source=OURS, above=0, doc="standard deviation", was="agility"
+    )
+    max_speed: float = parameter(
+        2.0, unit="m/s", source=OURS, above=0, doc="of a target that is measured first", was="fastest"
+    )
 
 
 class PositionFilter(NamedTuple):
@@ -30,7 +47,7 @@ class PositionFilter(NamedTuple):
     covariance: Floats
 
     @classmethod
-    def at_rest(cls, point: Floats, noise: Floats, p: FusedParams) -> "PositionFilter":
+    def at_rest(cls, point: Floats, noise: Floats, p: PositionParams) -> "PositionFilter":
         """At rest at a measured point (3,) with covariance ``noise`` (3, 3)."""
         covariance = np.zeros((6, 6))
         covariance[:3, :3] = noise
@@ -47,11 +64,17 @@ class PositionFilter(NamedTuple):
         """(3, 3) m²; a copy."""
         return np.array(self.covariance[:3, :3])
 
+    def expected_depth(self, spread: float) -> ExpectedDepth:
+        """The depth of a target whose surface's depths have that standard deviation, meters."""
+        sigma = min(math.sqrt(float(self.covariance[2, 2])), MAX_POSITION_SIGMA)
+        z = max(float(self.mean[2]), MIN_POSITION_Z)
+        return ExpectedDepth(z, float(np.hypot(sigma, spread)))
+
     def slow_down(self) -> "PositionFilter":
         """With less velocity: after a frame in which the target was missed."""
         return PositionFilter(self.mean * MISSED_MEAN_FACTORS, self.covariance)
 
-    def predict(self, k: Kernels, seconds: float, p: FusedParams) -> "PositionFilter":
+    def predict(self, k: Kernels, seconds: float, p: PositionParams) -> "PositionFilter":
         """The state after some seconds of white acceleration.
 
         Bar-Shalom, Li and Kirubarajan 2001, section 6.3.2.

@@ -67,10 +67,9 @@ def _at_measured_depth(
     measured = measure_depth(observation, target, None)
     if measured is None or model.depth is None:
         return observation, [target]
-    low, high = (bound * model.first_side / target.side for bound in model.params.size_range)
-    factor = model.depth.length / (measured.z * target.side)
+    growth = model.depth.length / (measured.z * target.side)
     expected = ExpectedDepth(measured.z, model.depth.depth_spread)
-    scaled = target.scale(min(max(factor, low), high))
+    scaled = target.scale(model.limit_growth(growth, target))
     return observation.expect(expected, scaled.search_region), [scaled]
 
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Search for the target around its last place."""
 
+from tricue.track.fused.experts.depth import covered_share, depth_continuity
 from tricue.track.fused.localize import Candidate, TargetModel, localize
-from tricue.track.fused.measure import Match, covered_share, depth_continuity, measure_candidate
+from tricue.track.fused.measure import Match, measure_candidate
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
@@ -27,7 +28,8 @@ def search_local(
         candidates = [_localize_beside(model, each, last) for each in neighbors]
         candidate = max([candidate, *candidates], key=lambda each: each.evidence)
     match = measure_candidate(model, candidate)
-    log_odds = match.log_odds + p.depth_continuity_weight * depth_continuity(candidate)
+    continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
+    log_odds = match.log_odds + p.depth_continuity_weight * continuity
     if observation.kind == "color":  # light may have changed its colors: its structure is enough
         log_odds = max(log_odds, match.structure_log_odds - STRUCTURE_ONLY_PENALTY)
     return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(window)))

@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The fused tracker: color, depth and motion in one."""
 
-import math
 from typing import Any
-
-import numpy as np
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike
@@ -22,7 +19,6 @@ from tricue.track.fused.learn import update_models
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.position_filter import MIN_POSITION_Z
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
 from tricue.track.fused.search import search_local
@@ -30,8 +26,6 @@ from tricue.track.fused.state import State
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
-
-MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 
 
 class FusedTracker(TrackerBase[FusedParams, State]):
@@ -146,6 +140,4 @@ class FusedTracker(TrackerBase[FusedParams, State]):
 def _expected_depth(state: State) -> ExpectedDepth | None:
     if state.position is None or state.depth is None:
         return None
-    sigma = min(math.sqrt(float(state.position.covariance[2, 2])), MAX_POSITION_SIGMA)
-    z = max(float(state.position.mean[2]), MIN_POSITION_Z)
-    return ExpectedDepth(z, float(np.hypot(sigma, state.depth.depth_spread)))
+    return state.position.expected_depth(state.depth.depth_spread)

@@ -1,19 +1,30 @@
 # SPDX-License-Identifier: MIT
 """Square windows of a frame around a target: the part that the experts read."""
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Floats, Image, Plane
+from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
 WINDOW_CELLS = 32  # on a side
+CENTER_CELL = WINDOW_CELLS // 2  # where the response to a target at the window's center is
 CELL_PIXELS = 2  # patch pixels on a side
 PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
 INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
+
+
+@dataclass(frozen=True, kw_only=True)
+class WindowParams(Params):
+    """The part of the frame that is read."""
+
+    context: float = parameter(3.0, unit="target", source=OURS, low=1.5, high=8, doc="side of the window")
 
 
 class Window:

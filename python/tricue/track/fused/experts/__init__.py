@@ -6,12 +6,33 @@ All are immutable: learning returns another. What they tell of pixels is combine
 """
 
 from collections.abc import Sequence
-from typing import Protocol
+from dataclasses import dataclass
+from typing import Literal, Protocol
 
 import numpy as np
 
+from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Plane
 from tricue.track.fused.window import Window
+
+Cue = Literal["filter", "color", "size", "depth"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CueParams(Params):
+    """Which experts are asked."""
+
+    cues: tuple[Cue, ...] = parameter(
+        ("filter", "color", "size", "depth"),
+        unit="-",
+        source="fused.md",
+        doc="the experts that are used",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not {"filter", "color"} & set(self.cues):
+            raise ValueError(f"cues: expected filter or color, which localize the target, among {self.cues}")
 
 
 class PixelExpert(Protocol):

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Which colors are the target's, and which its surround's."""
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Plane
+from tricue.track.fused.sources import OURS
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
 HISTOGRAM_BINS = 16  # per color channel
@@ -15,6 +18,28 @@ MIN_COLOR_SHARE = 1e-4  # of a histogram; rarer colors tell little about either 
 MIN_SURROUND_SIZE = 1.1  # of the box: colors outside of it are the surround's
 MIN_TARGET_POSTERIOR = 0.4  # P(target | depth) of pixels that are learned as the target's
 MAX_SURROUND_POSTERIOR = 0.1  # P(target | depth) of pixels that are learned as the surround's
+
+
+@dataclass(frozen=True, kw_only=True)
+class ColorParams(Params):
+    """Of the cue "color"."""
+
+    color_weight: float = parameter(0.3, unit="-", source=OURS, low=0, doc="of the posterior's contrast")
+    color_learning_rate: float = parameter(
+        0.04,
+        unit="per frame",
+        source="Bertinetto et al. 2016",
+        low=0,
+        high=0.5,
+        doc="of the histograms",
+        was="color_rate",
+    )
+    surround_size: float = parameter(
+        1.5, unit="box", source=OURS, above=1, doc="outer size of the contrast's surround", was="frame"
+    )
+    surround_weight: float = parameter(
+        0.5, unit="-", source=OURS, low=0, doc="of the surround in the contrast", was="around"
+    )
 
 
 class ColorExpert(NamedTuple):

@@ -1,17 +1,47 @@
 # SPDX-License-Identifier: MIT
 """The correlation filter: it responds where orientations and colors are arranged as on the target."""
 
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Floats, Plane
-from tricue.track.fused.params import FusedParams
-from tricue.track.fused.window import WINDOW_CELLS, Window
+from tricue.track.fused.experts.spectra import FirstFrameParams, Spectra, blend_first_frame, label_spectrum
+from tricue.track.fused.sources import OURS
+from tricue.track.fused.window import WINDOW_CELLS, Window, WindowParams
 
-Spectra = NDArray[np.complex64]
+
+@dataclass(frozen=True, kw_only=True)
+class FilterParams(FirstFrameParams, WindowParams):
+    """Of the cue "filter"."""
+
+    label_width: float = parameter(
+        0.1,
+        unit="target",
+        source="Danelljan et al. 2014",
+        above=0,
+        high=1,
+        doc="standard deviation of the desired response",
+    )
+    temporal_weight: float = parameter(
+        2.0, unit="-", source="Li et al. 2018", low=0, doc="that keeps the filter near the one before"
+    )
+    filter_penalty: float = parameter(
+        0.05, unit="-", source="Li et al. 2018", above=0, doc="that keeps the filter in its mask, at first"
+    )
+    filter_weight: float = parameter(0.7, unit="-", source=OURS, low=0, doc="of its response")
+    filter_mask_size: float = parameter(
+        1.3,
+        unit="box",
+        source=OURS,
+        above=1,
+        high=99,
+        doc="outer size of what adds to the response; it fades out from the box on",
+        was="focus",
+    )
 
 
 class CorrelationFilterExpert(NamedTuple):
@@ -29,10 +59,10 @@ class CorrelationFilterExpert(NamedTuple):
     first: Spectra
     applied: Spectra
     label: Spectra
-    params: FusedParams
+    params: FilterParams
 
     @classmethod
-    def from_window(cls, window: Window, p: FusedParams) -> "CorrelationFilterExpert":
+    def from_window(cls, window: Window, p: FilterParams) -> "CorrelationFilterExpert":
         """Learned from the first frame."""
         label = label_spectrum(p.label_width * WINDOW_CELLS / p.context)
         mask = target_mask(window.size, p.filter_mask_size)
@@ -53,7 +83,7 @@ class CorrelationFilterExpert(NamedTuple):
         learned = k.regularized_filter(
             window.cells, mask, self.label, self.learned, p.temporal_weight, p.filter_penalty
         )
-        blended = learned + np.float32(p.first_frame_weight) * (self.first - learned)
+        blended = blend_first_frame(learned, self.first, p)
         return self._replace(learned=learned, applied=np.stack([blended, self.first]))
 
 
@@ -71,10 +101,3 @@ def target_mask(size: tuple[float, float], outer: float) -> Plane:
     1 in the box of a target's size, in patch pixels, falling to 0 at ``outer`` times that size.
     """
     return np.outer(_mask_profile(size[1], outer), _mask_profile(size[0], outer)).astype(np.float32)
-
-
-def label_spectrum(width: float) -> Spectra:
-    """The spectrum of the desired response: a Gaussian at (0, 0) with that standard deviation in cells."""
-    offset = np.fft.fftfreq(WINDOW_CELLS, 1 / WINDOW_CELLS)
-    profile = np.exp(-0.5 * (offset / width) ** 2)
-    return np.fft.rfft2(np.outer(profile, profile)).astype(np.complex64)

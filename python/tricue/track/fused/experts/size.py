@@ -7,18 +7,20 @@ frame at a time lets the size wander.
 """
 
 import math
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Image, Plane
-from tricue.track.fused.experts.correlation_filter import Spectra, label_spectrum
-from tricue.track.fused.params import FusedParams
+from tricue.track.fused.experts.spectra import FirstFrameParams, Spectra, blend_first_frame, label_spectrum
 from tricue.track.fused.peak import gaussian_peak_offset
+from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
+from tricue.track.fused.window import CELL_PIXELS, CENTER_CELL, PATCH_PIXELS, WINDOW_CELLS
 
 Filter = tuple[Spectra, Plane]  # numerator and denominator
 
@@ -27,10 +29,38 @@ LABEL_WIDTH = 0.7  # cells
 MAX_SHIFT = 2  # cells of radius, from one frame to the next
 MAX_TURN = 1  # cells of angle
 LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
-CENTER = WINDOW_CELLS // 2  # where the response to the model's own size is
-ROWS = slice(CENTER - MAX_TURN, CENTER + MAX_TURN + 1)
-COLUMNS = slice(CENTER - MAX_SHIFT, CENTER + MAX_SHIFT + 1)
+ROWS = slice(CENTER_CELL - MAX_TURN, CENTER_CELL + MAX_TURN + 1)
+COLUMNS = slice(CENTER_CELL - MAX_SHIFT, CENTER_CELL + MAX_SHIFT + 1)
 SQUARED_SHIFTS = np.arange(-MAX_SHIFT, MAX_SHIFT + 1, dtype=np.float32) ** 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class SizeParams(FirstFrameParams):
+    """Of the cue "size"."""
+
+    size_learning_rate: float = parameter(
+        0.025,
+        unit="per frame",
+        source="Danelljan et al. 2014",
+        low=0,
+        high=0.5,
+        doc="of its filter",
+        was="filter_rate",
+    )
+    ridge: float = parameter(
+        1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of its filter"
+    )
+    size_change_penalty: float = parameter(
+        0.05, unit="per squared cell", source=OURS, low=0, doc="on the evidence of another size than the last"
+    )
+    size_range: tuple[float, float] = parameter(
+        (0.2, 5.0), unit="of the first size", source=OURS, above=0, doc="limits of the size"
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.size_range[0] > self.size_range[1]:
+            raise ValueError(f"size_range: expected the lower number first, got {self.size_range}")
 
 
 class SizeExpert(NamedTuple):
@@ -43,10 +73,10 @@ class SizeExpert(NamedTuple):
     learned: Filter
     first: Filter
     applied: Spectra
-    params: FusedParams
+    params: SizeParams
 
     @classmethod
-    def from_target(cls, observation: TargetObservation, target: Target, p: FusedParams) -> "SizeExpert":
+    def from_target(cls, observation: TargetObservation, target: Target, p: SizeParams) -> "SizeExpert":
         """Learned from the first frame."""
         cells = log_polar_cells(observation, target)
         empty = np.zeros((len(cells), *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
@@ -64,11 +94,12 @@ class SizeExpert(NamedTuple):
 
     def learn(self, observation: TargetObservation, target: Target, rate: float) -> "SizeExpert":
         """The expert with a target blended in."""
-        cells = log_polar_cells(observation, target)
+        p, cells = self.params, log_polar_cells(observation, target)
         learned = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *self.learned, rate, 0.0)
-        share = np.float32(self.params.first_frame_weight)
-        blended = _blend(learned[0], self.first[0], share), _blend(learned[1], self.first[1], share)
-        return self._replace(learned=learned, applied=divide(blended, self.params.ridge))
+        numerator, denominator = (
+            blend_first_frame(*parts, p) for parts in zip(learned, self.first, strict=True)
+        )
+        return self._replace(learned=learned, applied=divide((numerator, denominator), p.ridge))
 
 
 def divide(learned: Filter, ridge: float) -> Spectra:
@@ -89,11 +120,6 @@ def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
     patch = observation.k.sample_windows(observation.picture, square, PATCH_PIXELS, PATCH_PIXELS)
     log_polar: Image = patch.reshape(-1, 3).take(LOG_POLAR_PIXELS, axis=0)
     return observation.k.hog_color_cells(log_polar, TAPER)
-
-
-def _blend(old: NDArray[Any], new: NDArray[Any], share: np.float32) -> NDArray[Any]:
-    blended: NDArray[Any] = old + share * (new - old)
-    return blended
 
 
 def _log_polar_pixels() -> NDArray[np.intp]:
