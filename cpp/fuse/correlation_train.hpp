@@ -15,20 +15,16 @@ struct CorrelationFilter {
 /// Updates a correlation filter with K channels with new cells, equation (5):
 ///     A_k = Y conj(X_k),   B = Σ_k |X_k|²,   both become (1 - rate) old + rate new
 ///
-/// X_k is the spectrum of channel k times the focus. What the focus leaves out, cells times (1 - focus), should get a response of
-/// 0: it only adds its energy, `background` times, to B.
+/// X_k is the spectrum of channel k.
 ///
 /// @param cells float32 (K, R, C), already tapered; at least one channel and cell
-/// @param focus float32 (R, C), usually 1 on the target and 0 far from it
 /// @param label complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0), as of numpy.fft.rfft2
 /// @param numerator complex64 (K, R, C // 2 + 1), A so far
 /// @param denominator float32 (R, C // 2 + 1), B so far
 /// @param rate learning rate, in [0, 1]; 1 starts the filter
-/// @param background finite, at least 0
 /// @throws std::invalid_argument on other shapes, or numbers out of range
-/// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.1; focus and background are ours.
-CorrelationFilter correlation_train(const FloatStack& cells, FloatsRef focus, ComplexesRef label,
-                                    const ComplexStack& numerator, FloatsRef denominator, double rate,
-                                    double background);
+/// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.1.
+CorrelationFilter correlation_train(const FloatStack& cells, ComplexesRef label,
+                                    const ComplexStack& numerator, FloatsRef denominator, double rate);
 
 }  // namespace tricue

@@ -34,18 +34,15 @@ Floating correlation_response_arrays(const Floating& cells, const Complex& filte
                 {each.filters, planes.rows, planes.cols});
 }
 
-std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, const Floating& focus,
-                                                       const Complex& label, const Complex& numerator,
-                                                       const Floating& denominator, double rate,
-                                                       double background) {
+std::tuple<Complex, Floating> correlation_train_arrays(const Floating& cells, const Complex& label,
+                                                       const Complex& numerator, const Floating& denominator,
+                                                       double rate) {
     const auto planes = stack<float>(cells, "cells", kCells);
-    const auto part = floats(focus, "focus", {-1, -1}, kPlane);
     const auto wanted = complexes(label, "label", kSpectrum);
     const auto upper = stack<std::complex<float>>(numerator, "numerator", kFilter);
     const auto lower = floats(denominator, "denominator", {-1, -1}, kHalf);
-    auto filter = unlocked(work(planes), [&] {
-        return correlation_train(planes, part, wanted, upper, lower, rate, background);
-    });
+    auto filter =
+        unlocked(work(planes), [&] { return correlation_train(planes, wanted, upper, lower, rate); });
     return {give(std::move(filter.numerator), {upper.planes, upper.rows, upper.cols}),
             give(std::move(filter.denominator))};
 }
@@ -67,9 +64,8 @@ Complex regularized_filter_arrays(const Floating& cells, const Floating& mask, c
 void define_correlation(py::module_& m) {
     m.def("correlation_response", correlation_response_arrays, py::arg("cells"), py::arg("filters"),
           docs::correlation_response);
-    m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("focus"), py::arg("label"),
-          py::arg("numerator"), py::arg("denominator"), py::arg("rate"), py::arg("background"),
-          docs::correlation_train);
+    m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("label"),
+          py::arg("numerator"), py::arg("denominator"), py::arg("rate"), docs::correlation_train);
     m.def("regularized_filter", regularized_filter_arrays, py::arg("cells"), py::arg("mask"),
           py::arg("label"), py::arg("previous"), py::arg("temporal_weight"), py::arg("penalty"),
           docs::regularized_filter);

@@ -291,29 +291,24 @@ def correlation_response(
 
 def correlation_train(
     cells: numpy.typing.NDArray[numpy.float32],
-    focus: numpy.typing.NDArray[numpy.float32],
     label: numpy.typing.NDArray[numpy.complex64],
     numerator: numpy.typing.NDArray[numpy.complex64],
     denominator: numpy.typing.NDArray[numpy.float32],
     rate: float,
-    background: float,
 ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]:
     """
     Updates a correlation filter with K channels with new cells, equation (5):
         A_k = Y conj(X_k),   B = Σ_k |X_k|²,   both become (1 - rate) old + rate new
 
-    X_k is the spectrum of channel k times the focus. What the focus leaves out, cells times (1 -
-    focus), should get a response of 0: it only adds its energy, `background` times, to B.
+    X_k is the spectrum of channel k.
 
     Args:
         cells: float32 (K, R, C), already tapered; at least one channel and cell
-        focus: float32 (R, C), usually 1 on the target and 0 far from it
         label: complex64 (R, C // 2 + 1), Y: the spectrum of the desired response, its peak at (0, 0),
             as of numpy.fft.rfft2
         numerator: complex64 (K, R, C // 2 + 1), A so far
         denominator: float32 (R, C // 2 + 1), B so far
         rate: learning rate, in [0, 1]; 1 starts the filter
-        background: finite, at least 0
 
     Returns:
         numerator: complex64 (K, R, C // 2 + 1), A; in C++ the planes one below the other
@@ -322,7 +317,7 @@ def correlation_train(
     Raises:
         ValueError: on other shapes, or numbers out of range
 
-    Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.1; focus and background are ours.
+    Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST), section 3.1.
     """
 
 def cut_sides(
@@ -2162,12 +2157,10 @@ class Kernels(Protocol):
     def correlation_train(
         self,
         cells: numpy.typing.NDArray[numpy.float32],
-        focus: numpy.typing.NDArray[numpy.float32],
         label: numpy.typing.NDArray[numpy.complex64],
         numerator: numpy.typing.NDArray[numpy.complex64],
         denominator: numpy.typing.NDArray[numpy.float32],
         rate: float,
-        background: float,
     ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.float32]]: ...
     def cut_sides(
         self,

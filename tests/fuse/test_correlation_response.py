@@ -99,8 +99,7 @@ def test_finds_a_shift(kernels: Kernels) -> None:
         y, x = np.meshgrid(*offsets, indexing="ij")
         label = np.fft.rfft2(np.exp(-(x**2 + y**2) / 4)).astype(np.complex64)
         none = np.zeros((11, *label.shape), np.complex64), np.zeros(label.shape, np.float32)
-        focus = np.ones((rows, columns), np.float32)
-        upper, lower = kernels.correlation_train(cells, focus, label, *none, 1.0, 0.0)
+        upper, lower = kernels.correlation_train(cells, label, *none, 1.0)
         filters = (upper / (lower + 1e-4 * lower.mean()))[None]
         for down, across in ((0, 0), (3, -5), (-7, 2)):
             (answer,) = kernels.correlation_response(np.roll(cells, (down, across), (1, 2)), filters)

@@ -35,14 +35,12 @@ def case(shape: tuple[int, int, int], seed: int = 0) -> dict[str, Any]:
     half = (shape[1], shape[2] // 2 + 1)
     return {
         "cells": rng.uniform(-1, 1, shape).astype(np.float32),
-        "focus": rng.random(shape[1:]).astype(np.float32),
         "label": np.fft.rfft2(rng.random(shape[1:])).astype(np.complex64),
         "numerator": (rng.random((shape[0], *half)) + 1j * rng.random((shape[0], *half))).astype(
             np.complex64
         ),
         "denominator": rng.random(half).astype(np.float32),
         "rate": 0.3,
-        "background": 0.7,
     }
 
 
@@ -59,19 +57,18 @@ def test_native_is_the_twin(shape: tuple[int, int, int], fourier_error: Callable
     error = fourier_error(*shape[1:]) + 6 * 2.0**-24
     norm = np.linalg.norm(arguments["cells"]) * np.sqrt(shape[1] * shape[2])
     assert (abs(native[0] - twin[0]) <= error * (norm * abs(arguments["label"]) + 1)).all()
-    assert (abs(native[1] - twin[1]) <= error * (2 * (1 + 0.7) * norm**2 + 1)).all()
+    assert (abs(native[1] - twin[1]) <= error * (2 * norm**2 + 1)).all()
 
 
 @pytest.mark.parametrize("shape", [(2, 4, 6), (1, 5, 7), (3, 8, 3)], ids=str)
 def test_is_scipys_fourier_matrix(kernels: Kernels, shape: tuple[int, int, int]) -> None:
     """Numerator and denominator are as the definition of the transform has them, by SciPy's matrices."""
     arguments = case(shape) | {"rate": 1.0}
-    cells, focus = arguments["cells"].astype(np.float64), arguments["focus"]
     down, across = dft(shape[1]), dft(shape[2])[:, : shape[2] // 2 + 1]
-    own, rest = (down @ (cells * part) @ across for part in (focus, 1 - focus))
+    spectra = down @ arguments["cells"].astype(np.float64) @ across
     numerator, denominator = kernels.correlation_train(**arguments)
-    assert_allclose(numerator, arguments["label"] * own.conj(), atol=2e-4)
-    assert_allclose(denominator, (abs(own) ** 2 + 0.7 * abs(rest) ** 2).sum(axis=0), rtol=1e-5, atol=1e-5)
+    assert_allclose(numerator, arguments["label"] * spectra.conj(), atol=2e-4)
+    assert_allclose(denominator, (abs(spectra) ** 2).sum(axis=0), rtol=1e-5, atol=1e-5)
 
 
 def test_blends_at_the_rate(kernels: Kernels) -> None:
@@ -88,30 +85,10 @@ def test_blends_at_the_rate(kernels: Kernels) -> None:
         assert_allclose(part, after, rtol=1e-6, atol=1e-6)
 
 
-def test_focus_parts_the_cells(kernels: Kernels) -> None:
-    """A focus of 1 everywhere is none, whatever the background's weight; the opposite focus exchanges the
-    parts of the denominator.
-    """
-    arguments = case((2, 8, 8)) | {"rate": 1.0}
-    full = {"focus": np.ones((8, 8), np.float32)}
-    for weighed, plain in zip(
-        kernels.correlation_train(**arguments | full),
-        kernels.correlation_train(**arguments | full | {"background": 0.0}),
-        strict=True,
-    ):
-        assert_allclose(weighed, plain, rtol=1e-6, atol=1e-6)
-    opposite = {"focus": 1 - arguments["focus"], "background": 1.0}
-    assert_allclose(
-        kernels.correlation_train(**arguments | opposite)[1],
-        kernels.correlation_train(**arguments | {"background": 1.0})[1],
-        rtol=1e-5,
-    )
-
-
 def test_shifted_cells_have_the_same_energy(kernels: Kernels) -> None:
     """A shift turns phases only: of the numerator, which stays as large, not of the denominator."""
     arguments = case((2, 9, 10)) | {"rate": 1.0}
-    shifted = {name: np.roll(arguments[name], (3, -4), (-2, -1)) for name in ("cells", "focus")}
+    shifted = {"cells": np.roll(arguments["cells"], (3, -4), (-2, -1))}
     here, there = (kernels.correlation_train(**arguments | changes) for changes in ({}, shifted))
     assert_allclose(there[1], here[1], rtol=2e-5)
     assert_allclose(abs(there[0]), abs(here[0]), rtol=2e-4, atol=2e-5)
@@ -122,7 +99,6 @@ BAD: list[tuple[dict[str, Any], str]] = [
         {"cells": np.zeros((0, 4, 6), np.float32)},
         r"cells: expected at least one channel and cell, got \(0, 4, 6\)",
     ),
-    ({"focus": np.zeros((4, 4), np.float32)}, r"focus: expected shape \(4, 6\), got \(4, 4\)"),
     ({"label": np.zeros((4, 6), np.complex64)}, r"label: expected shape \(4, 4\), got \(4, 6\)"),
     (
         {"numerator": np.zeros((1, 4, 4), np.complex64)},
@@ -131,8 +107,6 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"denominator": np.zeros((5, 4), np.float32)}, r"denominator: expected shape \(4, 4\), got \(5, 4\)"),
     ({"rate": 1.5}, r"rate: expected a number in \[0, 1\], got 1.5"),
     ({"rate": float("nan")}, r"rate: expected a number in \[0, 1\], got nan"),
-    ({"background": -1.0}, "background: expected a finite number, not negative, got -1"),
-    ({"background": float("inf")}, "background: expected a finite number, not negative, got inf"),
 ]
 
 
@@ -146,8 +120,8 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 def test_native_refuses_other_arrays() -> None:
     """Other numbers and layouts are named, never converted."""
     good = case((2, 4, 6))
-    with pytest.raises(TypeError, match="focus: expected float32"):
-        _core.correlation_train(**good | {"focus": np.zeros((4, 6))})
+    with pytest.raises(TypeError, match="cells: expected float32"):
+        _core.correlation_train(**good | {"cells": np.zeros((2, 4, 6))})
     with pytest.raises(TypeError, match="label: expected complex64"):
         _core.correlation_train(**good | {"label": np.zeros((4, 4), np.complex128)})
     with pytest.raises(ValueError, match="cells: expected a C-contiguous"):

@@ -9,27 +9,20 @@ from tricue.reference.fuse.correlation_response import Complexes, Floats, requir
 
 def correlation_train(
     cells: Floats,
-    focus: Floats,
     label: Complexes,
     numerator: Complexes,
     denominator: Floats,
     rate: float,
-    background: float,
 ) -> tuple[Complexes, Floats]:
     """Takes the transforms of numpy.fft, channel by channel."""
     require_filter(cells, numerator, denominator)
     require_rate(rate)
-    if not 0 <= background < np.inf:
-        refuse("background", "a finite number, not negative", float(background))
-    if focus.shape != cells.shape[1:]:
-        refuse("focus", f"shape {cells.shape[1:]}", focus.shape)
     if label.shape != denominator.shape:
         refuse("label", f"shape {denominator.shape}", label.shape)
-    own = np.fft.rfft2(cells.astype(np.float64) * focus)
-    other = np.fft.rfft2(cells * (1 - focus.astype(np.float64)))
-    energy = (abs(own) ** 2 + background * abs(other) ** 2).sum(axis=0)
+    spectra = np.fft.rfft2(cells.astype(np.float64))
+    energy = (abs(spectra) ** 2).sum(axis=0)
     return (
-        (numerator + rate * (label * own.conj() - numerator)).astype(np.complex64),
+        (numerator + rate * (label * spectra.conj() - numerator)).astype(np.complex64),
         (denominator + rate * (energy - denominator)).astype(np.float32),
     )
 

@@ -80,7 +80,7 @@ class SizeExpert(NamedTuple):
         """Learned from the first frame."""
         cells = log_polar_cells(observation, target)
         empty = np.zeros((len(cells), *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
-        first = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *empty, 1.0, 0.0)
+        first = observation.k.correlation_train(cells, LABEL, *empty, 1.0)
         return cls(first, first, divide(first, p.ridge), p)
 
     def growth(self, observation: TargetObservation, target: Target) -> float:
@@ -95,7 +95,7 @@ class SizeExpert(NamedTuple):
     def learn(self, observation: TargetObservation, target: Target, rate: float) -> "SizeExpert":
         """The expert with a target blended in."""
         p, cells = self.params, log_polar_cells(observation, target)
-        learned = observation.k.correlation_train(cells, EVERYWHERE, LABEL, *self.learned, rate, 0.0)
+        learned = observation.k.correlation_train(cells, LABEL, *self.learned, rate)
         numerator, denominator = (
             blend_first_frame(*parts, p) for parts in zip(learned, self.first, strict=True)
         )
@@ -148,4 +148,3 @@ def _taper() -> Plane:
 LOG_POLAR_PIXELS = _log_polar_pixels()
 TAPER = _taper()
 LABEL = label_spectrum(LABEL_WIDTH)
-EVERYWHERE = np.ones((WINDOW_CELLS, WINDOW_CELLS), np.float32)
