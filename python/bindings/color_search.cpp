@@ -5,7 +5,6 @@
 
 #include "arrays.hpp"
 #include "cues/color/color_bins.hpp"
-#include "cues/color/ellipse_gradient.hpp"
 #include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
 #include "cues/color/histogram_mean.hpp"
@@ -65,19 +64,6 @@ Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Arra
     return give(std::move(found), {rows, cols, 4});
 }
 
-Array<double> ellipse_gradient_arrays(const Array<std::uint8_t>& gray, const Array<double>& ellipse,
-                                      const Triple& grid, const Array<double>& pattern) {
-    const auto array = require<std::uint8_t>(gray, "gray", 2, "a uint8 gray image (H, W)");
-    const ImageView view{contiguous<std::uint8_t>(array, "gray"), static_cast<int>(array.shape(0)),
-                         static_cast<int>(array.shape(1)), 1, array.shape(1)};
-    const auto numbers = vector(ellipse, "ellipse");
-    const auto [rows, cols, step] = grid;
-    const SearchGrid places{rows, cols, step};
-    const auto points = states(pattern, "pattern");
-    return give(unlocked(points.rows() * rows * cols,
-                         [&] { return ellipse_gradient(view, numbers, places, points); }));
-}
-
 Array<double> histogram_mean_arrays(const Array<double>& histogram, const Triple& bins, int chroma) {
     const auto masses = vector(histogram, "histogram");
     const ColorSpace space = color_space(bins, chroma);
@@ -101,8 +87,6 @@ void define_color_search(py::module_& m) {
           py::arg("size"), py::arg("margin"), docs::ellipse_histogram);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
-    m.def("ellipse_gradient", ellipse_gradient_arrays, py::arg("gray"), py::arg("ellipse"), py::arg("grid"),
-          py::arg("pattern"), docs::ellipse_gradient);
     m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
           docs::histogram_mean);
     m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),

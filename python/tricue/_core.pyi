@@ -654,40 +654,6 @@ def divide_depth(
     Source: Sabeti, Parvizi, Wu 2008, equations (35), (36).
     """
 
-def ellipse_gradient(
-    gray: numpy.typing.NDArray[numpy.uint8],
-    ellipse: numpy.typing.NDArray[numpy.float64],
-    grid: tuple[int, int, int],
-    pattern: numpy.typing.NDArray[numpy.float64],
-) -> numpy.typing.NDArray[numpy.float64]:
-    """
-    Mean |n · ∇I| along the outline of an ellipse, at each place of a grid: how much of the outline lies
-    on image edges.
-
-    n is the ellipse's unit normal, ∇I the central difference at the pixel that an outline point lies
-    in; at the image's edge the pixel itself stands for its missing neighbor. Points are placed relative
-    to the pixel that the center lies in, so an ellipse that moves by whole pixels keeps its outline.
-    Points outside the image are left out; with none inside the mean is 0. Sums are float32.
-
-    Args:
-        gray: uint8 (H, W), may be empty
-        ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels, finite,
-            axes above 0 and at most 4096
-        grid: (rows, cols, step), 1 to 1024 each: place (i, j) is (j - cols // 2) step to the right of
-            the ellipse and (i - rows // 2) step below it, pixels
-        pattern: float64 (n, 2), n at least 1: u, v with u² + v² = 1 within 1e-6, for the outline points
-            (x + minor u, y + major v)
-
-    Returns:
-        float64 (rows, cols), gray levels per pixel
-
-    Raises:
-        ValueError: on other shapes or values, or a grid that reaches over more than 16384 pixels
-
-    Source: Birchfield 1998, equation (2), the gradient module, which Moreno et al. 2002 leave out; with
-    the normal of the ellipse.
-    """
-
 def ellipse_histogram(
     bins: numpy.typing.NDArray[numpy.uint16],
     ellipses: numpy.typing.NDArray[numpy.float64],
@@ -2244,13 +2210,6 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
-    def ellipse_gradient(
-        self,
-        gray: numpy.typing.NDArray[numpy.uint8],
-        ellipse: numpy.typing.NDArray[numpy.float64],
-        grid: tuple[int, int, int],
-        pattern: numpy.typing.NDArray[numpy.float64],
-    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def ellipse_histogram(
         self,
         bins: numpy.typing.NDArray[numpy.uint16],

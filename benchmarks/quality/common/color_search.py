@@ -50,11 +50,14 @@ class ColorSearch:
         left, top, bins = self._bins(image, cols // 2, rows // 2)
         ellipse = self._ellipse - [left, top, 0, 0]
         similarity = _core.ellipse_search(bins, ellipse, (rows, cols, 1), self._model, 1.0, None)[..., 0]
-        gray = cv2.GaussianBlur(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), (0, 0), p.blur).astype(np.uint8)
-        edge = _core.ellipse_gradient(gray, self._ellipse, (rows, cols, 1), self._outline)
-        best = int(np.argmax(_scaled(similarity) + p.gradient_weight * _scaled(edge)))
+        evidence = _scaled(similarity)
+        if p.gradient_weight:
+            gray = cv2.GaussianBlur(cv2.cvtColor(image, cv2.COLOR_BGR2GRAY), (0, 0), p.blur).astype(np.uint8)
+            edge = _outline_gradient(gray, self._ellipse, (rows, cols), self._outline)
+            evidence += p.gradient_weight * _scaled(edge)
+        best = int(np.argmax(evidence))
         row, col = divmod(best, cols)
-        height, width = gray.shape
+        height, width = image.shape[:2]
         x, y = self._ellipse[:2] + [col - cols // 2, row - rows // 2]
         self._ellipse[:2] = min(max(x, 0), width), min(max(y, 0), height)
         self._model += p.learning_rate * (self._histogram(image) - self._model)
@@ -85,6 +88,31 @@ class ColorSearch:
 
     def _track(self, score: float) -> Track:
         return Track(Box.from_ellipse(*self._ellipse.tolist()), score, Status.TRACKED)
+
+
+def _outline_gradient(
+    gray: NDArray[np.uint8], ellipse: Floats, grid: tuple[int, int], outline: Floats
+) -> Floats:
+    """Mean |n . grad I| along an ellipse's outline at each place of a grid around its own, a pixel apart.
+
+    Birchfield (1998), equation (2), with the ellipse's normal n. grid: rows and columns. outline: (n, 2)
+    points of the unit circle. Points outside of the image are left out; 0 where all are.
+    """
+    height, width = gray.shape
+    padded = np.pad(gray.astype(np.float64), 1, "edge")
+    right = (padded[1:-1, 2:] - padded[1:-1, :-2]) / 2
+    down = (padded[2:, 1:-1] - padded[:-2, 1:-1]) / 2
+    normals = outline / ellipse[2:]
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    u, v = normals.T[:, :, None, None]
+    first = np.floor(ellipse[:2])
+    points = (first + np.floor(ellipse[:2] - first + outline * ellipse[2:])).astype(int)
+    columns = (points[:, :1] + np.arange(grid[1]) - grid[1] // 2)[:, None]
+    rows = (points[:, 1:] + np.arange(grid[0]) - grid[0] // 2)[..., None]
+    inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+    pixels = rows.clip(0, height - 1), columns.clip(0, width - 1)
+    along = np.abs(u * right[pixels] + v * down[pixels])
+    return np.asarray((along * inside).sum(axis=0) / np.maximum(inside.sum(axis=0), 1))
 
 
 def _scaled(values: Floats) -> Floats:

@@ -12,7 +12,6 @@ from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.color_ranks import color_ranks
-from tricue.reference.cues.color.ellipse_gradient import ellipse_gradient
 from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
 from tricue.reference.cues.color.histogram_mean import histogram_mean
@@ -92,7 +91,6 @@ __all__ = [
     "depth_histogram",
     "depth_posterior",
     "divide_depth",
-    "ellipse_gradient",
     "ellipse_histogram",
     "ellipse_search",
     "fill_gaps",
