@@ -21,40 +21,23 @@ StreetWalker, in "others", is of the recording of one of these.
 """
 
 import sys
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 from benchmarks.quality.common import comparison, saved_runs
-from benchmarks.quality.common.arguments import add_dataset, parser
+from benchmarks.quality.common.arguments import add_dataset, add_runs, parser
 from benchmarks.quality.common.color_tables import CSV_COLUMNS, csv_rows, tables
-from benchmarks.quality.common.saved_runs import Aucs
-from benchmarks.quality.common.sequence_runs import SequenceResult, by_tracker, find_tasks, run_sequences
+from benchmarks.quality.common.sequence_runs import find_tasks, run_sequences
 from benchmarks.quality.common.tables import write_csv
 from benchmarks.quality.common.variants import parse_variants
 
 TRACKERS = ("fused", "CSRT")
 
 
-def compare(results: Sequence[SequenceResult], before: Mapping[str, Aucs]) -> str:
-    """The tables of differences of each tracker that is stored; sequences that aren't are named on stderr."""
-    parts = []
-    for tracker, own in by_tracker(results).items():
-        now = saved_runs.aucs(own)
-        stored = before.get(tracker, {})
-        if missing := [sequence for sequence in now if sequence not in stored]:
-            print(f"not stored for {tracker}: {', '.join(missing)}", file=sys.stderr)
-        if now.keys() & stored.keys():
-            parts.append(comparison.tables(tracker, now, stored))
-    return "\n\n".join(parts)
-
-
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the tables; the exit code."""
     made = parser("color_video", __doc__, TRACKERS)
     add_dataset(made)
-    made.add_argument("--only", nargs="+", default=[], metavar="NAME", help="of these sequences")
-    made.add_argument("--save", type=Path, metavar="FILE", help="store the numbers of all runs, JSON")
-    made.add_argument("--against", type=Path, metavar="FILE", help="compare with stored runs")
+    add_runs(made)
     options = made.parse_args(arguments)
     try:
         variants = parse_variants(options.trackers, options.set)
@@ -65,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     results = run_sequences(todo, options.jobs)
     print(tables(results))
     if options.against:
-        print(f"\n{compare(results, before)}")
+        print(f"\n{comparison.against_stored(results, before)}")
     if options.save:
         saved_runs.save(options.save, variants, results)
     write_csv(options.csv, CSV_COLUMNS, csv_rows(results))

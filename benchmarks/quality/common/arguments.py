@@ -42,16 +42,23 @@ def add_output(made: argparse.ArgumentParser) -> None:
     made.add_argument("--csv", type=Path, metavar="FILE", help="also write the numbers to this file")
 
 
-def add_dataset(made: argparse.ArgumentParser) -> None:
-    """The folder of sequences, by default the recorded color sequences."""
+def add_dataset(made: argparse.ArgumentParser, folder: str = "color") -> None:
+    """The folder of sequences, by default one of the recorded data."""
     made.add_argument(
         "dataset",
         type=Path,
         nargs="?",
-        default=sequences.data_folder() / "color",
+        default=sequences.data_folder() / folder,
         metavar="DATASET",
         help="sequences with true boxes, default %(default)s",
     )
+
+
+def add_runs(made: argparse.ArgumentParser) -> None:
+    """Which sequences, and files to store the numbers in and to compare them with."""
+    made.add_argument("--only", nargs="+", default=[], metavar="NAME", help="of these sequences")
+    made.add_argument("--save", type=Path, metavar="FILE", help="store the numbers of all runs, JSON")
+    made.add_argument("--against", type=Path, metavar="FILE", help="compare with stored runs")
 
 
 def seeds(text: str) -> tuple[int, ...]:

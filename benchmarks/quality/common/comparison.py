@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
-"""Two runs of a tracker on the same sequences: paired differences of their AUC."""
+"""Two runs on the same sequences: paired differences of their AUC."""
+
+import sys
+from collections.abc import Mapping, Sequence
 
 from benchmarks.quality.common.bootstrap import LEVEL, Interval, mean_interval
 from benchmarks.quality.common.groups import members, recording
 from benchmarks.quality.common.protocols import PROTOCOLS
-from benchmarks.quality.common.saved_runs import Aucs
+from benchmarks.quality.common.saved_runs import Aucs, aucs
+from benchmarks.quality.common.sequence_runs import SequenceResult, by_tracker
 from benchmarks.quality.common.tables import Cell, markdown, mean
 
 MOST = 8
@@ -38,18 +42,34 @@ def changed_most(now: Aucs, before: Aucs) -> list[list[Cell]]:
     return [[name, _signed(mean(found)), *map(_signed, found)] for name, found in rows[:MOST]]
 
 
+def against_stored(results: Sequence[SequenceResult], before: Mapping[str, Aucs]) -> str:
+    """The tables of each tracker that is stored; sequences that aren't are named on stderr."""
+    parts = []
+    for tracker, own in by_tracker(results).items():
+        now, stored = aucs(own), before.get(tracker, {})
+        if missing := [sequence for sequence in now if sequence not in stored]:
+            print(f"not stored for {tracker}: {', '.join(missing)}", file=sys.stderr)
+        if now.keys() & stored.keys():
+            parts.append(tables(tracker, now, stored))
+    return "\n\n".join(parts)
+
+
 def tables(tracker: str, now: Aucs, before: Aucs) -> str:
     """Markdown: the difference by group and protocol with its interval; the sequences that changed most."""
+    first = interval_table(f"{tracker}: AUC now minus before", now, before)
+    second = markdown([f"{tracker}: changed most", "mean", *PROTOCOLS], changed_most(now, before))
+    return f"{first}\n\n{second}"
+
+
+def interval_table(about: str, now: Aucs, before: Aucs) -> str:
+    """Markdown: the difference by group and protocol with its interval. about: what it is of."""
     intervals = {protocol: group_intervals(now, before, protocol) for protocol in PROTOCOLS}
     groups = dict.fromkeys(group for found in intervals.values() for group in found)
     rows = [
         [group, *(_text(found[group]) if group in found else "-" for found in intervals.values())]
         for group in groups
     ]
-    about = f"{tracker}: AUC now minus before, {100 * LEVEL:g} % interval"
-    first = markdown([about, *PROTOCOLS], rows)
-    second = markdown([f"{tracker}: changed most", "mean", *PROTOCOLS], changed_most(now, before))
-    return f"{first}\n\n{second}"
+    return markdown([f"{about}, {100 * LEVEL:g} % interval", *PROTOCOLS], rows)
 
 
 def _text(found: Interval) -> str:

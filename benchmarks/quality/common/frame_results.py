@@ -10,6 +10,8 @@ from tricue.evaluation import confidence, metrics
 from tricue.evaluation.one_pass import Run
 from tricue.track.base.track import Status
 
+from benchmarks.quality.common.tables import mean
+
 GOOD_OVERLAP = 0.5
 """Above this overlap a frame is a good one."""
 Array = NDArray[np.float64]
@@ -30,13 +32,23 @@ class FrameResults:
     """(N,) whether the status is TRACKED."""
     seconds: Array
     """(N,) of the update, NaN in the first frame of a run."""
+    depth_errors: Array
+    """(N,) meters, the position's z minus the true one; NaN where either is unknown."""
+    depth_sigmas: Array
+    """(N,) meters, the standard deviation of z by the track's covariance; NaN without one."""
 
     @classmethod
-    def of(cls, run: Run, boxes: Array, truth: Array, absent: Flags) -> "FrameResults":
-        """The frames of a run; boxes: the run's, in the form in which they are compared with the truth."""
+    def of(
+        cls, run: Run, boxes: Array, truth: Array, absent: Flags, depths: Array | None = None
+    ) -> "FrameResults":
+        """The frames of a run. boxes: the run's, in the form in which they are compared with the truth.
+        depths: (N,) the target's true z, meters, NaN where unknown; None where all are.
+        """
         tracked = np.array([status is Status.TRACKED for status in run.statuses], np.bool_)
         seconds = np.concatenate([[np.nan], run.seconds])
-        return cls(metrics.overlaps(boxes, truth), absent, run.scores, tracked, seconds)
+        overlaps, sigmas = metrics.overlaps(boxes, truth), np.sqrt(run.covariances[:, 2, 2])
+        errors = run.positions[:, 2] - (np.nan if depths is None else depths)
+        return cls(overlaps, absent, run.scores, tracked, seconds, errors, sigmas)
 
     @classmethod
     def pooled(cls, parts: Sequence["FrameResults"]) -> "FrameResults":
@@ -47,6 +59,11 @@ class FrameResults:
     def auc(self) -> float:
         """Area under the success curve."""
         return float(metrics.success_curve(self.overlaps).mean())
+
+    @property
+    def mean_overlap(self) -> float:
+        """Over the frames with known truth."""
+        return mean(self.overlaps)
 
     @property
     def auroc(self) -> float:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The recorded color sequences by what they show, and which of them are of one recording."""
+"""The recorded sequences by what they show, and which of them are of one recording."""
 
 from collections.abc import Iterable, Mapping
 
@@ -18,10 +18,13 @@ DRONES = (
     *("BeachRunner", "Boat", "CarFromAbove", "Gull", "NightVehicle", "OneOfGroup", "Wakeboarder"),
     "WalkerFromAbove",
 )
-LISTED = (*PEOPLE, *FACES, *CARS, *ANIMALS, *OBJECTS)
+COLOR = (*PEOPLE, *FACES, *CARS, *ANIMALS, *OBJECTS)
+REGISTERED = "kitchen-mug", "kitchen-mug chair", "paper-cup", "walker-purple", "yellow-dragon"
+WALKERS = "queue-first", "queue-second", "walk-away"
+LISTED = (*COLOR, *REGISTERED, *WALKERS)
 GROUPS: Mapping[str, frozenset[str]] = {
     "tuned": frozenset(TUNED),  # the parameters of version 0.1.0 were chosen on these
-    "others": frozenset(LISTED) - frozenset(TUNED),
+    "others": frozenset(COLOR) - frozenset(TUNED),
     "OTB": frozenset((*TUNED, *OTB_REST)),
     "gray": frozenset(("Car1", "FaceOcc2", "Jumping")),
     "drones": frozenset(DRONES),  # from the air: one, of a car, perhaps from a helicopter
@@ -30,9 +33,16 @@ GROUPS: Mapping[str, frozenset[str]] = {
     "cars": frozenset(CARS),
     "animals": frozenset(ANIMALS),
     "objects": frozenset(OBJECTS),
+    "registered": frozenset(REGISTERED),  # with depth, which is registered to color
+    "walkers": frozenset(WALKERS),  # with depth, in whose pixels the true boxes are
 }
 """A sequence may be in several."""
-RECORDINGS: Mapping[str, str] = {"StreetWalker": "Couple"}
+RECORDINGS: Mapping[str, str] = {
+    "StreetWalker": "Couple",
+    "kitchen-mug chair": "kitchen-mug",
+    "queue-second": "queue-first",
+    "walker-purple": "queue-first",
+}
 """Of sequences that show the same recording as another one, that other one."""
 
 

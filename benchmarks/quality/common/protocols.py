@@ -3,10 +3,11 @@
 
 "forward" and "backward" are one pass each over the whole sequence; "starts" are eight runs, from 0, 1/4, 1/2
 and 3/4 of the sequence to its end and the same on the reversed sequence; "third" is one pass over every third
-frame. A run starts on the first of its frames with a true box.
+frame. A run starts on the first of its frames with a true box. Times increase, also backward.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,10 +15,10 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import one_pass
-from tricue.evaluation.dataset import OpenedSequence
 from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common.frame_results import FrameResults
+from benchmarks.quality.common.recordings import Recording
 from benchmarks.quality.common.variants import Variant
 
 
@@ -47,24 +48,39 @@ ORDERS = tuple(dict.fromkeys(order for orders in PROTOCOLS.values() for order in
 
 
 def run_orders(
-    variant: Variant, opened: OpenedSequence, frames: Sequence[Frame]
+    variant: Variant, recording: Recording, frames: Sequence[Frame]
 ) -> Mapping[Order, FrameResults]:
-    """The tracker's runs in all orders that leave two frames or more from the first true box on."""
-    found = {order: run_order(variant, opened, frames, order.numbers(len(frames))) for order in ORDERS}
+    """The tracker's runs in all orders that leave two frames or more from the first true box on.
+
+    frames: the recording's, as the tracker gets them.
+    """
+    found = {order: run_order(variant, recording, frames, order.numbers(len(frames))) for order in ORDERS}
     return {order: run for order, run in found.items() if run is not None}
 
 
 def run_order(
-    variant: Variant, opened: OpenedSequence, frames: Sequence[Frame], numbers: NDArray[np.intp]
+    variant: Variant, recording: Recording, frames: Sequence[Frame], numbers: NDArray[np.intp]
 ) -> FrameResults | None:
     """Track through the frames of these numbers, from the first with a true box; None where fewer than two
     are left.
     """
+    opened = recording.opened
     truth, absent = opened.truth(len(frames)), opened.absent(len(frames))
     known = ~np.isnan(truth[numbers]).any(axis=1)
     numbers = numbers[int(np.argmax(known)) :] if known.any() else numbers[:0]
     if len(numbers) < 2:
         return None
-    tracker = variant.make(opened)
-    run = one_pass.run(tracker, (frames[number] for number in numbers), Box(*truth[numbers[0]].tolist()))
-    return FrameResults.of(run, clip_to_image(run.boxes, opened), truth[numbers], absent[numbers])
+    tracker = variant.make(recording.inputs)
+    run = one_pass.run(tracker, in_order(frames, numbers), Box(*truth[numbers[0]].tolist()))
+    boxes = clip_to_image(run.boxes, opened)
+    return FrameResults.of(run, boxes, truth[numbers], absent[numbers], recording.depths[numbers])
+
+
+def in_order(frames: Sequence[Frame], numbers: NDArray[np.intp]) -> Iterator[Frame]:
+    """The frames of these numbers; where they go backward, their times are the seconds since the first."""
+    first, backward = frames[numbers[0]].timestamp, numbers[-1] < numbers[0]
+    for number in numbers:
+        frame = frames[number]
+        if backward and first is not None and frame.timestamp is not None:
+            frame = replace(frame, timestamp=first - frame.timestamp)
+        yield frame

@@ -3,18 +3,21 @@
 
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple, TypeVar
 
-from tricue.evaluation.dataset import Entry, find_entries
+from tricue.evaluation.dataset import Entry, OpenedSequence, find_entries
 
 from benchmarks.quality.common.frame_results import FrameResults
 from benchmarks.quality.common.parallel import run_parallel
 from benchmarks.quality.common.protocols import PROTOCOLS, Order, run_orders
+from benchmarks.quality.common.recordings import Recording
 from benchmarks.quality.common.tables import mean
 from benchmarks.quality.common.variants import Variant
 
 Result = TypeVar("Result")
+MakeRecording = Callable[[OpenedSequence], Recording]
 
 
 class SequenceTask(NamedTuple):
@@ -40,10 +43,19 @@ class SequenceResult(NamedTuple):
         """The mean over the runs of a protocol; NaN without one."""
         return mean([run.auc for run in self.runs_of(protocol)])
 
+    def overlap(self, protocol: str) -> float:
+        """The mean over the runs of a protocol of their mean overlaps; NaN without one."""
+        return mean([run.mean_overlap for run in self.runs_of(protocol)])
 
-def find_tasks(variants: Sequence[Variant], root: Path, only: Sequence[str] = ()) -> list[SequenceTask]:
+
+def find_tasks(
+    variants: Sequence[Variant],
+    root: Path,
+    only: Sequence[str] = (),
+    find: Callable[[Path], Sequence[Entry]] = find_entries,
+) -> list[SequenceTask]:
     """The sequences at or under a folder, all or some, by name. ValueError for a name that isn't there."""
-    entries = find_entries(root)
+    entries = find(root)
     names = [each.name for each in entries]
     if unknown := [name for name in only if name not in names]:
         raise ValueError(f"--only: expected some of {', '.join(names)}, got {unknown[0]!r}")
@@ -63,28 +75,30 @@ def run_longest_first(
     return [by_index[index] for index in range(len(tasks))]
 
 
-def run_sequences(tasks: Sequence[SequenceTask], jobs: int) -> list[SequenceResult]:
+def run_sequences(
+    tasks: Sequence[SequenceTask], jobs: int, recording: MakeRecording = Recording
+) -> list[SequenceResult]:
     """The results in the order of the tasks. What can't run is named on stderr."""
-    results = [each for several in run_longest_first(run_sequence, tasks, jobs) for each in several]
+    run = partial(run_sequence, recording=recording)
+    results = [each for several in run_longest_first(run, tasks, jobs) for each in several]
     for each in results:
         if each.unsupported:
             print(f"left out {each.tracker} on {each.sequence}: {each.unsupported}", file=sys.stderr)
     return results
 
 
-def run_sequence(task: SequenceTask) -> list[SequenceResult]:
+def run_sequence(task: SequenceTask, recording: MakeRecording = Recording) -> list[SequenceResult]:
     """Decode a sequence, unless no tracker supports it, and run all trackers by all protocols."""
-    opened, name = task.entry.open(), task.entry.name
-    reasons = [variant.unsupported(opened) for variant in task.variants]
-    decoded = [] if all(reasons) else list(opened.source)
-    return [
-        SequenceResult(variant.label, name, {}, reason)
-        if reason
-        else SequenceResult(
-            variant.label, name, run_orders(variant, opened, list(map(variant.view(opened), decoded)))
-        )
-        for variant, reason in zip(task.variants, reasons, strict=True)
-    ]
+    found = recording(task.entry.open())
+    results = []
+    for variant in task.variants:
+        if reason := variant.unsupported(found.inputs):
+            results.append(SequenceResult(variant.label, task.entry.name, {}, reason))
+        else:
+            frames = list(map(variant.view(found.inputs), found.frames))
+            runs = run_orders(variant, found, frames)
+            results.append(SequenceResult(variant.label, task.entry.name, runs))
+    return results
 
 
 def by_tracker(results: Iterable[SequenceResult]) -> dict[str, list[SequenceResult]]:

@@ -32,11 +32,14 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Variant:
-    """A tracker spec with a label. only: the channels that it gets, None for all that it can use."""
+    """A tracker spec with a label. only: the channels that it gets, None for all that it can use. timed:
+    whether its frames have their times.
+    """
 
     label: str
     spec: TrackerSpec
     only: tuple[str, ...] | None = None
+    timed: bool = True
 
     def unsupported(self, inputs: SequenceInfo) -> str:
         """Why it can't run on such inputs, "" where it can."""
@@ -50,10 +53,14 @@ class Variant:
     def view(self, inputs: SequenceInfo) -> FrameView:
         """What it gets of a frame."""
         only, view = self.only, self.spec.view(self._limited(inputs))
-        if only is None:
+        if only is None and self.timed:
             return view
+        chosen = CHANNELS if only is None else only
         return lambda frame: view(
-            Frame(**{name: getattr(frame, name) for name in only}, timestamp=frame.timestamp)
+            Frame(
+                **{name: getattr(frame, name) for name in chosen},
+                timestamp=frame.timestamp if self.timed else None,
+            )
         )
 
     def _limited(self, inputs: SequenceInfo) -> SequenceInfo:
@@ -108,6 +115,11 @@ def with_settings(variant: Variant, label: str, values: Mapping[str, Any]) -> Va
     """The same tracker under another label with further parameters."""
     settings = dict(variant.spec.settings) | dict(values)
     return replace(variant, label=label, spec=replace(variant.spec, settings=tuple(settings.items())))
+
+
+def without_times(variant: Variant) -> Variant:
+    """The same tracker, which isn't told when its frames were taken."""
+    return replace(variant, label=f"{variant.label}, no times", timed=False)
 
 
 def _channels(word: str) -> tuple[str, ...] | None:

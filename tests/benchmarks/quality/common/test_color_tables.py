@@ -16,7 +16,12 @@ def result(sequence, overlap, orders=ORDERS):
     seconds = np.where(tracked, np.arange(200) // 2 + 1, 0.5) / 1e3
     seconds[0] = np.nan
     frames = FrameResults(
-        np.full(200, overlap), np.zeros(200, np.bool_), np.full(200, 0.75), tracked, seconds
+        np.full(200, overlap),
+        np.zeros(200, np.bool_),
+        np.full(200, 0.75),
+        tracked,
+        seconds,
+        *[np.full(200, np.nan)] * 2,
     )
     return SequenceResult("fused", sequence, dict.fromkeys(orders, frames))
 

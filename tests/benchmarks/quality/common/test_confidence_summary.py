@@ -16,7 +16,7 @@ def made(overlaps, scores, tracked=None, absent=None):
         np.zeros(count, np.bool_) if absent is None else np.array(absent),
         np.array(scores, float),
         np.ones(count, np.bool_) if tracked is None else np.array(tracked),
-        np.full(count, NAN),
+        *[np.full(count, NAN)] * 3,
     )
 
 

@@ -1,15 +1,20 @@
 # SPDX-License-Identifier: MIT
-from benchmarks.quality.common.groups import GROUPS, LISTED, RECORDINGS, members, recording
+from benchmarks.quality.common.depth_recordings import find_targets
+from benchmarks.quality.common.groups import COLOR, GROUPS, LISTED, RECORDINGS, members, recording
 
 
 def test_each_sequence_has_one_subject():
-    """People, faces, cars, animals and objects share the thirty sequences out; so do tuned and others."""
+    """People, faces, cars, animals and objects share the thirty color sequences out; so do tuned and others.
+    Those with depth are registered or of walkers.
+    """
     subjects = [GROUPS[name] for name in ("people", "faces", "cars", "animals", "objects")]
-    assert sum(map(len, subjects)) == len(frozenset().union(*subjects)) == len(LISTED) == 30
+    assert sum(map(len, subjects)) == len(frozenset().union(*subjects)) == len(COLOR) == 30
     assert len(GROUPS["tuned"]) == 6
     assert len(GROUPS["others"]) == 24
     assert not GROUPS["tuned"] & GROUPS["others"]
     assert len(GROUPS["OTB"]) == 15
+    assert frozenset(LISTED) - frozenset(COLOR) == GROUPS["registered"] | GROUPS["walkers"]
+    assert not GROUPS["registered"] & GROUPS["walkers"]
     assert all(group <= frozenset(LISTED) for group in GROUPS.values())
 
 
@@ -17,7 +22,10 @@ def test_the_recorded_sequences_are_listed(data):
     """Each is in a group."""
     found = {path.name for path in (data / "color").iterdir() if path.is_dir()}
     assert "Couple" in found
-    assert found <= set(LISTED)
+    assert found <= set(COLOR)
+    targets = {each.name for each in find_targets(data / "rgbd")}
+    assert "kitchen-mug chair" in targets
+    assert targets <= set(LISTED) - set(COLOR)
 
 
 def test_members():

@@ -2,9 +2,11 @@
 import shutil
 
 import numpy as np
+from tricue.camera.frame import Frame
 from tricue.evaluation.dataset import Entry
 
-from benchmarks.quality.common.protocols import ORDERS, PROTOCOLS, run_order, run_orders
+from benchmarks.quality.common.protocols import ORDERS, PROTOCOLS, in_order, run_order, run_orders
+from benchmarks.quality.common.recordings import Recording
 from benchmarks.quality.common.variants import parse_variants
 
 
@@ -35,15 +37,28 @@ def test_a_start_waits_for_truth(folders, tmp_path):
     lines = (folder / "groundtruth_rect.txt").read_text().splitlines()
     (folder / "groundtruth_rect.txt").write_text("\n".join(["NaN,NaN,NaN,NaN"] * 3 + lines[3:]))
     (variant,) = parse_variants(["still-box"])
-    opened = Entry("there", folder).open()
-    frames = list(opened.source)
-    results = run_order(variant, opened, frames, np.arange(20))
+    there = Recording(Entry("there", folder).open())
+    results = run_order(variant, there, there.frames, np.arange(20))
     assert len(results.overlaps) == 17
     assert results.overlaps[0] == 1
-    assert run_order(variant, opened, frames, np.arange(4)) is None
-    assert run_order(variant, opened, frames, np.arange(3)) is None
+    assert run_order(variant, there, there.frames, np.arange(4)) is None
+    assert run_order(variant, there, there.frames, np.arange(3)) is None
     # With truth from the fourth of five frames on, backward starts behind it and "third" have no run.
-    ran = [order for order in ORDERS if order in run_orders(variant, opened, frames[:5])]
+    ran = [order for order in ORDERS if order in run_orders(variant, there, there.frames[:5])]
     assert [order.start for order in ran if not order.backward] == [0, 0.25, 0.5, 0.75]
     assert [order.start for order in ran if order.backward] == [0, 0.25]
     assert {order.step for order in ran} == {1}
+
+
+def test_times_increase():
+    """Forward they are the frames' own, backward the seconds since the first; unknown ones stay so."""
+    image = np.zeros((2, 2, 3), np.uint8)
+    frames = [Frame(image, timestamp=seconds) for seconds in (5.0, 5.1, 5.3, 5.4)]
+
+    def times(numbers):
+        return [frame.timestamp for frame in in_order(frames, np.array(numbers))]
+
+    assert times([0, 1, 3]) == [5.0, 5.1, 5.4]
+    np.testing.assert_allclose(times([2, 1, 0]), [0, 0.2, 0.3])
+    frames = [Frame(image)] * 4
+    assert times([3, 2]) == [None, None]

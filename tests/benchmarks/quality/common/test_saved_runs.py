@@ -21,6 +21,7 @@ def result():
             np.array([1.0, 0.8, 0.8]),
             np.ones(3, np.bool_),
             np.array([np.nan, 1e-3, 1e-3]),
+            *[np.full(3, np.nan)] * 2,
         )
         for order, share in zip(ORDERS[:-1], np.linspace(0.05, 0.95, 8), strict=True)
     }

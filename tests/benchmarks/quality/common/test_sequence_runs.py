@@ -23,6 +23,8 @@ def test_a_still_box_has_the_overlap_of_its_motion(folders):
     assert result.auc("third") == pytest.approx(expected(6, 7))
     starts = [expected(2, count) for count in (20, 15, 10, 5)]
     assert result.auc("starts") == pytest.approx(np.mean(starts))
+    shift = np.minimum(6 * np.arange(7), 40)
+    assert result.overlap("third") == pytest.approx(np.mean((40 - shift) / (40 + shift)))
     # Each run counts once, though two are both passes and starts.
     assert len(sequence_runs.pool([result]).overlaps) == 2 * (20 + 15 + 10 + 5) + 7
 
@@ -50,7 +52,7 @@ def test_the_longest_runs_first(folders, monkeypatch, capsys):
     """
     order, run = [], sequence_runs.run_sequence
     monkeypatch.setattr(
-        sequence_runs, "run_sequence", lambda task: order.append(task.entry.name) or run(task)
+        sequence_runs, "run_sequence", lambda task, **how: order.append(task.entry.name) or run(task, **how)
     )
     results = run_sequences(find_tasks(parse_variants(["still-box", "stereo-head"]), folders), jobs=1)
     assert order == ["back", "there", "gap"]

@@ -5,7 +5,7 @@ from tricue.camera.frame import Frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.evaluation import baselines
 
-from benchmarks.quality.common.variants import Inputs, parse_variants, with_settings
+from benchmarks.quality.common.variants import Inputs, parse_variants, with_settings, without_times
 
 CAMERA = Intrinsics.from_fov(8, 6, 60)
 IMAGE = np.zeros((6, 8, 3), np.uint8)
@@ -24,6 +24,16 @@ def test_channels_are_limited():
     assert color.make(inputs)._tracker.intrinsics is None
     assert depth.make(inputs)._tracker.params.cues == ("disparity",)
     assert [each.label for each in (whole, color)] == ["fused", "fused:color"]
+
+
+def test_times_are_withheld():
+    """Of frames with all channels and with some; nothing else changes."""
+    inputs = Inputs(("color", "depth"), CAMERA)
+    for variant in parse_variants(["fused", "fused:depth"]):
+        with_times, without = (each.view(inputs)(RGBD) for each in (variant, without_times(variant)))
+        assert (with_times.timestamp, without.timestamp) == (2.0, None)
+        assert with_times.channels == without.channels
+        assert without_times(variant).label == f"{variant.label}, no times"
 
 
 def test_missing_channels_are_named():
