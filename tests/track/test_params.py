@@ -85,6 +85,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "max_speed": (0, -1.0),
         "velocity_rate": (-0.1, 1.1),
         "position_noise": (-0.1,),
+        "speed_noise": (-0.1,),
         "size_noise": (0, -0.1),
         "size_rate": (-0.1, 1.1),
         "learning_rate": (-0.1, 1.1),

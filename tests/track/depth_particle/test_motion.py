@@ -13,7 +13,7 @@ from tricue.track.depth_particle.motion import (
 )
 
 P = DepthParticleTracker.Params(
-    position_noise=0.5, size_noise=0.06, max_speed=2.0, velocity_rate=0.5, size_rate=0.15
+    position_noise=0.5, speed_noise=0.4, size_noise=0.06, max_speed=2.0, velocity_rate=0.5, size_rate=0.15
 )
 STATE = np.array([0.2, -0.1, 3.0, 0.6, 1.7])
 WHOLE, CUT = np.array([True, True]), np.array([False, False])
@@ -44,15 +44,31 @@ def test_the_start_shares_no_size_with_its_state():
 @pytest.mark.parametrize("seconds", [1 / 30, 1 / 15, 0.5])
 def test_prediction_is_in_meters_per_second(seconds):
     """The drift is velocity times time, in meters, and the size returns to its mean by a share."""
-    prediction = motion(velocity=np.array([1.0, 0.0, -0.5]), mean_size=np.array([0.8, 1.6])).predict(
+    prediction = motion(velocity=np.array([0.8, 0.0, -0.6]), mean_size=np.array([0.8, 1.6])).predict(
         P, seconds, 0
     )
-    expected = [seconds, 0, -0.5 * seconds, SIZE_RETURN * 0.2, SIZE_RETURN * -0.1]
+    expected = [0.8 * seconds, 0, -0.6 * seconds, SIZE_RETURN * 0.2, SIZE_RETURN * -0.1]
     np.testing.assert_allclose(prediction.drift, expected, rtol=1e-12, atol=1e-15)
+    noise = 0.5 + 0.4 * 1.0  # of who stands, and of the speed of 1 m/s
     np.testing.assert_allclose(
-        prediction.scale[:3], MIN_POSITION_NOISE + 0.5 * seconds * AXIS_NOISE, rtol=1e-12
+        prediction.scale[:3], MIN_POSITION_NOISE + noise * seconds * AXIS_NOISE, rtol=1e-12
     )
     np.testing.assert_allclose(prediction.scale[3:], 0.06 * np.array([0.8, 1.6]), rtol=1e-12)
+
+
+def test_k_increases_with_velocity():
+    """Section IV.C of the paper: K of (39) "increases when the person is moving with higher velocity", so
+    that samples are propagated over a larger area, whichever way the person moves.
+    """
+    default = DepthParticleTracker.Params()
+    for way in ([1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.6, 0.0, 0.8]):
+        speeds = np.array([0.0, 0.1, 0.5, 1.0, 2.0])
+        scales = np.array(
+            [motion(velocity=speed * np.array(way)).predict(default, 0.1, 0).scale for speed in speeds]
+        )
+        assert (np.diff(scales[:, :3], axis=0) > 0).all()
+        assert np.ptp(scales[:, 3:], axis=0).max() == 0
+        assert scales[-1, 0] > 1.5 * scales[0, 0]
 
 
 def test_noise_grows_while_missed_up_to_a_second():

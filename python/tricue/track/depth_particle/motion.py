@@ -42,11 +42,13 @@ class BodyMotion(NamedTuple):
     def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> Prediction:
         """The particles' transition density over so many seconds.
 
-        The noise, K of (39), grows with them and with ``missed``, the seconds without the target before them.
+        The noise, K of (39), grows with the speed, with them, and with ``missed``, the seconds without the
+        target before them.
         """
         drift = np.concatenate([self.velocity * seconds, SIZE_RETURN * (self.mean_size - self.state[3:])])
         time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
-        noise = MIN_POSITION_NOISE + p.position_noise * time * AXIS_NOISE
+        speed = math.hypot(*self.velocity.tolist())
+        noise = MIN_POSITION_NOISE + (p.position_noise + p.speed_noise * speed) * time * AXIS_NOISE
         scale = np.concatenate([noise, p.size_noise * self.mean_size])
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 

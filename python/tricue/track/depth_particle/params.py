@@ -95,8 +95,15 @@ class DepthParticleParams(SegmentationParams):
         unit="m/s",
         source="K of (39); " + OURS,
         low=0,
-        doc="standard deviation of the position, per second",
+        doc="standard deviation of the position of who stands, per second",
         was="agility",
+    )
+    speed_noise: float = parameter(
+        0.5,
+        unit="of the speed",
+        source="K of (39) grows with the speed",
+        low=0,
+        doc="standard deviation of the position, per second, that comes on top; 0: none",
     )
     size_noise: float = parameter(
         0.06, unit="of the size", source=OURS, above=0, doc="standard deviation per frame"
