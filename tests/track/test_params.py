@@ -82,6 +82,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "margin": (1.0, 0.5),
         "measurement": (-0.1,),
         "object_share": (-0.1, 1.0),
+        "leave_out_others": (),
         "max_speed": (0, -1.0),
         "velocity_rate": (-0.1, 1.1),
         "position_noise": (-0.1,),

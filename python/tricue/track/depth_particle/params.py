@@ -15,7 +15,7 @@ class DepthParticleParams(SegmentationParams):
     """Lengths are in meters: a person has about the same size everywhere in front of the camera.
 
     The paper's own form is ``histogram="absolute"``, ``likelihood="linear"``, ``contrast=0``,
-    ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``.
+    ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``, ``leave_out_others=False``.
     """
 
     particles: int = parameter(
@@ -82,6 +82,13 @@ class DepthParticleParams(SegmentationParams):
         low=0,
         below=1,
         doc="drawn around the segmented object",
+    )
+
+    leave_out_others: bool = parameter(
+        True,
+        unit="-",
+        source=OURS,
+        doc="what wasn't the target, and still has the depth it had, is no part of it",
     )
 
     max_speed: float = parameter(
