@@ -1119,11 +1119,12 @@ def measure_objects(
     Segmented objects in meters: boxes at the depth of their objects, with the feet that were taken out
     with the floor.
 
-    Pixel (u, v) at depth z is ((u - cx) z / fx, (v - cy) z / fy, z). The height of a box's lower edge
-    above the floor is that of its middle, (n · X + d) / max(-ny, 0.1), along the camera's y axis. An
-    object that ends uncut, less than `feet` above the floor, stands on it: a strip of that height is
-    added at its lower edge, and its centroid comes down by the strip's share, legs x strip / height, of
-    the area.
+    Pixel (u, v) at depth z is ((u - cx) z / fx, (v - cy) z / fy, z). What stands upright before a
+    tilted camera has one distance along the ground, f · X with f = e_z - nz n, rather than one depth:
+    the middle of a box's lower edge is where its ray has the distance of the box's center, X'. An
+    object that ends uncut, at a height n · X' + d less than `feet` above the floor, stands on it, in
+    X' - (n · X' + d) n: a strip down to where that is seen is added at its lower edge, and its centroid
+    comes down by the strip's share, legs x strip / height, of the area.
 
     Args:
         table: float64 (C, 7), as depth_components gives it: x, y, width, height, area, pixels; depth,

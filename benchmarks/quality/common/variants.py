@@ -46,9 +46,9 @@ class Variant:
         missing = [name for name in self.only or () if name not in inputs.channels]
         return f"no {missing[0]}" if missing else self.spec.unsupported_reason(self._limited(inputs))
 
-    def make(self, inputs: SequenceInfo) -> SafeTracker:
-        """The tracker with its cameras, from seed 0."""
-        return self.spec.make(self._limited(inputs), 0)
+    def make(self, inputs: SequenceInfo, seed: int = 0) -> SafeTracker:
+        """The tracker with its cameras."""
+        return self.spec.make(self._limited(inputs), seed)
 
     def view(self, inputs: SequenceInfo) -> FrameView:
         """What it gets of a frame."""

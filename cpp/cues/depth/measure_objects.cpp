@@ -41,11 +41,20 @@ Object to_metric(const ObjectTable& objects, Index i, VectorRef camera) {
             box[4] * per_x * per_y};
 }
 
-/// How far the lower edge is above the floor.
-double height_of_feet(const Object& object, VectorRef plane) {
-    const double y = object.y + object.height / 2;
-    const double above = plane[0] * object.x + plane[1] * y + plane[2] * object.z + plane[3];
-    return above / std::max(-plane[1], 0.1);
+/// The strip from the lower edge of an object down to the floor, at the object's depth; 0 where it doesn't stand there.
+///
+/// What stands upright has one distance along the ground, not one depth, if the camera is tilted: its feet are farther.
+double strip_to_floor(const Object& object, const Ground& ground) {
+    using Vector3 = Eigen::Vector3d;
+    const Vector3 up = ground.plane.head(3).matrix(), ahead = Vector3::UnitZ() - up.z() * up;
+    const Vector3 center(object.x, object.y, object.z), edge = center + Vector3::UnitY() * (object.height / 2);
+    const double along = ahead.dot(edge);
+    if (!(along > 0.0)) return 0.0;
+    const Vector3 lowest = edge * (ahead.dot(center) / along);
+    const double height = up.dot(lowest) + ground.plane[3];
+    if (!(height > 0.0 && height < ground.feet)) return 0.0;
+    const Vector3 feet = lowest - height * up;
+    return feet.z() > 0.0 ? std::max(feet.y() * (object.z / feet.z()) - edge.y(), 0.0) : 0.0;
 }
 
 void extend_to_floor(Object& object, double strip, double legs) {
@@ -88,8 +97,8 @@ States measure_objects(const ObjectTable& objects, VectorRef camera, const Groun
     States measured(objects.table.rows(), 8);
     for (Index i = 0; i < measured.rows(); ++i) {
         Object object = to_metric(objects, i, camera);
-        const double above = floor && !objects.cut(i, 3) ? height_of_feet(object, ground.plane) : 0.0;
-        if (above > 0.0 && above < ground.feet) extend_to_floor(object, above, ground.legs);
+        const double strip = floor && !objects.cut(i, 3) ? strip_to_floor(object, ground) : 0.0;
+        if (strip > 0.0) extend_to_floor(object, strip, ground.legs);
         measured.row(i) << object.x, object.y, object.z, object.width, object.height, object.shift_x,
             object.shift_y, object.area;
     }

@@ -145,8 +145,9 @@ def test_agrees_with_points(kernels: Kernels, seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_feet_are_on_the_floor(kernels: Kernels, seed: int) -> None:
-    """What stands ends on the plane, by its equation; heads, sides and depths stay; feet come down by less
-    than ``feet``; and the centroid is that of body and strip, by their areas.
+    """What stands ends where the camera sees its feet: below the point of its lower edge's ray that is as far
+    along the ground as its center, on the plane. Heads, sides and depths stay, and the centroid is that of
+    body and strip, by their areas.
     """
     arguments = case(200, seed=seed)
     before, after = (measured(kernels, **arguments | floor) for floor in ({"plane": NO_FLOOR}, {}))
@@ -154,14 +155,20 @@ def test_feet_are_on_the_floor(kernels: Kernels, seed: int) -> None:
     stand = strip > 0
     assert 5 < np.count_nonzero(stand) < 195
     low = after[:, Y] + after[:, HEIGHT] / 2
-    plane = arguments["plane"]
-    on_it = np.column_stack([after[:, X], low, after[:, Z]]) @ plane[:3] + plane[3]
-    assert_allclose(on_it[stand], 0, atol=1e-12)
+    up, distance = arguments["plane"][:3], arguments["plane"][3]
+    ahead = np.cross(up, np.cross([0.0, 0.0, 1.0], up))  # along the ground
+    for i in np.flatnonzero(stand):
+        ray = np.array([before[i, X], before[i, Y] + before[i, HEIGHT] / 2, before[i, Z]])
+        # The point t ray, and the height h above the floor: t ray - h up is on the plane.
+        t = (ahead @ before[i, [X, Y, Z]]) / (ahead @ ray)
+        feet = t * ray - (up @ (t * ray) + distance) * up
+        assert abs(up @ feet + distance) < 1e-12
+        assert up @ (t * ray) + distance < FEET
+        assert_allclose(low[i] / after[i, Z], feet[1] / feet[2], atol=1e-12)
     head = before[:, Y] - before[:, HEIGHT] / 2
     assert_allclose(after[:, Y] - after[:, HEIGHT] / 2, head, atol=1e-12)
     assert_array_equal(np.delete(after, [Y, HEIGHT, SHIFT_Y], 1), np.delete(before, [Y, HEIGHT, SHIFT_Y], 1))
     assert not arguments["cut"][stand, BOTTOM].any()
-    assert strip.max() < FEET
     share = LEGS * strip / after[:, HEIGHT]
     body, legs = before[:, Y] + before[:, SHIFT_Y], low - strip / 2
     assert_allclose(after[:, Y] + after[:, SHIFT_Y], body + share * (legs - body), atol=1e-12)

@@ -93,6 +93,7 @@ def test_variants_differ_from_the_default_as_they_say():
         "floor": False,
         "edges": False,
         "gap_passes": 0,
+        "leave_out_others": False,
     }
     for keywords in kept.values():
         assert all(getattr(default, name) != value for name, value in keywords.items())

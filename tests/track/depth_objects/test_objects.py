@@ -3,13 +3,15 @@
 them may be a person.
 """
 
+import math
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Intrinsics, reference
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
-from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, segment
+from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, ground_distance, segment
 from tricue.track.depth_objects.projection import camera_vector
 from tricue.track.depth_particle.initialize import find_people, initialize_in_box, initialize_on_person
 
@@ -78,7 +80,7 @@ def test_the_centroid_of_a_triangle(kernels):
     depth = np.full((144, 176), np.nan, np.float32)
     for row in range(96):
         depth[20 + row, 40 : 41 + row] = 3.0
-    fg = Foreground(depth, NUMBERS, 1)
+    fg = Foreground(depth, NUMBERS, 1, (0, 0, 176, 144))
     objects = segment(kernels, fg, NO_FLOOR, P)
     expected = np.array([-1, 1]) * objects.states[0, 3:] / 6
     np.testing.assert_allclose(
@@ -227,13 +229,74 @@ def test_nobody_is_an_error_that_asks_for_a_box(objects_of):
 
 
 def test_a_box_starts_at_the_depth_of_its_object(kernels):
-    """A box drawn loosely around an object has the object's depth, and its own place and size."""
+    """A box drawn loosely around an object is that object; one drawn badly has its depth."""
     fg = drawn(*TWO)
     objects = segment(kernels, fg, NO_FLOOR, P)
     loose = Box(LEFT_BOX.x - 4, LEFT_BOX.y - 6, LEFT_BOX.width + 9, LEFT_BOX.height + 8)
     found = initialize_in_box(loose, objects, fg, P)
-    np.testing.assert_allclose(found.state, metric(loose, NEARER), rtol=1e-6)
+    np.testing.assert_allclose(found.state, metric(LEFT_BOX, NEARER), rtol=1e-6)
     assert found.whole.all()
+    upper = Box(LEFT_BOX.x, LEFT_BOX.y, LEFT_BOX.width, 0.4 * LEFT_BOX.height)
+    np.testing.assert_allclose(
+        initialize_in_box(upper, objects, fg, P).state, metric(upper, NEARER), rtol=1e-6
+    )
+
+
+def test_of_an_object_that_is_cut_no_size_is_known(kernels):
+    """A head at the lower border has a width, but shoulders below it are wider; so with a loose box."""
+    head = Box(60, 120, 24, 24)
+    fg = drawn((head, NEARER), wall=np.nan)
+    inside = Box(60, 118, 24, 20)
+    for box in (head, inside):
+        assert not initialize_in_box(box, segment(kernels, fg, NO_FLOOR, P), fg, P).whole.any()
+
+
+def test_the_edge_of_what_was_measured_cuts(kernels):
+    """A registered image has margins without depth: what ends at a margin may go on there. What is alone
+    in an image isn't cut by its own outline.
+    """
+    fg = drawn((Box(6, 30, 40, 60), NEARER))
+    depth = fg.depth.copy()
+    depth[:, :6] = np.nan
+    margin, _ = extract_foreground(
+        kernels, depth, NUMBERS, NO_FLOOR, np.random.default_rng(0), Params(floor=False, gap_passes=0)
+    )
+    assert margin.measured == (6, 0, 176, 144)
+    objects = segment(kernels, margin, NO_FLOOR, P)
+    nearest = int(np.argmin(objects.states[:, 2]))
+    assert objects.cut[nearest].tolist() == [True, False, False, False]
+    assert not segment(kernels, drawn((Box(60, 30, 40, 60), NEARER), wall=np.nan), NO_FLOOR, P).cut.any()
+
+
+def test_only_free_pixels_make_objects(kernels):
+    """Where no object is looked for there is none, and what is there still cuts those beside it."""
+    fg = drawn((Box(40, 20, 40, 100), 2.0), (Box(80, 30, 40, 80), 3.0), wall=np.nan)
+    free = np.ones(fg.depth.shape, np.uint8)
+    free[:, :80] = 0
+    objects, both = segment(kernels, fg, NO_FLOOR, P, free), segment(kernels, fg, NO_FLOOR, P)
+    farther = int(np.argmax(both.states[:, 2]))
+    np.testing.assert_array_equal(objects.states, both.states[[farther]])
+    assert objects.cut.tolist() == [[True, False, False, False]]
+
+
+@pytest.mark.parametrize("pitch", [0, 15, 30])
+def test_who_stands_before_a_tilted_camera_has_one_distance(pitch, kernels):
+    """An upright panel has the same distance along the ground in each of its pixels, however the camera is
+    tilted, to float32's rounding; its depths differ. It is one object.
+    """
+    angle, distance = math.radians(pitch), 3.0
+    plane = np.array([0.0, -math.cos(angle), -math.sin(angle), 2.0, 0.5, 0.0])
+    v, u = np.indices((144, 176))
+    rays = np.stack([(u - CAMERA.cx) / CAMERA.fx, (v - CAMERA.cy) / CAMERA.fy, np.ones(u.shape)], axis=-1)
+    depth = distance / (rays @ [0.0, -math.sin(angle), math.cos(angle)])
+    panel = np.zeros(depth.shape, np.bool_)
+    panel[20:130, 70:100] = True
+    fg = Foreground(np.where(panel, depth, np.nan).astype(np.float32), NUMBERS, 1, (0, 0, 176, 144))
+    found = ground_distance(fg, plane, P)
+    np.testing.assert_allclose(found[panel], distance, rtol=1e-6)
+    assert np.isnan(found[~panel]).all()
+    assert (np.ptp(depth[panel]) > 0.2) == (pitch > 0)
+    assert len(segment(kernels, fg, plane, P).states) == 1
 
 
 def test_a_box_on_no_object_has_the_depth_of_its_middle(kernels):

@@ -100,7 +100,7 @@ def test_pieces_are_joined(objects_of):
     objects.columns[0] = np.eye(DISTRIBUTION_BINS, dtype=np.float32)[3]
     objects = objects._replace(centroid_offset=np.array([[0.05, -0.1], [0.0, 0.02], [0.0, 0.0]]))
     before = objects.states.copy()
-    both = join_pieces(objects, 0, EXPECTED)
+    both = join_pieces(objects, 0, EXPECTED, SIZE)
     np.testing.assert_allclose(both.state, [0.0, -0.025, 3.0, 0.6, 1.75], atol=1e-12)
     centroid = (0.72 * np.array([0.05, -0.4]) + 0.1 * np.array([0.1, 0.62])) / 0.82
     np.testing.assert_allclose(both.state[:2] + both.signature.centroid_offset, centroid, atol=1e-12)
@@ -111,13 +111,13 @@ def test_pieces_are_joined(objects_of):
     np.testing.assert_array_equal(objects.states, before)
 
 
-@pytest.mark.parametrize("z", [2.7, 3.3])
-def test_a_union_is_the_box_around_its_pieces_as_the_camera_sees_them(z, objects_of):
+@pytest.mark.parametrize(("z", "x"), [(2.7, 0.45), (3.3, 0.53)])
+def test_a_union_is_the_box_around_its_pieces_as_the_camera_sees_them(z, x, objects_of):
     """The box of body and leg in pixels is that around both boxes, also where the leg is put forward or back;
     its depth is the body's.
     """
-    body, leg = [0.8, -0.3, 3.0, 0.6, 1.2], [0.45, 0.6, z, 0.1, 0.5]
-    both = join_pieces(objects_of([body, leg]), 0, np.array([0.8, 0, 3, 0.6, 1.8]))
+    body, leg = [0.8, -0.3, 3.0, 0.6, 1.2], [x, 0.6, z, 0.1, 0.5]
+    both = join_pieces(objects_of([body, leg]), 0, np.array([0.8, 0, 3, 0.6, 1.8]), SIZE)
     corners = np.array([project_box(np.array(each), CAMERA).xyxy for each in (body, leg)])
     expected = [*corners[:, :2].min(axis=0), *corners[:, 2:].max(axis=0)]
     np.testing.assert_allclose(project_box(both.state, CAMERA).xyxy, expected, rtol=1e-12)
@@ -130,7 +130,7 @@ def test_many_pieces_are_joined_from_any_of_them(objects_of):
     arm = [-0.32, -0.2, 3.0, 0.1, 0.6]
     objects = objects_of([BODY, LEG, arm])
     for i in range(3):
-        both = join_pieces(objects, i, EXPECTED)
+        both = join_pieces(objects, i, EXPECTED, np.array([0.67, 1.8]))
         np.testing.assert_allclose(both.state, [-0.035, -0.025, 3.0, 0.67, 1.75], atol=1e-12)
 
 
@@ -144,7 +144,7 @@ def test_other_objects_are_not_joined(other, objects_of):
     stays as it is.
     """
     objects = objects_of([BODY, other])
-    alone = join_pieces(objects, 0, EXPECTED)
+    alone = join_pieces(objects, 0, EXPECTED, SIZE)
     np.testing.assert_array_equal(alone.state, BODY)
     np.testing.assert_array_equal(alone.signature.centroid_offset, objects.centroid_offset[0])
 
@@ -157,19 +157,31 @@ def test_a_piece_is_near_in_depth_and_mostly_in_the_region(by, is_joined, object
     behind = [0.0, 0.6, 3.0 + MAX_PIECE_DEPTH + by, 0.2, 0.5]
     aside = [PIECE_REGION * SIZE[0] / 2 - 0.3 * 0.1 + by * 0.2, 0.6, 3.0, 0.1, 0.5]
     for piece in (behind, aside):
-        both = join_pieces(objects_of([BODY, piece]), 0, EXPECTED)
+        both = join_pieces(objects_of([BODY, piece]), 0, EXPECTED, np.array([0.75, 1.8]))
         assert (both.state[4] > 1.2) == is_joined
 
 
 def test_the_matched_object_is_always_a_piece(objects_of):
     """The matched object is the body wherever it was expected; what is in the expected region joins it."""
     far = np.array([9.0, 0.0, 3.0, 0.6, 1.8])
-    np.testing.assert_array_equal(join_pieces(objects_of([BODY, LEG]), 0, far).state, BODY)
+    np.testing.assert_array_equal(join_pieces(objects_of([BODY, LEG]), 0, far, SIZE).state, BODY)
 
 
 def test_a_union_is_cut_where_its_pieces_are(objects_of):
     """A body whole and a leg cut at the bottom make something cut at the bottom."""
     objects = objects_of([BODY, LEG], [[0, 0, 0, 0], [0, 0, 0, 1]])
-    both = join_pieces(objects, 0, EXPECTED)
+    both = join_pieces(objects, 0, EXPECTED, SIZE)
     assert both.cut.tolist() == [False, False, False, True]
     assert both.whole.tolist() == [True, False]
+
+
+def test_what_makes_a_body_larger_than_usual_is_no_piece(objects_of):
+    """Of somebody who turns sideways, and is narrower than usual, a chair at the side is no piece, though
+    both together would be nearer to the usual width; a body of the usual size has no pieces at all.
+    """
+    sideways, chair = [0.0, 0.0, 3.0, 0.35, 1.7], [0.45, 0.3, 3.0, 0.2, 0.8]
+    wide = np.array([0.2, 0.0, 3.0, 0.9, 1.8])
+    alone = join_pieces(objects_of([sideways, chair]), 0, wide, SIZE)
+    np.testing.assert_array_equal(alone.state, sideways)
+    usual = [0.0, 0.0, 3.0, *SIZE]
+    np.testing.assert_array_equal(join_pieces(objects_of([usual, chair]), 0, wide, SIZE).state, usual)

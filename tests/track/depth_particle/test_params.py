@@ -22,6 +22,7 @@ PRINTED: dict[str, Any] = {
     "measurement": 0,
     "floor": False,
     "edges": False,
+    "leave_out_others": False,
 }
 
 

@@ -85,6 +85,7 @@ EXPERIMENTS: dict[str, Experiment[DepthScene, DepthCurve]] = {
                 floor=False,
                 edges=False,
                 gap_passes=0,
+                leave_out_others=False,
             ),
         },
         scenes={

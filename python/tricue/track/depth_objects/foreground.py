@@ -16,16 +16,20 @@ from tricue.track.depth_objects.params import SegmentationParams
 Floats = NDArray[np.float64]
 Depth = NDArray[np.float32]
 
+MAX_MARGIN = 0.05  # of a side of the image, without any depth, that a registration leaves
+
 
 class Foreground(NamedTuple):
     """Depth (h, w), meters, NaN in the background, and its camera (4,) fx, fy, cx, cy, pixels.
 
-    Its pixel (i, j) is pixel (step i, step j) of the frame.
+    Its pixel (i, j) is pixel (step i, step j) of the frame. measured: left, top, right, bottom, pixels, of
+    the rectangle outside of which nothing was measured: registered depth ends before the image does.
     """
 
     depth: Depth
     camera: Floats
     step: int
+    measured: tuple[int, int, int, int]
 
 
 def extract_foreground(
@@ -48,4 +52,21 @@ def extract_foreground(
     if p.floor:
         plane = find_floor(k, thinned, thinned_camera, plane, rng, p.near)
     kept = k.above_floor(thinned, thinned_camera, plane[:4], p.near, p.far, p.floor_clear)
-    return Foreground(kept, thinned_camera, step), plane
+    return Foreground(kept, thinned_camera, step, _measured_bounds(thinned)), plane
+
+
+def _measured_bounds(depth: Depth) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom of the pixels with a depth, as far as the image has narrow margins without."""
+    known = depth > 0
+    (top, bottom), (left, right) = (_measured_span(np.asarray(known.any(axis=axis))) for axis in (1, 0))
+    return left, top, right, bottom
+
+
+def _measured_span(known: NDArray[np.bool_]) -> tuple[int, int]:
+    """The first and the end of what is known along a side, or the side's own end where that is far."""
+    length, where = len(known), np.flatnonzero(known)
+    if where.size == 0:
+        return 0, length
+    first, end = int(where[0]), int(where[-1]) + 1
+    margin = MAX_MARGIN * length
+    return first if first <= margin else 0, end if length - end <= margin else length

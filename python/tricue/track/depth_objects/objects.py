@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Objects in depth, section IV.A: divisions of the range, (32)-(36), and their connected components."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -30,8 +31,8 @@ class Objects(NamedTuple):
     """C objects, largest first.
 
     states: (C, 5) X, Y, Z of the box's center, width and height, meters; Z is the mean depth.
-    cut: (C, 4) whether it may continue beyond its left, right, top, bottom: at the image's border or behind
-        an occluder.
+    cut: (C, 4) whether it may continue beyond its left, right, top, bottom: at the edge of what was measured
+        or behind an occluder.
     centroid_offset: (C, 2) from the box's center to the centroid, meters.
     columns, rows: (C, DISTRIBUTION_BINS) horizontal and vertical distribution, each of sum 1.
     area: (C,) square meters.
@@ -54,26 +55,67 @@ class Objects(NamedTuple):
         return [project_box(state, camera) for state in self.states]
 
 
-def segment(k: Kernels, fg: Foreground, plane: Floats, p: SegmentationParams) -> Objects:
-    """Divide the range at the minima of the depth's density, and each division into connected objects.
+def segment(
+    k: Kernels, fg: Foreground, plane: Floats, p: SegmentationParams, free: NDArray[np.uint8] | None = None
+) -> Objects:
+    """Divide the range at the minima of the distances' density, and each division into connected objects.
 
-    plane: (6,) the floor, to which the feet of objects are extended; NO_FLOOR without one.
+    plane: (6,) the floor, along which distances are measured, and to which the feet of objects are extended;
+    NO_FLOOR without one. free: (h, w) 0 where no object is looked for, otherwise 1; None for 1 everywhere.
     """
     depth = fg.depth
+    distance = ground_distance(fg, plane, p)
     gap = p.edge_gap if p.edges else NO_EDGES
-    mask = k.depth_edges(depth, gap, p.edge_slope) ^ np.uint8(1)
-    counts = k.depth_histogram(depth, mask, p.near, p.far, p.levels)
+    mask = k.depth_edges(distance, gap, p.edge_slope) ^ np.uint8(1)
+    if free is not None:
+        mask &= free
+    counts = k.depth_histogram(distance, mask, p.near, p.far, p.levels)
     level = (p.far - p.near) / p.levels
     density = k.depth_density(counts, p.bandwidth / level)
     _, minima = k.density_extrema(density, p.prominence * float(density.max()))
     minima = minima[: MAX_DIVISIONS - 1]
     dividers = np.array([p.near, *(p.near + (m + 0.5) * level for m in minima.tolist()), p.far])
-    labels = k.divide_depth(depth, mask, dividers)
+    labels = k.divide_depth(distance, mask, dividers)
     far_pixels = p.min_area * fg.camera[0] * fg.camera[1] / p.far**2
     min_pixels = int(min(max(MIN_PIXELS, far_pixels), depth.size + 1.0))
     table, _, columns, rows, _ = k.depth_components(
         labels, depth, p.near, p.far, 0, DISTRIBUTION_BINS, min_pixels, False
     )
     cut = k.cut_sides(depth, table, fg.camera, BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED)
+    cut |= _at_edge(table, fg.measured)
     measured = k.measure_objects(table, columns, rows, cut, fg.camera, plane[:4], MAX_FEET_HEIGHT, LEGS_FILL)
     return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])
+
+
+def ground_distance(fg: Foreground, plane: Floats, p: SegmentationParams) -> Singles:
+    """(h, w) meters along the ground, in the camera's direction, within near and far; NaN in the background.
+
+    What stands upright before a tilted camera has one distance along the ground, but many depths. Without a
+    floor, plane (6,), the camera counts as level: its depths are the distances.
+    """
+    up = plane[:3]
+    if not up.any():
+        return fg.depth
+    per_depth = _distance_per_depth(fg.depth.shape, tuple(fg.camera.tolist()), tuple(up.tolist()))
+    distance: Singles = fg.depth * per_depth
+    np.maximum(distance, np.float32(p.near), out=distance)
+    np.minimum(distance, np.nextafter(np.float32(p.far), np.float32(0)), out=distance)
+    return distance
+
+
+@lru_cache(maxsize=4)
+def _distance_per_depth(shape: tuple[int, ...], camera: tuple[float, ...], up: tuple[float, ...]) -> Singles:
+    """(h, w) meters along the ground per meter of depth; the same while the camera stands."""
+    fx, fy, cx, cy = camera
+    ahead = np.array([0.0, 0.0, 1.0]) - up[2] * np.array(up)
+    ahead /= np.linalg.norm(ahead)
+    down, across = ((np.arange(n) - c) / f for n, c, f in zip(shape, (cy, cx), (fy, fx), strict=True))
+    per_depth: Singles = np.add.outer(ahead[1] * down + ahead[2], ahead[0] * across).astype(np.float32)
+    return per_depth
+
+
+def _at_edge(table: Floats, measured: tuple[int, int, int, int]) -> NDArray[np.bool_]:
+    """(C, 4) whether an object's side is at the edge of all that was measured."""
+    (x, y, width, height), (left, top, right, bottom) = table[:, :4].T, measured
+    gaps = x - left, right - (x + width), y - top, bottom - (y + height)
+    return np.column_stack(gaps) < BORDER

@@ -13,6 +13,7 @@ Floats = NDArray[np.float64]
 
 PIECE_REGION = 1.3  # times the expected rectangle, in which pieces of the body are looked for
 MIN_PIECE_INSIDE = 0.8  # of a piece's area, in that region
+MAX_JOINED_SIZE = 1.15  # times the usual size, of a body with its pieces
 MAX_PIECE_DEPTH = 0.4  # meters, from the body's depth to that of a stretched arm or leg
 
 
@@ -65,15 +66,25 @@ def _extend(
     return (middle - half if cut_before else middle + half), size
 
 
-def join_pieces(objects: Objects, index: int, expected: Floats) -> Body:
+def join_pieces(objects: Objects, index: int, expected: Floats, size: Floats) -> Body:
     """An object with the pieces of its body, such as arms and legs, that gaps separate from it.
 
     A piece lies for the most part in the region of the expected rectangle, state (5,), near the object's
-    depth.
+    depth, and with it the body is more nearly of the usual size (2,), and hardly larger.
     """
-    body = Body.from_object(objects, index)
-    pieces = _find_pieces(objects.states.tolist(), index, expected.tolist())
-    return body if len(pieces) == 1 else _unite(body, objects, pieces)
+    body, own = Body.from_object(objects, index), [index]
+    for piece in _find_pieces(objects.states.tolist(), index, expected.tolist()):
+        joined = _unite(body, objects, [*own, piece])
+        limit = MAX_JOINED_SIZE * np.maximum(size, body.state[3:])
+        fits = bool((joined.state[3:] <= limit).all())
+        if fits and _misfit(joined, size) < _misfit(body, size):
+            body, own = joined, [*own, piece]
+    return body
+
+
+def _misfit(body: Body, size: Floats) -> float:
+    """How far a body is from the size (2,): the sum of its squared logarithmic ratios."""
+    return float(np.square(np.log(body.state[3:] / size)).sum())
 
 
 def _find_pieces(states: list[list[float]], index: int, expected: list[float]) -> list[int]:
@@ -81,8 +92,9 @@ def _find_pieces(states: list[list[float]], index: int, expected: list[float]) -
     return [
         i
         for i, state in enumerate(states)
-        if i == index
-        or (abs(state[2] - depth) < MAX_PIECE_DEPTH and _share_inside(state, expected) > MIN_PIECE_INSIDE)
+        if i != index
+        and abs(state[2] - depth) < MAX_PIECE_DEPTH
+        and _share_inside(state, expected) > MIN_PIECE_INSIDE
     ]
 
 

@@ -10,10 +10,13 @@ from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import BORDER, Objects
 from tricue.track.depth_objects.projection import back_project_box
 from tricue.track.depth_particle.matching import TargetObject
+from tricue.track.depth_particle.others import enlarge
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.signature import Signature
 
 MIN_BOX_IOU = 0.3  # of a given box with the object that it stands for
+MIN_OBJECT_IOU = 0.5  # from which the object's own outline counts, as boxes are drawn by hand
+MIN_FILL = 0.25  # of its box, by what a box can stand for: what is only around the box's middle fills less
 
 
 def find_people(objects: Objects, p: DepthParticleParams) -> NDArray[np.intp]:
@@ -43,30 +46,43 @@ def initialize_on_person(objects: Objects, p: DepthParticleParams) -> TargetObje
 
 
 def initialize_in_box(box: Box, objects: Objects, fg: Foreground, p: DepthParticleParams) -> TargetObject:
-    """The given box, at the depth of the object that overlaps it most.
+    """The object that overlaps the given box most; where it overlaps it less well, the box at its depth.
 
-    Where no object overlaps it well, the depth is the median in the middle of the box. NoDepthInBoxError
-    where there is none.
+    Where no object is in it, the depth is the median in the middle of the box. NoDepthInBoxError where there
+    is none. Of an object that something cuts, neither size is known: what is hidden may be wider.
     """
     camera = fg.camera * fg.step
-    overlaps = [box.iou(each) for each in objects.boxes(camera)]
+    fills = objects.area >= MIN_FILL * objects.states[:, 3] * objects.states[:, 4]
+    outlines = objects.boxes(camera)
+    overlaps = [box.iou(each) if fill else 0.0 for each, fill in zip(outlines, fills, strict=True)]
     best = int(np.argmax(overlaps)) if overlaps else -1
     on_object = best >= 0 and overlaps[best] > MIN_BOX_IOU
-    z = float(objects.states[best, 2]) if on_object else _median_depth(fg, box, p)
-    return TargetObject(
-        back_project_box(box, z, camera),
-        _whole(box, fg),
-        Signature.from_object(objects, best) if on_object else Signature.uniform(),
-    )
+    if not on_object:
+        state = back_project_box(box, _median_depth(fg, box, p), camera)
+        return TargetObject(state, _whole(box, fg), Signature.uniform())
+    outline = _within(outlines[best], box, fg.step) if overlaps[best] >= MIN_OBJECT_IOU else box
+    state = back_project_box(outline, float(objects.states[best, 2]), camera)
+    whole = np.full(2, (_whole(box, fg) & objects.whole[best]).all())
+    return TargetObject(state, whole, Signature.from_object(objects, best))
+
+
+def _within(outline: Box, box: Box, step: int) -> Box:
+    """An object's outline, with the sides of the given box where the object goes on around it."""
+    region = enlarge(box).xyxy
+    inward = [1, 1, -1, -1]
+    sides = [
+        given if sense * (own - edge) < step else own
+        for own, given, edge, sense in zip(outline.xyxy, box.xyxy, region, inward, strict=True)
+    ]
+    return Box.from_xyxy(*sides)
 
 
 def _whole(box: Box, fg: Foreground) -> NDArray[np.bool_]:
-    """(2,) whether the box's width and height are inside the image."""
-    height, width = np.multiply(fg.depth.shape, fg.step)
-    left, top, right, bottom = box.xyxy
-    return np.array(
-        [left >= BORDER and right <= width - BORDER, top >= BORDER and bottom <= height - BORDER], np.bool_
-    )
+    """(2,) whether the box's width and height are inside what was measured."""
+    first, last = np.reshape(fg.measured, (2, 2)) * fg.step
+    box_first, box_last = np.reshape(box.xyxy, (2, 2))
+    inside: NDArray[np.bool_] = (box_first >= first + BORDER) & (box_last <= last - BORDER)
+    return inside
 
 
 def _middle_half(start: float, length: float, step: int, size: int) -> slice:

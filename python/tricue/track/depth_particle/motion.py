@@ -17,7 +17,7 @@ MIN_POSITION_NOISE = np.array([0.03, 0.02, 0.03])  # meters of X, Y, Z, standard
 AXIS_NOISE = np.array([1.0, 0.3, 1.0])  # times position_noise: people move less up and down than sideways
 SIZE_RETURN = 0.3  # per frame, of the size to its running mean
 MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
-FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole for the first time
+FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole, until it is known
 MIN_SIZE = 0.1  # meters
 
 
@@ -42,11 +42,13 @@ class BodyMotion(NamedTuple):
     def predict(self, p: DepthParticleParams, seconds: float, missed: float) -> Prediction:
         """The particles' transition density over so many seconds.
 
-        The noise, K of (39), grows with them and with ``missed``, the seconds without the target before them.
+        The noise, K of (39), grows with the speed, with them, and with ``missed``, the seconds without the
+        target before them.
         """
         drift = np.concatenate([self.velocity * seconds, SIZE_RETURN * (self.mean_size - self.state[3:])])
         time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
-        noise = MIN_POSITION_NOISE + p.position_noise * time * AXIS_NOISE
+        speed = math.hypot(*self.velocity.tolist())
+        noise = MIN_POSITION_NOISE + (p.position_noise + p.speed_noise * speed) * time * AXIS_NOISE
         scale = np.concatenate([noise, p.size_noise * self.mean_size])
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
@@ -71,12 +73,17 @@ class BodyMotion(NamedTuple):
         return self._replace(mean_size=mean_size)
 
     def learn_size(self, size: Floats, whole: NDArray[np.bool_], p: DepthParticleParams) -> "BodyMotion":
-        """Blend in a size (2,); where it is not ``whole`` (2,), it is a lower bound."""
-        size = size if whole.all() else np.where(whole, size, np.maximum(size, self.mean_size))
+        """Blend in a size (2,), where it is ``whole`` (2,).
+
+        It is known from then on, if the other one is: of somebody who is cut at the waist the hidden part may
+        be wider.
+        """
+        size = size if whole.all() else np.where(whole, size, self.mean_size)
+        known = whole & (whole | self.size_known)[::-1]
         first = whole & ~self.size_known
         rate = p.size_rate if self.size_known.all() else np.where(first, FIRST_SIZE_RATE, p.size_rate)
         mean_size = self.mean_size + rate * (size - self.mean_size)
-        return self._replace(mean_size=mean_size, size_known=self.size_known | whole)
+        return self._replace(mean_size=mean_size, size_known=self.size_known | known)
 
 
 @cache

@@ -15,7 +15,7 @@ class DepthParticleParams(SegmentationParams):
     """Lengths are in meters: a person has about the same size everywhere in front of the camera.
 
     The paper's own form is ``histogram="absolute"``, ``likelihood="linear"``, ``contrast=0``,
-    ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``.
+    ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``, ``leave_out_others=False``.
     """
 
     particles: int = parameter(
@@ -84,6 +84,13 @@ class DepthParticleParams(SegmentationParams):
         doc="drawn around the segmented object",
     )
 
+    leave_out_others: bool = parameter(
+        True,
+        unit="-",
+        source=OURS,
+        doc="what wasn't the target, and still has the depth it had, is no part of it",
+    )
+
     max_speed: float = parameter(
         2.0, unit="m/s", source="a brisk walk", above=0, doc="of the target", was="fastest"
     )
@@ -95,8 +102,15 @@ class DepthParticleParams(SegmentationParams):
         unit="m/s",
         source="K of (39); " + OURS,
         low=0,
-        doc="standard deviation of the position, per second",
+        doc="standard deviation of the position of who stands, per second",
         was="agility",
+    )
+    speed_noise: float = parameter(
+        0.5,
+        unit="of the speed",
+        source="K of (39) grows with the speed",
+        low=0,
+        doc="standard deviation of the position, per second, that comes on top; 0: none",
     )
     size_noise: float = parameter(
         0.06, unit="of the size", source=OURS, above=0, doc="standard deviation per frame"

@@ -43,8 +43,8 @@ def find_target(
     best = best_match(candidates, expected, state.motion, state.signature, time, max_cost)
     if best is None:
         return SearchResult(None, state.motion, occluder)
-    body = join_pieces(candidates, best, expected)
-    motion = state.motion.grow(body.state[3:])
+    body = join_pieces(candidates, best, expected, state.motion.mean_size)
+    motion = state.motion.grow(candidates.states[best, 3:])
     completed = body.complete(expected, motion.mean_size)
     return SearchResult(TargetObject(completed, body.whole, body.signature), motion, occluder)
 

@@ -51,6 +51,7 @@ class State(NamedTuple):
     signature: Signature
     particles: ParticleSet
     objects: Objects  # of the last frame
+    others: NDArray[np.float32]  # (h, w) meters, what was last seen in each pixel beside the target
     score: float
     mean_log_likelihood: float  # running mean over the frames in which the target was learned
     mean_inside: float  # the same of the share of the rectangle that is at the target's depth

@@ -26,6 +26,7 @@ from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.occluder import find_occluder
+from tricue.track.depth_particle.others import inside_box, remember_others, without_others
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
 from tricue.track.depth_particle.state import ParticleSet, State
@@ -120,11 +121,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         random = RandomSource(self.seed)
         rng = random.generator
         fg, plane = extract_foreground(self._k, depth, camera, NO_FLOOR, rng, self.params)
-        objects = segment(self._k, fg, plane, self.params)
         if box is None:
+            objects = segment(self._k, fg, plane, self.params)
             target = initialize_on_person(objects, self.params)
         else:
             box_inside = validation.check_box_in(as_box(box), depth.shape)
+            objects = segment(self._k, fg, plane, self.params, inside_box(box_inside, fg))
             target = initialize_in_box(box_inside, objects, fg, self.params)
         model = DepthModel.empty(self.params).learn(self._k, fg, target.state, 1.0)
         observed = model.observe(self._k, fg, target.state[None])
@@ -137,6 +139,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             signature=target.signature,
             particles=ParticleSet.at_state(target.state, self.params.particles),
             objects=objects,
+            others=remember_others(None, fg, target.state, self.params.histogram_reach),
             score=_score(observed),
             mean_log_likelihood=float(observed.log_likelihood[0]),
             mean_inside=float(observed.inside[0]),
@@ -162,8 +165,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
-        objects = segment(k, fg, plane, p)
-        prediction = state.motion.predict(p, seconds, state.missed_seconds)
+        free = without_others(state.others, fg) if p.leave_out_others else None
+        objects = segment(k, fg, plane, p, free)
+        before = state.motion
+        prediction = before.predict(p, seconds, state.missed_seconds)
         target, motion, occluder = find_target(state, objects, prediction, seconds, p)
         state = state._replace(plane=plane, objects=objects, motion=motion, occluder=occluder)
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
@@ -172,7 +177,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         observed = state.model.observe(k, fg, particles.state[None])
         if self._recognized(state, observed, target):
             return self._accept(state, fg, particles, observed, target, seconds)
-        return self._coast(state, fg, prediction, seconds)
+        return self._coast(state._replace(motion=before), fg, prediction, seconds)
 
     def _filter(
         self,
@@ -238,6 +243,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         visible = state.missed_seconds == 0 and front < p.max_covered
         state = state._replace(
             particles=particles,
+            others=remember_others(state.others, fg, particles.state, p.histogram_reach),
             motion=state.motion.update(particles.state, p, seconds, visible),
             score=_score(observed),
             missed_seconds=0.0,

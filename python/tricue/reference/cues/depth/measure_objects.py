@@ -29,15 +29,32 @@ def measure_objects(
     center_x, center_y = (x + w / 2 - 0.5 - cx) * z / fx, (y + h / 2 - 0.5 - cy) * z / fy
     shift_x, shift_y = (_mean_place(shares) * size for shares, size in ((columns, width), (rows, height)))
 
-    above = np.column_stack([center_x, center_y + height / 2, z]) @ plane[:3] + plane[3]
-    above /= max(-plane[1], 0.1)
-    strip = np.where((above > 0) & (above < feet) & ~cut[:, 3] & plane.any(), above, 0.0)
+    centers = np.column_stack([center_x, center_y, z])
+    strip = np.where(cut[:, 3], 0.0, _strips_to_floor(centers, height, plane, feet))
     share = legs * strip / (height + strip)
     down = shift_y - strip / 2  # from the new center
     shift_y = down + share * (height / 2 - down)
     return np.column_stack(
         [center_x, center_y + strip / 2, z, width, height + strip, shift_x, shift_y, pixels * z * z / fx / fy]
     )
+
+
+def _strips_to_floor(centers: Floats, height: Floats, plane: Floats, feet: float) -> Floats:
+    """From the lower edges down to the floor, at the depths of the centers (C, 3); 0 where nothing stands."""
+    strips, up = np.zeros(len(centers)), plane[:3]
+    if not plane.any():
+        return strips
+    ahead = np.array([0.0, 0.0, 1.0]) - up[2] * up
+    for i, center in enumerate(centers):
+        edge = center + [0.0, height[i] / 2, 0.0]
+        if ahead @ edge <= 0:
+            continue
+        lowest = edge * (ahead @ center) / (ahead @ edge)
+        above = up @ lowest + plane[3]
+        stand = lowest - above * up
+        if 0 < above < feet and stand[2] > 0:
+            strips[i] = max(stand[1] * center[2] / stand[2] - edge[1], 0.0)
+    return strips
 
 
 def _mean_place(shares: Shares) -> Floats:

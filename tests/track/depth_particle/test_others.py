@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""What is left out of the search for the target: what wasn't it, and has the depth it had."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Box, DepthParticleTracker, Frame, Intrinsics
+from tricue.track.depth_objects.foreground import Foreground
+from tricue.track.depth_objects.projection import back_project_box, camera_vector
+from tricue.track.depth_particle.others import inside_box, remember_others, without_others
+
+CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
+NUMBERS = camera_vector(CAMERA)
+REACH = 0.5
+TARGET, Z = Box(60, 40, 30, 80), 3.0
+STATE = back_project_box(TARGET, Z, NUMBERS)
+
+
+def foreground(depth: NDArray[np.float32]) -> Foreground:
+    """The whole image."""
+    return Foreground(depth, NUMBERS, 1, (0, 0, 176, 144))
+
+
+def room(left: int = 60) -> NDArray[np.float32]:
+    """A wall at 5 m, a desk of the target's depth that it touches, and the target, 30 px wide."""
+    depth = np.full((144, 176), 5.0, np.float32)
+    depth[90:120, 80:170] = Z
+    depth[40:120, left : left + 30] = Z
+    return depth
+
+
+def test_the_target_itself_is_not_remembered():
+    """The pixels at its depth in its rectangle are unknown; all others are known, those behind it, too."""
+    others = remember_others(None, foreground(room()), STATE, REACH)
+    assert np.isnan(others[40:120, 60:90]).all()
+    assert (others[:, :55] == 5).all()
+    assert (others[95:115, 100:170] == Z).all()
+    assert (others[:30] == 5).all()
+
+
+def test_what_is_behind_the_target_is_kept_from_before():
+    """Where the target is now, what was there without it is still known."""
+    before = np.full((144, 176), 5.0, np.float32)
+    others = remember_others(before, foreground(room()), STATE, REACH)
+    assert (others[40:120, 60:90] == 5).all()
+
+
+def test_what_stays_as_it_was_is_left_out():
+    """Of a target that steps aside its pixels are searched, and those it no longer covers; the wall and the
+    desk aren't, though their depths are noisy, and the desk touches the target.
+    """
+    others = remember_others(None, foreground(room()), STATE, REACH)
+    noise = np.random.default_rng(0).normal(0, 0.01, (144, 176)).astype(np.float32)
+    free = without_others(others, foreground(room(left=40) + noise))
+    assert free.dtype == np.uint8
+    assert (free[40:120, 40:57] == 1).all()
+    assert (free[100:115, 100:170] == 0).all()
+    assert (free[:30, :] == 0).all()
+
+
+def test_unmeasured_pixels_are_searched():
+    """Where nothing was known, or is measured now, nothing is left out; there is no warning."""
+    unknown = np.full((144, 176), np.nan, np.float32)
+    assert (without_others(unknown, foreground(room())) == 1).all()
+    assert (without_others(room(), foreground(unknown)) == 1).all()
+
+
+@pytest.mark.parametrize("step", [1, 2])
+def test_a_box_is_searched_with_a_margin(step):
+    """A tenth more than the box is searched, in pixels of the thinned image."""
+    fg = Foreground(room()[::step, ::step], NUMBERS / step, step, (0, 0, 176 // step, 144 // step))
+    rows, columns = np.nonzero(inside_box(Box(60, 40, 40, 80), fg))
+    assert (columns[0] * step, columns[-1] * step + step) == (58, 102)
+    assert (rows[0] * step, rows[-1] * step + step) == (36, 124)
+    assert not inside_box(Box(-40, -40, 20, 20), fg).any()
+
+
+@pytest.mark.parametrize("leave_out", [True, False])
+def test_who_touches_furniture_is_an_object(leave_out):
+    """A person who walks up to a desk, as far away, and touches it is an object of the own size; where the
+    desk may be a part of the person, there is none of that size.
+    """
+    tracker = DepthParticleTracker(
+        intrinsics=CAMERA, floor=False, gap_passes=0, leave_out_others=leave_out, seed=1
+    )
+    tracker.init(Frame(depth=room(left=30)), Box(30, 40, 30, 80))
+    for left in range(32, 51, 2):
+        tracker.update(Frame(depth=room(left)))
+    best = max(each.iou(Box(50, 40, 30, 80)) for each in tracker.objects)
+    assert (best > 0.9) == leave_out
+    assert (best < 0.6) != leave_out
