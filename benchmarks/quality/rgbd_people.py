@@ -12,16 +12,12 @@ the recordings of TRICUE_DATA, depth edges of near objects match the strongest c
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
-from tricue.camera.read_calibration import read_intrinsics
-from tricue.camera.registration import Extrinsics, color_in_depth
-from tricue.camera.rig import Intrinsics
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
 from tricue.evaluation.rows import clip_to_image
@@ -29,6 +25,7 @@ from tricue.evaluation.rows import clip_to_image
 from benchmarks.quality.common import sequences
 from benchmarks.quality.common.arguments import parser, seeds
 from benchmarks.quality.common.parallel import run_parallel
+from benchmarks.quality.common.registered_frames import color_camera, registered
 from benchmarks.quality.common.tables import Cell, markdown, mean, write_csv
 from benchmarks.quality.common.variants import Inputs, Variant, parse_variants
 
@@ -70,30 +67,6 @@ def run_seeds(task: PeopleTask) -> list[PeopleResult]:
         return []
     frames = list(map(task.variant.view(inputs), registered(opened, camera, task.shift)))
     return [run(task, opened, inputs, frames, seed) for seed in task.seeds]
-
-
-def color_camera(opened: OpenedSequence) -> Intrinsics | None:
-    """The color camera, where it and the depth camera are calibrated."""
-    source = opened.source
-    if source.calibration is None or "color" not in source.channels or opened.intrinsics is None:
-        return None
-    return read_intrinsics(source.calibration, source.channels["color"].size, "color")
-
-
-def registered(opened: OpenedSequence, camera: Intrinsics | None, shift: float = 0.0) -> list[Frame]:
-    """The frames with the color in the depth image's pixels; without a color camera depth alone."""
-    depth_camera = opened.intrinsics
-    if camera is None or depth_camera is None:
-        return [Frame(depth=frame.depth, timestamp=frame.timestamp) for frame in opened.source]
-    if opened.registered:
-        return list(opened.source)
-    extrinsics, frames = Extrinsics(translation=np.array([shift, 0, 0])), []
-    for frame in opened.source:
-        assert frame.color is not None
-        assert frame.depth is not None
-        color = color_in_depth(frame.color, frame.depth, depth_camera, camera, extrinsics)
-        frames.append(replace(frame, color=color))
-    return frames
 
 
 def jittered(box: Box, seed: int) -> Box:

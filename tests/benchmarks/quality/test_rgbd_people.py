@@ -8,6 +8,7 @@ from tricue.camera.box import Box
 from tricue.evaluation.dataset import ReadOptions, find_entries
 
 from benchmarks.quality import rgbd_people
+from benchmarks.quality.common.registered_frames import color_camera, registered
 
 FRAMES, LEFT, STEP = 10, 20, 2
 DEPTH = "fx = 60.0\nfy = 60.0\ncx = 39.5\ncy = 29.5\n"
@@ -49,7 +50,7 @@ def opened(root):
 def test_color_is_registered_to_the_depth_image(walk):
     """The person's red is where the person's depth is, to a pixel."""
     one = opened(walk)
-    for frame in rgbd_people.registered(one, rgbd_people.color_camera(one)):
+    for frame in registered(one, color_camera(one)):
         person = frame.depth < 3
         red = (frame.color[..., 2] > 150) & (frame.color[..., 0] < 80)
         rows = slice(12, 48)
@@ -61,8 +62,8 @@ def test_without_a_color_camera_there_is_depth_alone(walk):
     """Without the calibration of both cameras, color can't be registered."""
     (walk / "intrinsics.toml").unlink()
     one = opened(walk)
-    assert rgbd_people.color_camera(one) is None
-    assert rgbd_people.registered(one, None)[0].channels == ("depth",)
+    assert color_camera(one) is None
+    assert registered(one, None)[0].channels == ("depth",)
 
 
 def test_boxes_are_jittered_within_limits():
