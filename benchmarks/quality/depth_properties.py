@@ -21,7 +21,13 @@ from pathlib import Path
 import numpy as np
 from tricue.scenes.rooms.scene import ROOM_KINDS
 
-from benchmarks.quality.common import depth_alignment, depth_holes, depth_precision, sequences, target_surround
+from benchmarks.quality.common import (
+    depth_alignment,
+    depth_holes,
+    depth_precision,
+    sequences,
+    target_surround,
+)
 from benchmarks.quality.common.arguments import add_output, bare_parser, seeds
 from benchmarks.quality.common.depth_recordings import DepthRecording, depth_of, gray_of, recorded, rendered
 from benchmarks.quality.common.depth_precision import DISTANCES
@@ -135,7 +141,10 @@ def _surround(recording: DepthRecording) -> Properties:
 
 def table(names: Sequence[str], columns: Sequence[Properties]) -> list[list[Cell]]:
     """A line per property: its name, its value in each recording, and the median of these."""
-    return [[name, *(each[name] for each in columns), _median([each[name] for each in columns])] for name in columns[0]]
+    return [
+        [name, *(each[name] for each in columns), _median([each[name] for each in columns])]
+        for name in columns[0]
+    ]
 
 
 def _median(values: Sequence[float] | np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
@@ -151,7 +160,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     made.add_argument("dataset", type=Path, nargs="?", default=folder, help="default %(default)s")
     made.add_argument("--shift", type=float, default=0.0, metavar="M", help="meters, default 0")
     made.add_argument("--rooms", nargs="+", choices=ROOM_KINDS, metavar="KIND", help="scenes instead")
-    made.add_argument("--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="of scenes, default 0:3")
+    made.add_argument(
+        "--seeds", type=seeds, default=seeds("0:3"), metavar="A:B", help="of scenes, default 0:3"
+    )
     add_output(made)
     options = made.parse_args(arguments)
     try:

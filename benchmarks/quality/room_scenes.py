@@ -81,7 +81,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(markdown(["tracker", *kinds, "mean", "difference", "recovered"], rows(results)))
     lines = [[each.kind, each.seed, each.tracker, auc(each), each.recovered] for each in results]
     write_csv(options.csv, CSV_COLUMNS, lines)
-    for trouble in dict.fromkeys(f"{each.tracker} on {each.kind}: {each.trouble}" for each in results if each.trouble):
+    for trouble in dict.fromkeys(
+        f"{each.tracker} on {each.kind}: {each.trouble}" for each in results if each.trouble
+    ):
         print(trouble, file=sys.stderr)
     return 0
 

@@ -16,8 +16,8 @@ MAX_SHIFT = 8
 BLOCKS = 3, 4
 """Rows and columns of parts of an image, each with a shift of its own."""
 MIN_EDGE_PIXELS = 120
-MIN_PEAK = 1.25
-"""The gradient at the best shift, as a multiple of the mean over all shifts; below it edges don't match."""
+MIN_PEAK = 1.5
+"""The gradient at the best shift, as a multiple of the mean over all shifts; noise reaches 1.3."""
 MAX_LAG = 3
 
 
@@ -82,11 +82,7 @@ def delay(edges: Sequence[Edges], slopes: Sequence[Array]) -> float:
     where the largest mean gradient, over small shifts, is highest.
     """
     lags = range(-MAX_LAG, MAX_LAG + 1)
-    at = [
-        index
-        for index in range(MAX_LAG, len(edges) - MAX_LAG)
-        if len(edges[index]) >= MIN_EDGE_PIXELS
-    ]
+    at = [index for index in range(MAX_LAG, len(edges) - MAX_LAG) if len(edges[index]) >= MIN_EDGE_PIXELS]
     if not at:
         return float("nan")
     surfaces = [np.mean([scores(edges[index], slopes[index + lag]) for index in at], axis=0) for lag in lags]

@@ -49,7 +49,9 @@ def look_around(depth: Array, box: Array, camera: Intrinsics) -> Surround | None
             (x, y + height, width, height / 2),
         )
     ]
-    left, right, above, below = (_share(np.abs(side[np.isfinite(side)] - distance) < tolerance) for side in sides)
+    left, right, above, below = (
+        _share(np.abs(side[np.isfinite(side)] - distance) < tolerance) for side in sides
+    )
     plane, high = _plane(depth, box, camera)
     return Surround(
         (left, right, above, below),

@@ -166,7 +166,9 @@ def test_disparity_is_focal_length_times_baseline_over_distance():
     true = made.rig.intrinsics.fx * made.rig.baseline / made.positions[0, 2]
     left, right = made.frames[0].color, made.frames[0].right
     strip = right[v - half - 2 : v + half + 3]
-    scores = cv2.matchTemplate(strip, left[v - half : v + half + 1, u - half : u + half + 1], cv2.TM_CCOEFF_NORMED)
+    scores = cv2.matchTemplate(
+        strip, left[v - half : v + half + 1, u - half : u + half + 1], cv2.TM_CCOEFF_NORMED
+    )
     row, column = np.unravel_index(scores.argmax(), scores.shape)
     assert scores.max() > 0.9
     assert u - half - column == pytest.approx(true, abs=1.5 + 0.1 * true)  # the target isn't flat

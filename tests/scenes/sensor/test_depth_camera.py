@@ -32,7 +32,9 @@ def wall(z):
     return np.full((120, 160), float(z))
 
 
-@pytest.mark.parametrize(("z", "inside"), [(0.39, False), (0.5, True), (7.9, True), (8.1, False), (np.inf, False)])
+@pytest.mark.parametrize(
+    ("z", "inside"), [(0.39, False), (0.5, True), (7.9, True), (8.1, False), (np.inf, False)]
+)
 def test_without_faults_it_measures_the_geometry(z, inside):
     """Depth as it is where it is in the range, else none."""
     found = measure(wall(z))

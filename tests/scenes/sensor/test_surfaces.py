@@ -50,7 +50,9 @@ def test_flying_pixels_are_between_at_edges_only(rng):
 def test_smear_blurs_edges(rng):
     """A step becomes a ramp of the told width."""
     step = np.diff(NONE._replace(smear=1.5).apply(scene(20), rng)[30, 34:46])
-    assert step.min() == pytest.approx(-1 / (1.5 * np.sqrt(2 * np.pi)), rel=0.05)  # of a Gaussian, at its middle
+    assert step.min() == pytest.approx(
+        -1 / (1.5 * np.sqrt(2 * np.pi)), rel=0.05
+    )  # of a Gaussian, at its middle
 
 
 @pytest.mark.parametrize("grain", [0.6, 2.0])

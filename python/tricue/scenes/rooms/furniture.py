@@ -53,9 +53,7 @@ def make_table(width: float, depth: float, rng: np.random.Generator) -> list[Thi
     return [Thing(top, plate, shiny), *(Thing(each, leg) for each in legs)]
 
 
-def scatter_things(
-    count: int, free: Array, area: Array, lamp: Lamp, rng: np.random.Generator
-) -> list[Thing]:
+def scatter_things(count: int, free: Array, area: Array, lamp: Lamp, rng: np.random.Generator) -> list[Thing]:
     """Things on the plane y = 0: boxes, cans, figures, flat papers and thin rods.
 
     free: (n, 3) x, z and radius, meters, of the places that stay free. area: half its width and depth (2,).

@@ -28,7 +28,9 @@ def print_picture(aspect: float, rng: np.random.Generator) -> Picture:
     top, left = (rng.random(2) * (np.array(picture.shape[:2]) - [rows, columns]).clip(0)).astype(int)
     part = picture[top : top + rows, left : left + columns]
     size = round(PRINT_TEXELS * min(aspect, 1.0)), round(PRINT_TEXELS * min(1 / aspect, 1.0))
-    return cv2.resize(part, (max(size[0], 8), max(size[1], 8)), interpolation=cv2.INTER_AREA).astype(np.float32)
+    return cv2.resize(part, (max(size[0], 8), max(size[1], 8)), interpolation=cv2.INTER_AREA).astype(
+        np.float32
+    )
 
 
 def cover(kinds: tuple[str, ...], rows: int, columns: int, rng: np.random.Generator) -> Picture:
@@ -42,7 +44,9 @@ def furniture_cover(rows: int, columns: int, rng: np.random.Generator) -> Pictur
     if rng.random() < 0.2:
         return tiles(rows, columns, rng)
     color = 0.5 * textures.random_color(rng) + rng.uniform(20, 120)
-    return textures.make_surface(FURNITURE_KINDS[rng.integers(len(FURNITURE_KINDS))], (rows, columns), color, rng)
+    return textures.make_surface(
+        FURNITURE_KINDS[rng.integers(len(FURNITURE_KINDS))], (rows, columns), color, rng
+    )
 
 
 def tiles(rows: int, columns: int, rng: np.random.Generator) -> Picture:

@@ -213,11 +213,15 @@ def return_elsewhere(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     gone, back = out + 0.15 * last, out + 0.45 * last
     here, there = (float(rng.choice([-1, 1])) for _ in range(2))
     beyond = 1.3 * made.half_view + made.thing.size[0] + 0.15
-    final = np.array([rng.choice([-1, 1]) * rng.uniform(0.25, 0.45), 0, rng.uniform(-0.2, 0.4)]) * made.half_view
+    final = (
+        np.array([rng.choice([-1, 1]) * rng.uniform(0.25, 0.45), 0, rng.uniform(-0.2, 0.4)]) * made.half_view
+    )
     knots = [out, gone, gone + 0.01, back, back + 0.15 * last]
     x = np.interp(made.time, knots, [0, here * beyond, there * beyond, there * beyond, final[0]])
     z = np.interp(made.time, knots, [0, 0.2 * final[2], final[2], final[2], final[2]])
-    lifted = np.interp(made.time, [out - 0.1, out + 0.1, back, back + 0.12 * last, last], [0, 0.08, 0.08, 0.04, 0])
+    lifted = np.interp(
+        made.time, [out - 0.1, out + 0.1, back, back + 0.12 * last, last], [0, 0.08, 0.08, 0.04, 0]
+    )
     path = made.place + np.column_stack([x, -lifted, z])
     poses = [Pose.at(at) for at in path]
     # The hand comes from beside, and goes when the target stands.
@@ -247,7 +251,10 @@ def walk_on_floor(camera: Intrinsics, rng: np.random.Generator) -> RoomPlan:
     desks = []
     for _ in range(int(rng.integers(2, 5))):
         at = np.array([rng.uniform(-2.5, 2.5), -TABLE_HEIGHT, back - rng.uniform(0.5, 1.2)])
-        set_table = [*make_table(1.4, 0.7, rng), *scatter_things(3, np.zeros((0, 3)), np.array([0.7, 0.35]), lamp, rng)]
+        set_table = [
+            *make_table(1.4, 0.7, rng),
+            *scatter_things(3, np.zeros((0, 3)), np.array([0.7, 0.35]), lamp, rng),
+        ]
         desks += [each._replace(solid=each.solid.placed(Pose.at(at))) for each in set_table]
     view = Viewpoint(np.array([0, -0.9, 3.2]), 3.2, 0.0, math.atan2(height - 0.9, 3.2))
     plan = RoomPlan(

@@ -73,7 +73,9 @@ class RoomStage:
             shiny &= ~covered
         alone = _empty(camera)
         self._draw(camera, alone, target, pose)
-        return _truth(RoomView(canvas.depth.astype(np.float64), mask, shiny), alone.depth, target.placed(pose), self.rig)
+        return _truth(
+            RoomView(canvas.depth.astype(np.float64), mask, shiny), alone.depth, target.placed(pose), self.rig
+        )
 
     def _still_view(self, pose: Pose) -> tuple[RayImage, Mask]:
         """A copy of what stands still, and which pixels of it are shiny."""

@@ -30,7 +30,10 @@ def make_thing(shape: str, side: float, lamp: Lamp, rng: np.random.Generator) ->
     if shape == "can":
         aspect = rng.uniform(0.5, 1.0)
         width, height = side * aspect**0.5, side / aspect**0.5
-        around, lid = looks.print_picture(np.pi * aspect, rng), looks.cover(looks.THING_KINDS[:1], 32, 32, rng)
+        around, lid = (
+            looks.print_picture(np.pi * aspect, rng),
+            looks.cover(looks.THING_KINDS[:1], 32, 32, rng),
+        )
         return Thing(make_can(width / 2, height, around, lid, lamp), np.array([width, height, width]), shiny)
     if shape == "figure":
         return _make_figure(side, rng)

@@ -40,9 +40,7 @@ class HoleField:
         self._shares, self._rng = shares, rng
         self._lasting = smooth_noise(shape, shares.grain, rng)
 
-    def next_holes(
-        self, depth: Array, gray: NDArray[np.uint8], shiny: Mask, intrinsics: Intrinsics
-    ) -> Mask:
+    def next_holes(self, depth: Array, gray: NDArray[np.uint8], shiny: Mask, intrinsics: Intrinsics) -> Mask:
         """The next frame's holes (H, W), of an exact z-buffer of finite depths, its brightness, and which pixels are shiny."""
         shares = self._shares
         chance = np.select(

@@ -18,7 +18,9 @@ class StereoFaults(NamedTuple):
     @classmethod
     def sample(cls, rng: np.random.Generator) -> "StereoFaults":
         """A gain between 0.75 and 1.33, and half a row to one, up or down."""
-        return cls(float(np.exp(rng.uniform(-0.29, 0.29))), float(rng.choice([-1, 1]) * rng.uniform(0.5, 1.0)))
+        return cls(
+            float(np.exp(rng.uniform(-0.29, 0.29))), float(rng.choice([-1, 1]) * rng.uniform(0.5, 1.0))
+        )
 
     def apply(self, picture: Picture) -> Picture:
         """The right image (H, W, 3), before noise, of one that is rectified and exposed as the left."""
