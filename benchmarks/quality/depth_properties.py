@@ -7,10 +7,10 @@
 A column per recording, or per scene of tricue.scenes.rooms. Color is registered to depth as in rgbd_people.
 "shadow": gaps in the depth beside the edges of near things, to the left and to the right of these; the
 baseline is what a gap's width makes of that between the camera and the projector. "flying pixels" lie between
-both surfaces of a step. "noise" is the lower quartile of deviations from a plane over patches of 11x11 pixels,
-its "grain" the correlation between neighbors. "edges" are shifts that lay edges of depth on those of color, in
-twelve parts of the image. "same depth": share of the measured pixels on a side of the target, half a box
-wide, that are within 0.1 m or 5 % of its depth. "plane": share of the surround on one plane.
+both surfaces of a step. "noise" is the lower quartile of deviations from a plane over patches of 11x11
+pixels, its "grain" the correlation between neighbors. "edges" are shifts that lay edges of depth on those of
+color, in twelve parts of the image. "same depth": share of the measured pixels on a side of the target, half
+a box wide, that are within 0.1 m or 5 % of its depth. "plane": share of the surround on one plane.
 """
 
 import sys
@@ -29,8 +29,8 @@ from benchmarks.quality.common import (
     target_surround,
 )
 from benchmarks.quality.common.arguments import add_output, bare_parser, seeds
-from benchmarks.quality.common.depth_recordings import DepthRecording, depth_of, gray_of, recorded, rendered
 from benchmarks.quality.common.depth_precision import DISTANCES
+from benchmarks.quality.common.depth_recordings import DepthRecording, depth_of, gray_of, recorded, rendered
 from benchmarks.quality.common.parallel import run_parallel
 from benchmarks.quality.common.tables import Cell, markdown, write_csv
 

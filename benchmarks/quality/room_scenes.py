@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trackers in rendered rooms, tricue.scenes.rooms: targets, surrounds and sensors are as recordings have them.
+"""Trackers in rendered rooms, tricue.scenes.rooms, whose targets, surrounds and sensors are as real ones.
 
     python -m benchmarks.quality.room_scenes --jobs 2
     python -m benchmarks.quality.room_scenes --channels stereo --trackers fused:color fused CSRT
@@ -45,13 +45,15 @@ def auc(result: SceneResult) -> float:
 
 def rows(results: Sequence[SceneResult]) -> list[list[Cell]]:
     """A line per tracker: the mean AUC of each kind and of all, the difference, recovered."""
-    kinds, trackers = ([*dict.fromkeys(each[i] for each in results)] for i in (1, 0))
-    by_scene = {(each.tracker, each.kind, each.seed): auc(each) for each in results}
+    trackers = [*dict.fromkeys(each.tracker for each in results)]
+    kinds = [*dict.fromkeys(each.kind for each in results)]
+    aucs = {(each.tracker, each.kind, each.seed): auc(each) for each in results}
     scenes = [*dict.fromkeys((each.kind, each.seed) for each in results)]
     lines: list[list[Cell]] = []
     for tracker in trackers:
-        means = [mean([by_scene[tracker, *scene] for scene in scenes if scene[0] == kind]) for kind in kinds]
-        against = [by_scene[tracker, *scene] - by_scene[trackers[0], *scene] for scene in scenes]
+        own = {scene: aucs[tracker, scene[0], scene[1]] for scene in scenes}
+        means = [mean([value for scene, value in own.items() if scene[0] == kind]) for kind in kinds]
+        against = [own[kind, seed] - aucs[trackers[0], kind, seed] for kind, seed in scenes]
         interval = mean_interval(against, [f"{kind} {seed}" for kind, seed in scenes])
         difference = f"{interval.mean:+.3f} ({interval.low:+.3f} to {interval.high:+.3f})"
         recovered = mean([each.recovered for each in results if each.tracker == tracker])
@@ -79,7 +81,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         made.error("--trackers: expected one that can use the channels")
     kinds = dict.fromkeys(each.kind for each in results)
     print(markdown(["tracker", *kinds, "mean", "difference", "recovered"], rows(results)))
-    lines = [[each.kind, each.seed, each.tracker, auc(each), each.recovered] for each in results]
+    lines: list[list[Cell]] = [
+        [each.kind, each.seed, each.tracker, auc(each), each.recovered] for each in results
+    ]
     write_csv(options.csv, CSV_COLUMNS, lines)
     for trouble in dict.fromkeys(
         f"{each.tracker} on {each.kind}: {each.trouble}" for each in results if each.trouble

@@ -33,7 +33,8 @@ class DepthRecording(NamedTuple):
     def every(self, count: int) -> list[int]:
         """At most ``count`` frames' numbers, evenly spaced."""
         last = len(self.frames) - 1
-        return np.unique(np.linspace(0, last, min(count, last + 1)).round().astype(int)).tolist()
+        spread = np.linspace(0, last, min(count, last + 1)).round()
+        return [int(number) for number in np.unique(spread)]
 
 
 def gray_of(frame: Frame) -> NDArray[np.uint8]:

@@ -81,8 +81,8 @@ def _plane(depth: Array, box: Array, camera: Intrinsics) -> tuple[float, float]:
     points, target = (camera.back_project(u[part], v[part], depth[part]) for part in (around, inner))
     rng = np.random.default_rng(0)
     best, normal, offset = 0, np.zeros(3), 0.0
-    for _ in range(PLANE_TRIES):
-        a, b, c = points[rng.choice(len(points), 3, replace=False)]
+    for three in rng.integers(len(points), size=(PLANE_TRIES, 3)).tolist():
+        a, b, c = points[three]
         cross = np.cross(b - a, c - a)
         size = float(np.linalg.norm(cross))
         if size < 1e-9:

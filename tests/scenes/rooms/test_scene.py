@@ -160,7 +160,7 @@ def test_channels_share_color_and_truth():
 def test_disparity_is_focal_length_times_baseline_over_distance():
     """A patch of the target is found in the right image at f b / z, in the same rows."""
     made = room_scene("table", 0, (160, 120), "stereo", frames=1, noise=0.0, stereo_faults=EQUAL)
-    x, y, width, height = made.boxes[0]
+    width, height = made.boxes[0, 2:]
     u, v = made.intrinsics.project(made.positions[0]).round().astype(int)
     half = int(min(width, height) / 4)
     true = made.rig.intrinsics.fx * made.rig.baseline / made.positions[0, 2]

@@ -24,11 +24,13 @@ NONE = DepthFaults(
 
 
 def measure(depth, **faults):
+    """One frame by a camera without faults but these."""
     camera = FaultyDepthCamera(CAMERA, NONE._replace(**faults), np.random.default_rng(0))
     return camera.measure(depth, GRAY, MATT)
 
 
 def wall(z):
+    """Before the whole image."""
     return np.full((120, 160), float(z))
 
 

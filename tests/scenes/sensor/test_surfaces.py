@@ -8,6 +8,7 @@ NONE = SurfaceFaults(thin=1, ragged=0.0, smear=0.0, flying=0.0)
 
 @pytest.fixture
 def rng():
+    """The same for each test."""
     return np.random.default_rng(0)
 
 

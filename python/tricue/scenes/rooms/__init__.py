@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Rooms: targets that stand, lean, walk and are held, before a depth camera or stereo pair with real faults."""
+"""Rooms: targets that stand, lean, walk and are held, before cameras with the faults of real ones."""

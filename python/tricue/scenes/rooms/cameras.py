@@ -15,7 +15,7 @@ TREMBLE = 0.004  # radians, of a camera held by a hand
 
 
 class Viewpoint(NamedTuple):
-    """A camera that looks at a point (3,) from a distance in meters. azimuth, pitch: radians, pitch downward."""
+    """A camera that looks at a point (3,) from a distance in meters. azimuth, pitch (downward): radians."""
 
     look_at: Array
     distance: float

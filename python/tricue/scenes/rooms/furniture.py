@@ -16,7 +16,8 @@ MIN_CLEARANCE = 0.04  # meters between things on a table
 
 def make_shell(floor: float, back: float, front: float, rng: np.random.Generator) -> list[Thing]:
     """A floor at y = ``floor`` and walls behind, left and right, from z = ``front`` to ``back``, as boxes,
-    and windows or screens."""
+    and windows or screens.
+    """
     deep, thick = back - front, 0.1
     middle = (front + back) / 2
     wall, ground = looks.furniture_cover(256, 512, rng), looks.furniture_cover(384, 512, rng)

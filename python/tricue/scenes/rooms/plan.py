@@ -2,7 +2,7 @@
 """What happens in a room: the target's place in each frame, whose hand is on it, and what passes."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -102,11 +102,11 @@ def _set_table(
     thing = make_thing(shape, side, lamp, rng)
     distance = side * camera.fy / (camera.height * rng.uniform(MIN_SHARE, MAX_SHARE))
     distance = float(np.clip(distance, MIN_DISTANCE, MAX_DISTANCE))
-    table = np.array([rng.uniform(1.2, 2.0), rng.uniform(0.8, 1.2)])
-    place = np.array([rng.uniform(-0.25, 0.25), 0, rng.uniform(-0.2, 0.25) * table[1]])
-    back = table[1] / 2 + float(rng.choice([0.02, rng.uniform(0.3, 2.5)]))
+    width, depth = rng.uniform([1.2, 0.8], [2.0, 1.2]).tolist()
+    place = np.array([rng.uniform(-0.25, 0.25), 0, rng.uniform(-0.2, 0.25) * depth])
+    back = depth / 2 + float(rng.choice([0.02, rng.uniform(0.3, 2.5)]))
     if against_wall:
-        back = table[1] / 2 + 0.02
+        back = depth / 2 + 0.02
         place[2] = back - 0.01
     look_at = place + [0, -thing.size[1] / 2, 0] + rng.uniform(-0.12, 0.12, 3) * distance
     view = Viewpoint(look_at, distance, rng.uniform(-0.4, 0.4), math.radians(rng.uniform(14, 60)))
@@ -114,9 +114,13 @@ def _set_table(
         view = view._replace(pitch=math.radians(rng.uniform(10, 35)))
     radius = float(np.hypot(*thing.size[[0, 2]])) / 2 + free
     others = scatter_things(
-        int(rng.integers(*CLUTTER)), np.array([[*place[[0, 2]], radius]]), table / 2, lamp, rng
+        int(rng.integers(*CLUTTER)),
+        np.array([[*place[[0, 2]], radius]]),
+        np.array([width, depth]) / 2,
+        lamp,
+        rng,
     )
-    still = [*make_shell(TABLE_HEIGHT, back, -4.0, rng), *make_table(*table.tolist(), rng), *others]
+    still = [*make_shell(TABLE_HEIGHT, back, -4.0, rng), *make_table(width, depth, rng), *others]
     half_view = distance * camera.width / camera.fx / 2
     return _Table(rng, float(rng.choice([15, 30])), lamp, thing, place, view, still, half_view)
 

@@ -50,8 +50,8 @@ class RoomScene:
     visible: Array
     """(N,) share of the target's pixels that are visible; those beyond the image count as hidden."""
     positions: Array
-    """(N, 3) meters in the camera's frame: the mean of the surface points at the target's pixels, as if nothing
-    hid it. NaN where the box is NaN."""
+    """(N, 3) meters in the camera's frame: the mean of the surface points at the target's pixels, as if
+    nothing hid it. NaN where the box is NaN."""
     masks: tuple[Mask, ...]
     """(H, W) each: the target's visible pixels."""
     spans: dict[str, range]
@@ -153,7 +153,12 @@ class _Recorder:
                 images["right"] = self._expose(index, noises[1], right=True)
             if depths is not None:
                 images["depth"] = depths[index]
-            yield Frame(**images, timestamp=index / self.stage.plan.rate)
+            yield Frame(
+                images.get("color"),
+                images.get("depth"),
+                images.get("right"),
+                timestamp=index / self.stage.plan.rate,
+            )
 
     def _expose(self, index: int, rng: np.random.Generator, right: bool = False) -> NDArray[np.uint8]:
         picture = self.stage.picture(index, right)

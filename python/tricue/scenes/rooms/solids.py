@@ -3,6 +3,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -82,7 +83,7 @@ class Solid(NamedTuple):
         camera.draw_ellipsoids(canvas, [TexturedEllipsoid(*ball) for ball in balls], lamp)
 
     def box(self, camera: Intrinsics) -> Array:
-        """The box (4,) around the thing's image, hidden parts included; NaN where a part is behind the camera."""
+        """The box (4,) around the thing's image, hidden parts included; NaN if partly behind the camera."""
         sides = []
         if self.faces:
             steps = np.array([[0, 0], [1, 0], [0, 1], [1, 1]])
@@ -103,7 +104,7 @@ class Solid(NamedTuple):
 
 
 def _faces_away_from(face: TexturedRectangle, center: Array) -> bool:
-    """Whether along x down, which points inward, points away from a camera; np.cross is slow for so little."""
+    """Whether along x down, which points inward, points away from a camera; np.cross takes much longer."""
     (ax, ay, az), (dx, dy, dz), (x, y, z) = (
         each.tolist() for each in (face.along, face.down, face.corner - center)
     )
@@ -138,11 +139,11 @@ def make_box(size: Array, pictures: Sequence[Picture]) -> Solid:
 
 
 def make_can(radius: float, height: float, picture: Picture, lid: Picture, lamp: Lamp) -> Solid:
-    """A can, meters, that stands on y = 0 about the origin. picture: all around, of the front in its middle."""
+    """A can, meters, that stands on y = 0 about the origin. picture: all around, the front in its middle."""
     edges = np.linspace(0, picture.shape[1], CAN_SIDES + 1).round().astype(int)
     half, inner = radius * math.tan(math.pi / CAN_SIDES) * SEAM, radius
     faces = []
-    for number, (first, last) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for number, (first, last) in enumerate(pairwise(edges.tolist())):
         angle = 2 * math.pi * ((number + 0.5) / CAN_SIDES - 0.5)  # 0 is the front
         out = np.array([math.sin(angle), 0, -math.cos(angle)])
         along = np.array([math.cos(angle), 0, math.sin(angle)])

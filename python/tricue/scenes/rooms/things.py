@@ -50,8 +50,9 @@ def make_thing(shape: str, side: float, lamp: Lamp, rng: np.random.Generator) ->
 def make_hand(forearm: Array, clasped: Array, length: float, rng: np.random.Generator) -> Solid:
     """A hand that holds a thing whose middle is the origin, and its arm.
 
-    forearm: unit vector (3,) from the thing along the arm, mostly sideways. clasped: the thing's width, height
-    and depth (3,), meters. length: of the sleeve, meters. The palm is at the thing's side, the fingers reach before its front.
+    forearm: unit vector (3,) from the thing along the arm, mostly sideways. clasped: the thing's width,
+    height and depth (3,), meters. length: of the sleeve, meters. The palm is at the thing's side, the fingers
+    reach before its front.
     """
     tone = textures.SKIN_TONES[rng.integers(len(textures.SKIN_TONES))]
     skin = textures.build_pyramid(textures.make_skin((64, 64), tone, rng))

@@ -83,8 +83,8 @@ class FaultyDepthCamera:
     def measure(self, depth: Array, gray: NDArray[np.uint8], shiny: Mask) -> NDArray[np.float32]:
         """The depth image (H, W), meters, NaN where nothing was measured.
 
-        depth: the exact z-buffer in the color image's pixels, infinite where nothing is. gray: the color image's brightness. shiny:
-        pixels that reflect the projector's light away.
+        depth: the exact z-buffer in the color image's pixels, infinite where nothing is. gray: the color
+        image's brightness. shiny: pixels that reflect the projector's light away.
         """
         faults, depth = self._faults, np.minimum(depth, BEYOND)
         holes = cast_shadow(depth, self._intrinsics.fx, faults.baseline)
@@ -114,7 +114,7 @@ class FaultyDepthCamera:
             borderValue=math.nan,
         )
         beside, over = (round(self._faults.margin * side) for side in (width, height))
-        framed = np.full_like(moved, np.nan)
+        framed = np.full(depth.shape, np.nan, np.float32)
         inside = slice(over, height - over), slice(beside, width - beside)
         framed[inside] = moved[inside]
         return framed

@@ -41,7 +41,10 @@ class HoleField:
         self._lasting = smooth_noise(shape, shares.grain, rng)
 
     def next_holes(self, depth: Array, gray: NDArray[np.uint8], shiny: Mask, intrinsics: Intrinsics) -> Mask:
-        """The next frame's holes (H, W), of an exact z-buffer of finite depths, its brightness, and which pixels are shiny."""
+        """The next frame's holes (H, W).
+
+        depth: an exact z-buffer of finite depths. gray: its brightness. shiny: which pixels are.
+        """
         shares = self._shares
         chance = np.select(
             [shiny, gray < MAX_DARK, gray > MIN_BRIGHT],

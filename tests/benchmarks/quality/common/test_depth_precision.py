@@ -18,8 +18,9 @@ def test_quantization_is_the_levels_distance(z):
 
 @pytest.mark.parametrize(("grain", "low"), [(0.0, 0.9), (0.8, 0.75)])
 def test_noise_about_tilted_planes(grain, low):
-    """The lower quartile of planes' deviations is a little under the noise's; edges don't count. The correlation
-    between neighbors is exp(-1 / (4 grain²)) of blurred noise, less the low frequencies that planes take.
+    """The lower quartile of planes' deviations is a little under the noise's; edges don't count. The
+    correlation between neighbors is exp(-1 / (4 grain²)) of blurred noise, less the low
+    frequencies that planes take.
     """
     rng = np.random.default_rng(1)
     noise = rng.standard_normal((30 * PATCH, 40 * PATCH))

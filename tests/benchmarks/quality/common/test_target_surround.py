@@ -10,7 +10,7 @@ BOX = np.array([100.0, 60, 40, 50])
 
 
 def floor_and_wall(foot, distance, wall=2.0):
-    """A floor that is ``distance`` away in the row ``foot``, whose 1/z grows by a tenth in 40 rows, and a wall."""
+    """A floor that is ``distance`` away in the row ``foot``, its 1/z a tenth more 40 rows below; a wall."""
     inverse = (1 + (np.arange(180) - foot) / 400) / distance
     return np.tile(np.minimum(1 / inverse, wall)[:, None], (1, 240))
 
