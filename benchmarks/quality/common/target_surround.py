@@ -78,7 +78,7 @@ def _plane(depth: Array, box: Array, camera: Intrinsics) -> tuple[float, float]:
     inner = known & (across < 0.25) & (down < 0.25)
     if around.sum() < MIN_POINTS or not inner.any():
         return float("nan"), float("nan")
-    points, target = (camera.back_project(u[part], v[part], depth[part]) for part in (around, inner))
+    points, target = (_points(depth, part, camera) for part in (around, inner))
     rng = np.random.default_rng(0)
     best, normal, offset = 0, np.zeros(3), 0.0
     for three in rng.integers(len(points), size=(PLANE_TRIES, 3)).tolist():
@@ -91,6 +91,12 @@ def _plane(depth: Array, box: Array, camera: Intrinsics) -> tuple[float, float]:
         if count > best:
             best, normal, offset = count, cross / size, float(a @ cross / size)
     return best / len(points), float(np.median(np.abs(target @ normal - offset)))
+
+
+def _points(depth: Array, part: NDArray[np.bool_], camera: Intrinsics) -> Array:
+    """The points (n, 3) of some pixels."""
+    rows, columns = np.nonzero(part)
+    return camera.back_project(columns, rows, depth[part])
 
 
 def _part(image: Array, x: float, y: float, width: float, height: float) -> Array:

@@ -36,7 +36,7 @@ def scene(kind, seed=0, frames=None, faults=CLEAN):
     return room_scene(kind, seed, SIZE, "depth", frames=frames, noise=0.0, depth_faults=faults)
 
 
-@pytest.mark.parametrize("kind", ["table", "walker"])
+@pytest.mark.parametrize("kind", ["table", "returning"])
 def test_seed_decides_everything(kind):
     """One seed gives one scene bit for bit, another seed another one."""
     first, again, other = (room_scene(kind, seed, SIZE, "rgbd", frames=3) for seed in (1, 1, 2))
@@ -122,9 +122,8 @@ def test_a_hand_is_on_what_it_holds():
 
 def test_walkers_come_at_few_frames_per_second():
     """Four or fifteen; at four a person moves by tenths of a meter per frame."""
-    rates = {seed: scene("walker", seed, 1).rate for seed in range(6)}
-    assert set(rates.values()) == {4.0, 15.0}
-    made = scene("walker", next(seed for seed, rate in rates.items() if rate == 4), 6)
+    made, faster = scene("walker", 0, 4), scene("walker", 1, 1)
+    assert (made.rate, faster.rate) == (4, 15)
     steps = np.linalg.norm(np.diff(made.positions, axis=0), axis=1)
     assert 0.07 < np.nanmedian(steps) < 0.5
     assert [frame.timestamp for frame in made.frames[:3]] == [0, 0.25, 0.5]
@@ -133,18 +132,18 @@ def test_walkers_come_at_few_frames_per_second():
 def test_late_depth_shows_the_frame_before():
     """With a delay of one frame, depth is that of the last frame; with -1, of the next."""
     on_time, late, early = (
-        np.stack([frame.depth for frame in scene("walker", 0, 5, CLEAN._replace(delay=delay)).frames])
+        np.stack([frame.depth for frame in scene("held", 0, 5, CLEAN._replace(delay=delay)).frames])
         for delay in (0, 1, -1)
     )
     assert np.nanmax(np.abs(late[1:] - on_time[:-1])) == 0
     assert np.nanmax(np.abs(early[:-1] - on_time[1:])) == 0
-    assert np.nanmax(np.abs(on_time[1:] - on_time[:-1])) > 0.1
+    assert np.nanmax(np.abs(on_time[1:] - on_time[:-1])) > 0.01
 
 
 def test_channels_share_color_and_truth():
     """Whatever is asked for, the color images, the depths and the truth of a seed are the same."""
     color, rgbd, stereo, depth = (
-        room_scene("walker", 1, SIZE, channels, frames=2) for channels in ("color", "rgbd", "stereo", "depth")
+        room_scene("table", 1, SIZE, channels, frames=2) for channels in ("color", "rgbd", "stereo", "depth")
     )
     for made, channels in ((rgbd, ("color", "depth")), (stereo, ("color", "right")), (depth, ("depth",))):
         assert {frame.channels for frame in made.frames} == {channels}

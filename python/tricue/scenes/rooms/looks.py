@@ -10,6 +10,8 @@ from tricue.scenes.rendering.photographs import load_photograph
 
 PRINTS = ("astronaut", "coffee", "cat", "motorcycle", "immunohistochemistry", "rocket")
 PRINT_TEXELS = 128  # of a print's longer side
+TILED_SHARE, TEXTURELESS_SHARE = 0.2, 0.4  # of walls, floors and tables
+FAINT_CONTRAST = 0.1  # of what has no texture, against what has
 FURNITURE_KINDS = (textures.PLAIN_SURFACE, textures.PLAIN_SURFACE, textures.WOOD_SURFACE)
 THING_KINDS = (
     textures.PLAIN_SURFACE,
@@ -40,13 +42,15 @@ def cover(kinds: tuple[str, ...], rows: int, columns: int, rng: np.random.Genera
 
 
 def furniture_cover(rows: int, columns: int, rng: np.random.Generator) -> Picture:
-    """The surface of a wall, a floor or a table: plain or wood; of five, one is tiled."""
-    if rng.random() < 0.2:
+    """The surface of a wall, a floor or a table: plain or wood; one of five is tiled, two have no texture."""
+    draw = rng.random()
+    if draw < TILED_SHARE:
         return tiles(rows, columns, rng)
     color = 0.5 * textures.random_color(rng) + rng.uniform(20, 120)
-    return textures.make_surface(
-        FURNITURE_KINDS[rng.integers(len(FURNITURE_KINDS))], (rows, columns), color, rng
-    )
+    structure = FURNITURE_KINDS[rng.integers(len(FURNITURE_KINDS))]
+    surface = textures.make_surface(structure, (rows, columns), color, rng)
+    contrast = FAINT_CONTRAST if draw < TILED_SHARE + TEXTURELESS_SHARE else 1.0
+    return np.asarray(color + np.float32(contrast) * (surface - color), np.float32)
 
 
 def tiles(rows: int, columns: int, rng: np.random.Generator) -> Picture:
