@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from tricue.scenes.rooms.cameras import Viewpoint, hold, stand
@@ -34,7 +36,7 @@ def test_a_stand_stays_and_a_hand_moves():
     assert np.ptp(eyes, axis=0).max() > 0.05
     turns = [
         np.degrees(np.arccos(np.clip((np.trace(a.rotation @ b.rotation.T) - 1) / 2, -1, 1)))
-        for a, b in zip(poses[:-1], poses[1:], strict=True)
+        for a, b in pairwise(poses)
     ]
     assert 0.05 < np.median(turns) < 3
     seen = np.array([pose.points(VIEW.look_at) for pose in poses])

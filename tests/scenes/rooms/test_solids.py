@@ -31,7 +31,7 @@ def box_depth(size, pose):
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_box_is_closed_from_all_sides(seed):
-    """Its faces, those turned away left out, are what rays meet that enter a box, but for pixels at its border."""
+    """Its faces, those turned away left out, are what rays meet that enter a box, but at its border."""
     rng = np.random.default_rng(seed)
     size = rng.uniform(0.2, 0.5, 3)
     pose = Pose.at(np.array([0.05, 0.1, 1.5]), *rng.uniform(-3, 3, 3))
