@@ -57,7 +57,7 @@ class DepthFaults(NamedTuple):
             noise=rng.uniform(0.5e-3, 1.4e-3),
             grain=rng.uniform(0.5, 0.85),
             baseline=float(rng.choice([1, 1, -1])) * rng.uniform(0.03, 0.075),
-            surfaces=SurfaceFaults(thin, ragged, smear, rng.uniform(0.01, 0.1)),
+            surfaces=SurfaceFaults(thin, ragged, smear, rng.uniform(0.0, 0.03)),
             holes=HoleShares(
                 dark=rng.uniform(0.02, 0.3),
                 medium=rng.uniform(0.0, 0.01),
