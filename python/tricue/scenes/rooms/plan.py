@@ -25,6 +25,7 @@ MIN_SHARE, MAX_SHARE = 0.12, 0.36  # of the image's height that a target on a ta
 MIN_DISTANCE, MAX_DISTANCE = 0.5, 2.0  # meters to a target on a table
 CLUTTER = 5, 12  # how many things are on a table
 MIN_SLEEVE = 0.5  # meters
+ROOM_SIDE = 2.6  # meters to each side that people walk
 GRIP_SHARE = 0.5  # of a thing's height, where a hand holds it
 
 
@@ -276,7 +277,6 @@ def _walker(area: walks.WalkableArea, frames: int, rate: float, rng: np.random.G
     return [Solid((), parts, tuple(person.part_textures)) for parts in person.parts]
 
 
-ROOM_SIDE = 2.6  # meters to each side that people walk
 ROOM_PLANS: dict[str, Callable[[Intrinsics, np.random.Generator], RoomPlan]] = {
     "table": stand_on_table,
     "leaning": lean_on_wall,
