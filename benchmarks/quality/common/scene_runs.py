@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Trackers on one stress scene: overlaps, position errors, and their behavior at the scene's events."""
+"""Trackers on one rendered scene: overlaps, position errors, and their behavior at the scene's events."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -8,6 +8,7 @@ import numpy as np
 from tricue.camera.box import Box
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.one_pass import Run
+from tricue.scenes.rooms.scene import RoomScene
 from tricue.scenes.stress.scene import StressScene, stress_scene
 from tricue.track.base.track import Status
 
@@ -75,7 +76,7 @@ def channels_of(name: str) -> tuple[str, ...]:
     return {"rgbd": ("color", "depth"), "stereo": ("color", "right")}.get(name, (name,))
 
 
-def run_variant(variant: Variant, scene: StressScene, channels: str) -> SceneResult:
+def run_variant(variant: Variant, scene: StressScene | RoomScene, channels: str) -> SceneResult:
     """One tracker from the first true box on."""
     names = channels_of(channels)
     inputs = Inputs(names, scene.intrinsics if "depth" in names else None, scene.rig)
@@ -96,7 +97,7 @@ def run_variant(variant: Variant, scene: StressScene, channels: str) -> SceneRes
     )
 
 
-def recovered(run: Run, scene: StressScene) -> float:
+def recovered(run: Run, scene: StressScene | RoomScene) -> float:
     """Share of the events "leaving" and "hidden" after which the overlap is above 0.5 in one of the first
     MAX_RECOVERY_FRAMES with the target wholly visible; NaN without such an event.
     """
@@ -109,7 +110,7 @@ def recovered(run: Run, scene: StressScene) -> float:
     return float(np.mean(answers)) if answers else float("nan")
 
 
-def _first_whole(scene: StressScene, event: str) -> int | None:
+def _first_whole(scene: StressScene | RoomScene, event: str) -> int | None:
     """The first frame with the whole target after an event's last one without it; None where none is."""
     gone = _absent(scene, event)
     if not gone:
@@ -118,7 +119,7 @@ def _first_whole(scene: StressScene, event: str) -> int | None:
     return None if not whole.size else gone[-1] + 1 + int(whole[0])
 
 
-def faithful(run: Run, scene: StressScene) -> float:
+def faithful(run: Run, scene: StressScene | RoomScene) -> float:
     """1 where no look-alike was TRACKED for more than MAX_LOOKALIKE_FRAMES in a row, else 0; NaN without
     look-alikes.
     """
@@ -140,7 +141,7 @@ def longest_run(flags: Flags) -> int:
     return most
 
 
-def reported_lost(run: Run, scene: StressScene) -> float:
+def reported_lost(run: Run, scene: StressScene | RoomScene) -> float:
     """1 where LOST was reported in one of the first MAX_LOST_DELAY frames of the event "blank" without the
     target, else 0; NaN without the event.
     """
@@ -150,6 +151,6 @@ def reported_lost(run: Run, scene: StressScene) -> float:
     return float(Status.LOST in run.statuses[gone[0] : gone[0] + MAX_LOST_DELAY])
 
 
-def _absent(scene: StressScene, event: str) -> list[int]:
+def _absent(scene: StressScene | RoomScene, event: str) -> list[int]:
     """The frames of an event in which nothing of the target is visible."""
     return [index for index in scene.spans.get(event, range(0)) if scene.visible[index] <= 0]

@@ -1,31 +1,35 @@
 # SPDX-License-Identifier: MIT
 """Rendered scenes with exact truth.
 
-The face scenes and the stress scenes use photographs of scikit-image (``pip install tricue[demo]``). The
-others need only NumPy and OpenCV: people before a depth camera, a head before a stereo pair, and walkers
-before a panning stereo pair.
+The face scenes, the stress scenes and the rooms use photographs of scikit-image (``pip install
+tricue[demo]``). The others need only NumPy and OpenCV: people before a depth camera, a head before a stereo
+pair, and walkers before a panning stereo pair.
 """
 
 from tricue.former_names import attributes
 from tricue.scenes.faces.clutter import face_over_clutter
 from tricue.scenes.faces.light_change import light_change
+from tricue.scenes.files import write_sequence
 from tricue.scenes.heads.head import HEAD_KINDS, head
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
 from tricue.scenes.people.walkers import crossing, walker
 from tricue.scenes.rendering.photographs import BACKGROUNDS
+from tricue.scenes.rooms.scene import ROOM_CHANNELS, ROOM_KINDS, RoomScene, room_scene
 from tricue.scenes.scene import Bystander, DepthScene, Events, Scene, StereoScene, WalkScene
-from tricue.scenes.stress.files import write_sequence
 from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS, StressScene, stress_scene
 
 __all__ = [
     "BACKGROUNDS",
     "HEAD_KINDS",
     "OVERTAKING_KINDS",
+    "ROOM_CHANNELS",
+    "ROOM_KINDS",
     "STRESS_CHANNELS",
     "STRESS_KINDS",
     "Bystander",
     "DepthScene",
     "Events",
+    "RoomScene",
     "Scene",
     "StereoScene",
     "StressScene",
@@ -35,6 +39,7 @@ __all__ = [
     "head",
     "light_change",
     "overtaking",
+    "room_scene",
     "stress_scene",
     "walker",
     "write_sequence",

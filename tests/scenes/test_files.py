@@ -5,7 +5,8 @@ import pytest
 pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
 
 from tricue.evaluation.dataset import find_entries
-from tricue.scenes.stress.files import write_sequence
+from tricue.scenes.files import write_sequence
+from tricue.scenes.rooms.scene import room_scene
 from tricue.scenes.stress.scene import stress_scene
 
 
@@ -38,9 +39,9 @@ def test_what_is_written_is_read_back(tmp_path, channels):
         assert opened.registered
 
 
-def clipped(box):
-    """The part of a box in 160x120 pixels."""
-    ends = np.clip([box[:2], box[:2] + box[2:]], 0, [160, 120])
+def clipped(box, width=160, height=120):
+    """The part of a box in the image."""
+    ends = np.clip([box[:2], box[:2] + box[2:]], 0, [width, height])
     return np.concatenate([ends[0], ends[1] - ends[0]])
 
 
@@ -61,3 +62,15 @@ def test_a_full_folder_is_refused(tmp_path):
     write_sequence(made, tmp_path)
     with pytest.raises(FileExistsError, match="expected a new or an empty folder"):
         write_sequence(made, tmp_path)
+
+
+def test_a_room_is_read_back_at_its_rate(tmp_path):
+    """A room's frames, truth and low frame rate."""
+    made = room_scene("walker", 1, (96, 80), "rgbd", frames=3)
+    write_sequence(made, tmp_path / "room")
+    (entry,) = find_entries(tmp_path)
+    opened = entry.open()
+    frames = tuple(opened.source)
+    assert [frame.timestamp for frame in frames] == pytest.approx([0, 1 / made.rate, 2 / made.rate])
+    assert np.array_equal(frames[2].depth, made.frames[2].depth, equal_nan=True)
+    assert opened.truth(3) == pytest.approx(np.array([clipped(box, 96, 80) for box in made.boxes]), abs=1e-4)

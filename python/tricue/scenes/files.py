@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes a stress scene as a folder that ``tricue evaluate`` and ``tricue track`` read."""
+"""Writes a stress scene or a room as a folder that ``tricue evaluate`` and ``tricue track`` read."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.box_table import BOX_TABLE
 from tricue.data.open_source import CALIBRATION_FILE
 from tricue.data.vot import SEQUENCE_FILE
-from tricue.scenes.stress.events import STRESS_FRAME_RATE
+from tricue.scenes.rooms.scene import RoomScene
 from tricue.scenes.stress.scene import StressScene
 
 TABLE_HEADER = "frame,x,y,width,height,X_m,Y_m,Z_m"
@@ -20,7 +20,7 @@ RIG_FILE = "calibration.yml"
 MIN_WRITTEN_SIDE = 1.0  # pixels; smaller boxes aren't written
 
 
-def write_sequence(scene: StressScene, folder: str | Path) -> None:
+def write_sequence(scene: StressScene | RoomScene, folder: str | Path) -> None:
     """Write a scene's images without loss, its true boxes and positions, and its camera's calibration.
 
     A stereo pair goes to left/ and right/ with calibration.yml. Other scenes become a sequence of VOT with
@@ -47,7 +47,7 @@ def write_sequence(scene: StressScene, folder: str | Path) -> None:
         (folder / CALIBRATION_FILE).write_text(_toml(scene.intrinsics))
         lines = [f"channels.{channel}={channel}/%08d.png" for channel in channels]
         (folder / SEQUENCE_FILE).write_text(
-            "\n".join([*lines, f"fps={STRESS_FRAME_RATE:g}", f"name={scene.name}"]) + "\n"
+            "\n".join([*lines, f"fps={_rate(scene):g}", f"name={scene.name}"]) + "\n"
         )
 
 
@@ -59,7 +59,13 @@ def _write(path: Path, image: NDArray[np.uint8] | NDArray[np.float32]) -> None:
         raise OSError(f"{path}: can't be written")
 
 
-def _table(scene: StressScene, clipped: bool) -> str:
+def _rate(scene: StressScene | RoomScene) -> float:
+    """Frames per second, by the last frame's time."""
+    last = scene.frames[-1].timestamp
+    return (len(scene.frames) - 1) / last if last else 1.0
+
+
+def _table(scene: StressScene | RoomScene, clipped: bool) -> str:
     size = scene.intrinsics.width, scene.intrinsics.height
     lines = [TABLE_HEADER]
     for index, row in enumerate(scene.boxes):

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""What a depth camera makes of surfaces and their edges: ragged, smeared, without thin things."""
+
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+
+from tricue.scenes.arrays import Array
+from tricue.scenes.rendering.depth_sensor import add_flying_pixels, find_depth_edges
+
+RAGGED_GRAIN = 2.0  # pixels, the sigma of the field by which edges are displaced
+MIN_THIN_STEP = 0.05  # between a thin thing and what is behind it, as a share of its depth
+
+
+class SurfaceFaults(NamedTuple):
+    """How a depth camera sees surfaces; lengths in pixels.
+
+    thin: near things up to this width are lost. ragged: deviation of edges from their place. smear: sigma of
+    a blur over edges. flying: share of the pixels at edges that measure a depth between both surfaces.
+    """
+
+    thin: int
+    ragged: float
+    smear: float
+    flying: float
+
+    def apply(self, depth: Array, rng: np.random.Generator) -> Array:
+        """The surfaces (H, W) that are measured, of an exact z-buffer of finite depths."""
+        seen = _lose_thin_things(depth, self.thin)
+        seen = _displace(seen, self.ragged, rng)
+        if self.smear > 0:
+            seen = np.asarray(cv2.GaussianBlur(seen, (0, 0), self.smear))
+        return add_flying_pixels(seen, find_depth_edges(seen), self.flying, rng)
+
+
+def smooth_noise(shape: tuple[int, ...], grain: float, rng: np.random.Generator) -> Array:
+    """Gaussian noise (H, W) of mean 0 and deviation 1, blurred by a sigma of ``grain`` pixels."""
+    noise = np.asarray(cv2.GaussianBlur(rng.standard_normal(shape), (0, 0), grain))
+    return np.asarray(noise / noise.std())
+
+
+def _lose_thin_things(depth: Array, width: int) -> Array:
+    """A morphological closing: narrow near things get the depth of what is behind them."""
+    square = np.ones((width + 1, width + 1), np.uint8)
+    # The second anchor mirrors the first, without which an even square would move everything.
+    anchors = [((width + odd) // 2,) * 2 for odd in (1, 0)]
+    closed = np.asarray(cv2.erode(cv2.dilate(depth, square, anchor=anchors[0]), square, anchor=anchors[1]))
+    return np.where(closed - depth > MIN_THIN_STEP * depth, closed, depth)
+
+
+def _displace(depth: Array, deviation: float, rng: np.random.Generator) -> Array:
+    """The depth at randomly displaced pixels, nearest neighbors."""
+    v, u = np.indices(depth.shape)
+    away = [deviation * smooth_noise(depth.shape, RAGGED_GRAIN, rng) for _ in range(2)]
+    rows, columns = (np.rint(at + by).astype(int) for at, by in zip((v, u), away, strict=True))
+    height, width = depth.shape
+    return np.asarray(depth[rows.clip(0, height - 1), columns.clip(0, width - 1)])
