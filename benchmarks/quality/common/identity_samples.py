@@ -130,7 +130,8 @@ def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Ge
     k = kernels.load(tracker.kernels)
     observed = observe_frame(k, frame, state.shape, (None, None), False)
     observation = observed.for_target(k, None)
-    model = TargetModel(state.models[observation.kind], None, state.first_side, state.typical, p)
+    appearance = state.models[observation.kind]
+    model = TargetModel(appearance, None, state.first_side, state.typical, state.sides, p)
     height, width = state.shape
     random = state.target._replace(x=rng.uniform(0, width), y=rng.uniform(0, height))
     windows = extract_windows(observation, [random], p.context)

@@ -10,11 +10,16 @@ from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.outline import (
     BOX_OUTLINE,
     MAX_COVERED_BY_OCCLUDER,
-    MAX_OUTLINE_SIDE,
-    MIN_OUTLINE_SIDE,
+    MAX_CUT_REACH,
+    MAX_FIRST_DEVIATION,
+    MAX_SEEN_DEVIATION,
     Outline,
-    measure_outline,
+    Reaches,
+    Side,
+    Sides,
+    measure_reaches,
 )
+from tricue.track.fused.support import SUPPORT_TOLERANCE
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import Window, extract_windows
@@ -53,6 +58,13 @@ def window_around(depth: np.ndarray | None, target: Target = LARGE, source: obje
     return extract_windows(observation, [target], 3.0)[0]
 
 
+def reaches(
+    window: Window, right: float = 0.0, down: float = 0.0, covered: float = 0.0, standing: bool = False
+) -> Reaches | None:
+    """As of measure_reaches, by default from the window's center."""
+    return measure_reaches(window, right, down, covered, standing)
+
+
 def edges(target: Target) -> np.ndarray:
     """Left, top, right and bottom of its box, pixels from CENTER."""
     box, (x, y) = target.box, CENTER
@@ -64,9 +76,7 @@ def test_sides_of_a_rectangle(sides):
     """Each side of a rectangle is found to half a patch pixel, wherever the other three are."""
     window = window_around(thing(sides))
     assert window.pixel_size == 3
-    assert edges(measure_outline(window, 0.0, 0.0, 0.0).apply_to(LARGE)) == pytest.approx(
-        sides, abs=window.pixel_size / 2
-    )
+    assert edges(Outline(*reaches(window)).apply_to(LARGE)) == pytest.approx(sides, abs=window.pixel_size / 2)
 
 
 @pytest.mark.parametrize("sides", [(8, 14, 8, 14), (6, 11, 13, 19), (15, 20, 5, 9)], ids=str)
@@ -74,9 +84,7 @@ def test_sides_of_a_small_one(sides):
     """So are those of a target of a few pixels, whose box is higher than wide."""
     window = window_around(thing(sides), SMALL)
     assert window.pixel_size == pytest.approx(1, abs=0.01)
-    assert edges(measure_outline(window, 0.0, 0.0, 0.0).apply_to(SMALL)) == pytest.approx(
-        sides, abs=window.pixel_size / 2
-    )
+    assert edges(Outline(*reaches(window)).apply_to(SMALL)) == pytest.approx(sides, abs=window.pixel_size / 2)
 
 
 @pytest.mark.parametrize("offset", [(4.0, -3.0), (-2.5, 5.0), (0.3, 0.6)], ids=str)
@@ -84,7 +92,7 @@ def test_sides_off_the_center(offset):
     """At a place off the window's center it gives the same sides, as distances from that place."""
     window, (right, down) = window_around(thing(SIDES[1])), offset
     there = LARGE.shift(window.pixel_size * right, window.pixel_size * down)
-    assert edges(measure_outline(window, right, down, 0.0).apply_to(there)) == pytest.approx(
+    assert edges(Outline(*reaches(window, right, down)).apply_to(there)) == pytest.approx(
         SIDES[1], abs=window.pixel_size / 2
     )
 
@@ -94,9 +102,7 @@ def test_noise_and_holes_move_no_side():
     depth = thing(SIDES[1]) + RNG.normal(0, 0.01, SHAPE).astype(np.float32)
     depth[RNG.random(SHAPE) < 0.2] = np.nan
     window = window_around(depth)
-    assert edges(measure_outline(window, 0.0, 0.0, 0.0).apply_to(LARGE)) == pytest.approx(
-        SIDES[1], abs=window.pixel_size
-    )
+    assert edges(Outline(*reaches(window)).apply_to(LARGE)) == pytest.approx(SIDES[1], abs=window.pixel_size)
 
 
 def test_sets_of_kernels_agree(kernels):
@@ -110,14 +116,14 @@ def test_sets_of_kernels_agree(kernels):
         window.observation.depth_source,
         window.observation.expected_depth,
     )
-    found = measure_outline(extract_windows(observation, [LARGE], 3.0)[0], 0.0, 0.0, 0.0)
-    assert found == pytest.approx(measure_outline(window, 0.0, 0.0, 0.0), abs=1e-3)
+    found = reaches(extract_windows(observation, [LARGE], 3.0)[0])
+    assert found == pytest.approx(reaches(window), abs=1e-3)
 
 
 @pytest.mark.parametrize("share", [0.0, MAX_COVERED_BY_OCCLUDER, MAX_COVERED_BY_OCCLUDER + 1e-6, 0.5, 1.0])
 def test_a_covered_target_has_no_outline(share):
     """It is None exactly where an occluder covers more than MAX_COVERED_BY_OCCLUDER of the box."""
-    assert (measure_outline(window_around(thing(SIDES[0])), 0.0, 0.0, share) is None) == (
+    assert (reaches(window_around(thing(SIDES[0])), covered=share) is None) == (
         share > MAX_COVERED_BY_OCCLUDER
     )
 
@@ -134,29 +140,34 @@ def test_an_occluders_edge_is_no_side(side):
     window = window_around(depth)
     covered = covered_share(window)
     assert covered > MAX_COVERED_BY_OCCLUDER
-    assert measure_outline(window, 0.0, 0.0, covered) is None
-    assert measure_outline(window, 0.0, 0.0, 0.0) is not None
+    assert reaches(window, covered=covered) is None
+    assert reaches(window) is not None
 
 
 @pytest.mark.parametrize("side", range(4))
-def test_what_goes_on_has_no_outline(side):
-    """None where what stands at the target's depth reaches the window's edge, by any one side."""
+def test_what_goes_on_has_no_end(side):
+    """None where what stands at the target's depth reaches the window's edge; the other sides are found."""
     sides = [40.0, 40.0, 40.0, 40.0]
-    assert measure_outline(window_around(thing(tuple(sides))), 0.0, 0.0, 0.0) is not None
     sides[side] = 100.0  # the window's half is 96
-    assert measure_outline(window_around(thing(tuple(sides))), 0.0, 0.0, 0.0) is None
+    found = reaches(window_around(thing(tuple(sides))))
+    assert found[side] is None
+    others = [reach for number, reach in enumerate(found) if number != side]
+    assert others == pytest.approx([40 / 32] * 3, abs=0.05)
 
 
-def test_nothing_there_has_no_outline():
+NOWHERE = Reaches(None, None, None, None)
+
+
+def test_nothing_there_has_no_sides():
     """None where its center isn't at its depth, so that there is nothing to follow outwards."""
-    assert measure_outline(window_around(np.full(SHAPE, WALL, np.float32)), 0.0, 0.0, 0.0) is None
-    assert measure_outline(window_around(thing(SIDES[0])), 25.0, 0.0, 0.0) is None
+    assert reaches(window_around(np.full(SHAPE, WALL, np.float32))) == NOWHERE
+    assert reaches(window_around(thing(SIDES[0])), right=25.0)[::2] == (None, None)
 
 
 def test_what_is_not_measured_is_no_side():
-    """A target in front of nothing but unmeasured pixels has no outline."""
-    assert measure_outline(window_around(thing(SIDES[0], wall=np.nan)), 0.0, 0.0, 0.0) is None
-    assert measure_outline(window_around(np.full(SHAPE, np.nan, np.float32)), 0.0, 0.0, 0.0) is None
+    """A target in front of nothing but unmeasured pixels has no sides."""
+    assert reaches(window_around(thing(SIDES[0], wall=np.nan))) == NOWHERE
+    assert reaches(window_around(np.full(SHAPE, np.nan, np.float32))) == NOWHERE
 
 
 class Blurred(DepthImageSource):
@@ -168,21 +179,70 @@ class Blurred(DepthImageSource):
 def test_without_sharp_edges_there_is_none():
     """Color alone has no outline, nor has depth without sharp edges, as of a stereo pair."""
     depth = thing(SIDES[0])
-    assert measure_outline(window_around(depth), 0.0, 0.0, 0.0) is not None
-    assert measure_outline(window_around(depth, source=Blurred(depth)), 0.0, 0.0, 0.0) is None
-    assert measure_outline(window_around(None), 0.0, 0.0, 0.0) is None
+    assert reaches(window_around(depth)) is not None
+    assert reaches(window_around(depth, source=Blurred(depth))) is None
+    assert reaches(window_around(None)) is None
     image = np.zeros((*SHAPE, 3), np.uint8)
     assert not StereoSource(kernel_sets.load("native"), image, image, StereoRig(CAMERA, 0.1)).has_sharp_edges
 
 
-def test_sides_stay_in_their_range():
-    """A side next to the center is MIN_OUTLINE_SIDE, one far away MAX_OUTLINE_SIDE, in halves of the box."""
-    found = measure_outline(window_around(thing((4, 32, 50, 32))), 0.0, 0.0, 0.0)
-    assert found.left == MIN_OUTLINE_SIDE
-    narrow = Target(*CENTER, 32.0, 128.0)
-    found = measure_outline(window_around(thing((80, 60, 16, 60)), narrow), 0.0, 0.0, 0.0)
-    assert found.left == MAX_OUTLINE_SIDE
-    assert found.right == pytest.approx(1, abs=0.1)
+SLANT = 150.0  # pixels in which the table's inverse depth doubles
+
+
+def table() -> np.ndarray:
+    """A thing on a table, seen from above: its foot is 20 pixels below the middle, where the table is as far
+    away as the thing; farther below it comes towards the camera.
+    """
+    x, y = map(int, CENTER)
+    rows = np.arange(SHAPE[0])[:, None] - (y + 20)
+    inverse = np.maximum(1 + rows / SLANT, 0.01) / Z  # of the depth: linear on a plane
+    depth = np.broadcast_to(1 / inverse, SHAPE).astype(np.float32)
+    depth[: y - 40] = WALL
+    depth[y - 32 : y + 20, x - 32 : x + 32] = Z
+    return depth
+
+
+def test_what_it_stands_on_is_left_out():
+    """Below, a table is as far away as the thing. Without the plane its lower side is found to a pixel of the
+    window, but for the strip that is within the tolerance of the plane; the others as before.
+    """
+    window = window_around(table())
+    blind, found = reaches(window), reaches(window, standing=True)
+    assert blind.bottom is None or blind.bottom > 20 / 32 + 0.2
+    strip = SLANT * SUPPORT_TOLERANCE
+    assert (20 - strip - window.pixel_size) / 32 <= found.bottom <= (20 + window.pixel_size) / 32
+    assert (found.left, found.right) == pytest.approx((1, 1), abs=0.1)
+
+
+def test_sides_at_the_border_are_cut():
+    """Within 5 % of the target's side of the border, and beyond it."""
+    assert Sides.cut_by_border(Target(100.0, 100.0, 40.0, 40.0), (200, 300)) == (Side.HIDDEN,) * 4
+    assert Sides.cut_by_border(Target(21.9, 100.0, 40.0, 40.0), (200, 300))[0] is Side.CUT
+    assert Sides.cut_by_border(Target(22.1, 100.0, 40.0, 40.0), (200, 300))[0] is Side.HIDDEN
+    assert Sides.cut_by_border(Target(290.0, 195.0, 40.0, 40.0), (200, 300)) == (
+        *(Side.HIDDEN, Side.HIDDEN),
+        *(Side.CUT, Side.CUT),
+    )
+
+
+@pytest.mark.parametrize("deviation", [-MAX_FIRST_DEVIATION, 0.0, MAX_FIRST_DEVIATION])
+def test_sides_are_seen_where_the_box_has_them(deviation):
+    """Sides whose reach is the box's, give or take, are SEEN; others stay HIDDEN, cut ones CUT."""
+    hidden = Sides(*[Side.HIDDEN] * 3, Side.CUT)
+    far = 1.01 * deviation + np.sign(deviation or 1) * 0.01 + (0 if deviation else 1)
+    seen = hidden.see(Reaches(1 + 0.99 * deviation, 1 + far, None, 1.0))
+    assert seen == (Side.SEEN, Side.HIDDEN, Side.HIDDEN, Side.CUT)
+    assert hidden.see(None) == hidden
+
+
+def test_an_outline_has_the_sides_that_are_seen():
+    """Hidden sides and those without a reach are the box's; seen ones follow unless they jump; cut ones only
+    grow.
+    """
+    seen, cut, hidden = Side.SEEN, Side.CUT, Side.HIDDEN
+    assert Sides(hidden, seen, cut, seen).outline(Reaches(1.3, 0.8, 2.5, None)) == (1, 0.8, 2.5, 1)
+    jump = 1 + 1.01 * MAX_SEEN_DEVIATION
+    assert Sides(seen, cut, cut, seen).outline(Reaches(jump, 0.5, 99.0, 1.1)) == (1, 1, MAX_CUT_REACH, 1.1)
 
 
 def test_apply_to_by_hand():

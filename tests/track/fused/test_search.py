@@ -59,7 +59,7 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
         monkeypatch.setattr(module, "localize", localized)
         monkeypatch.setattr(module, "measure_candidate", lambda _, at: others[round(-at.evidence)])
         nothing: Any = None
-        model = TargetModel(nothing, None, HERE.side, ALIKE, P)
+        model = TargetModel(nothing, None, HERE.side, ALIKE, nothing, P)
         return redetect(model, nothing, LostTarget(HERE, None, missed_frames, 0), near)
 
     return among
@@ -70,21 +70,22 @@ def test_the_target_elsewhere_is_taken(search_among):
     assert search_among(match(THERE)).target == THERE
 
 
+@pytest.mark.parametrize("measured", [None, DEPTH], ids=["color", "depth"])
 @pytest.mark.parametrize("features", [REPAINTED, REARRANGED], ids=["structure alone", "color alone"])
-def test_without_depth_color_and_structure_have_to_agree(features, search_among):
+def test_color_and_structure_have_to_agree(features, measured, search_among):
     """What has the target's structure in other colors, or its colors in another structure, isn't taken,
-    though the one that agrees would be enough alone.
+    though the one that agrees would be enough alone; whether its depth is known or not.
     """
-    other = match(THERE, features)
+    other = match(THERE, features, measured=measured)
     assert probability(max(other.log_odds, other.structure_log_odds)) > P.min_score_to_redetect
     assert search_among(other).target == HERE
 
 
-def test_with_depth_structure_does_not_matter(search_among):
-    """A match with measured depth is taken by its log-odds, whatever those of its structure are."""
-    odds = match(THERE).log_odds
-    assert search_among(match(THERE, REARRANGED, odds, DEPTH)).target == THERE
-    assert search_among(match(THERE, REARRANGED, odds)).target == HERE
+def test_structure_is_as_likely_anywhere(search_among):
+    """The distance counts against the log-odds, not against those of the structure."""
+    sigma = HERE.side * P.lost_position_noise * 21
+    far = match(HERE.shift(3.0 * sigma, 0.0), odds=20.0)
+    assert search_among(far).log_odds == pytest.approx(min(20 - 4.5, far.structure_log_odds))
 
 
 def test_elsewhere_needs_a_high_score(search_among):

@@ -9,12 +9,14 @@ from tricue.track.fused.experts.depth import (
     INITIAL_DEPTH_SPREAD,
     DepthExpert,
     DepthMeasurement,
+    covered_share,
     measure_depth,
 )
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.frame_observation import FrameObservation
 from tricue.track.fused.identity import FirstColors
 from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.outline import Sides, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import AppearanceModels, State
@@ -30,7 +32,8 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     observation = frame.for_target(k, expected)
     depth, position = _depth_models(observation, target, measured, p)
     appearance = _appearance_models(observation, target, p)
-    model = TargetModel(appearance, depth, target.side, None, p)
+    sides = _see_sides(Sides.cut_by_border(target, frame.shape), observation, target, p)
+    model = TargetModel(appearance, depth, target.side, None, sides, p)
     window = extract_windows(observation, [target], p.context)[0]
     return State(
         shape=frame.shape,
@@ -39,6 +42,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
         first_side=target.side,
         recognized_side=target.side,
         mean_response=localize(model, window).responses[0],
+        sides=sides,
         depth=depth,
         position=position,
         timestamp=frame.timestamp,
@@ -52,7 +56,11 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
     observation = frame.for_target(k, None)
     measured = measure_depth(observation, state.target, None)
     depth, position = _depth_models(observation, state.target, measured, p)
-    return state._replace(depth=depth, position=position)
+    if depth is None or measured is None:
+        return state
+    observation = observation.expect(ExpectedDepth(measured.z, depth.depth_spread))
+    sides = _see_sides(state.sides, observation, state.target, p)
+    return state._replace(depth=depth, position=position, sides=sides)
 
 
 def ensure_models(state: State, observation: TargetObservation, p: FusedParams) -> State:
@@ -72,6 +80,12 @@ def _appearance_models(observation: TargetObservation, target: Target, p: FusedP
         SizeExpert.from_target(observation, target, p),
         FirstColors.from_window(window),
     )
+
+
+def _see_sides(sides: Sides, observation: TargetObservation, target: Target, p: FusedParams) -> Sides:
+    """What depth says of the sides of a target, at first sight."""
+    window = extract_windows(observation, [target], p.context)[0]
+    return sides.see(measure_reaches(window, 0.0, 0.0, covered_share(window), standing=False))
 
 
 def _depth_models(

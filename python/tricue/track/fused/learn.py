@@ -47,10 +47,10 @@ def _rate_between_learning(rate: float, p: FusedParams) -> float:
 
 
 def _update_outline(state: State, match: Match, p: FusedParams) -> State:
-    if match.outline is None or state.missed_frames:
+    if match.reaches is None or state.missed_frames:
         return state
     rate = 1 - math.exp(-state.seconds / p.outline_time_constant)
-    return state._replace(outline=state.outline.blend(match.outline, rate))
+    return state._replace(outline=state.outline.blend(state.sides.outline(match.reaches), rate))
 
 
 def _update_depth(

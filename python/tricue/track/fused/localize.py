@@ -10,6 +10,7 @@ from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts import PixelExpert, combine_posteriors
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
+from tricue.track.fused.outline import Sides
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.peak import peak_offset
 from tricue.track.fused.state import AppearanceModels
@@ -29,6 +30,7 @@ class TargetModel(NamedTuple):
     depth: DepthExpert | None
     first_side: float
     typical: IdentityFeatures | None
+    sides: Sides
     params: FusedParams
 
     def limit_growth(self, growth: float, target: Target) -> float:

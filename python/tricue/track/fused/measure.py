@@ -12,7 +12,7 @@ from tricue.track.fused.identity import (
     probability,
 )
 from tricue.track.fused.localize import Candidate, TargetModel, recenter
-from tricue.track.fused.outline import Outline, measure_outline
+from tricue.track.fused.outline import Reaches, Side, measure_reaches
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
@@ -32,7 +32,7 @@ class Match(NamedTuple):
     response: float
     depth: DepthMeasurement | None
     covered: float
-    outline: Outline | None
+    reaches: Reaches | None
 
     @property
     def score(self) -> float:
@@ -69,5 +69,5 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
         response=candidate.responses[0],
         depth=depth,
         covered=covered,
-        outline=measure_outline(window, *offset, covered),
+        reaches=measure_reaches(window, *offset, covered, Side.CUT in model.sides),
     )

@@ -2,10 +2,12 @@
 """How far the target extends from its center, by what is at its depth.
 
 The outline gives the box that a track reports. The target's own box, in which its appearance is measured,
-keeps its aspect ratio.
+keeps its aspect ratio. A side counts only where depth showed it in the first frame: a target may stand on
+something that is as far away.
 """
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +21,10 @@ from tricue.track.fused.window import PATCH_PIXELS, Window
 MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
 OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
-MIN_OUTLINE_SIDE, MAX_OUTLINE_SIDE = 0.3, 3.0  # of half the width or height
+BORDER_MARGIN = 0.05  # of the target's side, from the image's border
+MAX_FIRST_DEVIATION = 0.2  # of half the box, between a side of the first box and what depth shows
+MAX_SEEN_DEVIATION = 0.6  # of half the box, of a side that was seen; farther off it is something else's
+MAX_CUT_REACH = 6.0  # halves of the box
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,42 +64,105 @@ class Outline(NamedTuple):
 BOX_OUTLINE = Outline()
 
 
-def measure_outline(window: Window, right: float, down: float, covered: float) -> Outline | None:
-    """The outline of the target, so many patch pixels off a window's center.
+class Reaches(NamedTuple):
+    """How far what is at the target's depth reaches from its center, in halves of its width and height.
 
-    covered: the share of its box that an occluder covers. None where depth doesn't show it, or it is covered.
+    None where it starts elsewhere, or goes on to the edge of the window.
+    """
+
+    left: float | None
+    top: float | None
+    right: float | None
+    bottom: float | None
+
+
+class Side(Enum):
+    """What depth says of a side of the target, by its first frame.
+
+    HIDDEN: nothing, as what stands there is as far away, a table or a chair. SEEN: where it is. CUT: the
+    image's border cuts the target off there, so that it may reach farther.
+    """
+
+    HIDDEN = 0
+    SEEN = 1
+    CUT = 2
+
+
+class Sides(NamedTuple):
+    """What depth says of each side."""
+
+    left: Side
+    top: Side
+    right: Side
+    bottom: Side
+
+    @classmethod
+    def cut_by_border(cls, target: Target, shape: tuple[int, int]) -> "Sides":
+        """Those that the border of an image of that height and width cuts off; the others HIDDEN."""
+        height, width = shape
+        box, margin = target.box, BORDER_MARGIN * target.side
+        ends = box.x, box.y, width - box.x - box.width, height - box.y - box.height
+        return cls(*(Side.CUT if end <= margin else Side.HIDDEN for end in ends))
+
+    def see(self, reaches: Reaches | None) -> "Sides":
+        """The same after the first depth: sides that are where the box has them are SEEN."""
+        if reaches is None:
+            return self
+        return Sides(
+            *(
+                Side.SEEN
+                if side is Side.HIDDEN and reach is not None and abs(reach - 1) <= MAX_FIRST_DEVIATION
+                else side
+                for side, reach in zip(self, reaches, strict=True)
+            )
+        )
+
+    def outline(self, reaches: Reaches) -> Outline:
+        """The outline with the sides that depth shows, and those of the box."""
+        return Outline(*(_side(*each) for each in zip(self, reaches, strict=True)))
+
+
+def _side(side: Side, reach: float | None) -> float:
+    if reach is None or side is Side.HIDDEN:
+        return 1.0
+    if side is Side.CUT:
+        return min(max(reach, 1.0), MAX_CUT_REACH)
+    return reach if abs(reach - 1) <= MAX_SEEN_DEVIATION else 1.0
+
+
+def measure_reaches(
+    window: Window, right: float, down: float, covered: float, standing: bool
+) -> Reaches | None:
+    """How far what is at the target's depth reaches from a place, so many patch pixels off a window's center.
+
+    covered: the share of its box that an occluder covers. standing: whether to leave out what it stands on.
+    None where depth has no sharp edges, or the target is covered.
     """
     source = window.observation.depth_source
     if window.depth is None or source is None or not source.has_sharp_edges:
         return None
     if covered > MAX_COVERED_BY_OCCLUDER:
         return None
-    posterior = window.depth[0]
+    posterior = window.standing if standing else window.depth[0]
+    assert posterior is not None, "the window has depth"
     rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
-    across, along = posterior[rows].mean(axis=0), posterior[:, columns].mean(axis=1)
-    sides = (*_extent(across, x), *_extent(along, y))
-    if None in sides:
-        return None
-    halves = [each / 2 for each in (window.size[0], window.size[0], window.size[1], window.size[1])]
-    left, far, top, bottom = (
-        min(max(float(side or 0) / half, MIN_OUTLINE_SIDE), MAX_OUTLINE_SIDE)
-        for side, half in zip(sides, halves, strict=True)
-    )
-    return Outline(left, top, far, bottom)
+    left, far = _extent(posterior[rows].mean(axis=0), x, window.size[0] / 2)
+    top, bottom = _extent(posterior[:, columns].mean(axis=1), y, window.size[1] / 2)
+    return Reaches(left, top, far, bottom)
 
 
-def _extent(filled: NDArray[np.floating], center: float) -> tuple[float | None, float | None]:
-    """How far the filled part reaches before and after a place.
-
-    None if it starts outside of it, or reaches the window's edge.
-    """
+def _extent(filled: NDArray[np.floating], center: float, half: float) -> tuple[float | None, float | None]:
+    """How far the filled part reaches before and after a place, in halves of the box."""
     start = min(max(int(center), 0), len(filled) - 1)
     empty = np.flatnonzero(filled < MIN_FILLED_POSTERIOR)
     before, after = empty[empty <= start], empty[empty > start]
-    if not len(before) or not len(after) or before[-1] == start:
+    if len(before) and before[-1] == start:
         return None, None
-    return center - _crossing(filled, before[-1]), _crossing(filled, after[0] - 1) - center
+    return (
+        (center - _crossing(filled, before[-1])) / half if len(before) else None,
+        (_crossing(filled, after[0] - 1) - center) / half if len(after) else None,
+    )
 
 
 def _crossing(filled: NDArray[np.floating], index: int) -> float:

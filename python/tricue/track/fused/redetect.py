@@ -30,12 +30,10 @@ def redetect(model: TargetModel, observation: TargetObservation, lost: LostTarge
 def _match_elsewhere(model: TargetModel, lost: LostTarget, candidate: Candidate) -> Match:
     """A candidate measured away from where the target should be.
 
-    Without its depth both color and structure have to agree: look-alikes share one of them.
+    Its structure has to agree by itself, too: look-alikes share the colors.
     """
-    match = measure_candidate(model, candidate)
-    if match.depth is None:
-        match = match._replace(log_odds=min(match.log_odds, match.structure_log_odds))
-    return _penalize_distance(model, lost, match)
+    match = _penalize_distance(model, lost, measure_candidate(model, candidate))
+    return match._replace(log_odds=min(match.log_odds, match.structure_log_odds))
 
 
 def _penalize_distance(model: TargetModel, lost: LostTarget, match: Match) -> Match:

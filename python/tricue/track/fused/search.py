@@ -28,8 +28,10 @@ def search_local(
         candidates = [_localize_beside(model, each, last) for each in neighbors]
         candidate = max([candidate, *candidates], key=lambda each: each.evidence)
     match = measure_candidate(model, candidate)
-    continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
-    log_odds = match.log_odds + p.depth_continuity_weight * continuity
+    log_odds = match.log_odds
+    if mean_response is not None:
+        continuity = depth_continuity(candidate.window, candidate.right, candidate.down)
+        log_odds += p.depth_continuity_weight * continuity
     if observation.kind == "color":  # light may have changed its colors: its structure is enough
         log_odds = max(log_odds, match.structure_log_odds - STRUCTURE_ONLY_PENALTY)
     return match._replace(log_odds=log_odds, covered=max(match.covered, covered_share(window)))

@@ -8,7 +8,7 @@ from tricue.track.fused.experts.correlation_filter import CorrelationFilterExper
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.experts.size import SizeExpert
 from tricue.track.fused.identity import FirstColors, IdentityFeatures
-from tricue.track.fused.outline import BOX_OUTLINE, Outline
+from tricue.track.fused.outline import BOX_OUTLINE, Outline, Sides
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
@@ -36,6 +36,7 @@ class State(NamedTuple):
     first_side: float  # pixels, of the first box
     recognized_side: float  # pixels, when it was last recognized
     mean_response: float  # running mean of the filter's response on the target
+    sides: Sides  # what depth says of them
     features: IdentityFeatures | None = None
     score: float = 1.0
     typical: IdentityFeatures | None = None  # running means of its features, None after the first frame

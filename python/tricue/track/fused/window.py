@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Floats, Image, Plane
+from tricue.track.fused.depth_sources import Grid
 from tricue.track.fused.sources import OURS
+from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
@@ -18,6 +20,7 @@ CENTER_CELL = WINDOW_CELLS // 2  # where the response to a target at the window'
 CELL_PIXELS = 2  # patch pixels on a side
 PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
 INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
+SUPPORT_POSTERIOR = np.float32(0.05)  # P(target | depth) at most, of what it stands on
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,11 +57,37 @@ class Window:
     def depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
         """(64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0.
 
-        None without depth or where none is expected.
+        In a picture of depth without what the target stands on, which looks like it there; color tells them
+        apart. None without depth or where none is expected.
         """
+        posterior = self.observation.depth_posterior(*self._grid, PATCH_PIXELS)
+        if posterior is None or self.observation.kind == "color":
+            return posterior
+        return self._without_support(posterior[0]), posterior[1]
+
+    @cached_property
+    def standing(self) -> Plane | None:
+        """(64, 64) P(target | depth) without what the target stands on; None where ``depth`` is."""
+        if self.depth is None or self.observation.kind == "depth":
+            return self.depth and self.depth[0]
+        return self._without_support(self.depth[0])
+
+    @property
+    def _grid(self) -> Grid:
         half = PATCH_PIXELS / 2 * self.pixel_size
-        x, y = self.target.x - half, self.target.y - half
-        return self.observation.depth_posterior(x, y, self.pixel_size, PATCH_PIXELS)
+        return self.target.x - half, self.target.y - half, self.pixel_size
+
+    def _without_support(self, posterior: Plane) -> Plane:
+        source, expected = self.observation.depth_source, self.observation.expected_depth
+        if source is None or expected is None or not source.has_sharp_edges:
+            return posterior
+        depths = source.sample(self._grid, PATCH_PIXELS, None)
+        observation = self.observation
+        support = find_support(observation.k, depths, self._grid, self.size, expected.z, observation.camera)
+        if support is None:
+            return posterior
+        without: Plane = np.where(support, np.minimum(posterior, SUPPORT_POSTERIOR), posterior)
+        return without
 
     def inner(self, right: float = 0.0, down: float = 0.0, share: float = 1.0) -> tuple[slice, slice]:
         """Rows and columns of the patch that a box of the target's size covers, at least one of each.
