@@ -27,6 +27,8 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.verify import verify
 
+UNTIMED_FACTOR = 2.0  # frames without timestamps may be so much farther apart than ``rate`` says
+
 
 class FusedTracker(TrackerBase[FusedParams, State]):
     """Follows any target by experts whose evidence adds up, in whatever channels a frame has.
@@ -110,7 +112,9 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         position = state.position
         if position is not None:
             position = position.slow_down() if state.missed_frames else position
-            position = position.predict(self._k, seconds, self.params)
+            rate = self.params.rate / UNTIMED_FACTOR
+            passed = validation.elapsed(state.timestamp, observed.timestamp, rate)
+            position = position.predict(self._k, passed, self.params)
         frames, timestamp = state.frames + 1, observed.timestamp
         return state._replace(position=position, timestamp=timestamp, seconds=seconds, frames=frames)
 
