@@ -154,7 +154,7 @@ def _estimate(state: State) -> tuple[Floats, Floats, float | None] | tuple[None,
         return None, None, None
     position = state.position.position
     depth = float(position[2]) if state.is_metric else None
-    return position, state.position.position_covariance, depth
+    return position, state.position.error_covariance(state.depth.depth_spread), depth
 
 
 def _expected_depth(state: State) -> ExpectedDepth | None:
