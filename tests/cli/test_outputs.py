@@ -22,11 +22,12 @@ SOLID = Step(
         Status.TRACKED,
         np.array([0.1, 0.2, 3.0]),
         np.array([[1e-6, 2e-9, 3], [2e-9, 4, 5], [3, 5, 1 / 3e5]]),
+        depth=3.0,
     ),
     0.1,
 )
 EXPECTED: list[list[Any]] = [
-    [0, None, "lost", 0.5, 1.0, 2.0, 3.0, 4.0, *[None] * 9],
+    [0, None, "lost", 0.5, 1.0, 2.0, 3.0, 4.0, *[None] * 10],
     [
         7,
         0.25,
@@ -45,6 +46,7 @@ EXPECTED: list[list[Any]] = [
         4.0,
         5.0,
         3.33333e-6,
+        3.0,
     ],
 ]
 
@@ -56,7 +58,7 @@ def test_csv(tmp_path: Path) -> None:
         output.write(SOLID)
     rows = list(csv.reader((tmp_path / "new" / "t.csv").read_text().splitlines()))
     covariance = "XX_m2,XY_m2,XZ_m2,YY_m2,YZ_m2,ZZ_m2"
-    assert ",".join(rows[0]) == f"frame,time_s,status,score,x,y,width,height,X_m,Y_m,Z_m,{covariance}"
+    assert ",".join(rows[0]) == f"frame,time_s,status,score,x,y,width,height,X_m,Y_m,Z_m,{covariance},depth_m"
     assert rows[1:] == [["" if value is None else str(value) for value in row] for row in EXPECTED]
 
 

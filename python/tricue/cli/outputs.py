@@ -25,6 +25,7 @@ COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")  # the upper
 COLUMNS = (
     *("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
     *COVARIANCE,
+    "depth_m",
 )
 
 
@@ -59,7 +60,8 @@ def row(step: Step) -> list[Any]:
     meters = [None] * 3 if position is None else np.asarray(position).tolist()
     numbers = [step.frame.timestamp, track.score, *track.box, *meters]
     time, *others = [None if number is None else round(float(number), 6) for number in numbers]
-    return [step.number, time, str(track.status), *others, *_covariance(track)]
+    depth = None if track.depth is None else round(track.depth, 6)
+    return [step.number, time, str(track.status), *others, *_covariance(track), depth]
 
 
 def _covariance(track: Track) -> list[float | None]:

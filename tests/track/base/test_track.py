@@ -35,6 +35,7 @@ def test_tracks_compare_to_the_last_bit() -> None:
         {"position": None},
         {"position": np.array([0.1, 0.2, np.nextafter(3.0, 4.0)])},
         {"covariance": 2 * np.eye(3)},
+        {"depth": 3.0},
     ]
     for change in others:
         assert dataclasses.replace(TRACK, **change) != TRACK

@@ -170,10 +170,13 @@ def test_init_restarts(passing: DepthScene, follow, pass_by):
 
 
 def test_no_position_without_intrinsics(walkers, follow):
-    """Without intrinsics tracks have a box, no position and no covariance, and the person is followed."""
+    """Without intrinsics tracks have a box and a depth, no position and no covariance, and the person is
+    followed.
+    """
     scene = walkers[0]
     tracks = follow(DepthParticleTracker(seed=0), scene.frames, scene.boxes[0])
     assert {(track.position, track.covariance) for track in tracks} == {(None, None)}
+    assert np.median([abs(t.depth - z) for t, z in zip(tracks, scene.positions[:, 2], strict=True)]) < 0.1
     assert overlaps(tracks, scene.boxes).mean() > 0.7
 
 
@@ -181,6 +184,7 @@ def test_positions_are_in_the_box(crossed):
     """The position projects into the box, within a tenth of its size."""
     for scene, tracks in crossed:
         for track in tracks:
+            assert track.depth == track.position[2]
             x, y = scene.intrinsics.project(track.position) + 0.5
             assert abs(x - track.box.center[0]) < 0.6 * track.box.width
             assert abs(y - track.box.center[1]) < 0.6 * track.box.height

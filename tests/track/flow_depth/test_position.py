@@ -88,6 +88,9 @@ def test_without_calibration_there_is_none(cues, followed):
         for track in tracks:
             assert (track.position is None) == (rig is None or "disparity" not in cues)
             assert (track.covariance is None) == (track.position is None)
+            measured = "disparity" in cues and (rig is not None or scene.frames[0].right is None)
+            assert (track.depth is not None) == measured
+            assert track.position is None or track.depth == track.position[2]
 
 
 def test_a_camera_alone_does_not_calibrate_a_pair(overtakings):
@@ -102,6 +105,19 @@ def test_a_camera_alone_does_not_calibrate_a_pair(overtakings):
         for each in ({"intrinsics": camera}, {"rig": sensor.rig})
     )
     np.testing.assert_allclose(found.position, expected.position, rtol=1e-6)
+
+
+def test_depth_images_need_no_camera(overtakings):
+    """Without one there is no position, but the same depth, as disparities round to; a pair has none."""
+    pair, sensor = overtakings(0, 55), overtakings(0, 55, depth=True)
+    found, expected = (
+        FlowDepthTracker(**each).init(sensor.frames[0], sensor.boxes[0])
+        for each in ({}, {"intrinsics": sensor.rig.intrinsics})
+    )
+    assert found.position is None
+    assert found.depth == pytest.approx(expected.depth, rel=0.03)
+    assert expected.depth == expected.position[2]
+    assert FlowDepthTracker().init(pair.frames[0], pair.boxes[0]).depth is None
 
 
 def test_the_rig_scales_positions(overtakings):

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.position_filter import MAX_INNOVATION, PositionFilter
+from tricue.track.fused.position_filter import MAX_INNOVATION, SHARED_DEPTH_ERROR, PositionFilter
 
 P = FusedParams()
 START = np.array([0.4, -0.2, 2.0])
@@ -69,6 +69,26 @@ def test_covariance_grows_without_measurement(kernels):
         estimate = later
     after = estimate.correct(kernels, START, NOISE)
     assert np.linalg.eigvalsh(NOISE - after.position_covariance).min() > 0
+
+
+def test_the_shared_error_lies_along_the_line_of_sight():
+    """It adds a share of the depth spread to z's standard deviation, and nothing across the line of sight."""
+    estimate = PositionFilter.at_rest(START, NOISE, P)
+    shared = estimate.error_covariance(0.1) - NOISE
+    assert shared[2, 2] == pytest.approx((SHARED_DEPTH_ERROR * 0.1) ** 2)
+    across = np.linalg.svd(START[None])[2][1:]
+    np.testing.assert_allclose(across @ shared, 0, atol=1e-12)
+    np.testing.assert_array_equal(estimate.error_covariance(0.0), NOISE)
+
+
+def test_the_shared_error_does_not_average_out(kernels):
+    """After a hundred measurements z's standard deviation is hardly below that share, the filter's own is."""
+    estimate = PositionFilter.at_rest(START, NOISE, P)
+    for _ in range(100):
+        estimate = estimate.predict(kernels, SECONDS, P).correct(kernels, START, NOISE)
+    assert estimate.position_covariance[2, 2] < NOISE[2, 2]
+    assert estimate.error_covariance(0.1)[2, 2] > (SHARED_DEPTH_ERROR * 0.1) ** 2
+    assert estimate.expected_depth(0.0).sigma == pytest.approx(np.sqrt(estimate.covariance[2, 2]))
 
 
 def test_distance_is_in_standard_deviations():

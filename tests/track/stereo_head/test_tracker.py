@@ -215,10 +215,10 @@ def test_init_restarts(covered: StereoScene, follow, cover_up):
 
 
 def test_no_position_without_a_rig(heads, follow):
-    """Without a rig tracks have a box, no position and no covariance, and the head is followed."""
+    """Without a rig tracks have a box, no position, covariance or depth, and the head is followed."""
     scene = heads(0)
     tracks = follow(StereoHeadTracker(), scene.frames, scene.boxes[0])
-    assert {(track.position, track.covariance) for track in tracks} == {(None, None)}
+    assert {(track.position, track.covariance, track.depth) for track in tracks} == {(None, None, None)}
     assert np.mean(overlaps(tracks, scene.boxes) > 0.5) > 0.9
 
 

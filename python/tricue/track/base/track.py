@@ -32,6 +32,8 @@ class Track:
     score: confidence in [0, 1].
     position: (3,) float64, meters in the camera frame (x right, y down, z forward), or None without depth.
     covariance: (3, 3) of the position, square meters, or None.
+    depth: meters along the camera's axis, or None where it wasn't measured. It needs no camera where a depth
+        image measures it, and is the position's z where there is a position.
     """
 
     box: Box
@@ -39,6 +41,7 @@ class Track:
     status: Status
     position: NDArray[np.float64] | None = None
     covariance: NDArray[np.float64] | None = None
+    depth: float | None = None
 
     __hash__ = None  # type: ignore[assignment]  # arrays have none
 
@@ -46,8 +49,10 @@ class Track:
         """Bit-exact equality, arrays included, so that runs can be compared."""
         if not isinstance(other, Track):
             return NotImplemented
-        plain = (self.box, self.score, self.status) == (other.box, other.score, other.status)
-        return plain and _same(self.position, other.position) and _same(self.covariance, other.covariance)
+        mine, theirs = ((each.box, each.score, each.status, each.depth) for each in (self, other))
+        if mine != theirs:
+            return False
+        return _same(self.position, other.position) and _same(self.covariance, other.covariance)
 
 
 class Tracker(Protocol):

@@ -296,13 +296,14 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
+        position = state.motion.state[:3].copy()
+        depth = float(position[2])  # the same before any camera
         if self.intrinsics is None:
-            return Track(box, state.score, status)
+            return Track(box, state.score, status, depth=depth)
         variance = MIN_POSITION_DEVIATION**2 + state.position_spread**2
         covariance = state.particles.covariance[:3, :3] + variance * IDENTITY
-        position = state.motion.state[:3].copy()
         position[:2] += state.signature.centroid_offset
-        return Track(box, state.score, status, position, covariance)
+        return Track(box, state.score, status, position, covariance, depth)
 
 
 def _score(observed: DepthObservation) -> float:

@@ -158,10 +158,14 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         x0, y0, x1, y1 = (step * (a + b) / 2 for a, b in zip(state.window, outline, strict=True))
         box = Box.from_xyxy(x0, y0, x1, y1)
         status = state.status(self.params)
-        calibrated = self.rig is not None or (self.intrinsics is not None and state.reduced.right is None)
-        if "disparity" not in self.params.cues or not calibrated:
+        has_depth_image = state.reduced.right is None
+        if "disparity" not in self.params.cues or not (self.rig is not None or has_depth_image):
             return Track(box, state.score, status)
-        return Track(box, state.score, status, *locate(self._k, box, state, self.params))
+        position, covariance = locate(self._k, box, state, self.params)
+        depth = None if position is None else float(position[2])
+        if self.rig is None and self.intrinsics is None:
+            return Track(box, state.score, status, depth=depth)
+        return Track(box, state.score, status, position, covariance, depth)
 
 
 def _predict(state: FlowDepthState) -> FlowDepthState:

@@ -22,6 +22,7 @@ MIN_POSITION_Z = 0.05  # meters in front of the camera
 MAX_POSITION_SIGMA = 3.0  # meters, in the expected depth
 MAX_INNOVATION = 2.0  # standard deviations; a larger one widens the state
 POSITION_MATRIX = np.eye(3, 6)  # from a state to the position that is measured
+SHARED_DEPTH_ERROR = 0.6  # of the depth spread, standard deviation; fitted on recordings (docs/fused.md)
 MISSED_MEAN_FACTORS = np.array([1, 1, 1, 0.8, 0.8, 0.8])
 
 
@@ -61,8 +62,18 @@ class PositionFilter(NamedTuple):
 
     @property
     def position_covariance(self) -> Floats:
-        """(3, 3) m²; a copy."""
+        """(3, 3) m², as if the errors of measurements were independent; a copy."""
         return np.array(self.covariance[:3, :3])
+
+    def error_covariance(self, spread: float) -> Floats:
+        """(3, 3) m², of all errors of a target whose surface's depths have that standard deviation.
+
+        Which part of a thick target is seen, and what beside it is measured with it, is the same in many
+        frames. This error lies along the line of sight and doesn't average out: it is added to the filter's.
+        """
+        ray = self.mean[:3] / max(float(self.mean[2]), MIN_POSITION_Z)
+        error: Floats = self.covariance[:3, :3] + (SHARED_DEPTH_ERROR * spread) ** 2 * np.outer(ray, ray)
+        return error
 
     def expected_depth(self, spread: float) -> ExpectedDepth:
         """The depth of a target whose surface's depths have that standard deviation, meters."""

@@ -42,6 +42,7 @@ class State(NamedTuple):
     typical: IdentityFeatures | None = None  # running means of its features, None after the first frame
     depth: DepthExpert | None = None  # None until depth was measured
     position: PositionFilter | None = None  # None until depth was measured
+    is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
     outline: Outline = BOX_OUTLINE
     occluded: bool = False  # by something nearer
     missed_frames: int = 0  # in a row, in which it was not recognized

@@ -12,6 +12,7 @@ from tricue.track.base import validation
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
+from tricue.track.fused.arrays import Floats
 from tricue.track.fused.depth_sources import ExpectedDepth, StereoSource
 from tricue.track.fused.frame_observation import FrameObservation, observe_frame
 from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth
@@ -38,9 +39,11 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     where it isn't, nothing is learned, and the search widens to the whole frame.
 
     Frames have ``color`` (BGR or gray), alone or with registered ``depth`` or with ``right``, or ``depth``
-    alone; channels may come and go. ``position`` and ``covariance`` are given once depth was measured, in the
-    frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes. Nothing is random:
-    ``seed`` is taken as by every tracker and not used.
+    alone; channels may come and go. ``position``, ``covariance`` and ``depth`` are given once depth was
+    measured, in the frame of the camera that ``intrinsics=``, or ``rig=`` for a stereo pair, describes.
+    Without these a default camera is assumed, so that meters to the right and down are a guess, and without
+    ``rig`` all those of a stereo pair, which then has no ``depth``. Nothing is random: ``seed`` is taken as
+    by every tracker and not used.
 
         tracker = tricue.FusedTracker()
         track = tracker.init(frame, box=(x, y, width, height))
@@ -84,7 +87,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         target = Target.of(validation.initial_box(box, observed.shape))
         if isinstance(observed.depth_source, StereoSource):
             warn_of_stereo(as_frame(frame))
-        return self._keep(initialize(self._k, observed, target, self.params))
+        state = initialize(self._k, observed, target, self.params)
+        return self._keep(state._replace(is_metric=self._is_metric(observed)))
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -115,8 +119,17 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             rate = self.params.rate / UNTIMED_FACTOR
             passed = validation.elapsed(state.timestamp, observed.timestamp, rate)
             position = position.predict(self._k, passed, self.params)
-        frames, timestamp = state.frames + 1, observed.timestamp
-        return state._replace(position=position, timestamp=timestamp, seconds=seconds, frames=frames)
+        return state._replace(
+            position=position,
+            is_metric=state.is_metric and self._is_metric(observed),
+            timestamp=observed.timestamp,
+            seconds=seconds,
+            frames=state.frames + 1,
+        )
+
+    def _is_metric(self, observed: FrameObservation) -> bool:
+        """Whether depths of the frame are in meters: those of a stereo pair need its rig."""
+        return self.rig is not None or not isinstance(observed.depth_source, StereoSource)
 
     def _localize(self, state: State, observation: TargetObservation) -> Match:
         """The target near its last place; in the whole frame once it isn't followed any more."""
@@ -136,9 +149,16 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             status = Status.OCCLUDED
         else:
             status = Status.LOST
-        position = state.position
-        estimate = (None, None) if position is None else (position.position, position.position_covariance)
-        return Track(state.outline.apply_to(state.target).box, state.score, status, *estimate)
+        return Track(state.outline.apply_to(state.target).box, state.score, status, *_estimate(state))
+
+
+def _estimate(state: State) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:
+    """A track's position, covariance and depth; None where depth was never measured."""
+    if state.position is None or state.depth is None:
+        return None, None, None
+    position = state.position.position
+    depth = float(position[2]) if state.is_metric else None
+    return position, state.position.error_covariance(state.depth.depth_spread), depth
 
 
 def _expected_depth(state: State) -> ExpectedDepth | None:

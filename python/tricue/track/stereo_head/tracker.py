@@ -205,7 +205,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         if self.rig is None:
             return Track(box, score, status)
         position, covariance = state.filter.position, state.filter.position_covariance
-        return Track(box, score, status, position.copy(), covariance.copy())
+        return Track(box, score, status, position.copy(), covariance.copy(), float(position[2]))
 
 
 def _find_face(image: Image) -> Box:

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""That a track's depth is as wrong as its covariance says, where sensors have the faults of real ones."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import Box, Frame, FusedTracker, Status
+from tricue.track.fused import position_filter
+
+ROOMS = [("held", 0), ("held", 1), ("table", 0), ("table", 1)]
+FRAMES = 45
+
+
+@pytest.fixture(scope="module")
+def rooms(rendered: Callable[..., object]) -> list:
+    """Things on a table and in a hand before a depth camera with faults."""
+    pytest.importorskip("skimage", reason="scenes need scikit-image: pip install tricue[demo]")
+    from tricue.scenes.rooms.scene import room_scene
+
+    return [
+        rendered(room_scene, kind, seed, size=(240, 180), channels="rgbd", frames=FRAMES)
+        for kind, seed in ROOMS
+    ]
+
+
+def deviations(rooms: list) -> NDArray[np.float64]:
+    """(N,) errors along z in standard deviations, of the frames that are TRACKED on the target."""
+    found = []
+    for scene in rooms:
+        tracker = FusedTracker(intrinsics=scene.intrinsics)
+        for index, frame in enumerate(scene.frames):
+            track = tracker.update(frame) if index else tracker.init(frame, scene.boxes[0])
+            if track.status is Status.TRACKED and track.box.iou(Box(*scene.boxes[index])) > 0.3:
+                error = track.position[2] - scene.positions[index, 2]
+                found.append(abs(error) / np.sqrt(track.covariance[2, 2]))
+    return np.array(found)
+
+
+def test_depth_errors_are_within_the_covariance(rooms):
+    """Over two thirds of the errors are within one standard deviation, 95 % within two."""
+    found = deviations(rooms)
+    assert found.size > 0.8 * FRAMES * len(ROOMS)
+    assert np.mean(found <= 1) >= 0.68
+    assert np.mean(found <= 2) >= 0.95
+
+
+def test_the_filter_alone_does_not_know_them(rooms, monkeypatch):
+    """By the filter's own covariance fewer are: the errors of its measurements aren't independent."""
+    monkeypatch.setattr(position_filter, "SHARED_DEPTH_ERROR", 0.0)
+    found = deviations(rooms)
+    assert np.mean(found <= 1) < 0.6
+    assert np.mean(found <= 2) < 0.9
+
+
+def test_depth_is_the_positions(rooms):
+    """It is the position's z, with a camera and without, and comes and goes with the position."""
+    scene = rooms[0]
+    for cameras in ({"intrinsics": scene.intrinsics}, {}):
+        tracker = FusedTracker(**cameras)
+        tracks = [tracker.init(scene.frames[0], scene.boxes[0]), *map(tracker.update, scene.frames[1:10])]
+        assert [track.depth for track in tracks] == [float(track.position[2]) for track in tracks]
+    tracker = FusedTracker()
+    assert tracker.init(Frame(scene.frames[0].color), scene.boxes[0]).depth is None
+    assert tracker.update(scene.frames[1]).depth == pytest.approx(scene.positions[1, 2], rel=0.05)
+    predicted = tracker.update(Frame(scene.frames[2].color))
+    assert predicted.depth == predicted.position[2]
+
+
+def test_depth_needs_no_right_camera(rooms):
+    """A camera that is wrong by a factor of two leaves the depth, but not the position to the right."""
+    scene, right = rooms[2], rooms[2].intrinsics
+    wrong = replace(right, fx=2 * right.fx, fy=2 * right.fy)
+    once, twice = (
+        FusedTracker(intrinsics=camera).init(scene.frames[0], scene.boxes[0]) for camera in (right, wrong)
+    )
+    assert twice.depth == pytest.approx(once.depth, rel=1e-9)
+    assert twice.position[0] == pytest.approx(once.position[0] / 2, rel=1e-6)
+
+
+def test_a_guessed_rig_gives_no_depth(drawn, shoot):
+    """Without ``rig`` a stereo pair has a guessed position and no depth; a depth image has one."""
+    pair, measured = shoot("plain", "pair")[:3], shoot("plain", "rgbd")[:3]
+    box = drawn("plain").boxes[0]
+    for tracker, known in ((FusedTracker(), False), (FusedTracker(rig=drawn("plain").rig), True)):
+        for frames, expected in ((pair, known), (measured, True), ([measured[0], *pair[1:]], known)):
+            track = [tracker.init(frames[0], box), *map(tracker.update, frames[1:])][-1]
+            assert track.position is not None
+            assert (track.depth is not None) == expected
