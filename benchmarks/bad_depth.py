@@ -41,6 +41,16 @@ def scaled(name: str, image: Any, scale: Any) -> Case:
     return case(name, second=Made(lambda: Frame(depth=image, depth_scale=scale)))
 
 
+def colored(name: str, change: Callable[[Any], Any]) -> Case:
+    """Both depths changed, beside a picture of the unchanged ones."""
+
+    def frame(meters: Any) -> Made:
+        levels = np.nan_to_num(255 / 8 * meters).clip(0, 255).astype(np.uint8)
+        return Made(lambda: Frame(levels, change(meters)))
+
+    return case(name, frame(DEPTH), second=frame(NEXT))
+
+
 def timed(name: str, first: Any, second: Any) -> Case:
     """Timestamps."""
     return case(
@@ -85,6 +95,10 @@ CASES = (
     both("gaps as 0", np.nan_to_num),
     both("gaps as -1", lambda meters: np.nan_to_num(meters, nan=-1.0)),
     both("masked gaps", np.ma.masked_invalid),
+    colored("gray picture beside it", lambda meters: meters),
+    colored("millimeters as meters, gray picture beside them", lambda meters: 1000 * meters),
+    colored("meters as millimeters, gray picture beside them", lambda meters: meters / 1000),
+    colored("8 pixels to the right of the gray picture", lambda meters: np.roll(meters, 8, axis=1)),
     both("color of 640x480 beside it", lambda meters: Made(lambda: Frame(COLOR, meters))),
     case(
         "color of another size than before",
@@ -143,5 +157,8 @@ HEAD = f"""
 
 All else is as it should be: `tricue.scenes.walker(0)`, somebody in front of a time-of-flight camera of {WIDTH}x{HEIGHT} whose intrinsics are
 known, a fifteenth of a second later, float32 meters, and the box {BOX}. `flow-depth` uses the depth alone.
+
+Depth in another unit, and depth that stays the same for half a second while color changes, which two frames can't show, `fused` leaves out
+with one warning and follows by color.
 
 """

@@ -254,13 +254,17 @@ DEPTHS = cases.odd_depths(DEPTH)
 ODD = {
     **{f"pair, {name}": lambda name=name: Frame(PAIRS[name][0], right=PAIRS[name][1]) for name in PAIRS},
     **{f"rgbd, {name}": lambda name=name: Frame(LEFT, depth=DEPTHS[name]) for name in DEPTHS},
-    **{f"depth, {name}": lambda name=name: Frame(depth=DEPTHS[name]) for name in DEPTHS},
+    **{
+        f"depth, {name}": lambda name=name: Frame(depth=DEPTHS[name])
+        for name in DEPTHS
+        if name != "all denormal"  # an error, see test_depth_trust.py
+    },
     **{f"color, {name}": lambda name=name: Frame(PAIRS[name][0]) for name in PAIRS},
 }
 
 
 @pytest.mark.parametrize("name", ODD)
-@pytest.mark.filterwarnings("ignore:depth. its median", "ignore:right")
+@pytest.mark.filterwarnings("ignore:depth. its median", "ignore:frame.depth. expected meters", "ignore:right")
 def test_odd_frames_are_sane(name):
     """Pictures and depths with nothing in them, or nonsense, give sane tracks at the start and later, and so
     do good frames of any channels after them.
@@ -306,7 +310,9 @@ def test_a_frame_without_the_target_is_not_tracked(camera, name):
 
 @pytest.mark.parametrize("camera", ["color", "rgbd", "pair", "depth"])
 @pytest.mark.parametrize("shape", [*cases.ANY_SHAPES, (2, 2), (3000, 4000)], ids=str)
-@pytest.mark.filterwarnings("ignore:right:")  # a pattern that repeats itself matches anywhere
+@pytest.mark.filterwarnings(
+    "ignore:right:", "ignore:depth. seems"
+)  # a pattern that repeats itself matches anywhere
 def test_images_of_any_size(shape, camera):
     """Tiny, thin and huge frames of all channels give sane tracks, without another warning."""
     height, width = shape

@@ -132,13 +132,24 @@ def require_cue_channels(
     if shape is not None and image.shape != shape:
         hint = "init starts again on another size"
         raise ValueError(f"frame.{name}: expected the first frame's shape {shape}, got {image.shape}; {hint}")
-    depth: Any = channels.depth
-    if "disparity" in cues and channels.right is None and depth.shape != image.shape[:2]:
-        hint = "it has to be that of the color image's pixels"
-        raise UnregisteredDepthError(
-            f"frame.depth: expected shape {image.shape[:2]}, got {depth.shape}; {hint}"
-        )
+    if "disparity" in cues and channels.right is None:
+        assert channels.depth is not None
+        check_depth_size(channels.depth, image.shape[:2])
     return CueInput(channels, image)
+
+
+def check_depth_size(depth: NDArray[np.float32], size: tuple[int, ...]) -> None:
+    """UnregisteredDepthError for depth of another size than color, (height, width)."""
+    if depth.shape == size:
+        return
+    register = "tricue.camera.registration.Registration brings it there by both cameras' intrinsics"
+    resize = (
+        f"cv2.resize(depth, {size[::-1]}, interpolation=cv2.INTER_NEAREST) does where the views are the same"
+    )
+    raise UnregisteredDepthError(
+        f"frame.depth: expected shape {size}, got {depth.shape}; it has to be that of the color image's "
+        f"pixels: {register}, {resize}"
+    )
 
 
 def elapsed(before: float | None, now: float | None, rate: float) -> float:

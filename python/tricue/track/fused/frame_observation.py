@@ -9,7 +9,6 @@ import numpy as np
 
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.errors import UnregisteredDepthError
 from tricue.kernels import Kernels
 from tricue.track.base import validation
 from tricue.track.fused.arrays import Image, Plane
@@ -70,9 +69,8 @@ def observe_frame(
     if shape is not None and size != shape:
         hint = "init starts again on another size"
         raise ValueError(f"frame.{name}: expected the first frame's size {shape}, got {size}; {hint}")
-    if given.depth is not None and given.depth.shape != size:
-        hint = "it has to be that of the color image's pixels"
-        raise UnregisteredDepthError(f"frame.depth: expected shape {size}, got {given.depth.shape}; {hint}")
+    if given.depth is not None:
+        validation.check_depth_size(given.depth, size)
     for known in (cameras[0].intrinsics if cameras[0] else None, cameras[1]):
         if known is not None and (known.height, known.width) != size:
             expected = f"the camera's size, {known.width}x{known.height}"

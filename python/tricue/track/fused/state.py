@@ -3,6 +3,7 @@
 
 from typing import NamedTuple
 
+from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
 from tricue.track.fused.experts.depth import DepthExpert
@@ -44,6 +45,7 @@ class State(NamedTuple):
     position: PositionFilter | None = None  # None until depth was measured
     is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
     outline: Outline = BOX_OUTLINE
+    depth_trust: DepthTrust = DepthTrust()
     occluded: bool = False  # by something nearer
     missed_frames: int = 0  # in a row, in which it was not recognized
     missed_seconds: float = 0.0  # of these frames

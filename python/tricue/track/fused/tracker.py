@@ -5,6 +5,7 @@ from typing import Any
 
 from tricue import kernels as kernel_sets
 from tricue.camera.box import BoxLike
+from tricue.camera.depth_check import warn_of_depth
 from tricue.camera.frame import FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
@@ -13,7 +14,8 @@ from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.fused.arrays import Floats
-from tricue.track.fused.depth_sources import ExpectedDepth, StereoSource
+from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth, StereoSource
+from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.frame_observation import FrameObservation, observe_frame
 from tricue.track.fused.initialize import ensure_models, initialize, initialize_depth
 from tricue.track.fused.learn import update_models
@@ -81,24 +83,33 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on ``box``, at least 2 pixels wide and high, a part of it in the image.
 
-        UserWarning where left and right seem to be swapped, or not rectified.
+        UserWarning where left and right seem to be swapped, or not rectified, where depth seems not to be
+        registered to color, and where it is in another unit than meters; it is then left out. ValueError for
+        such depth without color.
         """
         observed = self._observe(frame, None)
         target = Target.of(validation.initial_box(box, observed.shape))
+        trust, observed = DepthTrust().examine(observed, 0.0)
         if isinstance(observed.depth_source, StereoSource):
             warn_of_stereo(as_frame(frame))
+        elif isinstance(observed.depth_source, DepthImageSource) and observed.color is not None:
+            warn_of_depth(as_frame(frame))
         state = initialize(self._k, observed, target, self.params)
-        return self._keep(state._replace(is_metric=self._is_metric(observed)))
+        return self._keep(state._replace(depth_trust=trust, is_metric=self._is_metric(observed)))
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
 
         Timestamps give the position filter the time since the last frame, ``rate`` where there are none.
+        Depth in another unit than meters, or that stays the same for half a second while color changes, is
+        left out, with a UserWarning for the first; ValueError for depth in another unit without color.
         RuntimeError before ``init``. An error leaves the tracker as it was.
         """
         before = validation.require_initialized(self._state)
         observed = self._observe(frame, before.shape)
-        state = self._predict(before, observed)
+        seconds = validation.elapsed(before.timestamp, observed.timestamp, self.params.rate)
+        trust, observed = before.depth_trust.examine(observed, seconds)
+        state = self._predict(before, observed, seconds)._replace(depth_trust=trust)
         state = initialize_depth(state, observed, self._k, self.params)
         observation = observed.for_target(self._k, _expected_depth(state), state.target.search_region)
         state = ensure_models(state, observation, self.params)
@@ -110,9 +121,8 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         cameras = self.rig, self.intrinsics
         return observe_frame(self._k, frame, shape, cameras, "depth" in self.params.cues)
 
-    def _predict(self, state: State, observed: FrameObservation) -> State:
-        """The state when the frame was taken."""
-        seconds = validation.elapsed(state.timestamp, observed.timestamp, self.params.rate)
+    def _predict(self, state: State, observed: FrameObservation, seconds: float) -> State:
+        """The state when the frame was taken, so many seconds later."""
         position = state.position
         if position is not None:
             position = position.slow_down() if state.missed_frames else position

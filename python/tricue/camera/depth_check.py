@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: MIT
+"""Notices depth that isn't registered to color, by the edges of both.
+
+Edges of depth are laid on those of color after each of many shifts and scales. Depth that was taken as the
+camera gave it fits best after another shift and scale than none. Edges match as far as they have one
+direction: each is a complex number with twice the direction's angle, and the match is their correlation.
+"""
+
+import warnings
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.frame import Frame
+
+Plane = NDArray[np.float32]
+
+CELLS = 160  # to which the width of the images is thinned
+MAX_SHIFT = 10  # cells along x and y
+SCALES = np.array([0.925, 0.95, 0.975, 1.0, 1.025, 1.05, 1.075])
+MAX_REGISTERED_ERROR = 1.5  # cells, root mean square over the image; registered depth has no more
+MIN_ERROR = 2.25  # cells; what lies between both is neither doubted nor taken for registered
+MIN_EDGE_CELLS = 150  # with fewer edges of depth, the check says nothing
+MIN_SIDE = 3 * MAX_SHIFT  # cells, of an image in which that many shifts can be told apart
+MIN_DEPTH_STEP = 0.1  # of the logarithm of depth over two cells: an edge
+MAX_COLOR_SLOPE = 15.0  # levels a cell; a steeper one counts as much
+MIN_PEAK, MIN_ADVANTAGE = (4.2, 5.2), (1.3, 1.4)
+"""Of a shift alone, and of a shift and a scale, which are more and so fit better by chance."""
+
+
+class Fit(NamedTuple):
+    """The shift and scale of depth after which its edges fit best to those of color.
+
+    right, down: pixels. error: pixels that it moves the image's pixels by, root mean square. peak: how far it
+    stands above the median of all shifts and scales, in their standard deviations. advantage: the same as a
+    multiple of the best that registered depth may have.
+    """
+
+    right: int
+    down: int
+    scale: float
+    error: float
+    peak: float
+    advantage: float
+
+
+class DepthCheck(NamedTuple):
+    """The fits of a depth image to color.
+
+    edges: cells with an edge of depth, 0 where none were looked for. width: the image's, pixels. fits: the
+    best of shifts alone, and of shifts and scales; none with fewer edges than MIN_EDGE_CELLS, and in an image
+    less than MIN_SIDE cells wide or high.
+    """
+
+    edges: int
+    width: int
+    fits: tuple[Fit, ...] = ()
+
+    @property
+    def problem(self) -> str:
+        """A sentence that says what is wrong with the depth, "" if nothing was noticed."""
+        min_error = MIN_ERROR * _step(self.width)
+        for fit, min_peak, min_advantage in zip(self.fits, MIN_PEAK, MIN_ADVANTAGE, strict=False):
+            if fit.error > min_error and fit.peak > min_peak and fit.advantage > min_advantage:
+                return (
+                    f"seems not to be registered to color: its edges lie about {fit.error:.0f} px beside "
+                    f"those of color, and fit after a shift by ({fit.right}, {fit.down}) px and a scale of "
+                    f"{fit.scale:g}; register it by both cameras' intrinsics "
+                    "(tricue.camera.registration.Registration, or --calibration FILE)"
+                )
+        return ""
+
+
+def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
+    """Compare the edges of color, BGR (H, W, 3) or gray (H, W), and of depth (H, W), meters with NaN.
+
+    It is deterministic and takes a few milliseconds.
+    """
+    width = depth.shape[1]
+    step = _step(width)
+    thinned = depth[step // 2 :: step, step // 2 :: step]
+    if min(thinned.shape) < MIN_SIDE:
+        return DepthCheck(0, width)
+    edges = _depth_edges(thinned)
+    count = int(np.count_nonzero(edges.any(axis=2)))
+    if count < MIN_EDGE_CELLS:
+        return DepthCheck(count, width)
+    matches = _matches(edges, _color_edges(color, edges.shape[1::-1]))
+    matches -= np.median(matches)
+    shifts = np.arange(-MAX_SHIFT, MAX_SHIFT + 1)
+    spread = (SCALES - 1) ** 2 * (edges.shape[0] ** 2 + edges.shape[1] ** 2) / 12
+    errors = np.sqrt(spread[:, None, None] + shifts[:, None] ** 2 + shifts**2)
+    best_registered = max(float(matches[errors <= MAX_REGISTERED_ERROR].max()), 1e-9)
+
+    def best_of(chosen: NDArray[np.intp]) -> Fit:
+        scale, down, right = np.unravel_index(
+            int(matches[chosen].argmax()), (len(chosen), *matches.shape[1:])
+        )
+        at = chosen[scale], down, right
+        match = float(matches[at])
+        return Fit(
+            step * int(shifts[right]),
+            step * int(shifts[down]),
+            float(SCALES[at[0]]),
+            step * float(errors[at]),
+            match / max(float(matches.std()), 1e-9),
+            match / best_registered,
+        )
+
+    return DepthCheck(count, width, (best_of(np.flatnonzero(SCALES == 1)), best_of(np.arange(len(SCALES)))))
+
+
+def warn_of_depth(frame: Frame, stacklevel: int = 2) -> DepthCheck:
+    """Check a frame's depth against its color, warn (UserWarning) of a problem, and return what was found.
+
+    stacklevel: as in warnings.warn, counted from the caller: 2 is the line that calls the caller.
+    ValueError for a frame without color or depth.
+    """
+    frame.require("color", "depth")
+    assert frame.color is not None
+    assert frame.depth is not None
+    check = check_depth(frame.color, frame.depth)
+    if check.problem:
+        warnings.warn(f"depth: {check.problem}", UserWarning, stacklevel=stacklevel + 1)
+    return check
+
+
+def _step(width: int) -> int:
+    """Pixels a cell."""
+    return max(1, round(width / CELLS))
+
+
+def _depth_edges(depth: Plane) -> Plane:
+    """The direction of each cell's edge (h, w, 2), 0 where there is none.
+
+    Steps are those of the logarithm, as near and far things have the same edges.
+    """
+    filled = _fill_shadows(depth)
+    known = np.isfinite(filled)
+    level = np.log(np.where(known, filled, 1)).astype(np.float32)
+    slopes = np.zeros((2, *level.shape), np.float32)
+    slopes[0, :, 1:-1] = level[:, 2:] - level[:, :-2]
+    slopes[1, 1:-1] = level[2:] - level[:-2]
+    strength = np.hypot(*slopes)
+    beside_unknown = cv2.dilate((~known).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    edge = (strength > MIN_DEPTH_STEP) & ~beside_unknown
+    return _doubled(slopes, edge.astype(np.float32))
+
+
+def _color_edges(color: NDArray[np.uint8], size: tuple[int, ...]) -> Plane:
+    """The direction of each cell's slope (h, w, 2), as long as the slope is steep."""
+    small = cv2.resize(color, size, interpolation=cv2.INTER_AREA)
+    gray = (cv2.cvtColor(small, cv2.COLOR_BGR2GRAY) if small.ndim == 3 else small).astype(np.float32)
+    along = [cv2.Sobel(gray, cv2.CV_32F, *axis, scale=1 / 8) for axis in ((1, 0), (0, 1))]
+    slopes = np.asarray(along, np.float32)
+    return _doubled(slopes, np.minimum(np.hypot(*slopes), MAX_COLOR_SLOPE))
+
+
+def _doubled(slopes: Plane, length: Plane) -> Plane:
+    """Vectors (h, w, 2) of that length at twice the angle of slopes (2, h, w): opposite ones are the same."""
+    x, y = slopes
+    doubled = np.stack([x * x - y * y, 2 * x * y], axis=-1)
+    return np.asarray(doubled * (length / (x * x + y * y + 1e-9))[..., None], np.float32)
+
+
+def _fill_shadows(depth: Plane) -> Plane:
+    """Depth with holes filled along rows by the farther of both neighbors, as shadows lie on it."""
+    known, columns = np.isfinite(depth), np.arange(depth.shape[1])
+    before = np.maximum.accumulate(np.where(known, columns, 0), axis=1)
+    after = np.minimum.accumulate(np.where(known, columns, len(columns) - 1)[:, ::-1], axis=1)[:, ::-1]
+    left, right = (np.take_along_axis(depth, index, axis=1) for index in (before, after))
+    return np.asarray(np.fmax(left, right), np.float32)
+
+
+def _matches(edges: Plane, color_edges: Plane) -> Plane:
+    """How well edges fit after each scale and shift down and right (scales, shifts, shifts).
+
+    A scale leaves the image's middle where it is.
+    """
+    height, width = edges.shape[:2]
+    padded = [cv2.getOptimalDFTSize(side + 2 * MAX_SHIFT) for side in (height, width)]
+    spectrum = cv2.dft(_pad(color_edges, padded))
+    places = np.argwhere(edges.any(axis=2))
+    directions = edges[places[:, 0], places[:, 1]]
+    middle, shape = np.array([height - 1, width - 1]) / 2, np.array([height, width])
+    found = []
+    for scale in SCALES:
+        moved = np.rint((places - middle) * scale + middle).astype(int)
+        inside = ((moved >= 0) & (moved < shape)).all(axis=1)
+        scaled = np.zeros((*padded, 2), np.float32)
+        scaled[moved[inside, 0], moved[inside, 1]] = directions[inside]
+        product = cv2.mulSpectrums(spectrum, cv2.dft(scaled), 0, conjB=True)
+        surface = cv2.idft(product, flags=cv2.DFT_SCALE)[..., 0] / max(int(inside.sum()), 1)
+        side = 2 * MAX_SHIFT + 1
+        found.append(np.roll(surface, (MAX_SHIFT, MAX_SHIFT), (0, 1))[:side, :side])
+    return np.asarray(found, np.float32)
+
+
+def _pad(image: Plane, size: list[int]) -> Plane:
+    padded = np.zeros((*size, image.shape[2]), np.float32)
+    padded[: image.shape[0], : image.shape[1]] = image
+    return padded

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: MIT
+"""Whether a frame's depth can be believed: not in another unit, nor where it stands still while color moves.
+
+Such depth is left out, and told of once; the target is then followed by color.
+"""
+
+import warnings
+import zlib
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+
+from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.depth_sources import DepthImageSource
+from tricue.track.fused.frame_observation import FrameObservation
+
+MAX_METERS, MIN_METERS = 100.0, 0.01  # no depth camera measures more, or less; all of it is in another unit
+SAMPLED = 24, 32  # rows and columns that are looked at, about
+MIN_FROZEN_FRAMES, MIN_FROZEN_SECONDS = 15, 0.5  # slow depth cameras repeat an image for less
+SECONDS_ERROR = 1e-6  # of times that are added up
+MIN_COLOR_CHANGE, MIN_CHANGED_SHARE = 10, 0.01  # levels of a sample, above noise; of the samples
+
+
+class DepthTrust(NamedTuple):
+    """What is remembered of the depth images so far; nothing changes it.
+
+    sample: bytes of the last one's sampled pixels. checksum: of all its pixels, None until it is repeated.
+    color: sampled when it was repeated first. repeats, seconds: frames since then with the same depth.
+    frozen: whether color moved meanwhile. told: what the user was warned of.
+    """
+
+    sample: bytes = b""
+    checksum: int | None = None
+    color: Image | None = None
+    repeats: int = 0
+    seconds: float = 0.0
+    frozen: bool = False
+    told: frozenset[str] = frozenset()
+
+    def examine(self, frame: FrameObservation, seconds: float) -> tuple["DepthTrust", FrameObservation]:
+        """The memory with a frame that comes so many seconds after the last, and the frame, without depth
+        where that can't be believed.
+
+        ValueError for depth in another unit without color to follow instead. UserWarning, to the caller's
+        caller, for the first depth of a kind that is left out.
+        """
+        if not isinstance(frame.depth_source, DepthImageSource):
+            return self, frame
+        depth = frame.depth_source.depth
+        sample = _sample(depth)
+        if unit := _wrong_unit(sample):
+            if frame.color is None:
+                raise ValueError(f"frame.depth: {unit}")
+            return self._leave_out(frame, "unit", f"{unit}; until then it is left out")
+        seen = self._see(depth, sample, frame.color, seconds)
+        if not seen.frozen:
+            return seen, frame
+        still = f"the same image for {seen.repeats + 1} frames, while color changed"
+        hint = "does the depth camera still run? It is left out until it changes"
+        return seen._leave_out(frame, "frozen", f"expected another image in each frame, got {still}; {hint}")
+
+    def _see(self, depth: Plane, sample: Plane, color: Image | None, seconds: float) -> "DepthTrust":
+        """The memory with depth in the right unit."""
+        content = sample.tobytes()
+        if content != self.sample or np.isnan(sample).all():
+            return DepthTrust(content, told=self.told)
+        checksum = zlib.crc32(depth.data)
+        if self.checksum not in (None, checksum):  # what moved is between the sampled pixels
+            return DepthTrust(content, checksum, told=self.told)
+        first = self.color
+        if first is None:
+            first = None if color is None else _thin(color)
+        repeats, passed = self.repeats + 1, self.seconds + seconds
+        frozen = self.frozen
+        if repeats >= MIN_FROZEN_FRAMES and passed >= MIN_FROZEN_SECONDS - SECONDS_ERROR and not frozen:
+            frozen = first is not None and color is not None and _differs(first, _thin(color))
+        return DepthTrust(content, checksum, first, repeats, passed, frozen, self.told)
+
+    def _leave_out(
+        self, frame: FrameObservation, kind: str, message: str
+    ) -> tuple["DepthTrust", FrameObservation]:
+        if kind not in self.told:
+            warnings.warn(f"frame.depth: {message}", UserWarning, stacklevel=4)
+        return self._replace(told=self.told | {kind}), frame._replace(depth=None, depth_source=None)
+
+
+def _sample(depth: Plane) -> Plane:
+    rows, columns = (max(1, side // count) for side, count in zip(depth.shape, SAMPLED, strict=True))
+    return depth[rows // 2 :: rows, columns // 2 :: columns]
+
+
+def _wrong_unit(sample: Plane) -> str:
+    """What is wrong with the unit and how to set it right, "" where nothing was noticed."""
+    measured = sample[~np.isnan(sample)]
+    if not measured.size:
+        return ""
+    low, high = float(measured.min()), float(measured.max())
+    found = f"expected meters, got {low:.4g} to {high:.4g}"
+    give = "tricue.Frame(depth_scale={0}) or --depth-scale {0} tells their unit"
+    if low > MAX_METERS:
+        return f"{found}, which look like millimeters; {give.format('0.001')}"
+    if high < MIN_METERS:
+        return f"{found}, which look like meters read as millimeters; {give.format('1')}"
+    return ""
+
+
+def _thin(color: Image) -> Image:
+    return np.asarray(cv2.resize(color, SAMPLED[::-1], interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def _differs(first: Image, now: Image) -> bool:
+    """Whether thinned images differ by more than noise."""
+    change = cv2.absdiff(first, now).max(axis=2)
+    return bool(np.mean(change > MIN_COLOR_CHANGE) > MIN_CHANGED_SHARE)
