@@ -5,10 +5,12 @@
 #include "cues/depth/above_floor.hpp"
 #include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
+#include "cues/depth/depth_picture.hpp"
 #include "cues/depth/depth_posterior.hpp"
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
+#include "cues/depth/median_depths.hpp"
 #include "cues/depth/plane_support.hpp"
 #include "kernel_docs.hpp"
 
@@ -32,6 +34,12 @@ Array<double> depth_histogram_arrays(const Array<float>& depth, const Bytes& mas
     const auto under = mask_image(mask, "mask");
     const DepthLevels range{near, far, levels};
     return give(unlocked(pixels(view), [&] { return depth_histogram(view, under, range); }));
+}
+
+Bytes depth_picture_arrays(const Array<float>& depth, double z, double reach) {
+    const auto view = depth_image(depth, "depth");
+    auto picture = unlocked(pixels(view), [&] { return depth_picture(view, z, reach); });
+    return give(std::move(picture), {view.rows, view.cols, 3});
 }
 
 std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, double x0, double y0,
@@ -84,6 +92,15 @@ Array<float> above_floor_arrays(const Array<float>& depth, const Array<double>& 
     return give(unlocked(pixels(view), [&] { return above_floor(view, lens, floor, {near, far, clear}); }));
 }
 
+Array<double> median_depths_arrays(const Array<float>& depth, const Array<double>& boxes, int samples,
+                                   double expected, double max_offset, double min_share) {
+    const auto view = depth_image(depth, "depth");
+    const auto each = states(boxes, "boxes");
+    return give(unlocked(each.rows() * samples * samples, [&] {
+        return median_depths(view, each, samples, {expected, max_offset, min_share});
+    }));
+}
+
 Array<double> plane_support_arrays(const Array<float>& depth, const Array<double>& camera,
                                    const Array<double>& plane, double tolerance, int step) {
     const auto view = depth_image(depth, "depth");
@@ -102,6 +119,8 @@ void define_depth(py::module_& m) {
           docs::depth_edges);
     m.def("depth_histogram", depth_histogram_arrays, py::arg("depth"), py::arg("mask"), py::arg("near"),
           py::arg("far"), py::arg("levels"), docs::depth_histogram);
+    m.def("depth_picture", depth_picture_arrays, py::arg("depth"), py::arg("z"), py::arg("reach"),
+          docs::depth_picture);
     m.def("depth_posterior", depth_posterior_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
           py::arg("step"), py::arg("rows"), py::arg("columns"), py::arg("expected"), py::arg("sigma"),
           py::arg("near_margin"), docs::depth_posterior);
@@ -111,6 +130,8 @@ void define_depth(py::module_& m) {
           py::arg("ragged"), py::arg("passes"), docs::fill_gaps);
     m.def("floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
           py::arg("tolerance"), py::arg("up"), py::arg("min_cosine"), docs::floor_plane);
+    m.def("median_depths", median_depths_arrays, py::arg("depth"), py::arg("boxes"), py::arg("samples"),
+          py::arg("expected"), py::arg("max_offset"), py::arg("min_share"), docs::median_depths);
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("tolerance"), py::arg("step"), docs::plane_support);
 }

@@ -587,6 +587,30 @@ def depth_histogram(
     Source: Sabeti, Parvizi, Wu 2008, section IV.A: the histogram behind p(z), equation (32).
     """
 
+def depth_picture(
+    depth: numpy.typing.NDArray[numpy.float32], z: float, reach: float
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    A gray picture of a depth image, in which a target at depth z looks the same at any distance.
+        128 + 127 (depth - z) / reach,  within 1 and 255, rounded down, in float32
+
+    Black where it is nearer than z by reach or more, white where it is farther by as much, or not a
+    number.
+
+    Args:
+        depth: float32 (H, W), meters; may be empty
+        z: depth that is gray, meters, finite
+        reach: meters from gray to black or white, finite, above 0
+
+    Returns:
+        uint8 (H, W, 3) BGR; in C++ one array of bytes in this order
+
+    Raises:
+        ValueError: on numbers out of range
+
+    Source: ours.
+    """
+
 def depth_posterior(
     depth: numpy.typing.NDArray[numpy.float32],
     x0: float,
@@ -1145,6 +1169,45 @@ def measure_objects(
         ValueError: on other shapes or values
 
     Source: ours.
+    """
+
+def median_depths(
+    depth: numpy.typing.NDArray[numpy.float32],
+    boxes: numpy.typing.NDArray[numpy.float64],
+    samples: int,
+    expected: float,
+    max_offset: float,
+    min_share: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The depths of targets in boxes: the median z of what is near the expected depth, its spread, and its
+    share of the samples.
+
+    The square of a box's center and longer side has samples² squares; a sample is the depth of the
+    pixel under a square's center, computed in float64. Samples outside the image or not within 1 mm and
+    1 km are not measured. With an expected depth the samples are those in the box's ellipse, and the
+    expected depth that is given holds. Without one they are all that are measured, and their median is
+    the expected depth. Those within max_offset of it, in float32, are the target's.
+        spread = 1.4826 median |z_i - z|
+
+    A box with none of them, or with less than min_share of the samples, has NaN for all three.
+
+    Args:
+        depth: float32 (H, W), meters; may be empty
+        boxes: float64 (N, 4): x and y of the center, width, height, pixels; finite, sizes above 0
+        samples: on a side of the square, 1 to 1024
+        expected: meters; NaN where it isn't known
+        max_offset: meters from the expected depth, finite, above 0
+        min_share: of the samples, 0 to 1
+
+    Returns:
+        float64 (N, 3): z and spread, meters, and share
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: ours; the median absolute deviation as a robust standard deviation, as Rousseeuw and Croux
+    1993, (1.2).
     """
 
 def plane_support(
@@ -2193,6 +2256,9 @@ class Kernels(Protocol):
         far: float,
         levels: int,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def depth_picture(
+        self, depth: numpy.typing.NDArray[numpy.float32], z: float, reach: float
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def depth_posterior(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -2318,6 +2384,15 @@ class Kernels(Protocol):
         plane: numpy.typing.NDArray[numpy.float64],
         feet: float,
         legs: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def median_depths(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        boxes: numpy.typing.NDArray[numpy.float64],
+        samples: int,
+        expected: float,
+        max_offset: float,
+        min_share: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def plane_support(
         self,

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
+#include "cues/depth/detail/sample_pixels.hpp"
 
 namespace tricue {
 namespace {
@@ -14,29 +14,10 @@ namespace {
 constexpr float kClutter = 0.1F;
 constexpr float kMaxExponent = 80.0F;  // of a posterior below 1e-33; more would overflow
 
-/// The samples along one axis that lie in the image: the first one, and the pixel of each.
-struct Axis {
-    std::size_t first = 0;
-    std::vector<int> pixels;
-};
-
-Axis find_pixels(double start, double step, int count, int size) {
-    Axis axis;
-    axis.pixels.reserve(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-        const double place = start + (i + 0.5) * step;
-        if (place >= 0.0 && place < size)
-            axis.pixels.push_back(static_cast<int>(place));
-        else if (place < 0.0)
-            ++axis.first;
-    }
-    return axis;
-}
-
 /// Depths at the samples, 0 outside the image.
 Floats read_depths(const DepthView& depth, const SampleGrid& grid) {
-    const Axis across = find_pixels(grid.x, grid.step, grid.columns, depth.cols),
-               down = find_pixels(grid.y, grid.step, grid.rows, depth.rows);
+    const SamplePixels across = find_sample_pixels(grid.x, grid.step, grid.columns, depth.cols),
+                       down = find_sample_pixels(grid.y, grid.step, grid.rows, depth.rows);
     Floats depths = Floats::Zero(grid.rows, grid.columns);
     for (std::size_t i = 0; i < down.pixels.size(); ++i) {
         const float* row = depth.row(down.pixels[i]);

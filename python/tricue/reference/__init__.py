@@ -40,11 +40,13 @@ from tricue.reference.cues.depth.depth_density import depth_density
 from tricue.reference.cues.depth.depth_distance import depth_distance
 from tricue.reference.cues.depth.depth_edges import depth_edges
 from tricue.reference.cues.depth.depth_histogram import depth_histogram
+from tricue.reference.cues.depth.depth_picture import depth_picture
 from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.measure_objects import measure_objects
+from tricue.reference.cues.depth.median_depths import median_depths
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
@@ -89,6 +91,7 @@ __all__ = [
     "depth_distance",
     "depth_edges",
     "depth_histogram",
+    "depth_picture",
     "depth_posterior",
     "divide_depth",
     "ellipse_histogram",
@@ -104,6 +107,7 @@ __all__ = [
     "kalman_update",
     "learn_contrast",
     "measure_objects",
+    "median_depths",
     "plane_support",
     "propose",
     "pyramid_flow",

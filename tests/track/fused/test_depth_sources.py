@@ -42,53 +42,26 @@ def pair(disparity: float, kernels=None) -> StereoSource:
     return StereoSource(kernels or kernel_sets.load("native"), left, right, RIG)
 
 
-@pytest.mark.parametrize(
-    ("grid", "side", "expected"),
-    [
-        ((0, 0, 1), 2, [[1, 2], [5, 6]]),
-        ((1.2, 0.9, 1), 2, [[6, 7], [10, 11]]),
-        ((0, 0, 0.5), 4, [[1, 1, 2, 2], [1, 1, 2, 2], [5, 5, 6, 6], [5, 5, 6, 6]]),
-        ((-1, -1, 1), 2, [[NAN, NAN], [NAN, 1]]),
-        ((3, 2, 1), 2, [[12, NAN], [NAN, NAN]]),
-        ((-0.5 - 1e-9, 0, 1), 1, [[NAN]]),
-        ((-0.5, 0, 1), 1, [[1]]),
-        ((3.5 - 1e-9, 2.4, 1), 1, [[12]]),
-        ((3.5, 2.4, 1), 1, [[NAN]]),
-        ((-9, -9, 20), 1, [[6]]),
-        ((1e9, -1e9, 1), 1, [[NAN]]),
-    ],
-    ids=str,
-)
-def test_depth_is_that_of_the_pixel_under_the_center(grid, side, expected):
-    """Pixel (i, j) covers [j, j + 1) x [i, i + 1); beyond the image there is nothing."""
-    depths = DepthImageSource(NUMBERED).sample(grid, side, None)
-    assert depths.dtype == np.float32
-    np.testing.assert_array_equal(depths, np.array(expected, np.float32))
+def test_a_depth_image_measures_each_box(kernels):
+    """Of several boxes each has its own depth; beyond the image there is none."""
+    boxes = np.array([[0.5, 0.5, 1, 1], [2.5, 1.5, 1, 1], [9.0, 1.0, 1, 1], [2.0, 2.5, 4, 1]])
+    z, _, _ = DepthImageSource(NUMBERED).medians(kernels, boxes, 4, None, (9.0, 0.1)).T
+    np.testing.assert_array_equal(z[:3], [1, 7, NAN])
+    assert z[3] == 8.5  # of the square of the longer side, the lower part of which is beyond the image
 
 
-def test_a_depth_image_ignores_what_is_expected():
-    """A depth camera measures what is there, holes included."""
-    holed = np.where(NUMBERED == 6, np.float32(NAN), NUMBERED)
-    source = DepthImageSource(holed)
-    unexpected, expected = (
-        source.sample((0.0, 0.0, 1), 3, each) for each in (None, ExpectedDepth(2.0, 0.01))
-    )
-    np.testing.assert_array_equal(unexpected, expected)
-    assert np.isnan(unexpected[1, 1])
-    assert np.isnan(unexpected).sum() == 1
-
-
-def test_posterior_agrees_with_samples(kernels):
-    """Both read the same pixels: the posterior is high exactly where depths are near the expected one."""
-    depth = np.random.default_rng(0).uniform(1, 3, (40, 50)).astype(np.float32)
-    depth[::3, ::2] = np.nan
-    source, grid = DepthImageSource(depth), (-3.3, 7.6, 1.7)
-    posterior, nearer = source.posterior(kernels, grid, 24, ExpectedDepth(2.0, 0.1), 0.5)
-    depths = source.sample(grid, 24, None)
-    np.testing.assert_array_equal(nearer, depths < 1.5)
-    np.testing.assert_array_equal(posterior == 0.5, np.isnan(depths))
-    assert (np.abs(depths[posterior > 0.5] - 2) < 0.22).all()
-    assert (np.abs(depths[posterior < 0.5] - 2) > 0.21).all()
+@pytest.mark.parametrize("expected", [None, ExpectedDepth(4.0, 0.2)])
+def test_stereo_measures_the_samples_in_a_box(expected, kernels):
+    """Its medians are those of what it samples in the square around each box."""
+    stereo, boxes = pair(8.0, kernels), np.array([[130.0, 100.0, 30.0, 40.0], [150.0, 110.0, 36.0, 24.0]])
+    found = stereo.medians(kernels, boxes, 24, expected, (0.5, 0.1))
+    for (x, y, width, height), measured in zip(boxes.tolist(), found, strict=True):
+        side = max(width, height)
+        depths = stereo.sample((x - side / 2, y - side / 2, side / 24), 24, expected)
+        box = np.array([[12.0, 12.0, 24 * width / side, 24 * height / side]])
+        z = expected.z if expected else NAN
+        np.testing.assert_array_equal(kernels.median_depths(depths, box, 24, z, 0.5, 0.1)[0], measured)
+    assert np.abs(FOCAL_BASELINE / found[:, 0] - 8).max() < 0.2
 
 
 @pytest.mark.parametrize("unit", [1.0, 1.5, 2.0])

@@ -5,65 +5,65 @@ import numpy as np
 import pytest
 from tricue import Intrinsics
 from tricue import kernels as kernel_sets
+from tricue.kernels import Kernels
 from tricue.track.fused.depth_sources import DepthImageSource, ExpectedDepth
-from tricue.track.fused.target_observation import PICTURE_DEPTH_RANGE, TargetObservation, render_depth
+from tricue.track.fused.target_observation import PICTURE_DEPTH_RANGE, TargetObservation
 
 CAMERA = Intrinsics.from_fov(250, 200, 60)
 
 
-def depths(*values: float) -> np.ndarray:
-    """A depth image of one row."""
-    return np.array([values], np.float32)
+WINDOWS = np.array(
+    [[3.3, -4.2, 9.5, 12.0], [-30.0, 2.0, 8.0, 8.0], [11.0, 14.6, 30.0, 2.5], [90.0, 90.0, 4.0, 4.0]]
+)
 
 
-def test_render_depth_by_hand():
-    """Gray at the target's depth, black from PICTURE_DEPTH_RANGE nearer on, white from as much farther on and
-    where nothing is measured, in between in proportion.
+def of_depth(k: Kernels, depth: np.ndarray, z: float | None) -> TargetObservation:
+    """A frame without color."""
+    expected = None if z is None else ExpectedDepth(z, 0.1)
+    return TargetObservation(k, None, "depth", CAMERA, DepthImageSource(depth), expected, depth)
+
+
+@pytest.mark.parametrize(
+    "some", [slice(0, 1), slice(1, 2), slice(2, 3), slice(3, 4), slice(0, 3), slice(0, 4)]
+)
+def test_samples_are_those_of_the_whole_picture(some, kernels):
+    """What is drawn of depth for some windows, in the image or over its edges, gives the same samples as the
+    picture of the whole image.
     """
-    picture = render_depth(
-        depths(
-            2.0,
-            2 - 2 * PICTURE_DEPTH_RANGE,
-            2 - PICTURE_DEPTH_RANGE / 2,
-            2 + PICTURE_DEPTH_RANGE,
-            9.0,
-            np.nan,
-        ),
-        2.0,
-    )
-    assert picture.shape == (1, 6, 3)
-    assert picture.dtype == np.uint8
-    assert (picture == picture[..., :1]).all()
-    assert picture[0, :, 0].tolist() == pytest.approx([128, 0, 64, 255, 255, 255], abs=1)
+    depth = np.random.default_rng(0).uniform(1, 3, (20, 31)).astype(np.float32)
+    depth[::3, ::4] = np.nan
+    picture = kernels.depth_picture(depth, 2.0, PICTURE_DEPTH_RANGE)
+    found = of_depth(kernels, depth, 2.0).sample(WINDOWS[some], 16)
+    np.testing.assert_array_equal(found, kernels.sample_windows(picture, WINDOWS[some], 16, 16))
 
 
-def test_pictures_do_not_depend_on_the_distance():
-    """The same surface at another distance is the same picture, to a level."""
-    surface = np.random.default_rng(0).uniform(-0.6, 0.6, (20, 30)).astype(np.float32)
-    near, far = (render_depth(surface + np.float32(z), z).astype(int) for z in (1.0, 6.0))
-    assert np.abs(near - far).max() <= 1
-
-
-def test_pictures_brighten_with_distance():
-    """What is farther is never darker."""
-    levels = render_depth(np.linspace(0.01, 9, 500, dtype=np.float32)[None], 2.0)[0, :, 0]
-    assert (np.diff(levels.astype(int)) >= 0).all()
-
-
-def test_expect_renders_depth_again():
+def test_expect_draws_depth_again():
     """With another expected depth a picture of depth is another one, but one of color the same."""
-    depth = np.full((10, 10), 3.0, np.float32)
+    depth, k, other = np.full((10, 10), 3.0, np.float32), kernel_sets.load("native"), ExpectedDepth(3.0, 0.2)
+    color = TargetObservation(k, np.full((10, 10, 3), 7, np.uint8), "color", CAMERA, None, None)
+    assert (of_depth(k, depth, 2.0).sample(WINDOWS, 4) == 255).all()
+    assert (of_depth(k, depth, 2.0).expect(other).sample(WINDOWS, 4) == 128).all()
+    assert (color.expect(other).sample(WINDOWS, 4) == 7).all()
+    assert color.expect(other).expected_depth == other
+
+
+def test_depth_is_black_where_none_is_expected():
+    """A target of unknown depth is seen nowhere."""
+    samples = of_depth(kernel_sets.load("native"), np.full((10, 12), 3.0, np.float32), None).sample(
+        WINDOWS, 4
+    )
+    assert samples.shape == (4, 4, 4, 3)
+    assert samples.dtype == np.uint8
+    assert not samples.any()
+
+
+@pytest.mark.parametrize("kind", ["color", "depth"])
+def test_shape_is_the_pictures(kind):
+    """Height and width, of either kind of picture."""
     k = kernel_sets.load("native")
-    of_depth = TargetObservation(
-        k, render_depth(depth, 2.0), "depth", CAMERA, DepthImageSource(depth), ExpectedDepth(2.0, 0.1), depth
-    )
-    of_color = TargetObservation(
-        k, render_depth(depth, 2.0), "color", CAMERA, DepthImageSource(depth), ExpectedDepth(2.0, 0.1)
-    )
-    other = ExpectedDepth(3.0, 0.2)
-    assert (of_depth.expect(other).picture == 128).all()
-    assert of_color.expect(other).picture is of_color.picture
-    assert of_color.expect(other).expected_depth == of_depth.expect(other).expected_depth == other
+    color = TargetObservation(k, np.zeros((10, 12, 3), np.uint8), "color", CAMERA, None, None)
+    seen = color if kind == "color" else of_depth(k, np.zeros((10, 12), np.float32), 2.0)
+    assert seen.shape == (10, 12)
 
 
 def test_depth_posterior_by_hand(kernels):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The depth of pixels: read from a depth image, or measured by matching a stereo pair."""
 
+import math
 from typing import NamedTuple, Protocol
 
 import cv2
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.rig import StereoRig
 from tricue.kernels import Kernels
-from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.arrays import Floats, Image, Plane
 
 GATE_SIGMAS = 3  # standard deviations from the expected depth within which a pixel may be the target's
 MAX_EXPECTED_SIGMA = 0.5  # meters; a vaguer expectation is no help
@@ -25,6 +26,7 @@ MAX_DISPARITY_OF_WIDTH = 0.25  # of the image's width, where no depth is expecte
 DISPARITY_NOISE = 0.15  # samples, standard deviation
 DEPTH_IMAGE_NOISE = 0.005  # of the depth, standard deviation of a pixel
 
+Gate = tuple[float, float]  # meters from the expected depth, and the smallest share of samples within it
 Grid = tuple[float, float, float]  # pixels: x and y of the top left corner, side of a square of the grid
 
 
@@ -52,11 +54,10 @@ class DepthSource(Protocol):
     def has_sharp_edges(self) -> bool:
         """Whether depth changes at the same pixels as the picture."""
 
-    def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
-        """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
-
-        A stereo pair finds only depths near the expected one; where none is expected, all.
-        """
+    def medians(
+        self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
+    ) -> Floats:
+        """(N, 3) median depths, spreads and shares in boxes (N, 4), as ``median_depths`` has them."""
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
@@ -77,16 +78,11 @@ class DepthImageSource(NamedTuple):
         """True: each pixel is measured by itself."""
         return True
 
-    def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
-        """The depths of the pixels under the centers of the squares, whatever is expected."""
-        x, y, step = grid
-        centers = (np.arange(side) + 0.5) * step
-        rows, columns = np.floor(y + centers).astype(int), np.floor(x + centers).astype(int)
-        height, width = self.depth.shape
-        inside = ((rows >= 0) & (rows < height))[:, None] & ((columns >= 0) & (columns < width))
-        sampled = self.depth[rows.clip(0, height - 1)[:, None], columns.clip(0, width - 1)]
-        depths: Plane = np.where(inside, sampled, np.float32(np.nan))
-        return depths
+    def medians(
+        self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
+    ) -> Floats:
+        """Of the pixels under the samples, all boxes in one call."""
+        return k.median_depths(self.depth, boxes, samples, expected.z if expected else math.nan, *gate)
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float
@@ -113,7 +109,11 @@ class StereoSource(NamedTuple):
         return False
 
     def sample(self, grid: Grid, side: int, expected: ExpectedDepth | None) -> Plane:
-        """By sums of absolute differences (Moreno et al. 2002, section 3.2) between samples of both images.
+        """(side, side) depths of a grid's squares in meters, NaN where nothing is measured.
+
+        Only those near the expected depth are found; where none is expected, all.
+
+        By sums of absolute differences (Moreno et al. 2002, section 3.2) between samples of both images.
 
         The right image is sampled farther left by the expected disparity, so that this becomes 0.
         """
@@ -136,6 +136,19 @@ class StereoSource(NamedTuple):
         disparity[~(disparity > 0)] = np.nan  # beyond infinity, or not found
         depths: Plane = np.float32(focal_baseline) / disparity
         return depths
+
+    def medians(
+        self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
+    ) -> Floats:
+        """Each box is matched by itself, in the square that has its samples."""
+        z, found = expected.z if expected else math.nan, []
+        for x, y, width, height in boxes.tolist():
+            side = max(width, height)
+            step = side / samples
+            depths = self.sample((x - side / 2, y - side / 2, step), samples, expected)
+            box = np.array([[samples / 2, samples / 2, width / step, height / step]])
+            found.append(k.median_depths(depths, box, samples, z, *gate))
+        return np.concatenate(found)
 
     def posterior(
         self, k: Kernels, grid: Grid, side: int, expected: ExpectedDepth, margin: float

@@ -5,7 +5,6 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import cv2
-import numpy as np
 
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -13,8 +12,7 @@ from tricue.kernels import Kernels
 from tricue.track.base import validation
 from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource, DepthSource, ExpectedDepth, StereoSource
-from tricue.track.fused.target import SearchRegion
-from tricue.track.fused.target_observation import TargetObservation, render_depth
+from tricue.track.fused.target_observation import TargetObservation
 
 
 class FrameObservation(NamedTuple):
@@ -31,22 +29,15 @@ class FrameObservation(NamedTuple):
     camera: Intrinsics
     timestamp: float | None
 
-    def for_target(
-        self, k: Kernels, expected: ExpectedDepth | None, region: SearchRegion | None = None
-    ) -> TargetObservation:
+    def for_target(self, k: Kernels, expected: ExpectedDepth | None) -> TargetObservation:
         """What the experts read of the frame, given the target's expected depth.
 
-        Without color they read a picture of depth, drawn in a region alone; it is black where no depth is
-        expected.
+        Without color they read a picture of depth.
         """
         if self.color is not None:
             return TargetObservation(k, self.color, "color", self.camera, self.depth_source, expected)
         assert self.depth is not None, "a frame has color or depth"
-        if expected:
-            picture = render_depth(self.depth, expected.z, region)
-        else:
-            picture = np.zeros((*self.shape, 3), np.uint8)
-        return TargetObservation(k, picture, "depth", self.camera, self.depth_source, expected, self.depth)
+        return TargetObservation(k, None, "depth", self.camera, self.depth_source, expected, self.depth)
 
 
 def observe_frame(

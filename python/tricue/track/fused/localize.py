@@ -103,7 +103,7 @@ def _pixel_experts(model: TargetModel) -> list[PixelExpert]:
 
 def _clamp(target: Target, window: Window) -> Target:
     """The target with its center moved into the image."""
-    height, width = window.observation.picture.shape[:2]
+    height, width = window.observation.shape
     x, y = min(max(target.x, 0.0), width), min(max(target.y, 0.0), height)
     return Target(x, y, target.width, target.height)
 

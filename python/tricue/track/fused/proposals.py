@@ -2,7 +2,7 @@
 """The windows that a search of the whole frame looks at."""
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from tricue.track.depth_objects.objects import segment
 from tricue.track.depth_objects.params import SegmentationParams
 from tricue.track.depth_objects.projection import camera_vector
 from tricue.track.fused.depth_sources import ExpectedDepth
-from tricue.track.fused.experts.depth import measure_depth
+from tricue.track.fused.experts.depth import DepthMeasurement, measure_center_depths
 from tricue.track.fused.localize import TargetModel
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter
@@ -28,6 +28,8 @@ MAX_GRID_PROPOSALS = 3  # per frame, of a grid over the whole frame
 SAMPLES_PER_TARGET = 8  # on a side of the target, in the search for its colors
 MAX_FRAME_SAMPLES = 256  # on a side of the frame, in the search for the target's colors
 PROPOSED_SCALES = 1.0, 0.7, 1.0, 1.4  # of the target's last size, one per frame in turn, without depth
+
+T = TypeVar("T")
 
 
 class LostTarget(NamedTuple):
@@ -54,23 +56,21 @@ def propose_windows(model: TargetModel, observation: TargetObservation, lost: Lo
     if model.depth is None or observation.depth_source is None:
         factor = PROPOSED_SCALES[lost.frame % len(PROPOSED_SCALES)]
         return extract_windows(observation, [each.scale(factor) for each in targets], context)
-    windows = []
-    for each in targets:
-        windows += extract_windows(*_at_measured_depth(model, observation, each), context)
+    depths, windows = measure_center_depths(observation, targets), []
+    for target, depth in zip(targets, depths, strict=True):
+        windows += extract_windows(*_at_depth(model, observation, target, depth), context)
     return windows
 
 
-def _at_measured_depth(
-    model: TargetModel, observation: TargetObservation, target: Target
+def _at_depth(
+    model: TargetModel, observation: TargetObservation, target: Target, depth: DepthMeasurement | None
 ) -> tuple[TargetObservation, list[Target]]:
     """The target as large as at the depth that its place has, and the frame with that depth expected."""
-    measured = measure_depth(observation, target, None)
-    if measured is None or model.depth is None:
+    if depth is None or model.depth is None:
         return observation, [target]
-    growth = model.depth.length / (measured.z * target.side)
-    expected = ExpectedDepth(measured.z, model.depth.depth_spread)
-    scaled = target.scale(model.limit_growth(growth, target))
-    return observation.expect(expected, scaled.search_region), [scaled]
+    growth = model.depth.length / (depth.z * target.side)
+    expected = ExpectedDepth(depth.z, model.depth.depth_spread)
+    return observation.expect(expected), [target.scale(model.limit_growth(growth, target))]
 
 
 def _object_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
@@ -95,7 +95,8 @@ def _object_proposals(model: TargetModel, observation: TargetObservation, lost: 
 
 def _color_proposals(model: TargetModel, observation: TargetObservation, lost: LostTarget) -> list[Target]:
     """The target where its colors stand out most, and at some of the next such places in turn."""
-    height, width = observation.picture.shape[:2]
+    assert observation.picture is not None, "the picture is of color"
+    height, width = observation.shape
     k, target = observation.k, lost.target
     step = max(target.side / SAMPLES_PER_TARGET, max(height, width) / MAX_FRAME_SAMPLES)
     rows, columns = (max(2 * round(length / step / 2), 2) for length in (height, width))
@@ -124,18 +125,15 @@ def _grid_proposals(observation: TargetObservation, lost: LostTarget, p: FusedPa
     """The target at places of a grid over the whole frame, half a window apart, in turn from near to far."""
     target = lost.target
     half = p.context * target.side / 2
-    height, width = observation.picture.shape[:2]
+    height, width = observation.shape
     rows, columns = (min(max(int(np.ceil(length / half)), 1), WINDOW_CELLS) for length in (height, width))
-    grid = [
-        target._replace(x=(j + 0.5) * width / columns, y=(i + 0.5) * height / rows)
-        for i in range(rows)
-        for j in range(columns)
-    ]
-    grid.sort(key=lambda each: (each.x - target.x) ** 2 + (each.y - target.y) ** 2)
-    return _in_turn(grid, MAX_GRID_PROPOSALS, lost.frame)
+    x, y = (np.arange(columns) + 0.5) * width / columns, (np.arange(rows) + 0.5) * height / rows
+    squared = np.add.outer((y - target.y) ** 2, (x - target.x) ** 2).ravel()
+    nearest = _in_turn(np.argsort(squared, kind="stable").tolist(), MAX_GRID_PROPOSALS, lost.frame)
+    return [target._replace(x=float(x[i % columns]), y=float(y[i // columns])) for i in nearest]
 
 
-def _in_turn(targets: list[Target], count: int, frame: int) -> list[Target]:
+def _in_turn(items: list[T], count: int, frame: int) -> list[T]:
     """The next few of a list that starts again at its end."""
     first = frame * count
-    return [targets[(first + i) % len(targets)] for i in range(min(count, len(targets)))]
+    return [items[(first + i) % len(items)] for i in range(min(count, len(items)))]

@@ -6,10 +6,6 @@ from typing import NamedTuple
 
 from tricue.camera.box import Box
 
-SEARCH_REACH = 5.0  # target sides: its own window, those beside it, and the windows around these
-
-SearchRegion = tuple[float, float, float]  # pixels: x and y of the center of a square, half of its side
-
 
 class Target(NamedTuple):
     """Center, width and height in pixels of the image."""
@@ -33,11 +29,6 @@ class Target(NamedTuple):
     def side(self) -> float:
         """Side of the square with the target's area, in pixels."""
         return math.sqrt(self.width * self.height)
-
-    @property
-    def search_region(self) -> SearchRegion:
-        """All pixels that a local search may read."""
-        return self.x, self.y, SEARCH_REACH * self.side
 
     def shift(self, right: float, down: float) -> "Target":
         """The target so many pixels farther right and down."""

@@ -5,44 +5,64 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
-from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.depth_sources import GATE_SIGMAS, DepthSource, ExpectedDepth
-from tricue.track.fused.target import SearchRegion
 
 PictureKind = Literal["color", "depth"]
 
 PICTURE_DEPTH_RANGE = 0.5  # meters from the expected depth to black or white in a picture of depth
+SAMPLE_REACH = 2  # pixels beyond a window that its samples may read
 
 
 @dataclass(frozen=True, slots=True)
 class TargetObservation:
     """A picture of the frame, and a source of depth for its pixels.
 
-    picture: (H, W, 3) BGR, of color, or of depth where there is no color. camera: the picture's.
+    picture: (H, W, 3) BGR of color, None where it is drawn of depth. camera: the picture's.
     depth_source: None where there is no depth. expected_depth: None where the target's depth isn't known.
-    depth_image: (H, W) meters, if the picture is made of it.
+    depth_image: (H, W) meters, if the picture is drawn of it.
     """
 
     k: Kernels
-    picture: Image
+    picture: Image | None
     kind: PictureKind
     camera: Intrinsics
     depth_source: DepthSource | None
     expected_depth: ExpectedDepth | None
     depth_image: Plane | None = None
 
-    def expect(self, expected: ExpectedDepth, region: SearchRegion | None = None) -> "TargetObservation":
-        """The same frame, given another expected depth; a picture of depth is drawn in a region alone."""
-        picture = self.picture
-        if self.kind == "depth" and self.depth_image is not None:
-            picture = render_depth(self.depth_image, expected.z, region)
-        return replace(self, picture=picture, expected_depth=expected)
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Height and width of the picture."""
+        image = self.depth_image if self.picture is None else self.picture
+        assert image is not None, "the picture is of color, or drawn of depth"
+        return image.shape[0], image.shape[1]
+
+    def expect(self, expected: ExpectedDepth) -> "TargetObservation":
+        """The same frame, given another expected depth."""
+        return replace(self, expected_depth=expected)
+
+    def sample(self, windows: Floats, side: int) -> Image:
+        """(N, side, side, 3) samples of the picture in windows (N, 4): left, top, width, height in pixels.
+
+        Of depth only the part with the windows is drawn; it is black where no depth is expected.
+        """
+        if self.picture is not None:
+            return self.k.sample_windows(self.picture, windows, side, side)
+        if self.expected_depth is None:
+            return np.zeros((len(windows), side, side, 3), np.uint8)
+        assert self.depth_image is not None, "the picture is drawn of it"
+        height, width = self.shape
+        left, right = _span(windows[:, 0], windows[:, 2], width)
+        top, bottom = _span(windows[:, 1], windows[:, 3], height)
+        part = self.depth_image[top:bottom, left:right]
+        picture = self.k.depth_picture(part, self.expected_depth.z, PICTURE_DEPTH_RANGE)
+        return self.k.sample_windows(picture, windows - (left, top, 0, 0), side, side)
 
     def depth_posterior(
         self, x: float, y: float, pixel_size: float, side: int
@@ -62,29 +82,8 @@ class TargetObservation:
         return self.depth_source.posterior(self.k, grid, side, expected._replace(sigma=sigma), margin)
 
 
-def render_depth(depth: Plane, z: float, region: SearchRegion | None = None) -> Image:
-    """(H, W, 3) picture of a depth image, in which a target at depth z looks the same at any distance.
-
-    Gray at z, black where it is nearer, white where it is farther or not measured. Outside of the region it
-    is black too.
-    """
-    picture = np.zeros((*depth.shape, 3), np.uint8)
-    part = _part(depth.shape, region)
-    gray = np.fmin(depth[part], np.float32(z + PICTURE_DEPTH_RANGE))  # what is NaN becomes white
-    np.maximum(gray, np.float32(z - PICTURE_DEPTH_RANGE), out=gray)
-    gray -= np.float32(z)
-    gray *= np.float32(127 / PICTURE_DEPTH_RANGE)
-    gray += np.float32(128)
-    picture[part] = cv2.cvtColor(gray.astype(np.uint8), cv2.COLOR_GRAY2BGR)
-    return picture
-
-
-def _part(shape: tuple[int, ...], region: SearchRegion | None) -> tuple[slice, slice]:
-    if region is None:
-        return slice(None), slice(None)
-    x, y, reach = region
-    rows, columns = (
-        slice(int(min(max(center - reach, 0), length - 1)), int(min(max(center + reach + 1, 1), length)))
-        for center, length in ((y, shape[0]), (x, shape[1]))
-    )
-    return rows, columns
+def _span(starts: Floats, lengths: Floats, size: int) -> tuple[int, int]:
+    """The first and the end of the pixels of an axis that windows read, at least one."""
+    first = max(float(starts.min()) - SAMPLE_REACH, 0.0)
+    end = min(float((starts + lengths).max()) + SAMPLE_REACH, size)
+    return int(min(first, size - 1)), max(math.ceil(end), 1)

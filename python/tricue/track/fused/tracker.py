@@ -111,7 +111,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         trust, observed = before.depth_trust.examine(observed, seconds)
         state = self._predict(before, observed, seconds)._replace(depth_trust=trust)
         state = initialize_depth(state, observed, self._k, self.params)
-        observation = observed.for_target(self._k, _expected_depth(state), state.target.search_region)
+        observation = observed.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
         match = self._localize(state, observation)
         state = verify(state, match, self.params)

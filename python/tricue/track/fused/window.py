@@ -102,7 +102,7 @@ def extract_windows(observation: TargetObservation, targets: list[Target], conte
     """The windows around targets; context: a window's side in sides of its target."""
     sides = [context * each.side for each in targets]
     squares = np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in zip(targets, sides, strict=True)])
-    patches = observation.k.sample_windows(observation.picture, squares, PATCH_PIXELS, PATCH_PIXELS)
+    patches = observation.sample(squares, PATCH_PIXELS)
     pixel_sizes = [side / PATCH_PIXELS for side in sides]
     return [Window(observation, *each) for each in zip(targets, patches, pixel_sizes, strict=True)]
 

@@ -60,5 +60,7 @@ def combine_posteriors(posteriors: Sequence[Plane | None]) -> Plane | None:
     target, rest = given[0], 1 - given[0]
     for each in given[1:]:
         target, rest = target * each, rest * (1 - each)
-    combined: Plane = target / np.maximum(target + rest, np.float32(1e-9))
-    return combined
+    rest += target
+    np.maximum(rest, np.float32(1e-9), out=rest)
+    target /= rest
+    return target

@@ -2,13 +2,15 @@
 """The target's depth: it tells its pixels, its size, and its occluders."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import cv2
 import numpy as np
 
 from tricue.track.base.params import Params, parameter
-from tricue.track.fused.arrays import Plane
+from tricue.track.fused.arrays import Floats, Plane
 from tricue.track.fused.depth_sources import GATE_SIGMAS, MAX_EXPECTED_SIGMA, ExpectedDepth
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
@@ -23,9 +25,7 @@ MAX_GROWTH_PER_FRAME = 1.25  # times
 SURROUND_SIZE = 2.0  # of the box: what depth_continuity compares it with
 FULL_WEIGHT_SIGMA = 0.25  # meters; a vaguer expected depth counts less in depth_continuity
 DEPTH_CENTER_SHARE = 0.5  # of the box's sides: the part that is the target's where no depth is expected
-MIN_MEASURED_DEPTH, MAX_MEASURED_DEPTH = 0.001, 1000.0  # meters; what is beyond counts as not measured
 MAX_DEPTH_OFFSET = 0.5  # meters from the median of that part
-MAD_TO_SIGMA = 1.4826  # from the median absolute deviation to normal noise's standard deviation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,37 +102,38 @@ def measure_depth(
 
     Where that is None or vague, the depth of the box's center. None where too little is measured.
     """
+    if expected is None or expected.sigma > MAX_EXPECTED_SIGMA:
+        return measure_center_depths(observation, [target])[0]
     if observation.depth_source is None:
         return None
-    if expected is not None and expected.sigma > MAX_EXPECTED_SIGMA:
-        expected = None
-    side = DEPTH_CENTER_SHARE * target.side if expected is None else max(target.width, target.height)
-    pixel_size = side / DEPTH_SAMPLES
-    corner = target.x - side / 2, target.y - side / 2
-    depths = observation.depth_source.sample((*corner, pixel_size), DEPTH_SAMPLES, expected)
-    if expected is None:
-        inside = (depths > MIN_MEASURED_DEPTH) & (depths < MAX_MEASURED_DEPTH)
-        center = float(np.median(depths[inside])) if inside.any() else math.nan
-        max_offset = MAX_DEPTH_OFFSET
-    else:
-        offset = np.abs((np.arange(DEPTH_SAMPLES) + 0.5) / DEPTH_SAMPLES - 0.5) * 2 * side
-        inside = (offset[:, None] / target.height) ** 2 + (offset / target.width) ** 2 <= 1
-        center = expected.z
-        noise = observation.depth_source.noise(expected.z, pixel_size)
-        max_offset = GATE_SIGMAS * math.hypot(expected.sigma, noise)
-    chosen = depths[inside & (np.abs(depths - np.float32(center)) < max_offset)]
-    if len(chosen) < MIN_MEASURED_SHARE * np.count_nonzero(inside) or not len(chosen):
-        return None
-    z = float(np.median(chosen))
-    spread = MAD_TO_SIGMA * float(np.median(np.abs(chosen - z)))
-    return DepthMeasurement(z, spread, len(chosen) / np.count_nonzero(inside))
+    noise = observation.depth_source.noise(expected.z, max(target.width, target.height) / DEPTH_SAMPLES)
+    gate = GATE_SIGMAS * math.hypot(expected.sigma, noise), MIN_MEASURED_SHARE
+    k, source = observation.k, observation.depth_source
+    return _measurements(source.medians(k, np.array([target], float), DEPTH_SAMPLES, expected, gate))[0]
+
+
+def measure_center_depths(
+    observation: TargetObservation, targets: Sequence[Target]
+) -> list[DepthMeasurement | None]:
+    """The depths of the centers of boxes, where none is expected; None where too little is measured."""
+    if observation.depth_source is None:
+        return [None] * len(targets)
+    sides = [DEPTH_CENTER_SHARE * each.side for each in targets]
+    squares = np.array([(each.x, each.y, side, side) for each, side in zip(targets, sides, strict=True)])
+    gate = MAX_DEPTH_OFFSET, MIN_MEASURED_SHARE
+    return _measurements(observation.depth_source.medians(observation.k, squares, DEPTH_SAMPLES, None, gate))
+
+
+def _measurements(medians: Floats) -> list[DepthMeasurement | None]:
+    return [None if math.isnan(z) else DepthMeasurement(z, *rest) for z, *rest in medians.tolist()]
 
 
 def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> float:
     """The share of a target's box, so many patch pixels off the window's center, that an occluder covers."""
     if window.depth is None:
         return 0.0
-    return float(window.depth[1][window.inner(right, down, INNER_SHARE)].mean())
+    nearer = window.depth[1][window.inner(right, down, INNER_SHARE)]
+    return cv2.countNonZero(nearer) / nearer.size
 
 
 def depth_continuity(window: Window, right: float, down: float) -> float:
@@ -147,6 +148,7 @@ def depth_continuity(window: Window, right: float, down: float) -> float:
     inner, outer = (
         window.depth[0][window.inner(right, down, share)] for share in (INNER_SHARE, SURROUND_SIZE)
     )
-    inside, outside = float(inner.sum()), float(outer.sum()) - float(inner.sum())
+    inside = float(inner.sum())
+    outside = float(outer.sum()) - inside
     contrast = inside / inner.size - outside / max(outer.size - inner.size, 1)
     return max(contrast, 0.0) * min(FULL_WEIGHT_SIGMA / expected.sigma, 1.0) ** 2

@@ -117,7 +117,7 @@ def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
     """
     width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
     square = np.array([[target.x - width / 2, target.y - height / 2, width, height]])
-    patch = observation.k.sample_windows(observation.picture, square, PATCH_PIXELS, PATCH_PIXELS)
+    patch = observation.sample(square, PATCH_PIXELS)
     log_polar: Image = patch.reshape(-1, 3).take(LOG_POLAR_PIXELS, axis=0)
     return observation.k.hog_color_cells(log_polar, TAPER)
 

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""A picture of a room's depth, 176x144: native, reference, and a script on NumPy and OpenCV."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Depth = NDArray[np.float32]
+
+
+def script(depth: Depth, z: float, reach: float) -> Any:
+    """The baseline: NaN made far, then OpenCV's scaling, which clips."""
+    known = np.nan_to_num(depth - np.float32(z), nan=reach)
+    levels = cv2.convertScaleAbs(np.clip(known, -reach, reach), alpha=127 / reach, beta=128)
+    return cv2.cvtColor(levels, cv2.COLOR_GRAY2BGR)
+
+
+@pytest.mark.benchmark(group="depth_picture, 176x144")
+@pytest.mark.parametrize(
+    "draw",
+    [_core.depth_picture, reference.depth_picture, script],
+    ids=["native", "reference", "baseline"],
+)
+def bench_depth_picture(benchmark: Any, draw: Callable[..., NDArray[np.uint8]], room: Depth) -> None:
+    """All draw the same, to a level."""
+    found, expected = benchmark(draw, room, 2.5, 0.5), reference.depth_picture(room, 2.5, 0.5)
+    assert np.abs(found.astype(int) - expected).max() <= 1
+    assert 0.02 < ((expected > 1) & (expected < 255)).mean() < 0.9

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+
+namespace tricue {
+
+/// The bytes of a picture, pixel by pixel.
+using PictureBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
+
+/// A gray picture of a depth image, in which a target at depth z looks the same at any distance.
+///     128 + 127 (depth - z) / reach,  within 1 and 255, rounded down, in float32
+///
+/// Black where it is nearer than z by reach or more, white where it is farther by as much, or not a number.
+///
+/// @param depth float32 (H, W), meters; may be empty
+/// @param z depth that is gray, meters, finite
+/// @param reach meters from gray to black or white, finite, above 0
+/// @returns uint8 (H, W, 3) BGR; in C++ one array of bytes in this order
+/// @throws std::invalid_argument on numbers out of range
+/// Source: ours.
+PictureBytes depth_picture(const DepthView& depth, double z, double reach);
+
+}  // namespace tricue

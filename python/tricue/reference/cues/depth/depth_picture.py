@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+"""A gray picture of a depth image, in which a target at one depth looks the same at any distance."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+
+MIDDLE, CONTRAST = 128, 127  # gray level of the target's depth, and levels from there to black or white
+
+
+def depth_picture(depth: NDArray[np.float32], z: float, reach: float) -> NDArray[np.uint8]:
+    """Clips and scales whole planes."""
+    if not np.isfinite(z):
+        refuse("z", "a finite number", float(z))
+    if not 0 < reach < np.inf:
+        refuse("reach", "a finite number above 0", float(reach))
+    inside = np.maximum(np.fmin(depth, np.float32(z + reach)), np.float32(z - reach))
+    levels = (inside - np.float32(z)) * np.float32(CONTRAST / reach) + np.float32(MIDDLE)
+    return np.repeat(levels.astype(np.uint8)[..., None], 3, axis=2)
