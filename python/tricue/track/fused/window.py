@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Floats, Image, Plane
-from tricue.track.fused.depth_sources import Grid
+from tricue.track.fused.depth_sources import DepthImageSource, Grid
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
@@ -79,9 +79,9 @@ class Window:
 
     def _without_support(self, posterior: Plane) -> Plane:
         source, expected = self.observation.depth_source, self.observation.expected_depth
-        if source is None or expected is None or not source.has_sharp_edges:
+        if expected is None or not isinstance(source, DepthImageSource):
             return posterior
-        depths = source.sample(self._grid, PATCH_PIXELS, None)
+        depths = source.sample(self._grid, PATCH_PIXELS)
         observation = self.observation
         support = find_support(observation.k, depths, self._grid, self.size, expected.z, observation.camera)
         if support is None:
