@@ -23,7 +23,8 @@ SCALES = np.array([0.925, 0.95, 0.975, 1.0, 1.025, 1.05, 1.075])
 MAX_REGISTERED_ERROR = 1.5  # cells, root mean square over the image; registered depth has no more
 MIN_ERROR = 2.25  # cells; what lies between both is neither doubted nor taken for registered
 MIN_EDGE_CELLS = 150  # with fewer edges of depth, the check says nothing
-MIN_SIDE = 3 * MAX_SHIFT  # cells, of an image in which that many shifts can be told apart
+MIN_HEIGHT = 3 * MAX_SHIFT  # cells, of an image in which that many shifts can be told apart
+MIN_WIDTH = 120  # cells; in a smaller image a few edges are most of it
 MIN_DEPTH_STEP = 0.1  # of the logarithm of depth over two cells: an edge
 MAX_COLOR_SLOPE = 15.0  # levels a cell; a steeper one counts as much
 MIN_PEAK, MIN_ADVANTAGE = (4.2, 5.2), (1.3, 1.4)
@@ -51,7 +52,7 @@ class DepthCheck(NamedTuple):
 
     edges: cells with an edge of depth, 0 where none were looked for. width: the image's, pixels. fits: the
     best of shifts alone, and of shifts and scales; none with fewer edges than MIN_EDGE_CELLS, and in an image
-    less than MIN_SIDE cells wide or high.
+    less than MIN_WIDTH cells wide or MIN_HEIGHT high.
     """
 
     edges: int
@@ -81,7 +82,7 @@ def check_depth(color: NDArray[np.uint8], depth: Plane) -> DepthCheck:
     width = depth.shape[1]
     step = _step(width)
     thinned = depth[step // 2 :: step, step // 2 :: step]
-    if min(thinned.shape) < MIN_SIDE:
+    if thinned.shape[0] < MIN_HEIGHT or thinned.shape[1] < MIN_WIDTH:
         return DepthCheck(0, width)
     edges = _depth_edges(thinned)
     count = int(np.count_nonzero(edges.any(axis=2)))
