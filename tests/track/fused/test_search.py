@@ -81,11 +81,13 @@ def test_color_and_structure_have_to_agree(features, measured, search_among):
     assert search_among(other).target == HERE
 
 
-def test_structure_is_as_likely_anywhere(search_among):
-    """The distance counts against the log-odds, not against those of the structure."""
+@pytest.mark.parametrize("measured", [None, DEPTH], ids=["color", "depth"])
+def test_structure_of_known_size_is_as_likely_anywhere(measured, search_among):
+    """With depth the distance counts against the log-odds alone, else against those of the structure, too."""
     sigma = HERE.side * P.lost_position_noise * 21
-    far = match(HERE.shift(3.0 * sigma, 0.0), odds=20.0)
-    assert search_among(far).log_odds == pytest.approx(min(20 - 4.5, far.structure_log_odds))
+    far = match(HERE.shift(3.0 * sigma, 0.0), odds=20.0, measured=measured)
+    structure = far.structure_log_odds - (4.5 if measured is None else 0.0)
+    assert search_among(far).log_odds == pytest.approx(min(20 - 4.5, structure))
 
 
 def test_elsewhere_needs_a_high_score(search_among):

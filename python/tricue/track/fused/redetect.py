@@ -22,7 +22,7 @@ def redetect(model: TargetModel, observation: TargetObservation, lost: LostTarge
         (_match_elsewhere(model, lost, each) for each in candidates[: p.candidates]),
         key=lambda each: each.log_odds,
     )
-    local = _penalize_distance(model, lost, local)
+    local = local._replace(log_odds=local.log_odds - _distance_penalty(model, lost, local))
     found = best.score >= p.min_score_to_redetect and best.log_odds > local.log_odds
     return best if found else local
 
@@ -30,15 +30,18 @@ def redetect(model: TargetModel, observation: TargetObservation, lost: LostTarge
 def _match_elsewhere(model: TargetModel, lost: LostTarget, candidate: Candidate) -> Match:
     """A candidate measured away from where the target should be.
 
-    Its structure has to agree by itself, too: look-alikes share the colors.
+    Its structure has to agree by itself, too: look-alikes share the colors. Without its depth, which gives
+    its size, the distance counts against that as well.
     """
-    match = _penalize_distance(model, lost, measure_candidate(model, candidate))
-    return match._replace(log_odds=min(match.log_odds, match.structure_log_odds))
+    match = measure_candidate(model, candidate)
+    penalty = _distance_penalty(model, lost, match)
+    structure = match.structure_log_odds - (penalty if match.depth is None else 0.0)
+    return match._replace(log_odds=min(match.log_odds - penalty, structure))
 
 
-def _penalize_distance(model: TargetModel, lost: LostTarget, match: Match) -> Match:
-    """The match with less log-odds the farther it is from where the target can be by now."""
-    return match._replace(log_odds=match.log_odds - 0.5 * _distance(model, lost, match) ** 2)
+def _distance_penalty(model: TargetModel, lost: LostTarget, match: Match) -> float:
+    """Log-odds that a match has less the farther it is from where the target can be by now."""
+    return 0.5 * _distance(model, lost, match) ** 2
 
 
 def _distance(model: TargetModel, lost: LostTarget, match: Match) -> float:
