@@ -215,10 +215,10 @@ def test_what_it_stands_on_is_left_out():
 
 
 def test_sides_at_the_border_are_cut():
-    """Within 5 % of the target's side of the border, and beyond it."""
+    """Within a tenth of the target's side of the border, and beyond it."""
     assert Sides.cut_by_border(Target(100.0, 100.0, 40.0, 40.0), (200, 300)) == (Side.HIDDEN,) * 4
-    assert Sides.cut_by_border(Target(21.9, 100.0, 40.0, 40.0), (200, 300))[0] is Side.CUT
-    assert Sides.cut_by_border(Target(22.1, 100.0, 40.0, 40.0), (200, 300))[0] is Side.HIDDEN
+    assert Sides.cut_by_border(Target(23.9, 100.0, 40.0, 40.0), (200, 300))[0] is Side.CUT
+    assert Sides.cut_by_border(Target(24.1, 100.0, 40.0, 40.0), (200, 300))[0] is Side.HIDDEN
     assert Sides.cut_by_border(Target(290.0, 195.0, 40.0, 40.0), (200, 300)) == (
         *(Side.HIDDEN, Side.HIDDEN),
         *(Side.CUT, Side.CUT),

@@ -21,7 +21,7 @@ from tricue.track.fused.window import PATCH_PIXELS, Window
 MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
 OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
-BORDER_MARGIN = 0.05  # of the target's side, from the image's border
+BORDER_MARGIN = 0.1  # of the target's side, from the image's border: boxes are drawn by hand
 MAX_FIRST_DEVIATION = 0.2  # of half the box, between a side of the first box and what depth shows
 MAX_SEEN_DEVIATION = 0.6  # of half the box, of a side that was seen; farther off it is something else's
 MAX_CUT_REACH = 6.0  # halves of the box
