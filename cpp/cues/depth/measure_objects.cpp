@@ -47,7 +47,8 @@ Object to_metric(const ObjectTable& objects, Index i, VectorRef camera) {
 double strip_to_floor(const Object& object, const Ground& ground) {
     using Vector3 = Eigen::Vector3d;
     const Vector3 up = ground.plane.head(3).matrix(), ahead = Vector3::UnitZ() - up.z() * up;
-    const Vector3 center(object.x, object.y, object.z), edge = center + Vector3::UnitY() * (object.height / 2);
+    const Vector3 center(object.x, object.y, object.z),
+        edge = center + Vector3::UnitY() * (object.height / 2);
     const double along = ahead.dot(edge);
     if (!(along > 0.0)) return 0.0;
     const Vector3 lowest = edge * (ahead.dot(center) / along);
