@@ -94,17 +94,24 @@ def test_a_head_without_a_rig(folder: Path, capsys: pytest.CaptureFixture[str]) 
     assert (folder / "o.mp4").stat().st_size > 0
 
 
-def test_detect_face_waits_for_a_face(
-    folder: Path, scene: StereoScene, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("tracker", ["stereo-head", "color-particle"])
+def test_detect_face_waits_for_a_head(
+    folder: Path, scene: StereoScene, tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that --detect face goes before the true box and starts on the first frame with a face."""
-    answers: list[Box | None] = [None, None, scene.boxes[2]]
-    monkeypatch.setattr("tricue.track.base.face_detection.find_face", lambda _: answers.pop(0))
-    assert main([*calibrated(folder), "--detect", "face", "--csv", str(folder / "o.csv")]) == 0
+    """It proves that --detect face finds a head in stereo pairs, in the first frame that shows one, with any
+    tracker.
+    """
+    for path in folder.glob("*/000[01].png"):
+        cv2.imwrite(str(path), np.full((120, 160, 3), 90, np.uint8))
+    (folder / "groundtruth.txt").unlink()
+    place = calibrated(folder) if tracker == "stereo-head" else ["track", str(folder)]
+    command = [*place, "--tracker", tracker, "--detect", "face"]
+    assert main([*command, "--csv", str(folder / "o.csv")]) == 0
     rows = list(csv.DictReader((folder / "o.csv").read_text().splitlines()))
     assert [row["frame"] for row in rows] == [str(index) for index in range(2, FRAMES)]
     assert "started in frame 2" in capsys.readouterr().out
-    assert not answers
+    box = Box(*(float(rows[0][key]) for key in ("x", "y", "width", "height")))
+    assert box.iou(scene.boxes[2]) > 0.5
 
 
 def small(folder: Path) -> None:

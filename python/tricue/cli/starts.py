@@ -2,15 +2,18 @@
 """How trackers start: on a box, on a face, on a sequence's first true box, or by its own detection."""
 
 from argparse import Namespace
-from typing import Any
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.camera.rig import StereoRig
 from tricue.cli.steps import Start
 from tricue.data.open_source import Source
 from tricue.errors import BoxError, MissingChannelError, NoDepthInBoxError, UnregisteredDepthError
+from tricue.kernels import Kernels, load
 from tricue.track.base.registry import names, traits
 from tricue.track.base.track import Tracker
+from tricue.track.base.validation import rig_or_default
+from tricue.track.head_detection.head_in_disparities import find_head_in_disparities
 
 DEFAULT_TRACKER = "fused"  # if no tracker is chosen
 BOX_HINT, FACE_HINT = "give --box x,y,width,height", "--detect face"
@@ -30,16 +33,19 @@ def depth_tracker() -> str:
     return next(name for name in names() if traits(name).detects == "person")
 
 
-def choose_start(options: Namespace, source: Source, tracker: Tracker) -> Start | None:
-    """The function that gives the first box; None if the tracker detects its target."""
+def choose_start(
+    options: Namespace, source: Source, tracker: Tracker, rig: StereoRig | None = None
+) -> Start | None:
+    """The function that gives the first box; None if the tracker detects its target.
+
+    rig: of stereo pairs, in which a head is found by its disparities.
+    """
     if options.detect == "person" and tracker.traits.detects != "person":
         raise ValueError(
             f"--detect person: {options.tracker} doesn't look for people; {BOX_HINT} or {FACE_HINT}"
         )
     if options.detect == "face":
-        from tricue.track.base.face_detection import find_face
-
-        return lambda frame: _face(frame, find_face)
+        return lambda frame: _face(frame, load(options.kernels), rig)
     box = options.box or (None if options.detect else source.first_box)
     return None if box is None else lambda _: box
 
@@ -62,8 +68,13 @@ def start_hint(error: ValueError, source: Source, tracker: Tracker) -> str:
     return ""
 
 
-def _face(frame: Frame, find: Any) -> Box | None:
+def _face(frame: Frame, k: Kernels, rig: StereoRig | None) -> Box | None:
+    """A head on shoulders in a stereo pair, or, in video of one camera, the largest frontal face."""
     if frame.color is None:
         raise ValueError("--detect face: expected color images")
-    face: Box | None = find(frame.color)
-    return face
+    if frame.right is not None:
+        baseline = rig_or_default(rig, frame.color.shape).baseline
+        return find_head_in_disparities(k, frame.color, frame.right, baseline)
+    from tricue.track.base.face_detection import find_face
+
+    return find_face(frame.color)

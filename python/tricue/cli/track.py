@@ -67,7 +67,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     start.add_argument(
         "--detect",
         choices=("face", "person"),
-        help="start on the first face, the largest, or on the first person that a depth tracker detects",
+        help="start on the first face (stereo pairs: head), or on the first person that a depth tracker detects",
     )
     command.add_argument(
         "--fps",
@@ -188,7 +188,7 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     )
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics
-    run = TrackRun(source, tracker, known, choose_start(options, source, tracker), rig)
+    run = TrackRun(source, tracker, known, choose_start(options, source, tracker, rig), rig)
     return run, [*source.notes, *([found.note] if found.note else [])]
 
 

@@ -46,7 +46,7 @@ class Traits:
     channels: tuple[Channels, ...]
     camera: frozenset[Literal["intrinsics", "rig"]] = frozenset()
     guesses: bool = False
-    detects: Literal["face", "person"] | None = None
+    detects: Literal["head", "person"] | None = None
     random: bool = False
     disparity_range: tuple[str, str] | None = None
     shows: frozenset[Literal["particles", "objects", "mask", "blocks"]] = frozenset()

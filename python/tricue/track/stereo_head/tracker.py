@@ -10,16 +10,16 @@ from tricue.camera.rig import StereoRig
 from tricue.camera.stereo_check import warn_of_stereo
 from tricue.errors import BoxError, NoDepthInBoxError, TargetNotFoundError
 from tricue.track.base import validation
-from tricue.track.base.face_detection import find_face
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
+from tricue.track.head_detection.head_in_disparities import find_head_in_disparities
 from tricue.track.stereo_head import head_filter
 from tricue.track.stereo_head.disparity import find_initial_disparity, limits_between
 from tricue.track.stereo_head.head_filter import HeadFilter
 from tricue.track.stereo_head.measure import HeadMeasurement, measure
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import Image, PreparedPair, mean_color
+from tricue.track.stereo_head.prepared_pair import PreparedPair, mean_color
 from tricue.track.stereo_head.search_frame import LostHead, search_frame
 from tricue.track.stereo_head.state import HeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
@@ -50,9 +50,9 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     traits = Traits(
         channels=(Channels.of("color", "right"),),
         camera=frozenset({"rig"}),
-        detects="face",
+        detects="head",
         disparity_range=("near", "far"),
-        follows="a head, whose face it finds by itself, in meters",
+        follows="a head, which it finds by itself, in meters",
         source="Moreno et al. 2002",
     )
 
@@ -71,14 +71,20 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
         """Start, or start again, on the head in ``box``, (x, y, width, height) in pixels of the left image.
 
-        Without a box it starts on the largest frontal face.
+        Without a box it starts on the head on shoulders that stands out most in the disparities.
         ValueError where no part of the box is inside, where nothing in it has a disparity between near and
-        far, and, without a box, where no face is found. Warns (UserWarning) where the pair seems not to be
-        rectified, or its images to be swapped.
+        far, and, without a box, where no head is found (TargetNotFoundError). Warns (UserWarning) where the
+        pair seems not to be rectified, or its images to be swapped.
         """
         left, right, timestamp = validation.stereo_pair(frame)
-        geometry = StereoGeometry.of(validation.rig_or_default(self.rig, left.shape))
-        head = validation.check_box_in(_find_face(left) if box is None else as_box(box), left.shape)
+        rig = validation.rig_or_default(self.rig, left.shape)
+        geometry = StereoGeometry.of(rig)
+        given = find_head_in_disparities(self._k, left, right, rig.baseline) if box is None else as_box(box)
+        if given is None:
+            raise TargetNotFoundError(
+                "box: expected (x, y, width, height), as no head on shoulders was found in this frame"
+            )
+        head = validation.check_box_in(given, left.shape)
         if max(head.width, head.height) > MAX_BOX_SIDE:
             raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
@@ -206,11 +212,3 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             return Track(box, score, status)
         position, covariance = state.filter.position, state.filter.position_covariance
         return Track(box, score, status, position.copy(), covariance.copy(), float(position[2]))
-
-
-def _find_face(image: Image) -> Box:
-    """The largest face in an image; TargetNotFoundError where there is none."""
-    face = find_face(image)
-    if face is None:
-        raise TargetNotFoundError("box: expected (x, y, width, height), as no face was found in this frame")
-    return face

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: MIT
+"""Heads that are found without a box: rates, false starts and times, on stereo pairs.
+
+    python -m benchmarks.quality.head_detection [STEREO_FOLDER]
+
+Rendered heads: "found" is the share of frames whose box overlaps the true one by 0.5 or more, of frames in
+which at least 95 % of the head is visible. "false" is a box elsewhere. "facing" frames show the face, others
+its side or hair alone. Recorded pairs in which nobody stands (KITTI's, Middlebury's, those of a folder): each
+box is a false start.
+"""
+
+import argparse
+from collections.abc import Iterator
+from pathlib import Path
+from time import perf_counter
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from tricue import kernels
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.data.open_source import open_source
+from tricue.scenes import HEAD_KINDS, head
+from tricue.track.head_detection.head_in_disparities import find_head_in_disparities
+
+from benchmarks.quality.common.sequences import data_folder
+from benchmarks.quality.common.tables import markdown
+
+MIN_OVERLAP, MIN_VISIBLE = 0.5, 0.95
+MAX_FACING = 1.0  # radians
+EVERY = 20  # frames
+UNKNOWN_BASELINE = 0.12  # meters
+
+
+class Answer(NamedTuple):
+    """What was found in a frame. overlap: with the true box, 0 where nothing was found."""
+
+    source: str
+    true: bool
+    found: bool
+    overlap: float
+    milliseconds: float
+
+
+def main() -> None:
+    """Print the table."""
+    command = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    command.add_argument("--seeds", type=int, default=5, help="scenes of each kind, from 100 on")
+    command.add_argument("data", nargs="?", type=Path, default=data_folder(), help="recordings")
+    options = command.parse_args()
+    answers = [*_rendered(options.seeds), *_recorded(options.data)]
+    rows = []
+    for source in dict.fromkeys(each.source for each in answers):
+        of_source = [each for each in answers if each.source == source]
+        right = [each.overlap >= MIN_OVERLAP for each in of_source]
+        false = [each.found and each.overlap < MIN_OVERLAP for each in of_source]
+        rate = f"{np.mean(right):.1%}" if of_source[0].true else ""
+        times = np.median([each.milliseconds for each in of_source])
+        rows.append([source, str(len(of_source)), rate, f"{np.mean(false):.1%}", f"{times:.0f}"])
+    print(markdown(["pairs", "frames", "found", "false", "ms a frame"], rows))
+
+
+def _answer(source: str, frame: Frame, baseline: float, true: Box | None) -> Answer:
+    assert frame.color is not None
+    assert frame.right is not None
+    before = perf_counter()
+    found = find_head_in_disparities(kernels.load("native"), frame.color, frame.right, baseline)
+    seconds = perf_counter() - before
+    overlap = 0.0 if found is None or true is None else found.iou(true)
+    return Answer(source, true is not None, found is not None, overlap, 1000 * seconds)
+
+
+def _rendered(seeds: int) -> Iterator[Answer]:
+    for camera in ("160x120", "640x480"):
+        for kind in HEAD_KINDS:
+            for seed in range(100, 100 + seeds):
+                scene = head(seed, 60, camera, kind=kind)
+                for index in range(0, 60, EVERY):
+                    if scene.visible[index] >= MIN_VISIBLE:
+                        side = "facing" if scene.facing[index] < MAX_FACING else "turned"
+                        name = f"head, {camera}, {side}"
+                        yield _answer(name, scene.frames[index], scene.rig.baseline, scene.boxes[index])
+
+
+def _recorded(data: Path) -> Iterator[Answer]:
+    for left in sorted((data / "disparity").glob("*/im2.png")):
+        right = left.with_name("im6.png")
+        yield _answer("Middlebury", _pair(left, right), UNKNOWN_BASELINE, None)
+    for left in sorted((data / "stereo" / "kitti-tracking" / "image_02").rglob("*.png")):
+        right = Path(str(left).replace("image_02", "image_03"))
+        yield _answer("KITTI", _pair(left, right), 0.54, None)
+    for index, frame in enumerate(open_source(data / "stereo" / "conveyor-box")):
+        if index % EVERY == 0:
+            yield _answer("conveyor-box", frame, UNKNOWN_BASELINE, None)
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        noise = rng.integers(0, 256, (2, 120, 160, 3), np.uint8)
+        yield _answer("noise", Frame(noise[0], right=noise[1]), UNKNOWN_BASELINE, None)
+
+
+def _pair(left: Path, right: Path) -> Frame:
+    images = [cv2.imread(str(path)) for path in (left, right)]
+    return Frame(images[0], right=images[1])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""A head in the disparities of a stereo pair: an ellipse of a head's size, on shoulders, before the rest.
+
+It needs neither a face nor colors. A head's width in pixels follows from its disparity and the baseline
+alone. So each layer of disparities is scaled to the same width of a head, and the same masks are moved over
+all of them.
+"""
+
+import math
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.camera.box import Box
+from tricue.kernels import Kernels
+
+Image = NDArray[np.uint8]
+Map = NDArray[np.float32]
+
+HEAD_WIDTH, HEAD_HEIGHT = 0.17, 0.22  # meters, of a head with hair
+SEARCH_WIDTH = 320  # pixels, about, to which a pair is reduced
+WINDOW, UNIQUENESS, TOLERANCE = 7, 5, 1  # of the matching of blocks
+NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity: share of the width, and pixels
+CELLS = 6  # pixels of a head's width where it is looked for
+LAYER_STEP = 1.1  # from one layer's disparity to the next
+LAYER_SHARE, MIN_LAYER = 0.09, 0.8  # half a layer's thickness: of its disparity, and in pixels
+BEHIND = 1.5  # a layer's half thicknesses that surroundings are behind the head, at least
+MIN_SCORE = (
+    0.8  # the least share of head, shoulders and free surroundings; recorded scenes without people have less
+)
+MIN_HEAD, MAX_HEAD = 5.0, 0.66  # width of a head: pixels of the reduced image, share of its height
+MIN_DISPARITY = 2.0  # pixels; what is behind a farther head differs by less than the matching's errors
+SHOULDERS_HIDDEN = 0.2  # share of the shoulders that may be hidden or unmatched
+FULL_WEIGHT = 0.02  # of the shares' sum, which decides between places that are alike in the least
+
+
+class _Candidate(NamedTuple):
+    score: float
+    box: Box
+
+
+def _masks() -> dict[str, Map]:
+    """The places of head, shoulders and surroundings, in widths of a head from the head's center."""
+    rows, columns = round(3.6 * CELLS), round(3.2 * CELLS)
+    x = ((np.arange(columns) + 0.5 - columns / 2) / CELLS)[None]
+    y = ((np.arange(rows) + 0.5) / CELLS - 1.4)[:, None]
+    aspect = HEAD_HEIGHT / HEAD_WIDTH
+    radius = np.hypot(x / 0.5, y / (0.5 * aspect))
+    beside = (np.abs(y) < 0.55) & (np.abs(x) > 0.68) & (np.abs(x) < 1.25)
+    on_shoulders = (y > 1.25) & (y < 1.75) & (np.abs(x) > 0.45) & (np.abs(x) < 1.0)
+    above = (y < -0.85) & (y > -1.35) & (np.abs(x) < 0.5)
+    places = {
+        "head": radius < 0.9,
+        "left": beside & (x < 0),
+        "right": beside & (x > 0),
+        "above": above,
+        "left shoulder": on_shoulders & (x < 0),
+        "right shoulder": on_shoulders & (x > 0),
+    }
+    return {name: (place / place.sum()).astype(np.float32) for name, place in places.items()}
+
+
+MASKS = _masks()
+MASK_SHAPE = MASKS["head"].shape
+HEAD_CENTER = (MASK_SHAPE[1] / 2, 1.4 * CELLS)  # x, y in the masks
+
+
+def find_head_in_disparities(k: Kernels, left: Image, right: Image, baseline: float) -> Box | None:
+    """The box of the head that stands out most in a rectified pair, BGR or gray each; None without one.
+
+    baseline: meters, of the rig. The box is that of the head's upright ellipse, in pixels of the left image.
+    """
+    height, width = left.shape[:2]
+    step = max(1, round(width / SEARCH_WIDTH))
+    size = (width // step, height // step)
+    if min(size) < 2 * CELLS:
+        return None
+    nearest = min(math.ceil(size[0] * NEAREST), MAX_DISPARITY)
+    disparities = k.sad_disparity(
+        _reduced_gray(left, size), _reduced_gray(right, size), (0, 0, *size), False,
+        0, nearest, WINDOW, UNIQUENESS, True, TOLERANCE,
+    )  # fmt: skip
+    found = max(_candidates(disparities, baseline), key=lambda each: each.score, default=None)
+    if found is None or found.score < MIN_SCORE:
+        return None
+    across, down = width / size[0], height / size[1]
+    x, y, box_width, box_height = found.box
+    return Box(x * across, y * down, box_width * across, box_height * down)
+
+
+def _reduced_gray(image: Image, size: tuple[int, int]) -> Image:
+    gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
+    return cv2.resize(gray, size, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
+
+
+def _candidates(disparities: Map, baseline: float) -> list[_Candidate]:
+    """The best head of each layer of disparities."""
+    height = disparities.shape[0]
+    disparity, found = max(MIN_DISPARITY, MIN_HEAD * baseline / HEAD_WIDTH), []
+    while (head := HEAD_WIDTH / baseline * disparity) < MAX_HEAD * height:
+        tolerance = max(MIN_LAYER, LAYER_SHARE * disparity)
+        layer = (np.abs(disparities - np.float32(disparity)) <= tolerance).astype(np.float32)
+        # Unmatched pixels are seen by one camera only: the background beside a head.
+        behind = (~(disparities >= disparity - BEHIND * tolerance)).astype(np.float32)
+        best = _best_place(layer, behind, CELLS / head)
+        if best is not None:
+            score, x, y = best
+            box = Box.from_ellipse(x, y, head / 2, head / 2 * HEAD_HEIGHT / HEAD_WIDTH)
+            found.append(_Candidate(score, box))
+        disparity *= LAYER_STEP
+    return found
+
+
+def _best_place(layer: Map, behind: Map, scale: float) -> tuple[float, float, float] | None:
+    """Score and center, pixels of the layer, of the place that is most like a head; None without room."""
+    height, width = layer.shape
+    size = (max(1, round(width * scale)), max(1, round(height * scale)))
+    mode = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    border = (CELLS, CELLS, CELLS, CELLS)
+    if size[0] + 2 * CELLS < MASK_SHAPE[1] or size[1] + 2 * CELLS < MASK_SHAPE[0]:
+        return None
+
+    def shares(picture: Map, *names: str) -> Map:
+        """The least share of the named places, at every place of the masks."""
+        resized = cv2.resize(picture, size, interpolation=mode)
+        padded = cv2.copyMakeBorder(resized, *border, cv2.BORDER_REPLICATE)
+        correlated = [cv2.matchTemplate(padded, MASKS[name], cv2.TM_CCORR) for name in names]
+        return np.asarray(np.minimum.reduce(correlated), np.float32)
+
+    head, free = shares(layer, "head"), shares(behind, "left", "right", "above")
+    shoulders = shares(layer, "left shoulder", "right shoulder") + np.float32(SHOULDERS_HIDDEN)
+    total = np.minimum(np.minimum(head, free), shoulders) + FULL_WEIGHT * (head + free)
+    _, score, _, (x, y) = cv2.minMaxLoc(total)
+    return (
+        float(score),
+        (x + HEAD_CENTER[0] - CELLS) * width / size[0],
+        (y + HEAD_CENTER[1] - CELLS) * height / size[1],
+    )
