@@ -161,10 +161,11 @@ def test_a_tracker_knows_no_other(tracker: str) -> None:
 
 
 def test_what_trackers_share_knows_none() -> None:
-    """track/base and track/depth_objects import no tracker."""
+    """track/base, track/depth_objects and track/head_detection import no tracker."""
     shared = [
         *(PACKAGE / "track" / "base").rglob("*.py"),
         *(PACKAGE / "track" / "depth_objects").rglob("*.py"),
+        *(PACKAGE / "track" / "head_detection").rglob("*.py"),
     ]
     wrong = {
         f"{file.relative_to(PACKAGE)} imports {name}"

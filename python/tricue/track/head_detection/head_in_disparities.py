@@ -21,19 +21,17 @@ Map = NDArray[np.float32]
 
 HEAD_WIDTH, HEAD_HEIGHT = 0.17, 0.22  # meters, of a head with hair
 SEARCH_WIDTH = 320  # pixels, about, to which a pair is reduced
-WINDOW, UNIQUENESS, TOLERANCE = 7, 5, 1  # of the matching of blocks
+WINDOW, UNIQUENESS, TOLERANCE = 7, 0, 1  # of the matching of blocks
 NEAREST, MAX_DISPARITY = 0.25, 4000  # highest disparity: share of the width, and pixels
 CELLS = 6  # pixels of a head's width where it is looked for
 LAYER_STEP = 1.1  # from one layer's disparity to the next
-LAYER_SHARE, MIN_LAYER = 0.09, 0.8  # half a layer's thickness: of its disparity, and in pixels
-BEHIND = 1.5  # a layer's half thicknesses that surroundings are behind the head, at least
-MIN_SCORE = (
-    0.8  # the least share of head, shoulders and free surroundings; recorded scenes without people have less
-)
+LAYER_SHARE, MIN_LAYER = 0.12, 0.8  # half a layer's thickness: of its disparity, and in pixels
+FREE = 1.5  # a layer's half thicknesses that surroundings are from the head, at least
+MIN_SCORE = 0.97  # most scenes without people have less; 1.2 is a perfect head
 MIN_HEAD, MAX_HEAD = 5.0, 0.66  # width of a head: pixels of the reduced image, share of its height
 MIN_DISPARITY = 2.0  # pixels; what is behind a farther head differs by less than the matching's errors
 SHOULDERS_HIDDEN = 0.2  # share of the shoulders that may be hidden or unmatched
-FULL_WEIGHT = 0.02  # of the shares' sum, which decides between places that are alike in the least
+FULL_WEIGHT = 0.1  # of the shares' sum, which decides between places that are alike in the least
 
 
 class _Candidate(NamedTuple):
@@ -101,10 +99,12 @@ def _candidates(disparities: Map, baseline: float) -> list[_Candidate]:
     disparity, found = max(MIN_DISPARITY, MIN_HEAD * baseline / HEAD_WIDTH), []
     while (head := HEAD_WIDTH / baseline * disparity) < MAX_HEAD * height:
         tolerance = max(MIN_LAYER, LAYER_SHARE * disparity)
-        layer = (np.abs(disparities - np.float32(disparity)) <= tolerance).astype(np.float32)
-        # Unmatched pixels are seen by one camera only: the background beside a head.
-        behind = (~(disparities >= disparity - BEHIND * tolerance)).astype(np.float32)
-        best = _best_place(layer, behind, CELLS / head)
+        difference = np.abs(disparities - np.float32(disparity))
+        layer = (difference <= tolerance).astype(np.float32)
+        # Not only what is behind: unmatched pixels are the background that one camera sees beside a head,
+        # and where that has no texture, matches are by chance.
+        free = (~(difference <= FREE * tolerance)).astype(np.float32)
+        best = _best_place(layer, free, CELLS / head)
         if best is not None:
             score, x, y = best
             box = Box.from_ellipse(x, y, head / 2, head / 2 * HEAD_HEIGHT / HEAD_WIDTH)
@@ -113,7 +113,7 @@ def _candidates(disparities: Map, baseline: float) -> list[_Candidate]:
     return found
 
 
-def _best_place(layer: Map, behind: Map, scale: float) -> tuple[float, float, float] | None:
+def _best_place(layer: Map, outside: Map, scale: float) -> tuple[float, float, float] | None:
     """Score and center, pixels of the layer, of the place that is most like a head; None without room."""
     height, width = layer.shape
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
@@ -129,7 +129,7 @@ def _best_place(layer: Map, behind: Map, scale: float) -> tuple[float, float, fl
         correlated = [cv2.matchTemplate(padded, MASKS[name], cv2.TM_CCORR) for name in names]
         return np.asarray(np.minimum.reduce(correlated), np.float32)
 
-    head, free = shares(layer, "head"), shares(behind, "left", "right", "above")
+    head, free = shares(layer, "head"), shares(outside, "left", "right", "above")
     shoulders = shares(layer, "left shoulder", "right shoulder") + np.float32(SHOULDERS_HIDDEN)
     total = np.minimum(np.minimum(head, free), shoulders) + FULL_WEIGHT * (head + free)
     _, score, _, (x, y) = cv2.minMaxLoc(total)
