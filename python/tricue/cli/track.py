@@ -67,7 +67,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     start.add_argument(
         "--detect",
         choices=("face", "person"),
-        help="start on the first face (stereo pairs: head), or on the first person that a depth tracker detects",
+        help="start on the first face (stereo: head), or on the first person that a depth tracker detects",
     )
     command.add_argument(
         "--fps",
