@@ -29,7 +29,7 @@ from tricue.cli.starts import (
 from tricue.cli.steps import RunClock, Start, catch_interrupt, steps
 from tricue.data.open_source import Source, open_source
 from tricue.track.base.registry import names
-from tricue.track.base.settings import make_tracker
+from tricue.track.base.settings import PAPER, make_tracker
 from tricue.track.base.track import Status, Track, Tracker
 
 EXAMPLES = """\
@@ -87,7 +87,14 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
     )
-    command.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
+    base = command.add_mutually_exclusive_group()
+    base.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
+    base.add_argument(
+        "--paper",
+        action="store_const",
+        const=PAPER,
+        help="the tracker as its paper prints it, without stages of ours",
+    )
     add_common(command)
 
 
@@ -184,7 +191,12 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     found = find_calibration(options, source)
     source = found.prepare(source)
     tracker = make_tracker(
-        options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
+        options.tracker,
+        options.paper or options.params,
+        options.set,
+        options.seed,
+        options.kernels,
+        **found.keywords,
     )
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
+import dataclasses
 from pathlib import Path
 
 import pytest
-from tricue.track.base.settings import make_tracker, parse_settings, read_settings
+from tricue.track.base.registry import tracker_class
+from tricue.track.base.settings import PAPER, make_tracker, papers, parse_settings, read_settings
 
 
 @pytest.mark.parametrize("text", ["flow,disparity", "flow, disparity", "('flow', 'disparity')"])
@@ -35,3 +37,20 @@ def test_other_settings_are_refused(setting: str) -> None:
     """It proves that what isn't name=value is an error that shows it."""
     with pytest.raises(ValueError, match=r"^--set: expected name=value, got "):
         parse_settings([setting])
+
+
+@pytest.mark.parametrize("name", papers())
+def test_a_printed_tracker_is_its_preset_and_nothing_else(name: str) -> None:
+    """All parameters are those of Params.paper(); a setting overrides one of them."""
+    printed = tracker_class(name).Params.paper()
+    assert make_tracker(name, PAPER, [], 0, "native").params == printed != tracker_class(name).Params()
+    field = next(f.name for f in dataclasses.fields(printed) if f.name in ("lost_after", "rate"))
+    made = make_tracker(name, PAPER, [f"{field}=7.5"], 0, "native")
+    assert made.params == dataclasses.replace(printed, **{field: 7.5})
+
+
+def test_trackers_without_a_paper_have_nothing_printed() -> None:
+    """The fused one follows no paper, nor does a third party's class."""
+    assert set(papers()) == {"color-particle", "depth-particle", "flow-depth", "stereo-head"}
+    with pytest.raises(ValueError, match="fused follows no paper; those that do: color-particle, depth-"):
+        read_settings("fused", PAPER, [])
