@@ -40,7 +40,7 @@ Axis find_readings(double start, double length, int count, int size) {
     const double apart = step / each, most = size - 1.0;
     for (int i = 0; i < count * each; ++i) {
         const double place = start + (i + 0.5) * apart - 0.5;
-        const double inside = std::min(std::max(place, 0.0), most);
+        const double inside = std::min(std::max(0.0, place), most);
         const int fixed = static_cast<int>(inside * kSubpixels + 0.5);
         axis.readings[static_cast<std::size_t>(i)] = {fixed / kSubpixels, fixed % kSubpixels};
     }

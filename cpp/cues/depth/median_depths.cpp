@@ -19,6 +19,7 @@ constexpr float kNear = 0.001F, kFar = 1000.0F;  // meters
 constexpr double kMadToSigma = 1.4826;
 constexpr int kMaxSamples = 1024;
 constexpr int kBins = 512;  // between the smallest and the largest number, in the search for the median
+constexpr float kLast = kBins - 1;
 
 using Numbers = std::vector<float>;
 
@@ -32,8 +33,8 @@ TRICUE_MULTIVERSION
 void find_bins(const float* __restrict numbers, std::size_t n, float low, float per_bin,
                std::uint16_t* __restrict bins) {
     for (std::size_t i = 0; i < n; ++i) {
-        const int bin = static_cast<int>((numbers[i] - low) * per_bin);
-        bins[i] = static_cast<std::uint16_t>(bin < kBins ? bin : kBins - 1);
+        const float bin = (numbers[i] - low) * per_bin;
+        bins[i] = static_cast<std::uint16_t>(static_cast<int>(bin < kLast ? bin : kLast));
     }
 }
 
