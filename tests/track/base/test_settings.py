@@ -54,3 +54,17 @@ def test_trackers_without_a_paper_have_nothing_printed() -> None:
     assert set(papers()) == {"color-particle", "depth-particle", "flow-depth", "stereo-head"}
     with pytest.raises(ValueError, match="fused follows no paper; those that do: color-particle, depth-"):
         read_settings("fused", PAPER, [])
+
+
+@pytest.mark.parametrize("text", ["-" * 90_000, "(" * 90_000, "1" + "0" * 400], ids=["-", "(", "10^400"])
+def test_what_no_parser_can_hold_is_refused_by_its_name(text: str) -> None:
+    """Text nested too deeply for Python's parser is text; a number beyond floats is infinite."""
+    with pytest.raises((TypeError, ValueError), match="min_score: expected"):
+        make_tracker("fused", None, [f"min_score={text}"], 0, "native")
+
+
+def test_tables_nested_too_deeply_name_their_file(tmp_path: Path) -> None:
+    """A file on which Python's parser gives up is named."""
+    (tmp_path / "p.toml").write_text("a = " + "[" * 100_000)
+    with pytest.raises(ValueError, match=r"p\.toml: expected a TOML file, its values are nested too deeply"):
+        make_tracker("fused", tmp_path / "p.toml", [], 0, "native")
