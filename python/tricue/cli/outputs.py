@@ -3,7 +3,8 @@
 
 import csv
 import json
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
@@ -77,16 +78,19 @@ class CsvOutput:
         self.path = path
         self._file = _create(path)
         self._writer = csv.writer(self._file, lineterminator="\n")
-        self._writer.writerow(COLUMNS)
+        with _naming(path):
+            self._writer.writerow(COLUMNS)
 
     def write(self, step: Step) -> None:
-        self._writer.writerow(row(step))
+        with _naming(self.path):
+            self._writer.writerow(row(step))
 
     def __enter__(self) -> "CsvOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
+        with _naming(self.path):
+            self._file.close()
 
 
 class JsonOutput:
@@ -96,20 +100,23 @@ class JsonOutput:
         self.path = path
         head = json.dumps(about, indent=1, allow_nan=False)
         self._file = _create(path)
-        self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        with _naming(path):
+            self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
     def write(self, step: Step) -> None:
         values = dict(zip(COLUMNS, row(step), strict=True))
-        self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+        with _naming(self.path):
+            self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
         self._separator = ",\n"
 
     def __enter__(self) -> "JsonOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.write("\n ]\n}\n")
-        self._file.close()
+        with _naming(self.path):
+            self._file.write("\n ]\n}\n")
+            self._file.close()
 
 
 class VideoOutput:
@@ -169,6 +176,17 @@ class VideoOutput:
 
     def __exit__(self, *_: object) -> None:
         self._writer.close()
+
+
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Name the file in an error of writing, such as that of a full disk; Python names only what it opens."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 def _create(path: Path) -> Any:

@@ -18,6 +18,7 @@ from tricue.cli.arguments import add_common, angles, box, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
+from tricue.cli.signals import catch_signals
 from tricue.cli.starts import (
     BOX_HINT,
     DEFAULT_TRACKER,
@@ -26,7 +27,7 @@ from tricue.cli.starts import (
     depth_tracker,
     start_hint,
 )
-from tricue.cli.steps import RunClock, Start, catch_interrupt, steps
+from tricue.cli.steps import RunClock, Start, steps
 from tricue.data.open_source import Source, open_source
 from tricue.track.base.registry import names
 from tricue.track.base.settings import PAPER, make_tracker
@@ -47,7 +48,6 @@ examples:
   tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
   tricue track video.mp4 --tracker flow-depth --set cues=flow --box 60,30,25,74   without any depth
 """
-INTERRUPTED = 130
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -145,7 +145,7 @@ def run(options: argparse.Namespace) -> int:
     clock, tracks = RunClock(), {}
     with ExitStack() as files:
         outputs = [files.enter_context(output) for output in _outputs(options, run)]
-        stop = files.enter_context(catch_interrupt())
+        stop = files.enter_context(catch_signals())
         progress = files.enter_context(Progress(run.source.length))
         frames = takewhile(lambda _: not stop(), run.source)
         for step in _with_start_hint(steps(run.tracker, frames, run.start, clock), run, clock):
@@ -153,7 +153,8 @@ def run(options: argparse.Namespace) -> int:
                 output.write(step)
             tracks[step.number] = step.track
             progress(step.number + 1, clock.speeds)
-        interrupted = stop()
+        signal_number = stop()
+    interrupted = signal_number != 0
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
     _report(run.source, clock, tracks, interrupted)
@@ -162,13 +163,20 @@ def run(options: argparse.Namespace) -> int:
         notes.append(_plot(options.plot, run, tracks))
     for note in notes:
         print(note)
-    return INTERRUPTED if interrupted else 0
+    return 128 + signal_number if interrupted else 0
 
 
-def _check_not_input(place: Path | None, outputs: Sequence[Path | None]) -> None:
+def _check_not_input(place: Path | None, outputs: Sequence[Path]) -> None:
     for path in outputs:
-        if path and place and path.exists() and place.exists() and path.samefile(place):
+        if place and path.exists() and place.exists() and path.samefile(place):
             raise ValueError(f"{path}: expected another file than the input to write to")
+
+
+def _check_different(outputs: Sequence[Path]) -> None:
+    files = [path.resolve() for path in outputs if path.is_file() or not path.exists()]  # not /dev/null
+    for index, path in enumerate(files):
+        if path in files[:index]:
+            raise ValueError(f"{path}: expected a file for each output, got this one twice")
 
 
 def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
@@ -186,8 +194,10 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     )
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None
+    outputs = [path for path in (options.output, options.csv, options.json, options.plot) if path]
     for place in (Path(options.input), right, options.calibration, options.params):
-        _check_not_input(place, (options.output, options.csv, options.json, options.plot))
+        _check_not_input(place, outputs)
+    _check_different(outputs)
     found = find_calibration(options, source)
     source = found.prepare(source)
     tracker = make_tracker(
