@@ -55,6 +55,23 @@ def test_links_only_what_it_uses() -> None:
     assert re.findall(r"NEEDED.*\[libopencv_(\w+)\.", output) == ["core"]
 
 
+def test_is_hardened() -> None:
+    """The extension has full RELRO, no executable stack, stack canaries and checked copies, as SECURITY.md says."""
+    if shutil.which("readelf") is None or "sanitized" in _core.__file__:
+        pytest.skip("needs readelf from binutils, and a build for users")
+
+    def read(*options: str) -> str:
+        return subprocess.run(
+            ["readelf", "-W", *options, _core.__file__], capture_output=True, text=True, check=True
+        ).stdout
+
+    headers, symbols = read("-l", "-d"), read("--dyn-syms")
+    assert "GNU_RELRO" in headers
+    assert re.search(r"FLAGS.*(BIND_)?NOW", headers)
+    assert re.search(r"GNU_STACK .* RW +0x", headers)
+    assert "__stack_chk_fail" in symbols
+
+
 def test_starts_no_thread(tmp_path: Path) -> None:
     """Fourier transforms, the one thing that OpenCV does for the extension, run on the caller's thread."""
     code = """
