@@ -19,7 +19,9 @@ from tricue.papers.curves import (
     scenes_of,
 )
 
-FUSED, UNFUSED, PAPERS_FILTER = "fused (default)", "unfused", "the paper's filter"
+FUSED, UNFUSED = "fused (default)", "unfused"
+PRINTED, PRINTED_UNFUSED = "as printed", "as printed, unfused"
+PAPERS_FILTER = "default with the paper's filter"
 TIMED_MODULES = ("search", "disparity", "filter", "rest")
 
 MAX_HEAD_RECOVERY_DELAY = 15
