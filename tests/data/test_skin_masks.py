@@ -6,7 +6,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from tricue.data.skin_masks import find_masked_images, has_masks
+from tricue.data.skin_masks import find_masked_images, is_mask_folder
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def test_folders_may_have_plural_names(folder):
     """images/ and masks/ are taken, too."""
     (folder / "image").rename(folder / "images")
     (folder / "mask").rename(folder / "masks")
-    assert has_masks(folder)
+    assert is_mask_folder(folder)
     assert len(find_masked_images(folder)) == 2
 
 
@@ -64,7 +64,7 @@ def test_a_file_that_is_no_image_is_named(folder):
 def test_a_folder_without_masks_is_named(folder):
     """Without the two folders, or without images, the folder is named."""
     (folder / "mask").rename(folder / "other")
-    assert not has_masks(folder)
+    assert is_mask_folder(folder)
     with pytest.raises(ValueError, match=rf"{folder.name}: expected the folders image and mask"):
         find_masked_images(folder)
     (folder / "other").rename(folder / "mask")

@@ -38,9 +38,9 @@ class MaskedImage(NamedTuple):
         return image, np.asarray(mask > MARKED_ABOVE)
 
 
-def has_masks(folder: Path) -> bool:
-    """Whether a folder has both folders, of images and of masks."""
-    return all(_subfolder(folder, names) is not None for names in (IMAGE_FOLDERS, MASK_FOLDERS))
+def is_mask_folder(folder: Path) -> bool:
+    """Whether a folder has a folder ``mask`` or ``masks``, or one of images that should have one."""
+    return any(_subfolder(folder, names) is not None for names in (IMAGE_FOLDERS, MASK_FOLDERS))
 
 
 def find_masked_images(folder: Path) -> list[MaskedImage]:
