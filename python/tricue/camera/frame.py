@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.numbers import finite, positive
+from tricue.camera.pose import Pose, as_pose
 from tricue.errors import MissingChannelError
 
 MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # meters; a median outside is most likely in another unit
@@ -26,6 +27,8 @@ class Frame:
         masked. Its size may differ from the color image's.
     right: the right image of a rectified stereo pair, of the same shape as ``color``.
     timestamp: seconds.
+    pose: where the camera stands in this frame, a :class:`tricue.Pose` or its (4, 4) matrix, of the camera in
+        whose frame positions are: it counts before that of the tracker's camera. None for no other.
     depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
 
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
@@ -38,6 +41,7 @@ class Frame:
     depth: NDArray[np.float32] | None
     right: NDArray[np.uint8] | None
     timestamp: float | None
+    pose: Pose | None
 
     def __init__(
         self,
@@ -46,6 +50,7 @@ class Frame:
         right: NDArray[Any] | None = None,
         timestamp: float | None = None,
         depth_scale: float | None = None,
+        pose: Pose | ArrayLike | None = None,
     ) -> None:
         if color is None and depth is None:
             raise ValueError(
@@ -58,6 +63,7 @@ class Frame:
         assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
         assign(self, "right", None if right is None else _right(right, self.color))
         assign(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
+        assign(self, "pose", as_pose(pose))
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -105,7 +105,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             first_mean=first_mean,
             timestamp=timestamp,
         )
-        return self._keep(state)
+        return self._keep(state, frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the head into the next stereo pair, of the same size as the first.
@@ -117,7 +117,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         pair = PreparedPair.of(left, right, before.first_mean, self.params)
-        return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp))
+        return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp), frame)
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
         """Measure the head in a box; NoDepthInBoxError where nothing in it has a disparity."""
