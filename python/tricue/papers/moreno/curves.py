@@ -46,7 +46,7 @@ COLUMNS = (
 )
 CSV_COLUMNS = (
     *("model", "scene", "seed", "frame", "x", "y", "z", "true_x", "true_y", "true_z"),
-    *("deviation_m", "nees", "iou", "visible", "status"),
+    *("box_x", "box_y", "box_width", "box_height", "deviation_m", "nees", "iou", "visible", "status"),
 )
 
 
@@ -54,6 +54,8 @@ CSV_COLUMNS = (
 class StereoCurve(OcclusionCurve):
     """One model in one scene."""
 
+    boxes: Floats
+    """(M, 4) estimated x, y, width, height, pixels."""
     positions: Floats
     """(M, 3) estimated, meters; NaN without a position."""
     truth: Floats
@@ -143,7 +145,10 @@ def write_csv(path: Path, curves: Iterable[StereoCurve]) -> None:
 
 def _frames(curve: StereoCurve) -> Iterator[list[object]]:
     numbers = np.column_stack(
-        [curve.positions, curve.truth, curve.deviations, curve.nees, curve.overlaps, curve.visible]
+        [
+            *(curve.positions, curve.truth, curve.boxes),
+            *(curve.deviations, curve.nees, curve.overlaps, curve.visible),
+        ]
     )
     for row, status in zip(numbers.tolist(), curve.statuses, strict=True):
         yield [*map(tables.csv_number, row), status]

@@ -56,6 +56,7 @@ def measure(case: Case, make: Maker, trial: Trial) -> StereoCurve:
         overlaps=metrics.overlaps(result.boxes, np.array(scene.boxes)),
         visible=scene.visible,
         statuses=result.statuses,
+        boxes=result.boxes,
         positions=result.positions,
         truth=scene.positions,
         covariances=result.covariances,
