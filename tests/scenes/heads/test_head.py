@@ -305,7 +305,7 @@ def test_a_head_at_rest_stays_where_it_is_asked_to(rendered):
     ("wrong", "message"),
     [
         ({"distance": 0.2}, "distance: expected 0.5 to 10 m"),
-        ({"aside": (0.9, 0.0)}, "aside: expected shares"),
+        ({"aside": (0.9, 0.0)}, "aside: expected a head in both views at 1.5 m"),
     ],
 )
 def test_a_head_at_rest_is_in_sight(wrong, message):

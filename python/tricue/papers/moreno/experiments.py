@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Figure 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo, in meters.
+"""Figures 2 and 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo, in meters.
 
-The tracker with its defaults, as the paper prints it with and without its filter, and the default with the
-paper's filter or without one part at a time.
+Figure 2 is the noise of a head at rest (:mod:`noise`). In figure 3 a head moves: before the tracker with its
+defaults, as the paper prints it with and without its filter, and the default with the paper's filter or
+without one part at a time.
 """
 
 from collections.abc import Callable
@@ -17,7 +18,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import run
 from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.kernel_probes import ProbedTracker
-from tricue.papers.moreno import curves, figures
+from tricue.papers.moreno import curves, figures, noise
 from tricue.papers.moreno.curves import (
     FUSED,
     PAPERS_FILTER,
@@ -81,7 +82,15 @@ COLOR_ONLY_PARAMS: dict[str, Any] = {
     "depth_weight": 0.0,
 }  # of the search for the head
 
-EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
+EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
+    "moreno-fig2": Experiment(
+        models={FUSED: _stereo(), PRINTED: _stereo(params=PRINTED_PARAMS)},
+        scenes=noise.SCENES,
+        measure=noise.measure,
+        summarize=noise.summarize,
+        write_csv=noise.write_csv,
+        draw=noise.draw,
+    ),
     "moreno-fig3": Experiment(
         models={
             FUSED: _stereo(),
@@ -111,5 +120,5 @@ EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
         write_csv=curves.write_csv,
         draw=figures.paths,
         max_seeds={figures.LARGE: 4},
-    )
+    ),
 }

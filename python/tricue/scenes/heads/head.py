@@ -30,6 +30,7 @@ from tricue.scenes.scene import StereoScene
 HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
 MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # meters, of the head's center
 HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same in scenes with a hand in front
+RADIUS = 0.13  # meters, round a head's center
 
 
 def head(
@@ -83,19 +84,21 @@ def static_head(
     """As :func:`head`, of a person who stands still and looks at the cameras.
 
     distance: of the head's center along the camera's axis, 0.5 to 10 m. aside: where the head is to the right
-    of and below the middle between the cameras, as shares of half the view, -0.7 to 0.7.
+    of and below the middle between the cameras, as shares of half the view. ValueError where a camera
+    wouldn't see all of it.
     light: by how much the light's gain differs from 1 at most; its color sways by 4 % then, and neither
     changes at 0.
     """
     _check(frames, camera, "normal", light, noise)
     if not 0.5 <= finite(distance, "distance", "meters") <= 10:
         raise ValueError(f"distance: expected 0.5 to 10 m, got {distance!r}")
-    if max(abs(finite(share, "aside", "shares of half the view")) for share in aside) > 0.7:
-        raise ValueError(f"aside: expected shares of half the view, -0.7 to 0.7, got {aside!r}")
     rng = np.random.default_rng(seed)
     rig = _rig(camera, rng)
     gain = head_moves.sample_smooth_light(frames, light, rng) if light else np.ones(frames)
     view = _range(rig, "normal")
+    for share, half, part in zip(aside, (view.side, view.up), (rig.baseline / 2, 0.0), strict=True):
+        if abs(finite(share, "aside", "shares of half the view")) * half + (part + RADIUS) / distance > half:
+            raise ValueError(f"aside: expected a head in both views at {distance:g} m, got {aside!r}")
     center = np.array([aside[0] * view.side, aside[1] * view.up, 1.0]) * distance
     moves = head_moves.stand(frames, center + [rig.baseline / 2, 0, 0])
     name = f"head at rest, {distance:g} m, {camera}, seed {seed}"

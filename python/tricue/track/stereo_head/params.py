@@ -278,8 +278,8 @@ class StereoHeadParams(Params):
           which only the bin is known. Q of the intersection is 1, as printed.
         - (9): the coefficients aren't printed: fitted to back-projection with 1 pixel of disparity error, as
           figure 2 assumes. X and Y have no error on the optical axis.
-        - e of μ and of the intersection are to be measured from a static head: ``tricue reproduce
-          moreno-fig2`` does so.
+        - e of μ and of the intersection are to be measured from a static head: as ``tricue reproduce
+          moreno-fig2`` measures them, the root mean square over the distances.
         - How the filter's μ goes back to the histogram isn't printed: the histogram is shifted as a whole.
         - Nothing tells a head from what hides it, so every measurement counts. Without one, for want of
           disparities, the prediction stays.
@@ -304,9 +304,9 @@ class StereoHeadParams(Params):
             max_speed=3.0,
             noise_model="polynomial",
             disparity_noise=1.0,
-            color_noise=(1.0, 1.0, 1.0),
+            color_noise=(0.5, 0.6, 2.4),
             color_drift=(2.31, 2.31, 27.6),
-            intersection_noise=0.1,
+            intersection_noise=0.04,
             feedback=True,
             min_score=0.0,
             max_deviations=NEVER,
