@@ -64,15 +64,13 @@ def test_a_head_at_rest_is_measured():
     swinging = noise.measure(Case("m", "s", 0), make, noise.rest(1.0, 0.3, seed=1, frames=15))
     assert np.isfinite(swinging.values[noise.DRIFT]).all()
     assert np.isnan(swinging.values[:7]).all()
-    expected = np.polyval(near.polynomials[2], far.position[2]) / np.polyval(
-        near.polynomials[2], near.position[2]
-    )
-    assert expected == pytest.approx((far.position[2] / near.position[2]) ** 2, rel=0.05)
+    errors = [np.polyval(run.polynomials[2], run.position[2]) for run in (near, far)]
+    assert errors[1] / errors[0] == pytest.approx((far.position[2] / near.position[2]) ** 2, rel=0.05)
 
 
 def test_the_printed_constants_are_of_the_measured_size():
-    """e(mu), e(phi) and Q(mu) of paper() are those of this experiment: within a factor of three of a head's at
-    2 m, and the bins' own.
+    """e(mu), e(phi) and Q(mu) of paper() are those of this experiment: within a factor of three of a head's
+    at 2 m, and the bins' own.
     """
     p = StereoHeadParams.paper()
     make = partial(tricue.create, "stereo-head", params=p)

@@ -131,7 +131,8 @@ def _deviations(axes: Any, first: Runs) -> None:
             style = {"color": MODEL_COLORS[model], "linewidth": 0.8, "linestyle": ":"}
             axes.plot(off, **style, label=f"true error, {label}")
     axes.set(yscale="log", xlabel="frame", ylabel="standard deviation, cm")
-    axes.legend(frameon=False, fontsize=7)
+    if axes.lines:
+        axes.legend(frameon=False, fontsize=7)
     axes.set_title(f"(b) root of the variance along the path: {NORMAL}", loc="left")
 
 
