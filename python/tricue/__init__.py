@@ -14,6 +14,7 @@ except ImportError as error:
 from tricue import former_names
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.camera.pose import Pose
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.base.opencv import as_opencv
 from tricue.track.base.registry import create, tracker_class
@@ -38,6 +39,7 @@ __all__ = [
     "Frame",
     "FusedTracker",
     "Intrinsics",
+    "Pose",
     "Status",
     "StereoHeadTracker",
     "StereoRig",

@@ -112,6 +112,9 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "learning_rate": (-0.1, 1.1),
         "learn": ("Coherent", "", "none"),
         "min_intersection_to_learn": (-0.1, 1.1),
+        "learning_gate": ("mean", ""),
+        "head_colors": ((), ((0,),), ((0, -1.0),), ((2048, 1.0),), ((1, 1.0), (1, 1.0)), ((1, 0.0),)),
+        "subpixel": (),
         "disparities": ((0, 4), (4, 65), (4,), (4, 4, 4)),
         "window": (0, -1, 4, 17),
         "uniqueness": (-1, 101),
@@ -125,7 +128,9 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "noise_model": ("cubic", ""),
         "disparity_noise": (0, -0.1),
         "place_noise": (0, -0.1),
-        "color_noise": (0, -0.1),
+        "color_noise": (0, -0.1, (4, 4), (4, 4, 0)),
+        "color_drift": (0, -0.1, (4, 4), (4, 4, 0)),
+        "intersection_noise": (0, -0.1),
         "feedback": (),
         "rate": (0, -30.0),
         "min_score": (-0.1, 1.1),
@@ -248,8 +253,9 @@ def other_kinds(tracker, name):
 
 
 def infinities(tracker, name):
-    """Both, for numbers; None stands for one that is worked out."""
-    is_number = isinstance(fields(tracker)[name].default, float | None)
+    """Both, for numbers; None stands for one that is worked out, unless the field holds a tuple."""
+    field = fields(tracker)[name]
+    is_number = isinstance(field.default, float | None) and "tuple" not in str(field.type)
     return [float("inf"), -float("inf")] if is_number else []
 
 

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.numbers import finite, positive
+from tricue.camera.pose import Pose, as_pose
 from tricue.errors import MissingChannelError
 
 MAX_DEPTH = 1e6  # meters; some drivers write the largest number of their type where nothing was measured
@@ -28,6 +29,8 @@ class Frame:
         a million meters or masked. Its size may differ from the color image's.
     right: the right image of a rectified stereo pair, of the same shape as ``color``.
     timestamp: seconds.
+    pose: where the camera stands in this frame, a :class:`tricue.Pose` or its (4, 4) matrix, of the camera in
+        whose frame positions are: it counts before that of the tracker's camera. None for no other.
     depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
 
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
@@ -40,6 +43,7 @@ class Frame:
     depth: NDArray[np.float32] | None
     right: NDArray[np.uint8] | None
     timestamp: float | None
+    pose: Pose | None
 
     def __init__(
         self,
@@ -48,6 +52,7 @@ class Frame:
         right: NDArray[Any] | None = None,
         timestamp: float | None = None,
         depth_scale: float | None = None,
+        pose: Pose | ArrayLike | None = None,
     ) -> None:
         if color is None and depth is None:
             raise ValueError(
@@ -60,6 +65,7 @@ class Frame:
         assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
         assign(self, "right", None if right is None else _right(right, self.color))
         assign(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
+        assign(self, "pose", as_pose(pose))
 
     @property
     def channels(self) -> tuple[str, ...]:

@@ -27,6 +27,7 @@ COMMANDS = {
     "track": "track in a video, a folder, a camera",
     "info": "describe a video, a folder, a sequence",
     "evaluate": "compare trackers with OpenCV's on a data set",
+    "calibrate": "measure a tracker's parameters on own images",
     "reproduce": "repeat an experiment of the papers",
     "vot-workspace": "let the VOT toolkit run trackers",
 }

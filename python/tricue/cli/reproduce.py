@@ -10,6 +10,7 @@ EXAMPLES = """\
 examples:
   tricue reproduce sabeti-fig1
   tricue reproduce sabeti-depth --jobs 2
+  tricue reproduce moreno-fig2 --jobs 2
   tricue reproduce moreno-fig3 --jobs 2
   tricue reproduce okada-fig8 --jobs 2
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
@@ -21,7 +22,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "experiment",
         metavar="EXPERIMENT",
-        help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3, okada-fig8",
+        help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig2, moreno-fig3, okada-fig8",
     )
     command.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"

@@ -218,10 +218,11 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     """Open the outputs one by one, so that the first is closed if the second can't be opened."""
     if options.output:
         yield VideoOutput(options.output, run.source.fps, run.rig)
+    world = run.intrinsics is not None and run.intrinsics.pose is not None
     if options.csv:
-        yield CsvOutput(options.csv)
+        yield CsvOutput(options.csv, world)
     if options.json:
-        yield JsonOutput(options.json, _about(options, run))
+        yield JsonOutput(options.json, _about(options, run), world)
 
 
 def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
@@ -251,9 +252,14 @@ def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:
         "seed": options.seed,
         "kernels": options.kernels,
         "params": {name: _plain(value) for name, value in _params(run.tracker).items()},
-        "intrinsics": None if run.intrinsics is None else dataclasses.asdict(run.intrinsics),
+        "intrinsics": None if run.intrinsics is None else _camera(run.intrinsics),
         "baseline": None if run.rig is None else run.rig.baseline,
     }
+
+
+def _camera(camera: Intrinsics) -> dict[str, Any]:
+    """The camera's numbers; its pose only if it has one."""
+    return {name: value for name, value in dataclasses.asdict(camera).items() if value is not None}
 
 
 def _params(tracker: Tracker) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from tricue.former_names import attributes
 from tricue.scenes.faces.clutter import face_over_clutter
 from tricue.scenes.faces.light_change import light_change
 from tricue.scenes.files import write_sequence
-from tricue.scenes.heads.head import HEAD_KINDS, head
+from tricue.scenes.heads.head import HEAD_KINDS, head, static_head
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
 from tricue.scenes.people.walkers import crossing, walker
 from tricue.scenes.rendering.photographs import BACKGROUNDS
@@ -40,6 +40,7 @@ __all__ = [
     "light_change",
     "overtaking",
     "room_scene",
+    "static_head",
     "stress_scene",
     "walker",
     "write_sequence",

@@ -146,7 +146,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             random=random.save(),
             timestamp=timestamp,
         )
-        return self._keep(state)
+        return self._keep(state, frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Track the target into the next frame, of the same size as the first.
@@ -159,7 +159,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._random.resume(before.random)
         state = self._follow(before, depth, seconds)
-        return self._keep(state._replace(random=self._random.save(), timestamp=timestamp))
+        return self._keep(state._replace(random=self._random.save(), timestamp=timestamp), frame)
 
     def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""

@@ -91,7 +91,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             warn_of_stereo(checked.frame)  # the right image of a verged pair isn't turned back yet
         geometry = self._geometry(checked.image.shape, checked.frame)
         reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
-        return self._keep(initialize(self._k, checked, reduced, geometry, target, self.params))
+        return self._keep(initialize(self._k, checked, reduced, geometry, target, self.params), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -110,7 +110,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         else:
             cues = measure(self._k, before.reduced, reduced, region, before.disparity, self.params)
             state = self._follow(state, cues, seconds)
-        return self._keep(state._replace(reduced=reduced, timestamp=checked.frame.timestamp))
+        return self._keep(state._replace(reduced=reduced, timestamp=checked.frame.timestamp), frame)
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
