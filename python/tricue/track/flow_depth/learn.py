@@ -29,7 +29,7 @@ def learn(
         velocity = state.smooth_velocity(measured, verdict.pixel_count)
         state = state._replace(velocity=velocity, disparity=disparity)
     blocks = state.blocks._replace(size=_estimate_size(state))
-    blocks = blocks.voted(verdict.observed, verdict.occluder_disparity, p)
+    blocks = blocks.voted(verdict.observed, verdict.limits, p)
     state = state._replace(
         model=model,
         temporal_window=verdict.temporal_window,

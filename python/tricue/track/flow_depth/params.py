@@ -197,6 +197,13 @@ class FlowDepthParams(Params):
         doc="until a block isn't the target's any more",
         was="against",
     )
+    votes_to_release: int = parameter(
+        8,
+        unit="frames",
+        source=OURS,
+        low=1,
+        doc="in which an occluded block shows what is behind the target, until it isn't the target's any more",
+    )
     max_frames_without_pixels: int = parameter(
         20,
         unit="frames",

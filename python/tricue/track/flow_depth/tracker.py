@@ -136,8 +136,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         if found:
             return learn(k, state, cues, verdict, p)
         if not state.missed:
-            blocks = state.blocks.voted(verdict.observed, verdict.occluder_disparity, p)
-            state = state._replace(blocks=blocks)
+            state = state._replace(blocks=state.blocks.voted(verdict.observed, verdict.limits, p))
         return _coast(state._replace(occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE), seconds)
 
     def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:

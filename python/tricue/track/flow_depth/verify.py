@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation
+from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation, DisparityLimits
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.masks import mask_blocks, mask_disparity
+from tricue.track.flow_depth.masks import disparity_tolerance, mask_blocks, mask_disparity
 from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, grown, moved
@@ -31,7 +31,7 @@ class Verdict(NamedTuple):
 
     model: by which it was searched. disparity: the target's, cells. pixels: (h, w) 1 at the target's.
     pixel_count: how many. temporal_window: the rectangle around them. observed: the measurements in the
-    blocks. occluder_disparity: above which something hides the target. occluded_share: of its blocks.
+    blocks. limits: which disparities are the target's, and which hide it. occluded_share: of its blocks.
     """
 
     model: TargetModel
@@ -40,7 +40,7 @@ class Verdict(NamedTuple):
     pixel_count: int
     temporal_window: Rectangle
     observed: BlockObservation
-    occluder_disparity: float
+    limits: DisparityLimits
     occluded_share: float
 
     def found(self, state: FlowDepthState, p: FlowDepthParams) -> bool:
@@ -60,12 +60,18 @@ def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) ->
     box, count, pixels = _find_pixels(k, state, cues, model, p)
     disparity = state.disparity if state.missed or cues.disparity is None else model.peaks[-1]
     observed = _observe_blocks(k, state, cues, pixels, disparity, p)
-    occluder_disparity = disparity + max(
+    limits = _disparity_limits(state, disparity, p)
+    share = state.blocks.occluded_share(observed, limits)
+    return Verdict(model, disparity, pixels, count, moved(box, x, y), observed, limits, share)
+
+
+def _disparity_limits(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> DisparityLimits:
+    """Which disparities are similar to the target's, and which hide it."""
+    margin = max(
         p.occluder_margin * state.reduced.disparity_scale(p),
         p.thickness * abs(disparity + state.disparity_offset),
     )
-    share = state.blocks.occluded_share(observed, occluder_disparity)
-    return Verdict(model, disparity, pixels, count, moved(box, x, y), observed, occluder_disparity, share)
+    return DisparityLimits(disparity, disparity_tolerance(state, disparity, p), disparity + margin)
 
 
 def candidate_region(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
