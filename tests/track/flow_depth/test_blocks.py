@@ -202,8 +202,8 @@ def test_a_similar_disparity_ends_an_occlusion(mean):
 
 @pytest.mark.parametrize("frames", [2, 8])
 def test_the_background_releases_an_occluded_block_late(frames):
-    """An occluded block that shows what is behind the target in ``votes_to_release`` frames isn't the target's
-    any more; something nearer in between takes no vote back, and a similar disparity all of them.
+    """An occluded block that shows what is behind the target in ``votes_to_release`` frames isn't the
+    target's any more; something nearer in between takes no vote back, and a similar disparity all of them.
     """
     p = FlowDepthTracker.Params(votes_to_release=frames)
     shown = [AWAY, BEHIND, *(frames - 1) * [AWAY]]
@@ -322,3 +322,50 @@ def test_the_occluded_share_is_of_blocks_in_the_image():
     together = BlockObservation(*(np.concatenate(fields) for fields in zip(*shown, strict=True)))
     assert four.occluded_share(together, LIMITS) == pytest.approx(2 / 3)
     assert four._replace(states=np.zeros(4, np.int64)).occluded_share(together, LIMITS) == 0
+
+
+PRINTED = FlowDepthTracker.Params(block_rules="printed", votes_to_add=2, votes_to_remove=3)
+
+
+def test_as_printed_blocks_divide_the_first_window():
+    """By the printed rules there is no block around the first window, and all are Not_Target."""
+    blocks = Blocks.of(WINDOWS["a person"], PRINTED)
+    assert (blocks.states == NOT_TARGET_BLOCK).all()
+    assert blocks.core.all()
+    np.testing.assert_allclose(blocks.rectangles[0, :2], WINDOWS["a person"][:2])
+    np.testing.assert_allclose(blocks.rectangles[-1, 2:], WINDOWS["a person"][2:])
+    assert blocks.window is None
+
+
+def test_as_printed_votes_add_up():
+    """Votes by target pixels add up over all frames, and depth alone gives none."""
+    frames = [GOOD, AWAY, seen(same_depth=FULL), GOOD]
+    assert states(block(NOT_TARGET_BLOCK), *frames, p=PRINTED) == 3 * [NOT_TARGET_BLOCK] + [TARGET_BLOCK]
+
+
+@pytest.mark.parametrize("frame", [AWAY, seen(same_depth=FULL), BLANK], ids=["away", "depth", "blank"])
+def test_as_printed_negative_votes_add_up(frame):
+    """Without target pixels, and without something nearer, a target block gets a vote against it, also at the
+    target's depth; target pixels in between take none back. Outside of the image there are none.
+    """
+    frames = [frame, GOOD, OUTSIDE, frame, GOOD, frame]
+    assert states(block(TARGET_BLOCK), *frames, p=PRINTED) == 5 * [TARGET_BLOCK] + [NOT_TARGET_BLOCK]
+
+
+def test_as_printed_an_occlusion_ends_at_a_similar_disparity():
+    """Something nearer hides a target block without target pixels; only a similar disparity brings it back,
+    however long something else is seen there.
+    """
+    frames = [seen(targets=FULL, mean=OCCLUDER), BEHIND, *40 * [AWAY], BLANK, seen()]
+    after = states(block(TARGET_BLOCK), *frames, p=PRINTED)
+    assert after == [TARGET_BLOCK, *42 * [OCCLUDED_BLOCK], TARGET_BLOCK]
+
+
+def test_as_printed_a_new_state_has_no_votes():
+    """Who was voted out needs all votes again, and who was voted in all votes against."""
+    frames = [GOOD, GOOD, *3 * [AWAY], GOOD, GOOD, AWAY]
+    after = states(block(NOT_TARGET_BLOCK), *frames, p=PRINTED)
+    assert after == [
+        *[NOT_TARGET_BLOCK, TARGET_BLOCK, TARGET_BLOCK, TARGET_BLOCK],
+        *[NOT_TARGET_BLOCK, NOT_TARGET_BLOCK, TARGET_BLOCK, TARGET_BLOCK],
+    ]

@@ -18,7 +18,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import AnyTracker, run
 from tricue.papers.curves import Floats
 from tricue.papers.experiment import Case, Experiment, Maker
-from tricue.papers.okada import curves, figures
+from tricue.papers.okada import curves, figures, following
 from tricue.papers.okada.curves import Snapshot, WalkCurve
 from tricue.scenes import WalkScene, overtaking
 from tricue.track.base.adapter import traits_of
@@ -91,7 +91,7 @@ def _scene(kind: str, depth: bool) -> Callable[..., WalkScene]:
     return partial(overtaking, kind=kind, depth=depth)
 
 
-EXPERIMENTS: dict[str, Experiment[WalkScene, WalkCurve]] = {
+EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     "okada-fig8": Experiment(
         models={
             figures.BOTH: _cues(),
@@ -108,5 +108,6 @@ EXPERIMENTS: dict[str, Experiment[WalkScene, WalkCurve]] = {
         summarize=curves.summarize,
         write_csv=curves.write_csv,
         draw=figures.frames_and_overlaps,
-    )
+    ),
+    **following.EXPERIMENTS,
 }

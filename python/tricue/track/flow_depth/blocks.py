@@ -92,21 +92,22 @@ class Blocks(NamedTuple):
     def of(cls, window: Rectangle, p: FlowDepthParams) -> "Blocks":
         """A grid over the first window and around it.
 
-        The blocks of the window belong to the target until they are voted out, as the window was given. In
-        the paper every block has to be voted in.
+        The blocks of the window belong to the target until they are voted out, as the window was given. By
+        the printed rules there are none around it, and every block has to be voted in.
         """
+        adaptive = p.block_rules == "adaptive"
         x0, y0, x1, y1 = window
         width, height = x1 - x0, y1 - y0
         side = max(p.block_side * math.sqrt(width * height), MIN_BLOCK_SIDE)
         columns, rows = (min(max(round(length / side), 1), MAX_BLOCKS) for length in (width, height))
-        margin = math.ceil(GRID_MARGIN * rows / 2)
+        margin = math.ceil(GRID_MARGIN * rows / 2) if adaptive else 0
         i, j = np.meshgrid(np.arange(-margin, columns + margin), np.arange(-margin, rows + margin))
         left, top = i.ravel() * width / columns - width / 2, j.ravel() * height / rows - height / 2
         corners = np.stack([left, top, left + width / columns, top + height / rows], axis=1)
         zeros = np.zeros(len(corners), np.int64)
         core = ((i >= 0) & (i < columns) & (j >= 0) & (j < rows)).ravel()
         anchor = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
-        states = np.where(core, TARGET_BLOCK, NOT_TARGET_BLOCK)
+        states = np.where(core & adaptive, TARGET_BLOCK, NOT_TARGET_BLOCK)
         return cls(corners, anchor, 1.0, states, zeros, zeros, core, TRUSTED_FRAMES * core, zeros)
 
     def moved(self, right: float, down: float) -> "Blocks":
@@ -133,13 +134,41 @@ class Blocks(NamedTuple):
         return float((mine & observed.is_nearer(limits)).sum() / max(mine.sum(), 1))
 
     def voted(self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams) -> "Blocks":
-        """The blocks after the votes of a frame, figure 7.
+        """The blocks after the votes of a frame, figure 7."""
+        vote = self._voted_by_pixels if p.block_rules == "printed" else self._voted_by_pixels_and_depth
+        return vote(observed, limits, p)
+
+    def _voted_by_pixels(
+        self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
+    ) -> "Blocks":
+        """Section 4.4 as printed: without target pixels a block gets a vote against it, unless what is there
+        is nearer. Votes add up over all frames in a state.
+        """
+        found = observed.has_share(observed.target_pixels, p.min_block_share)
+        nearer = observed.is_nearer(limits)
+        target, occluded = self.states == TARGET_BLOCK, self.states == OCCLUDED_BLOCK
+        votes = self.votes + (found & ~target & ~occluded)
+        against = self.votes_against + (target & ~found & ~nearer & (observed.cells > 0))
+        states = self.states.copy()
+        states[votes >= p.votes_to_add] = TARGET_BLOCK
+        states[against >= p.votes_to_remove] = NOT_TARGET_BLOCK
+        states[target & ~found & nearer] = OCCLUDED_BLOCK
+        states[occluded] = np.where(observed.is_similar(limits), TARGET_BLOCK, OCCLUDED_BLOCK)[occluded]
+        same = states == self.states
+        return self._replace(
+            states=states, votes=np.where(same, votes, 0), votes_against=np.where(same, against, 0)
+        )
+
+    def _voted_by_pixels_and_depth(
+        self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
+    ) -> "Blocks":
+        """The adaptive rules.
 
         A core block stays, and comes back, also by the target's disparity alone; for a limited time, as the
         floor around the feet has it too. A block with hardly any disparities gets no vote against it: cloth
         and cardboard without texture have none. An occluded block is the target's again only at a disparity
-        similar to the target's. One that shows what is behind the target for long isn't the target's any more;
-        figure 7 has no way out for it.
+        similar to the target's. One that shows what is behind the target for long isn't the target's any
+        more; figure 7 has no way out for it.
         """
         found = observed.has_share(observed.target_pixels, p.min_block_share)
         same_depth = observed.has_share(observed.same_depth, p.min_block_share)
