@@ -130,3 +130,5 @@ class WalkScene:
     rig: StereoRig
     """The stereo rig; in scenes with depth instead of a right image its right camera takes no image."""
     events: Events
+    vergence: float = 0.0
+    """Degrees by which the right camera is turned inwards; ``rig`` has a parallel pair's numbers."""
