@@ -46,11 +46,10 @@ class SnapshotRecorder:
 
     def _recorded(self, track: Track) -> Track:
         if self._index in self._frames:
-            self.snapshots[self._index] = (
-                Snapshot(self._tracker.mask, *self._tracker.blocks, track.box)
-                if "mask" in traits_of(self._tracker).shows
-                else Snapshot(None, (), (), track.box)
-            )
+            shows = "mask" in traits_of(self._tracker).shows
+            targets, occluded = self._tracker.blocks if shows else ((), ())
+            mask = self._tracker.mask if shows else None
+            self.snapshots[self._index] = Snapshot(mask, targets, occluded, track.box)
         return track
 
 

@@ -32,7 +32,6 @@ FRAMES = 16
 def measure(case: Case, make: Maker, scene: WalkScene) -> VergenceCurve:
     """Errors of a tracker that starts on the first true box; ``make`` gets ``vergence=``, too."""
     tracker = make(seed=case.seed, rig=scene.rig, vergence=scene.vergence)
-    known = {"visible": scene.visible, "vergence": scene.vergence}
     try:
         with warnings.catch_warnings():
             # Not told the vergence, the tracker takes the images for swapped or not rectified, and says so.
@@ -40,17 +39,20 @@ def measure(case: Case, make: Maker, scene: WalkScene) -> VergenceCurve:
             result = run(tracker, scene.frames, scene.boxes[0])
     except NoDepthInBoxError:
         none = np.full(len(scene.frames), np.nan)
-        lost = (Status.LOST,) * len(scene.frames)
-        return VergenceCurve(
-            *case, **known, overlaps=np.zeros_like(none), statuses=lost, depth_errors=none, started=False
-        )
+        overlaps, errors, statuses = np.zeros_like(none), none, (Status.LOST,) * len(scene.frames)
+        started = False
+    else:
+        overlaps = metrics.overlaps(result.boxes, np.array(scene.boxes))
+        errors, statuses = result.positions[:, 2] - scene.positions[:, 2], result.statuses
+        started = True
     return VergenceCurve(
         *case,
-        **known,
-        overlaps=metrics.overlaps(result.boxes, np.array(scene.boxes)),
-        statuses=result.statuses,
-        depth_errors=result.positions[:, 2] - scene.positions[:, 2],
-        started=True,
+        overlaps=overlaps,
+        visible=scene.visible,
+        statuses=statuses,
+        vergence=scene.vergence,
+        depth_errors=errors,
+        started=started,
     )
 
 
@@ -74,7 +76,7 @@ EXPERIMENTS: dict[str, Experiment[WalkScene, VergenceCurve]] = {
             figures.PRINTED_KNOWN: partial(make_tracker, known=True, printed=True),
             figures.PRINTED_IGNORED: partial(make_tracker, known=False, printed=True),
         },
-        scenes={f"{angle:g} degrees": _scene(angle) for angle in ANGLES},
+        scenes={f"{angle:g}°": _scene(angle) for angle in ANGLES},
         measure=measure,
         summarize=curves.summarize,
         write_csv=curves.write_csv,

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -25,7 +26,8 @@ from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
 
 PAN_TILT_RATE = 15.0  # frames per second, as the paper's system
-CAMERA = "160x120"
+WIDTH, HEIGHT = 160, 120  # pixels
+RAYS = RAYS_PER_PIXEL[f"{WIDTH}x{HEIGHT}"]
 FIELD_OF_VIEW = 32.0  # degrees
 TARGET_HEIGHT, TARGET_DISPARITY = 74.0, 5.0  # pixels
 DEPTH_SWING = 0.5  # meters, by which the target comes nearer and goes away
@@ -71,6 +73,11 @@ class PanTiltScene:
     _lamp: Lamp
     _height: float
 
+    @property
+    def first_box(self) -> Box:
+        """The target's box in the first frame, seen from ``start``."""
+        return self.truth(0, *self.start.tolist()).seen.target.box
+
     def look(self, index: int, pan: float, tilt: float) -> Frame:
         """What the pair sees in a frame from these angles, radians; with a timestamp."""
         rng = np.random.default_rng([self.seed, index])
@@ -78,7 +85,7 @@ class PanTiltScene:
         to_camera = view.to_camera(0)
         lamp = self._lamp._replace(direction=to_camera @ self._lamp.direction)
         images = []
-        for camera in RayCamera.pair(self.rig, RAYS_PER_PIXEL[CAMERA]):
+        for camera in RayCamera.pair(self.rig, RAYS):
             canvas = self._hall.render(camera, to_camera)
             for person in self._people:
                 camera.draw_ellipsoids(canvas, person.ellipsoids(index, to_camera), lamp)
@@ -115,7 +122,7 @@ def pan_tilt_scene(
     positive_whole(frames, "frames", "a count")
     rng = np.random.default_rng(seed)
     target = Person.sample(rng)._replace(build=rng.uniform(1.08, 1.2))
-    camera = Intrinsics.from_fov(*map(int, CAMERA.split("x")), FIELD_OF_VIEW)
+    camera = Intrinsics.from_fov(WIDTH, HEIGHT, FIELD_OF_VIEW)
     depth = target.height * camera.fx / TARGET_HEIGHT
     height = rng.uniform(1.0, 1.12)
     walk = _Walk.sample(depth, rng)
@@ -132,8 +139,8 @@ def pan_tilt_scene(
         limits=limits or HeadLimits(),
         start=level + START_ERROR * rng.choice([-1, 1], 2),
         seed=seed,
-        _hall=hall.at_detail(RAYS_PER_PIXEL[CAMERA] * camera.fx),
-        _people=tuple(person.at_detail(at, RAYS_PER_PIXEL[CAMERA] * camera.fx) for person, at in people),
+        _hall=hall.at_detail(RAYS * camera.fx),
+        _people=tuple(person.at_detail(at, RAYS * camera.fx) for person, at in people),
         _lamp=Lamp(light / np.linalg.norm(light), rng.uniform(0.5, 0.7)),
         _height=height,
     )
