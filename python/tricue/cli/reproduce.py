@@ -15,6 +15,10 @@ examples:
   tricue reproduce okada-fig8 --jobs 2
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
+NAMES = (
+    *("sabeti-fig1", "sabeti-fig2", "sabeti-fig3", "sabeti-fig4", "sabeti-roc", "sabeti-depth", "sabeti-dark"),
+    *("moreno-fig2", "moreno-fig3", "okada-fig8", "okada-vergence", "okada-follow"),
+)
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -22,7 +26,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "experiment",
         metavar="EXPERIMENT",
-        help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig2, moreno-fig3, okada-fig8",
+        help=", ".join(NAMES),
     )
     command.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"

@@ -12,6 +12,8 @@ from tricue.scenes.faces.light_change import light_change
 from tricue.scenes.files import write_sequence
 from tricue.scenes.heads.head import HEAD_KINDS, head, static_head
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
+from tricue.scenes.pan_tilt.head import HeadLimits, SimulatedHead
+from tricue.scenes.pan_tilt.scene import PanTiltScene, pan_tilt_scene
 from tricue.scenes.people.walkers import crossing, walker
 from tricue.scenes.rendering.photographs import BACKGROUNDS
 from tricue.scenes.rooms.scene import ROOM_CHANNELS, ROOM_KINDS, RoomScene, room_scene
@@ -29,8 +31,11 @@ __all__ = [
     "Bystander",
     "DepthScene",
     "Events",
+    "HeadLimits",
+    "PanTiltScene",
     "RoomScene",
     "Scene",
+    "SimulatedHead",
     "StereoScene",
     "StressScene",
     "WalkScene",
@@ -39,6 +44,7 @@ __all__ = [
     "head",
     "light_change",
     "overtaking",
+    "pan_tilt_scene",
     "room_scene",
     "static_head",
     "stress_scene",
