@@ -95,7 +95,7 @@ def test_without_coasting_the_filter_goes_on(passing: DepthScene, follow):
 
 
 def test_confidence_decides_what_is_learned(passing: DepthScene, follow):
-    """ "The histograms are also updated if estimation confidence is high": never, where it cannot be."""
+    """The paper updates histograms "if estimation confidence is high": never, where it cannot be."""
     learned = {}
     for drop in (0.0, 1e9):
         params = replace(PAPER, likelihood_drop=drop, learning_rate=1.0)

@@ -180,7 +180,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         observed = state.model.observe(k, fg, particles.state[None])
         recognized = self._recognized(state, observed, target)
         if recognized or not p.coast:
-            return self._accept(state, fg, particles, observed, target, seconds, recognized)
+            state = self._accept(state, fg, particles, observed, seconds)
+            clear = float(observed.front[0]) < MAX_COVERED_TO_LEARN
+            return self._learn(state, fg, observed, target) if recognized and clear else state
         return self._coast(state._replace(motion=before), fg, prediction, seconds)
 
     def _filter(
@@ -239,15 +241,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         fg: Foreground,
         particles: ParticleSet,
         observed: DepthObservation,
-        target: TargetObject | None,
         seconds: float,
-        recognized: bool,
     ) -> State:
-        """The state at an estimate; a recognized target is learned where hardly anything is in front of it."""
+        """The state at the particles' estimate, which is where the target is."""
         p = self.params
-        front = float(observed.front[0])
-        visible = state.missed_seconds == 0 and front < p.max_covered
-        state = state._replace(
+        visible = state.missed_seconds == 0 and float(observed.front[0]) < p.max_covered
+        return state._replace(
             particles=particles,
             others=remember_others(state.others, fg, particles.state, p.histogram_reach),
             motion=state.motion.update(particles.state, p, seconds, visible),
@@ -257,9 +256,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             occluder=None,
             position_spread=0.0,
         )
-        if not recognized or front >= MAX_COVERED_TO_LEARN:
-            return state
-        return self._learn(state, fg, observed, target)
 
     def _learn(
         self, state: State, fg: Foreground, observed: DepthObservation, target: TargetObject | None
