@@ -21,7 +21,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "experiment",
         metavar="EXPERIMENT",
-        help="sabeti-fig1, sabeti-fig2, sabeti-depth, moreno-fig3, okada-fig8",
+        help="sabeti-fig1, sabeti-fig2, sabeti-depth, sabeti-dark, moreno-fig3, okada-fig8",
     )
     command.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"

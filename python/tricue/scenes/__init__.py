@@ -12,6 +12,7 @@ from tricue.scenes.faces.light_change import light_change
 from tricue.scenes.files import write_sequence
 from tricue.scenes.heads.head import HEAD_KINDS, head
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
+from tricue.scenes.people.lit_walker import LIGHT_COURSES, LitScene, lit_walker
 from tricue.scenes.people.walkers import crossing, walker
 from tricue.scenes.rendering.photographs import BACKGROUNDS
 from tricue.scenes.rooms.scene import ROOM_CHANNELS, ROOM_KINDS, RoomScene, room_scene
@@ -21,6 +22,7 @@ from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS, StressScen
 __all__ = [
     "BACKGROUNDS",
     "HEAD_KINDS",
+    "LIGHT_COURSES",
     "OVERTAKING_KINDS",
     "ROOM_CHANNELS",
     "ROOM_KINDS",
@@ -29,6 +31,7 @@ __all__ = [
     "Bystander",
     "DepthScene",
     "Events",
+    "LitScene",
     "RoomScene",
     "Scene",
     "StereoScene",
@@ -38,6 +41,7 @@ __all__ = [
     "face_over_clutter",
     "head",
     "light_change",
+    "lit_walker",
     "overtaking",
     "room_scene",
     "stress_scene",

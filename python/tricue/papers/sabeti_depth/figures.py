@@ -14,9 +14,10 @@ from tricue.papers.sabeti_depth.curves import DepthCurve
 from tricue.scenes import DepthScene
 
 ERROR_RANGE = 0.005, 5.0  # meters, of the logarithmic axis
-FIGURES = {"pose and scale": "Figure 5", "hidden": "Figure 6", "hidden, 0.5 m farther": "Figure 7"}
+FIGURES = {"pose and scale": "Fig. 5", "hidden": "Fig. 6", "hidden, 0.5 m farther": "Fig. 7"}
 MODELS_SHOWN = ("default", "as printed")  # in the frames, if they ran; otherwise all
 FRAMES_SHOWN = 6
+MODEL_COLORS = (COLORS[5], *COLORS[1:5])  # the first is on dark pictures, too
 TRUTH_COLOR = "white"
 
 
@@ -27,13 +28,14 @@ def frames_and_curves(figure: Any, curves: Sequence[DepthCurve], scenes: Mapping
     the quartiles. Shaded: in at least half of the runs the target is less than half visible.
     """
     models = models_of(curves)
-    colors = dict(zip(models, COLORS, strict=False))
+    colors = dict(zip(models, MODEL_COLORS, strict=False))
     shown = [name for name in scenes if name in FIGURES]
     heights = 1.75 * len(shown), 0.5 + 1.5 * len(scenes)
     figure.set_size_inches(13, sum(heights))
     top, bottom = figure.subfigures(2, 1, height_ratios=heights)
     for row, name in zip(top.subplots(len(shown), FRAMES_SHOWN, squeeze=False), shown, strict=True):
         _draw_frames(row, name, scenes[name], first_runs(curves, name), colors)
+    top.supxlabel(f"dashed: the truth; solid: {' and '.join(MODELS_SHOWN)}, seed 0", fontsize=9)
     rows = bottom.subplots(len(scenes), 2, sharex=True, squeeze=False)
     for (error, overlap), name in zip(rows, scenes, strict=True):
         runs = [curve for curve in curves if curve.scene == name]
@@ -60,7 +62,7 @@ def _draw_frames(
         depth = scene.frames[index].depth
         assert depth is not None
         first = axes is row[0]
-        show_frame(axes, depth_picture(depth), f"{FIGURES[name]}, {name}: 0" if first else f"{index}")
+        show_frame(axes, depth_picture(depth), f"{FIGURES[name]}, {name}" if first else f"frame {index}")
         height, width = depth.shape
         axes.set(xlim=(-0.5, width - 0.5), ylim=(height - 0.5, -0.5))
         for model in chosen:
