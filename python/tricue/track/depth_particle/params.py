@@ -211,8 +211,8 @@ class DepthParticleParams(SegmentationParams):
         - Human candidates: by aspect ratio and by size at their mean depth, always; not by how much of its
           box one fills. The limits aren't printed, and stay ours.
         - Which candidate is the target: by place and extent along the image's axes and in depth, by its
-          horizontal and vertical distribution, and by its depth histogram. No measure of likeness is printed:
-          it is the cost of :mod:`tricue.track.depth_particle.matching`.
+          horizontal and vertical distribution, and by the depth histogram of its rectangle, (38). No measure
+          of likeness is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`.
         - State: "a scalable rectangle"; ours is in meters, with a depth. Particles, (39): A = I, and K grows
           with the speed; K's numbers, and the share drawn from the segmented object, aren't printed.
         - Likelihood (37), (38): 1 - d of the depths' histograms, 256 levels over the camera's range, of 64 x
@@ -244,7 +244,6 @@ class DepthParticleParams(SegmentationParams):
             size_prior=0.0,
             leave_out_others=False,
             motion="constant",
-            max_covered=1.0,
             min_visible_share=0.0,
             likelihood_drop=0.5,
             coast=False,
