@@ -14,6 +14,7 @@ from tricue.papers.experiment import C, Case, Experiment, Maker, Models, S
 from tricue.papers.moreno import experiments as moreno
 from tricue.papers.okada import experiments as okada
 from tricue.papers.sabeti_color import experiments as sabeti_color
+from tricue.papers.sabeti_dark import experiments as sabeti_dark
 from tricue.papers.sabeti_depth import experiments as sabeti_depth
 
 SceneTask = tuple[str, Callable[..., S], int]
@@ -22,6 +23,7 @@ SceneTask = tuple[str, Callable[..., S], int]
 EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     **sabeti_color.EXPERIMENTS,
     **sabeti_depth.EXPERIMENTS,
+    **sabeti_dark.EXPERIMENTS,
     **moreno.EXPERIMENTS,
     **okada.EXPERIMENTS,
 }

@@ -12,6 +12,7 @@ from tricue.scenes.faces.light_change import light_change
 from tricue.scenes.files import write_sequence
 from tricue.scenes.heads.head import HEAD_KINDS, head, static_head
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
+from tricue.scenes.people.lit_walker import LIGHT_COURSES, LitScene, lit_walker
 from tricue.scenes.pan_tilt.head import HeadLimits, SimulatedHead
 from tricue.scenes.pan_tilt.scene import PanTiltScene, pan_tilt_scene
 from tricue.scenes.people.walkers import crossing, walker
@@ -23,6 +24,7 @@ from tricue.scenes.stress.scene import STRESS_CHANNELS, STRESS_KINDS, StressScen
 __all__ = [
     "BACKGROUNDS",
     "HEAD_KINDS",
+    "LIGHT_COURSES",
     "OVERTAKING_KINDS",
     "ROOM_CHANNELS",
     "ROOM_KINDS",
@@ -33,6 +35,7 @@ __all__ = [
     "Events",
     "HeadLimits",
     "PanTiltScene",
+    "LitScene",
     "RoomScene",
     "Scene",
     "SimulatedHead",
@@ -43,6 +46,7 @@ __all__ = [
     "face_over_clutter",
     "head",
     "light_change",
+    "lit_walker",
     "overtaking",
     "pan_tilt_scene",
     "room_scene",

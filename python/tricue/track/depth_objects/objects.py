@@ -98,9 +98,13 @@ def ground_distance(fg: Foreground, plane: Floats, p: SegmentationParams) -> Sin
         return fg.depth
     per_depth = _distance_per_depth(fg.depth.shape, tuple(fg.camera.tolist()), tuple(up.tolist()))
     distance: Singles = fg.depth * per_depth
-    np.maximum(distance, np.float32(p.near), out=distance)
-    np.minimum(distance, np.nextafter(np.float32(p.far), np.float32(0)), out=distance)
-    return distance
+    return distance.clip(*_float_range(p.near, p.far), out=distance)
+
+
+@lru_cache(maxsize=4)
+def _float_range(near: float, far: float) -> tuple[np.float32, np.float32]:
+    """The smallest and the largest number in near to far, without far."""
+    return np.float32(near), np.nextafter(np.float32(far), np.float32(0))
 
 
 @lru_cache(maxsize=4)
