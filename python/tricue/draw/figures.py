@@ -45,9 +45,13 @@ def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: P
         figure.savefig(path)
 
 
-def draw_box(axes: Any, box: ArrayLike, color: str) -> None:
-    """Outline a box (x, y, width, height) over an image; pixel (i, j) has its center at (j, i)."""
+def draw_box(axes: Any, box: ArrayLike, color: str, linestyle: str = "solid") -> None:
+    """Outline a box (x, y, width, height) over an image; pixel (i, j) has its center at (j, i).
+
+    linestyle: as matplotlib names it.
+    """
     from matplotlib.patches import Rectangle
 
     x, y, width, height = np.asarray(box, np.float64).tolist()
-    axes.add_patch(Rectangle((x - 0.5, y - 0.5), width, height, fill=False, edgecolor=color, linewidth=1.2))
+    style: dict[str, Any] = {"fill": False, "edgecolor": color, "linewidth": 1.2, "linestyle": linestyle}
+    axes.add_patch(Rectangle((x - 0.5, y - 0.5), width, height, **style))

@@ -161,13 +161,12 @@ def _sample_head(frames: int, rng: np.random.Generator) -> tuple[Array, Array]:
 def _sample_gestures(frames: int, rng: np.random.Generator) -> _Moves:
     heads, turns = _sample_head(frames, rng)
     time = np.arange(frames) / FRAME_RATE
-    sway = np.stack([sample_sway(time, 0.9, 2.6, rng) for _ in range(7)], axis=1)
+    sway = np.stack([sample_sway(time, 1.8, 4.0, rng) for _ in range(6)], axis=1)
     depth = 0.62 + 0.07 * sway[:, 2]
-    hands = np.stack(
-        [0.19 * sway[:, 0] * depth / 0.6, (0.02 + 0.07 * sway[:, 1]) * depth / 0.6, depth], axis=1
-    )
-    tilts = np.radians(sway[:, 3:6] * [32, 22, 38])
-    spreads = np.clip(0.5 + 0.75 * sample_sway(time, 0.7, 1.6, rng), 0, 1)
+    aside, down = 0.19 * sway[:, 0], 0.02 + 0.07 * sway[:, 1]
+    hands = np.stack([aside * depth / 0.6, down * depth / 0.6, depth], axis=1)
+    tilts = np.radians(sway[:, 3:6] * [28, 18, 26])
+    spreads = np.clip(0.5 + 0.75 * sample_sway(time, 1.2, 2.6, rng), 0, 1)
     return _Moves(heads, turns, hands, tilts, spreads, _sample_bends(time, 0.28, rng))
 
 
@@ -187,7 +186,7 @@ def _sample_wiping(frames: int, rng: np.random.Generator) -> _Moves:
     covering = _away(index, start, start + held)
     wiping = _away(index, again, again + 4)
     side = float(rng.choice([-1.0, 1.0]))
-    ratio = rng.uniform(0.46, 0.50)  # of the face's distance
+    ratio = rng.uniform(0.55, 0.58)  # of the face's distance
     aside = AWAY * [side, 1.0]
     offset = np.where(covering < wiping, covering, wiping)[:, None] * aside
     cross = np.clip((index - again) / 6, -1, 1) * (wiping < 1) * 0.05 * side

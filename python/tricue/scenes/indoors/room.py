@@ -197,15 +197,21 @@ def _first_hit(low: Array, high: Array, is_round: bool, origin: Picture, rays: P
     a, b = np.float32(low), np.float32(high)
     with np.errstate(divide="ignore", invalid="ignore"):
         if is_round:
-            axes = (b - a) / 2
-            away, along = (origin - (a + b) / 2) / axes, rays / axes
-            square, product = (along**2).sum(axis=1), (along * away).sum(axis=-1)
-            gap = (away**2).sum(axis=-1) - 1
+            # One axis after the other: NumPy is slow at sums over an axis of 3.
+            axes, middle = (b - a) / 2, (a + b) / 2
+            away = [(origin[..., i] - middle[i]) / axes[i] for i in range(3)]
+            along = [rays[..., i] / axes[i] for i in range(3)]
+            square = along[0] ** 2 + along[1] ** 2 + along[2] ** 2
+            product = along[0] * away[0] + along[1] * away[1] + along[2] * away[2]
+            gap = away[0] ** 2 + away[1] ** 2 + away[2] ** 2 - 1
             first = (-product - np.sqrt(product * product - square * gap)) / square
             return np.asarray(np.where(first > MIN_RAY, first, np.inf), np.float32)  # a miss is NaN
-        inverse = 1 / rays
-        one, two = (a - origin) * inverse, (b - origin) * inverse
-    enter, leave = np.minimum(one, two).max(axis=1), np.maximum(one, two).min(axis=1)
+        enter, leave = -np.inf, np.inf
+        for i in range(3):
+            inverse = 1 / rays[..., i]
+            one, two = (a[i] - origin[..., i]) * inverse, (b[i] - origin[..., i]) * inverse
+            enter = np.maximum(enter, np.minimum(one, two))
+            leave = np.minimum(leave, np.maximum(one, two))
     return np.asarray(np.where((enter <= leave) & (enter > MIN_RAY), enter, np.inf), np.float32)
 
 
