@@ -68,7 +68,7 @@ class SkinFolder:
         if not folder.is_dir():
             raise FileNotFoundError(f"{folder}: expected a folder of images and masks, found none")
         self._paths = _pair_up(folder)
-        self.title = f"{len(self._paths)} images of {folder.name or folder}"
+        self.title = f"{len(self._paths)} images in {folder.name or folder}"
 
     def __len__(self) -> int:
         return len(self._paths)

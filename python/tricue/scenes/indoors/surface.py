@@ -137,11 +137,13 @@ def trace(body: Body, rays: Picture, pixel: float) -> Hits:
         away = body.distance(at[:, None] * rays[active])
         size = np.float32(pixel) * at
         widths = away / size + np.float32(0.5)  # pixels from an edge that is half a pixel inside
+        hit = widths <= HIT / size
+        widths[hit] = 0.0
         closer = widths < nearest[active]
         nearest[active[closer]] = widths[closer]
         best[active[closer]] = at[closer]
         depths[active] = at + np.maximum(away + 0.5 * size, HIT)
-        active = active[(widths > HIT / size) & (depths[active] < last[active])]
+        active = active[~hit & (depths[active] < last[active])]
     return Hits(best, np.clip(1 - nearest, 0, 1).astype(np.float32))
 
 
