@@ -74,7 +74,7 @@ def test_the_hand_hides_the_face_and_leaves(seed, monkeypatch):
 
 @pytest.mark.parametrize("seed", range(20))
 def test_jumps_are_high_and_fast(seed):
-    """The head rises by 25 cm or more above where it stands, falls freely, and moves by over 15 px."""
+    """The head rises by 20 cm or more above where it stands, falls freely, and moves by over 15 px."""
     moves = jumping._sample_jumps(90, np.random.default_rng(seed))
     height = 0.02 - moves.heads[:, 1]
     assert height.max() > 0.2
