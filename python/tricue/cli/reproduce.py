@@ -13,6 +13,7 @@ examples:
   tricue reproduce moreno-fig2 --jobs 2
   tricue reproduce moreno-fig3 --jobs 2
   tricue reproduce okada-fig8 --jobs 2
+  tricue reproduce sabeti-roc --data my-images --rate 0.05
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
 NAMES = (
@@ -35,6 +36,15 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--output", type=Path, default=Path("results"), metavar="FOLDER", help="default %(default)s/"
     )
+    command.add_argument(
+        "--data",
+        type=Path,
+        metavar="FOLDER",
+        help="sabeti-roc: FOLDER/images/NAME.* and FOLDER/masks/NAME.*, white where skin is",
+    )
+    command.add_argument(
+        "--rate", type=float, help="sabeti-roc: false-positive rate of the threshold, default 0.1"
+    )
 
 
 def run(options: argparse.Namespace) -> int:
@@ -45,10 +55,16 @@ def run(options: argparse.Namespace) -> int:
 
         def show(done: int, total: int) -> None:
             progress.total = total
-            progress(done, "scenes")
+            progress(done, "images" if options.experiment == "sabeti-roc" else "scenes")
 
         report = run(
-            options.experiment, seeds=options.seeds, output=options.output, jobs=options.jobs, progress=show
+            options.experiment,
+            seeds=options.seeds,
+            output=options.output,
+            jobs=options.jobs,
+            progress=show,
+            data=options.data,
+            rate=options.rate,
         )
     print(report.summary)
     print(f"wrote {report.figure}\nwrote {report.table}")

@@ -3,7 +3,7 @@
 
 The face scenes, the stress scenes and the rooms use photographs of scikit-image (``pip install
 tricue[demo]``). The others need only NumPy and OpenCV: people before a depth camera, a head before a stereo
-pair, and walkers before a panning stereo pair.
+pair, walkers before a panning stereo pair, and hands and a jumping person before one camera.
 """
 
 from tricue.former_names import attributes
@@ -11,6 +11,8 @@ from tricue.scenes.faces.clutter import face_over_clutter
 from tricue.scenes.faces.light_change import light_change
 from tricue.scenes.files import write_sequence
 from tricue.scenes.heads.head import HEAD_KINDS, head, static_head
+from tricue.scenes.indoors.gestures import hand, hidden_face, skin_picture
+from tricue.scenes.indoors.jump import jump
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
 from tricue.scenes.people.lit_walker import LIGHT_COURSES, LitScene, lit_walker
 from tricue.scenes.pan_tilt.head import HeadLimits, SimulatedHead
@@ -44,13 +46,17 @@ __all__ = [
     "WalkScene",
     "crossing",
     "face_over_clutter",
+    "hand",
     "head",
+    "hidden_face",
+    "jump",
     "light_change",
     "lit_walker",
     "overtaking",
     "pan_tilt_scene",
     "room_scene",
     "static_head",
+    "skin_picture",
     "stress_scene",
     "walker",
     "write_sequence",

@@ -23,6 +23,8 @@ class Scene:
     """The true box in each frame, pixels."""
     changes: tuple[int, ...] = ()
     """The frames in which the light or the brightness of the target changes abruptly."""
+    visible: tuple[float, ...] = ()
+    """The share of the target that nothing hides, in each frame; empty where nothing ever does."""
 
 
 class Bystander(NamedTuple):
