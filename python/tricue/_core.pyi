@@ -7,6 +7,8 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+_imgproc: typing.Any  # tricue.imgproc says what is in it
+
 def above_floor(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
