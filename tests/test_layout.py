@@ -181,6 +181,27 @@ def test_only_the_command_line_parses_arguments() -> None:
     assert {file.relative_to(PACKAGE).parts[0] for file in parsers} == {"cli"}
 
 
+CV2_OF_SCENES = {"imwrite", "FileStorage", "FILE_STORAGE_WRITE", "inpaint", "INPAINT_TELEA"}
+"""Files, and what every version of cv2 does alike."""
+
+
+def names_of_cv2(file: Path) -> set[str]:
+    """What a file uses of cv2."""
+    nodes = list(ast.walk(ast.parse(file.read_text())))
+    assert not [node for node in nodes if isinstance(node, ast.ImportFrom) and node.module == "cv2"], file
+    return {
+        node.attr
+        for node in nodes
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "cv2"
+    }
+
+
+@pytest.mark.parametrize("file", sorted((PACKAGE / "scenes").rglob("*.py")), ids=lambda file: file.stem)
+def test_scenes_are_rendered_without_cv2(file: Path) -> None:
+    """cv2 resamples otherwise from version to version: what is rendered uses tricue.imgproc instead."""
+    assert names_of_cv2(file) <= CV2_OF_SCENES
+
+
 def test_files_carry_their_license() -> None:
     """Every source file begins with one SPDX line."""
     sources = [

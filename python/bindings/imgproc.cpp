@@ -104,8 +104,11 @@ cv::Mat matrix(const Array<double>& object, int rows) {
     return cv::Mat(rows, 3, CV_64F, const_cast<double*>(contiguous<double>(array, "matrix"))).clone();
 }
 
-cv::Mat square(int side) {
+/// A square window; -1 is the anchor in its middle.
+cv::Mat square(int side, int anchor = -1) {
     if (side < 1) throw py::value_error("side: expected 1 or more pixels, got " + std::to_string(side));
+    if (anchor < -1 || anchor >= side)
+        throw py::value_error("anchor: expected a pixel of the square, got " + std::to_string(anchor));
     return cv::Mat::ones(side, side, CV_8U);
 }
 
@@ -131,14 +134,14 @@ py::array box_blur(const Image& image, int side) {
 }
 
 py::array erode(const Image& image, int side, int anchor) {
-    const cv::Mat window = square(side);
+    const cv::Mat window = square(side, anchor);
     return filled(image, [&](const cv::Mat& source, cv::Mat& target) {
         cv::erode(source, target, window, {anchor, anchor});
     });
 }
 
 py::array dilate(const Image& image, int side, int anchor) {
-    const cv::Mat window = square(side);
+    const cv::Mat window = square(side, anchor);
     return filled(image, [&](const cv::Mat& source, cv::Mat& target) {
         cv::dilate(source, target, window, {anchor, anchor});
     });

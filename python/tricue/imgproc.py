@@ -56,12 +56,12 @@ def box_blur(image: NDArray[Scalar], side: int) -> NDArray[Scalar]:
 
 
 def erode(image: NDArray[Scalar], side: int, anchor: int = MIDDLE) -> NDArray[Scalar]:
-    """The minimum in a square of ``side`` pixels. anchor: which pixel of it, in both axes, is the result's."""
+    """The minimum in a square of ``side`` pixels. anchor: its pixel, in both axes, that is the result's."""
     return cast("NDArray[Scalar]", _imgproc.erode(image, side, anchor))
 
 
 def dilate(image: NDArray[Scalar], side: int, anchor: int = MIDDLE) -> NDArray[Scalar]:
-    """The maximum in a square of ``side`` pixels. anchor: which pixel of it, in both axes, is the result's."""
+    """The maximum in a square of ``side`` pixels. anchor: its pixel, in both axes, that is the result's."""
     return cast("NDArray[Scalar]", _imgproc.dilate(image, side, anchor))
 
 

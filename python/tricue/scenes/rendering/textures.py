@@ -61,7 +61,7 @@ def make_noise(
 
     Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are longer along v and u.
     """
-    spectrum = np.fft.rfft2(rng.standard_normal((height, width)))
+    spectrum = np.ascontiguousarray(np.fft.rfft2(rng.standard_normal((height, width))))
     parts = spectrum.view(np.float64)  # a product of complex numbers would take three times as long
     parts *= _amplitudes(height, width, slope, stretch)
     values = np.fft.irfft2(spectrum, s=(height, width))

@@ -24,5 +24,6 @@ class StereoFaults(NamedTuple):
 
     def apply(self, picture: Picture) -> Picture:
         """The right image (H, W, 3), before noise, of one that is rectified and exposed as the left."""
-        moved = imgproc.shift(picture, 0, self.rows, *picture.shape[:2], border="replicate")
+        height, width = picture.shape[:2]
+        moved = imgproc.shift(picture, 0, self.rows, height, width, border="replicate")
         return np.asarray(np.float32(self.gain) * moved, np.float32)
