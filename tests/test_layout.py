@@ -183,6 +183,13 @@ def test_only_the_command_line_parses_arguments() -> None:
 
 CV2_OF_SCENES = {"imwrite", "FileStorage", "FILE_STORAGE_WRITE", "inpaint", "INPAINT_TELEA"}
 """Files, and what every version of cv2 does alike."""
+CV2_OF_TRACKERS = {
+    "face_detection": {"cvtColor", "COLOR_BGR2GRAY", "__version__"},  # of the first frame
+    "overlay": {"resize", "INTER_NEAREST", "copyMakeBorder", "BORDER_CONSTANT"},  # for the eye
+    "depth": {"countNonZero"},
+    "depth_trust": {"resize", "INTER_AREA", "absdiff"},  # a warning's, alike in every version
+}
+"""What trackers' files use of cv2: it measures nothing, or has whole results, alike in every version."""
 
 
 def names_of_cv2(file: Path) -> set[str]:
@@ -200,6 +207,12 @@ def names_of_cv2(file: Path) -> set[str]:
 def test_scenes_are_rendered_without_cv2(file: Path) -> None:
     """cv2 resamples otherwise from version to version: what is rendered uses tricue.imgproc instead."""
     assert names_of_cv2(file) <= CV2_OF_SCENES
+
+
+@pytest.mark.parametrize("file", sorted((PACKAGE / "track").rglob("*.py")), ids=lambda file: file.stem)
+def test_trackers_measure_without_cv2(file: Path) -> None:
+    """A track doesn't depend on which cv2 is installed: pixels are the kernels' work."""
+    assert names_of_cv2(file) <= CV2_OF_TRACKERS.get(file.stem, set())
 
 
 def test_files_carry_their_license() -> None:
