@@ -7,6 +7,8 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+_imgproc: typing.Any  # tricue.imgproc says what is in it
+
 def above_floor(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -170,12 +172,57 @@ def box_contrast(
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
     """
 
+def cell_colors(
+    image: numpy.typing.NDArray[numpy.uint8], step: int
+) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Every step-th pixel of an image, from step // 2 on, and their mean.
+
+    Args:
+        image: uint8 (H, W, 3) BGR
+        step: pixels from one sample to the next, 1 to 1024
+
+    Returns:
+        colors: uint8 (ceil((H - step // 2) / step), the same of W, 3): the color of each cell's middle
+            pixel, BGR
+        mean: float64 (3,) blue, green and red: a measure of the light while the scene stays the same; 0
+            of an empty image
+
+    Raises:
+        ValueError: on a step out of range
+    """
+
+def coherent_cells(
+    disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The cells at an expected disparity: those whose disparity differs from it by at most the tolerance.
+
+    A cell without a disparity, as in hair of one color, gets the majority of the cells around it that
+    have one.
+
+    Args:
+        disparities: float32 (H, W), NaN where there is none
+        expected: in the disparities' unit
+        tolerance: 0 or more
+        window: side of the square around a cell whose majority counts, odd, 1 to 127
+
+    Returns:
+        uint8 (H, W), 1 at the expected disparity, else 0; a tie gives 0
+
+    Raises:
+        ValueError: on values out of range
+
+    Source: ours, for Moreno et al. 2002, section 3.2, whose pixels of coherent depth are not defined.
+    """
+
 def color_bins(
     image: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
     bins: tuple[int, int, int],
     chroma: int,
     step: int,
+    gains: numpy.typing.NDArray[numpy.float64] | None = None,
 ) -> numpy.typing.NDArray[numpy.uint16]:
     """
     The bin of each pixel of a region in the color space (B - G, G - R, B + G + R).
@@ -191,6 +238,8 @@ def color_bins(
         chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond are in
             the end bins
         step: pixels from one sample to the next, 1 to 1024
+        gains: factors (3,) of blue, green and red that turn the colors into those of another light (von
+            Kries), finite, 0 or more; products are rounded half to even and end at 255; None for 1
 
     Returns:
         uint16 (ceil(height / step), ceil(width / step)); 65535 outside the image; empty for an empty
@@ -1528,6 +1577,29 @@ def rectify_verged(
     Source: Okada, Shirai, Miura 1996, section 3.1 and figure 3.
     """
 
+def reduce_gray(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The gray levels of an image in cells of step x step pixels: their mean, for which a color image is
+    first turned gray.
+
+        gray = (3735 B + 19235 G + 9798 R + 2^14) >> 15
+
+    Rows and columns that fill no cell are left out. Means are rounded half to even, those of 2 x 2
+    pixels half up, as by OpenCV.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, or gray (H, W)
+        step: side of a cell, pixels, 1 to the smaller side of the image
+
+    Returns:
+        uint8 (H // step, W // step), never the image's own memory
+
+    Raises:
+        ValueError: on a step out of range
+
+    Source: ITU-R BT.601's luma, in OpenCV's whole numbers.
+    """
+
 def regularized_filter(
     cells: numpy.typing.NDArray[numpy.float32],
     mask: numpy.typing.NDArray[numpy.float32],
@@ -2164,6 +2236,12 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def cell_colors(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+    ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]: ...
+    def coherent_cells(
+        self, disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def color_bins(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
@@ -2171,6 +2249,7 @@ class Kernels(Protocol):
         bins: tuple[int, int, int],
         chroma: int,
         step: int,
+        gains: numpy.typing.NDArray[numpy.float64] | None = None,
     ) -> numpy.typing.NDArray[numpy.uint16]: ...
     def color_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
@@ -2471,6 +2550,9 @@ class Kernels(Protocol):
         center: tuple[float, float] | None = None,
         shift: float = 0.0,
         rows_only: bool = False,
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def reduce_gray(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def regularized_filter(
         self,

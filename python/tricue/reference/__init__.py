@@ -6,8 +6,10 @@ compute. Their help is how they compute, then the native kernel's contract.
 from tricue import _core
 from tricue.reference.camera.back_project import back_project
 from tricue.reference.camera.rectify_verged import rectify_verged
+from tricue.reference.camera.reduce_gray import reduce_gray
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.box_contrast import box_contrast
+from tricue.reference.cues.color.cell_colors import cell_colors
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -51,6 +53,7 @@ from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
+from tricue.reference.cues.stereo.coherent_cells import coherent_cells
 from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
@@ -77,6 +80,8 @@ __all__ = [
     "block_counts",
     "block_mask",
     "box_contrast",
+    "cell_colors",
+    "coherent_cells",
     "color_bins",
     "color_histogram",
     "color_lookup",
@@ -117,6 +122,7 @@ __all__ = [
     "rectangle_histogram",
     "rectangle_prior",
     "rectify_verged",
+    "reduce_gray",
     "regularized_filter",
     "resample",
     "reweight",

@@ -4,7 +4,6 @@
 import math
 from typing import NamedTuple, Protocol
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -137,8 +136,9 @@ class StereoSource(NamedTuple):
         last = min(last, 4 * side)
         width = side + last
         part = np.array([[x - last * step, y, width * step, side * step]])
-        left = _gray(self.k.sample_windows(self.left, part, side, width)[0])
-        right = _gray(self.k.sample_windows(self.right, part - [[shift, 0, 0, 0]], side, width)[0])
+        left = self.k.reduce_gray(self.k.sample_windows(self.left, part, side, width)[0], 1)
+        moved = part - [[shift, 0, 0, 0]]
+        right = self.k.reduce_gray(self.k.sample_windows(self.right, moved, side, width)[0], 1)
         region = (last, 0, width, side)
         found = self.k.sad_disparity(
             left, right, region, False, first, last, SAD_WINDOW, SAD_UNIQUENESS, True, SAD_TOLERANCE
@@ -171,7 +171,3 @@ class StereoSource(NamedTuple):
     def noise(self, z: float, pixel_size: float) -> float:
         """Proportional to the squared depth, by the noise of a disparity."""
         return DISPARITY_NOISE * pixel_size * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
-
-
-def _gray(samples: Image) -> Image:
-    return cv2.cvtColor(samples, cv2.COLOR_BGR2GRAY)  # type: ignore[return-value]

@@ -22,7 +22,7 @@ from tricue.track.stereo_head.disparity import find_initial_disparity, limits_be
 from tricue.track.stereo_head.head_filter import HeadFilter
 from tricue.track.stereo_head.measure import HeadMeasurement, measure
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import Image, PreparedPair, mean_color
+from tricue.track.stereo_head.prepared_pair import Image, PreparedPair
 from tricue.track.stereo_head.search_frame import LostHead, search_frame
 from tricue.track.stereo_head.state import HeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
@@ -87,8 +87,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         if max(head.width, head.height) > MAX_BOX_SIDE:
             raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
-        pair = PreparedPair.of(left, right, None, self.params)
-        first_mean = mean_color(pair.colors) if self.params.compensate_light else None
+        pair = PreparedPair.of(self._k, left, right, None, self.params)
+        first_mean = pair.mean if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
         state = HeadState(
             shape=left.shape,
@@ -116,7 +116,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         before = validation.require_initialized(self._state)
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        pair = PreparedPair.of(left, right, before.first_mean, self.params)
+        pair = PreparedPair.of(self._k, left, right, before.first_mean, self.params)
         return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp), frame)
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
