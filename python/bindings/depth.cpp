@@ -12,6 +12,7 @@
 #include "cues/depth/floor_plane.hpp"
 #include "cues/depth/median_depths.hpp"
 #include "cues/depth/plane_support.hpp"
+#include "cues/depth/support_pixels.hpp"
 #include "kernel_docs.hpp"
 
 namespace tricue::bindings {
@@ -110,6 +111,17 @@ Array<double> plane_support_arrays(const Array<float>& depth, const Array<double
                          [&] { return plane_support(view, lens, floor, tolerance, step); }));
 }
 
+Bytes support_pixels_arrays(const Array<float>& depth, double x0, double y0, double step, int side,
+                            double width, double height, double z, const Array<double>& camera,
+                            const Array<double>& draws, double tolerance) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto random = states(draws, "draws");
+    return give(unlocked(std::ptrdiff_t{side} * side, [&] {
+        return support_pixels(view, {x0, y0, step, side, side}, {width, height, z}, lens, random, tolerance);
+    }));
+}
+
 }  // namespace
 
 void define_depth(py::module_& m) {
@@ -134,6 +146,9 @@ void define_depth(py::module_& m) {
           py::arg("expected"), py::arg("max_offset"), py::arg("min_share"), docs::median_depths);
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("tolerance"), py::arg("step"), docs::plane_support);
+    m.def("support_pixels", support_pixels_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
+          py::arg("step"), py::arg("side"), py::arg("width"), py::arg("height"), py::arg("z"),
+          py::arg("camera"), py::arg("draws"), py::arg("tolerance"), docs::support_pixels);
 }
 
 }  // namespace tricue::bindings

@@ -263,6 +263,29 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
     Source: Sabeti, Parvizi, Wu 2008, equation (17); Muselet, Macaire 2006.
     """
 
+def combine_posteriors(
+    first: numpy.typing.NDArray[numpy.float32], second: numpy.typing.NDArray[numpy.float32]
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    P(target | two cues) of every pixel, by the posteriors p and q of each, which are independent and
+    have equal priors:
+        p q / max(p q + (1 - p) (1 - q), 1e-9)
+
+    The odds p / (1 - p) and q / (1 - q) multiply, so that 1/2 changes nothing. In float32, and to the
+    last bit as written.
+
+    Args:
+        first, second: float32 (H, W), p and q, of one shape; in [0, 1]
+
+    Returns:
+        float32 (H, W)
+
+    Raises:
+        ValueError: on planes of different shapes
+
+    Source: Okada, Shirai, Miura 1996, (10), for the two classes target and rest.
+    """
+
 def correlation_response(
     cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -1054,6 +1077,7 @@ def kalman_update(
     measurement: numpy.typing.NDArray[numpy.float64],
     observation: numpy.typing.NDArray[numpy.float64],
     noise: numpy.typing.NDArray[numpy.float64],
+    max_distance: float = ...,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.float64],
@@ -1065,6 +1089,10 @@ def kalman_update(
         y = z - H x,  S = H P Hᵀ + R,  K = P Hᵀ S⁻¹
         x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 
+    A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows
+    that the model of the motion failed: first P is multiplied by y S⁻¹ yᵀ / max_distance², which gives
+    S, too.
+
     P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. Below
     noises about 1e12 times smaller than P no form in double precision is safe.
 
@@ -1075,6 +1103,7 @@ def kalman_update(
         observation: float64 (M, D), H
         noise: float64 (M, M), R: covariance of the measurement noise; may be 0 where P makes S positive
             definite
+        max_distance: standard deviations, above 0; infinite to never widen P
 
     Returns:
         mean: float64 (D,), x'
@@ -1087,7 +1116,7 @@ def kalman_update(
             not positive definite
 
     Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5,
-    where H = I.
+    where H = I. A larger P where the innovation is large: ours, as fading memory has it.
     """
 
 def learn_contrast(
@@ -1960,6 +1989,55 @@ def summarize(
     sample size).
     """
 
+def support_pixels(
+    depth: numpy.typing.NDArray[numpy.float32],
+    x0: float,
+    y0: float,
+    step: float,
+    side: int,
+    width: float,
+    height: float,
+    z: float,
+    camera: numpy.typing.NDArray[numpy.float64],
+    draws: numpy.typing.NDArray[numpy.float64],
+    tolerance: float,
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The pixels of a target's surround, and of its box, that lie on one plane: what it stands on, lies on
+    or leans against.
+
+    Read are the depths under the centers of a grid's squares, as by depth_posterior; those of 2 z and
+    more count as not measured. The squares of every second row and column outside of the box, taken
+    1.05 times as wide and high, vote: floor_plane, with any plane for level, takes triples of those
+    that are measured, in their order from top left; a draw u of n is number floor(u n). Then square (i,
+    j) is on the plane where
+        |(nx X + ny Y + nz) z_ij + d| < t,  X = (x0 + j step - cx) / fx,  Y = (y0 + i step - cy) / fy
+
+    in float64. Nothing is, if fewer than 60 squares vote, if the plane has less than 0.15 of them, or
+    if it has more than half of those that are measured in the inner 0.8 of the box: such a target is as
+    flat as the plane. A part of the box has the squares whose centers are nearer to the middle than
+    half its width and height, and than 1 at least.
+
+    Args:
+        depth: float32 (H, W), meters; may be empty
+        x0, y0: top left corner of the grid, pixels, finite
+        step: width of a square, pixels, finite, above 0
+        side: squares on a side of the grid, at least 2
+        width, height: of the box, squares, finite, above 0
+        z: depth of the target, meters, finite, above 0
+        camera: float64 (4,): fx, fy, cx, cy of the depth image, pixels, fx and fy above 0
+        draws: float64 (K, 3), random numbers in [0, 1): a triple each
+        tolerance: t, meters, finite, above 0
+
+    Returns:
+        uint8 (side, side): 1 on the plane, else 0
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: ours; RANSAC after Fischler, Bolles 1981.
+    """
+
 def target_distribution(
     histogram: numpy.typing.NDArray[numpy.float64],
     smoothing: float,
@@ -2181,6 +2259,9 @@ class Kernels(Protocol):
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def combine_posteriors(
+        self, first: numpy.typing.NDArray[numpy.float32], second: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def correlation_response(
         self, cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -2355,6 +2436,7 @@ class Kernels(Protocol):
         measurement: numpy.typing.NDArray[numpy.float64],
         observation: numpy.typing.NDArray[numpy.float64],
         noise: numpy.typing.NDArray[numpy.float64],
+        max_distance: float = ...,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float64],
@@ -2563,6 +2645,20 @@ class Kernels(Protocol):
     def summarize(
         self, particles: numpy.typing.NDArray[numpy.float64], weights: numpy.typing.NDArray[numpy.float64]
     ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float]: ...
+    def support_pixels(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        x0: float,
+        y0: float,
+        step: float,
+        side: int,
+        width: float,
+        height: float,
+        z: float,
+        camera: numpy.typing.NDArray[numpy.float64],
+        draws: numpy.typing.NDArray[numpy.float64],
+        tolerance: float,
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def target_distribution(
         self,
         histogram: numpy.typing.NDArray[numpy.float64],

@@ -6,26 +6,13 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "cues/depth/detail/sample_pixels.hpp"
+#include "cues/depth/detail/read_grid.hpp"
 
 namespace tricue {
 namespace {
 
 constexpr float kClutter = 0.1F;
 constexpr float kMaxExponent = 80.0F;  // of a posterior below 1e-33; more would overflow
-
-/// Depths at the samples, 0 outside the image.
-Floats read_depths(const DepthView& depth, const SampleGrid& grid) {
-    const SamplePixels across = find_sample_pixels(grid.x, grid.step, grid.columns, depth.cols),
-                       down = find_sample_pixels(grid.y, grid.step, grid.rows, depth.rows);
-    Floats depths = Floats::Zero(grid.rows, grid.columns);
-    for (std::size_t i = 0; i < down.pixels.size(); ++i) {
-        const float* row = depth.row(down.pixels[i]);
-        float* to = depths.data() + (down.first + i) * static_cast<std::size_t>(grid.columns) + across.first;
-        for (const int x : across.pixels) *to++ = row[x];
-    }
-    return depths;
-}
 
 inline bool is_measured(float z) {
     return z > 0.0F && z <= std::numeric_limits<float>::max();
@@ -60,11 +47,7 @@ void require_positive(double number, const char* name) {
 }
 
 void require_arguments(const SampleGrid& grid, const ExpectedDepth& target) {
-    if (!std::isfinite(grid.x)) refuse("x0", "a finite number", grid.x);
-    if (!std::isfinite(grid.y)) refuse("y0", "a finite number", grid.y);
-    require_positive(grid.step, "step");
-    if (grid.rows < 1) refuse("rows", "at least 1", grid.rows);
-    if (grid.columns < 1) refuse("columns", "at least 1", grid.columns);
+    require_grid(grid);
     require_positive(target.expected, "expected");
     require_positive(target.sigma, "sigma");
     if (!(target.near_margin >= 0.0 && std::isfinite(target.near_margin)))
@@ -75,7 +58,7 @@ void require_arguments(const SampleGrid& grid, const ExpectedDepth& target) {
 
 DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, const ExpectedDepth& target) {
     require_arguments(grid, target);
-    const Floats depths = read_depths(depth, grid);
+    const Floats depths = read_grid(depth, grid);
     Floats exponents(grid.rows, grid.columns);
     DepthPosterior result{Floats(grid.rows, grid.columns), {}};
     result.nearer.resize(grid.rows, grid.columns);

@@ -12,27 +12,34 @@ from tricue.track.fused.identity import (
     probability,
 )
 from tricue.track.fused.localize import Candidate, TargetModel, recenter
-from tricue.track.fused.outline import Reaches, Side, measure_reaches
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import Window
 
 
 class Match(NamedTuple):
     """A candidate that was measured.
 
+    window, right, down: where it was measured, so many patch pixels off the window's center.
     log_odds, structure_log_odds: of its being the target, by all that is known, and by what light doesn't
     change. response: of the learned filter. covered: the share of its box that an occluder covers.
     """
 
     target: Target
-    observation: TargetObservation
+    window: Window
+    right: float
+    down: float
     features: IdentityFeatures
     log_odds: float
     structure_log_odds: float
     response: float
     depth: DepthMeasurement | None
     covered: float
-    reaches: Reaches | None
+
+    @property
+    def observation(self) -> TargetObservation:
+        """The frame, given the depth at which the target was expected there."""
+        return self.window.observation
 
     @property
     def score(self) -> float:
@@ -58,16 +65,16 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
         contrast=candidate.contrast,
         first_response=candidate.responses[1],
     )
-    covered = covered_share(window, *offset)
     offset_of_kind = DEPTH_PICTURE_OFFSET if observation.kind == "depth" else 0.0
     return Match(
         target=measured.scale(model.limit_growth(1.0, measured)),
-        observation=observation,
+        window=window,
+        right=candidate.right,
+        down=candidate.down,
         features=features,
         log_odds=features.log_odds(model.typical, APPEARANCE) + offset_of_kind,
         structure_log_odds=features.log_odds(model.typical, STRUCTURE),
         response=candidate.responses[0],
         depth=depth,
-        covered=covered,
-        reaches=measure_reaches(window, *offset, covered, Side.CUT in model.sides),
+        covered=covered_share(window, *offset),
     )
