@@ -45,6 +45,7 @@ from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
+from tricue.reference.cues.depth.ground_distance import ground_distance
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.median_depths import median_depths
 from tricue.reference.cues.depth.plane_support import plane_support
@@ -103,6 +104,7 @@ __all__ = [
     "floor_plane",
     "gradient_disparity",
     "gradient_flow",
+    "ground_distance",
     "histogram_mean",
     "hog_color_cells",
     "joint_histogram",

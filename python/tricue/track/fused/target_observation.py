@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -62,7 +63,8 @@ class TargetObservation:
         top, bottom = _span(windows[:, 1], windows[:, 3], height)
         part = self.depth_image[top:bottom, left:right]
         picture = self.k.depth_picture(part, self.expected_depth.z, PICTURE_DEPTH_RANGE)
-        return self.k.sample_windows(picture, windows - (left, top, 0, 0), side, side)
+        samples = self.k.sample_windows(picture, windows - (left, top, 0, 0), side, side)
+        return _bgr(samples.reshape(-1, side)).reshape(-1, side, side, 3)
 
     def depth_posterior(
         self, x: float, y: float, pixel_size: float, side: int
@@ -80,6 +82,10 @@ class TargetObservation:
         margin = max(expected.occluder_margin, GATE_SIGMAS * noise)
         grid = (x, y, pixel_size)
         return self.depth_source.posterior(self.k, grid, side, expected._replace(sigma=sigma), margin)
+
+
+def _bgr(gray: Image) -> Image:
+    return cv2.cvtColor(gray, cv2.COLOR_GRAY2BGR)  # type: ignore[return-value]
 
 
 def _span(starts: Floats, lengths: Floats, size: int) -> tuple[int, int]:
