@@ -626,7 +626,7 @@ def depth_picture(
         reach: meters from gray to black or white, finite, above 0
 
     Returns:
-        uint8 (H, W, 3) BGR; in C++ one array of bytes in this order
+        uint8 (H, W)
 
     Raises:
         ValueError: on numbers out of range
@@ -955,6 +955,36 @@ def gradient_flow(
         ValueError: on frames without pixels or of unlike sizes, or numbers out of range
 
     Source: Okada, Shirai, Miura 1996, section 2.
+    """
+
+def ground_distance(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    up: numpy.typing.NDArray[numpy.float64],
+    near: float,
+    far: float,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Distances along the ground, in the direction in which the camera looks. What stands upright before a
+    tilted camera has one of them, but many depths.
+        distance = z (a_x (u - cx) / fx + a_y (v - cy) / fy + a_z),  a = (e - (e · up) up) / |e - (e · up) up|,  e = (0, 0, 1)
+
+    within near and the largest float32 below far; NaN where the depth is NaN. The factor of z is
+    computed in float64 and rounded to float32.
+
+    Args:
+        depth: float32 (H, W), meters
+        camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+        up: float64 (3,): unit vector, camera frame, not along the view: (0, -1, 0) for a level camera
+        near, far: limits of the distances, meters, finite, far above near
+
+    Returns:
+        float32 (H, W), meters
+
+    Raises:
+        ValueError: on other shapes or values
+
+    Source: ours.
     """
 
 def histogram_mean(
@@ -1767,14 +1797,15 @@ def sample_windows(
     Cost grows with rows times the pixels of the windows' widths, which are read whole.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
         windows: float64 (N, 4): left, top, width, height, pixels, a pixel's edges being at whole
             numbers; finite, sizes above 0
         rows: of the grid, at least 1
         columns: of the grid, at least 1
 
     Returns:
-        uint8 (N, rows, columns, 3) BGR; in C++ one array of bytes in this order
+        uint8 (N, rows, columns, 3) BGR, of a gray image (N, rows, columns); in C++ one array of bytes
+            in this order
 
     Raises:
         ValueError: on other shapes, an image without pixels, or numbers out of range
@@ -2413,6 +2444,14 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
+    def ground_distance(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        up: numpy.typing.NDArray[numpy.float64],
+        near: float,
+        far: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def histogram_mean(
         self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
     ) -> numpy.typing.NDArray[numpy.float64]: ...

@@ -3,9 +3,9 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "base/check.hpp"
+#include "base/depth_pixels.hpp"
 #include "base/simd.hpp"
 #include "cues/depth/detail/read_grid.hpp"
 
@@ -14,10 +14,6 @@ namespace {
 
 constexpr float kClutter = 0.1F;
 constexpr float kMaxExponent = 80.0F;  // of a posterior below 1e-33; more would overflow
-
-inline bool is_measured(float z) {
-    return z > 0.0F && z <= std::numeric_limits<float>::max();
-}
 
 /// exp(x) for x from 0 to kMaxExponent: 2^k times Cephes' polynomial of the remainder, at most ln(2) / 2. Vectorizable with every
 /// instruction set.
@@ -34,19 +30,32 @@ inline float exp_positive(float x) {
     return series * power;
 }
 
-/// The posteriors 1 / (1 + c / p), 1/2 where nothing is measured, and whether it is nearer than `near`.
+/// ((z - expected) / sigma)² / 2 of what is measured, else 0; and whether it is nearer than `near`.
 TRICUE_MULTIVERSION
-void judge(const float* __restrict depths, double expected, double per_sigma, double near, Eigen::Index n,
-           float* __restrict posterior, std::uint8_t* __restrict nearer) {
+void measure_deviations(const float* __restrict depths, double expected, double per_sigma, double near,
+                        Eigen::Index n, float* __restrict exponents, std::uint8_t* __restrict nearer) {
     for (Eigen::Index i = 0; i < n; ++i) {
-        const bool measured = is_measured(depths[i]);
+        const bool measured = has_depth(depths[i]);
         const double z = measured ? static_cast<double>(depths[i]) : expected;
         const double deviation = (z - expected) * per_sigma;
         const auto exponent = static_cast<float>(0.5 * deviation * deviation);
-        const float inverse = exp_positive(exponent < kMaxExponent ? exponent : kMaxExponent);
-        const float share = 1.0F / (1.0F + kClutter * inverse);
-        posterior[i] = measured ? share : 0.5F;
+        exponents[i] = exponent < kMaxExponent ? exponent : kMaxExponent;
         nearer[i] = z < near;
+    }
+}
+
+TRICUE_MULTIVERSION
+void replace_by_exponentials(float* numbers, Eigen::Index n) {
+    for (Eigen::Index i = 0; i < n; ++i) numbers[i] = exp_positive(numbers[i]);
+}
+
+/// 1 / (1 + c / p), `inverse` being 1 / p; 1/2 where nothing is measured.
+TRICUE_MULTIVERSION
+void write_posterior(const float* __restrict depths, const float* __restrict inverse, Eigen::Index n,
+                     float* __restrict posterior) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const float share = 1.0F / (1.0F + kClutter * inverse[i]);
+        posterior[i] = has_depth(depths[i]) ? share : 0.5F;
     }
 }
 
@@ -67,10 +76,14 @@ void require_arguments(const SampleGrid& grid, const ExpectedDepth& target) {
 DepthPosterior depth_posterior(const DepthView& depth, const SampleGrid& grid, const ExpectedDepth& target) {
     require_arguments(grid, target);
     const Floats depths = read_grid(depth, grid);
+    Floats exponents(grid.rows, grid.columns);
     DepthPosterior result{Floats(grid.rows, grid.columns), {}};
     result.nearer.resize(grid.rows, grid.columns);
-    judge(depths.data(), target.expected, 1.0 / target.sigma, target.expected - target.near_margin,
-          depths.size(), result.posterior.data(), result.nearer.data());
+    measure_deviations(depths.data(), target.expected, 1.0 / target.sigma,
+                       target.expected - target.near_margin, depths.size(), exponents.data(),
+                       result.nearer.data());
+    replace_by_exponentials(exponents.data(), exponents.size());
+    write_posterior(depths.data(), exponents.data(), depths.size(), result.posterior.data());
     return result;
 }
 

@@ -63,6 +63,7 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
             return Recognition(at, other.features, other.log_odds, other.structure_log_odds)
 
         monkeypatch.setattr(module, "recognize", recognized)
+
         def measured(_: TargetModel, found: Recognition) -> Match:
             among.measured.append(others[round(-found.candidate.evidence)])
             return among.measured[-1]

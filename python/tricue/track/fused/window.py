@@ -83,7 +83,7 @@ class Window:
             return posterior
         k, camera = self.observation.k, self.observation.camera
         support = find_support(k, source.depth, self._grid, PATCH_PIXELS, self.size, expected.z, camera)
-        without = posterior.copy()
+        without: Plane = posterior.copy()
         np.minimum(posterior, SUPPORT_POSTERIOR, out=without, where=support)
         return without
 

@@ -60,7 +60,8 @@ def support_pixels(
     known = has_depth(depths[inner])
     if on_plane[inner][known].sum() > MAX_PLANE_SHARE * known.sum():
         return nowhere
-    return on_plane.astype(np.uint8)
+    mask: Mask = on_plane.astype(np.uint8)
+    return mask
 
 
 def _read_grid(depth: Depth, x0: float, y0: float, step: float, side: int) -> Depth:
