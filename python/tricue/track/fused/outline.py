@@ -162,25 +162,25 @@ def measure_reaches(
 
 def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:
     """How far the filled part reaches before and after a place, in halves of the box."""
-    filled = profile.tolist()
+    filled = (profile >= MIN_FILLED_POSTERIOR).tolist()
     start = min(max(int(center), 0), len(filled) - 1)
-    if filled[start] < MIN_FILLED_POSTERIOR:
+    if not filled[start]:
         return None, None
     before, after = (
         _first_empty(filled, range(start, -1, -1)),
         _first_empty(filled, range(start, len(filled))),
     )
     return (
-        None if before is None else (center - _crossing(filled, before)) / half,
-        None if after is None else (_crossing(filled, after - 1) - center) / half,
+        None if before is None else (center - _crossing(profile, before)) / half,
+        None if after is None else (_crossing(profile, after - 1) - center) / half,
     )
 
 
-def _first_empty(filled: list[float], indices: Iterable[int]) -> int | None:
-    return next((i for i in indices if filled[i] < MIN_FILLED_POSTERIOR), None)
+def _first_empty(filled: list[bool], indices: Iterable[int]) -> int | None:
+    return next((i for i in indices if not filled[i]), None)
 
 
-def _crossing(filled: list[float], index: int) -> float:
+def _crossing(profile: Plane, index: int) -> float:
     """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
-    first, second = filled[index : index + 2]
+    first, second = float(profile[index]), float(profile[index + 1])
     return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)
