@@ -47,10 +47,12 @@ from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
+from tricue.reference.cues.depth.ground_distance import ground_distance
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.median_depths import median_depths
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.depth.support_pixels import support_pixels
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
 from tricue.reference.cues.stereo.coherent_cells import coherent_cells
@@ -58,6 +60,7 @@ from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
+from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.kalman_predict import kalman_predict
@@ -86,6 +89,7 @@ __all__ = [
     "color_histogram",
     "color_lookup",
     "color_ranks",
+    "combine_posteriors",
     "correlation_response",
     "correlation_train",
     "cut_sides",
@@ -105,6 +109,7 @@ __all__ = [
     "floor_plane",
     "gradient_disparity",
     "gradient_flow",
+    "ground_distance",
     "histogram_mean",
     "hog_color_cells",
     "joint_histogram",
@@ -138,6 +143,7 @@ __all__ = [
     "skin_reference",
     "skin_rule",
     "summarize",
+    "support_pixels",
     "target_distribution",
     "target_pixels",
     "temporal_window",

@@ -77,17 +77,6 @@ class DepthImageSource(NamedTuple):
         """True: each pixel is measured by itself."""
         return True
 
-    def sample(self, grid: Grid, side: int) -> Plane:
-        """(side, side) depths of the pixels under the centers of a grid's squares, NaN beyond the image."""
-        x, y, step = grid
-        centers = (np.arange(side) + 0.5) * step
-        rows, columns = np.floor(y + centers).astype(int), np.floor(x + centers).astype(int)
-        height, width = self.depth.shape
-        inside = ((rows >= 0) & (rows < height))[:, None] & ((columns >= 0) & (columns < width))
-        sampled = self.depth[rows.clip(0, height - 1)[:, None], columns.clip(0, width - 1)]
-        depths: Plane = np.where(inside, sampled, np.float32(np.nan))
-        return depths
-
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:

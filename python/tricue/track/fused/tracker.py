@@ -144,7 +144,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def _localize(self, state: State, observation: TargetObservation) -> Match:
         """The target near its last place; in the whole frame once it isn't followed any more."""
         models, p = state.models[observation.kind], self.params
-        model = TargetModel(models, state.depth, state.first_side, state.typical, state.sides, p)
+        model = TargetModel(models, state.depth, state.first_side, state.typical, p)
         if state.is_followed(p):
             return search_local(model, observation, state.target, state.mean_response)
         local = search_local(model, observation, state.target, None)

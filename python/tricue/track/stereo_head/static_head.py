@@ -86,7 +86,7 @@ def measure_static_head(
     for frame in stream:
         count += 1
         left, right, _ = validation.stereo_pair(frame, state.shape)
-        pair = PreparedPair.of(left, right, state.first_mean, p)
+        pair = PreparedPair.of(k, left, right, state.first_mean, p)
         found = measure(k, pair, state.geometry, ellipse, disparity, state.first_histogram, p)
         if found is not None:
             color = k.histogram_mean(found.histogram, p.bins, p.max_chroma)
