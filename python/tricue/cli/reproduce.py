@@ -17,7 +17,15 @@ examples:
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
 NAMES = (
-    *("sabeti-fig1", "sabeti-fig2", "sabeti-fig3", "sabeti-fig4", "sabeti-roc", "sabeti-depth", "sabeti-dark"),
+    *(
+        "sabeti-fig1",
+        "sabeti-fig2",
+        "sabeti-fig3",
+        "sabeti-fig4",
+        "sabeti-roc",
+        "sabeti-depth",
+        "sabeti-dark",
+    ),
     *("moreno-fig2", "moreno-fig3", "okada-fig8", "okada-vergence", "okada-follow"),
 )
 

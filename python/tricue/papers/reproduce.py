@@ -13,8 +13,8 @@ from tricue.papers.experiment import C, Case, Experiment, Maker, Models, Report,
 from tricue.papers.moreno import experiments as moreno
 from tricue.papers.okada import experiments as okada
 from tricue.papers.sabeti_color import experiments as sabeti_color
-from tricue.papers.sabeti_dark import experiments as sabeti_dark
 from tricue.papers.sabeti_color import skin_threshold
+from tricue.papers.sabeti_dark import experiments as sabeti_dark
 from tricue.papers.sabeti_depth import experiments as sabeti_depth
 
 SceneTask = tuple[str, Callable[..., S], int]

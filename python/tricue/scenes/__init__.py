@@ -14,9 +14,9 @@ from tricue.scenes.heads.head import HEAD_KINDS, head, static_head
 from tricue.scenes.indoors.gestures import hand, hidden_face, skin_picture
 from tricue.scenes.indoors.jump import jump
 from tricue.scenes.overtakings.overtaking import OVERTAKING_KINDS, overtaking
-from tricue.scenes.people.lit_walker import LIGHT_COURSES, LitScene, lit_walker
 from tricue.scenes.pan_tilt.head import HeadLimits, SimulatedHead
 from tricue.scenes.pan_tilt.scene import PanTiltScene, pan_tilt_scene
+from tricue.scenes.people.lit_walker import LIGHT_COURSES, LitScene, lit_walker
 from tricue.scenes.people.walkers import crossing, walker
 from tricue.scenes.rendering.photographs import BACKGROUNDS
 from tricue.scenes.rooms.scene import ROOM_CHANNELS, ROOM_KINDS, RoomScene, room_scene
@@ -36,8 +36,8 @@ __all__ = [
     "DepthScene",
     "Events",
     "HeadLimits",
-    "PanTiltScene",
     "LitScene",
+    "PanTiltScene",
     "RoomScene",
     "Scene",
     "SimulatedHead",
@@ -55,8 +55,8 @@ __all__ = [
     "overtaking",
     "pan_tilt_scene",
     "room_scene",
-    "static_head",
     "skin_picture",
+    "static_head",
     "stress_scene",
     "walker",
     "write_sequence",
