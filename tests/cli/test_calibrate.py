@@ -171,6 +171,8 @@ def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
     calibrated = ["--calibration", str(folder / "rig.toml")]
     box = ["--box", ",".join(map(str, still.boxes[0]))]
     assert "pair: expected a box" in failing(["stereo-noise", str(folder), *calibrated, *ending], capsys)
+    same = failing(["stereo-noise", str(folder), *calibrated, "--output", str(folder / "rig.toml")], capsys)
+    assert "rig.toml: expected another file than --calibration" in same
     for path in sorted(folder.glob("*/*.png"))[::-1]:
         if int(path.stem) > 5:
             path.unlink()

@@ -113,6 +113,9 @@ def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:
 def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
     from tricue.track.stereo_head.static_head import measure_static_head
 
+    calibration, output = options.calibration, options.output
+    if calibration and output.exists() and calibration.exists() and output.samefile(calibration):
+        raise ValueError(f"{output}: expected another file than --calibration to write to")
     source = open_source(options.input, right=options.right)
     found = find_calibration(options, source)
     head = options.box or source.first_box

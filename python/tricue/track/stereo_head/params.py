@@ -280,6 +280,7 @@ class StereoHeadParams(Params):
           figure 2 assumes. X and Y have no error on the optical axis.
         - e of μ and of the intersection are to be measured from a static head: as ``tricue reproduce
           moreno-fig2`` measures them, the root mean square over the distances.
+        - The position is filtered in the camera's frame, not in the world's; the rig's pose turns the result.
         - How the filter's μ goes back to the histogram isn't printed: the histogram is shifted as a whole.
         - Nothing tells a head from what hides it, so every measurement counts. Without one, for want of
           disparities, the prediction stays.
