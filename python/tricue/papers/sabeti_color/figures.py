@@ -117,7 +117,8 @@ def scene_curves(figure: Any, curves: Sequence[ColorCurve], scenes: Mapping[str,
         shade_hidden(axes, shown)
         count = len(stacked(runs, models[0], "overlaps"))
         shade = "hidden" if scene.visible else f"seed 0 moves > {MIN_FAST_STEP:.0f} px"
-        axes.set(xlabel=f"{name}: frame ({count} runs per model; shaded: {shade})", ylim=(0, 1))
+        note = f"; shaded: {shade}" if shown.min() < 1 else ""
+        axes.set(xlabel=f"{name}: frame ({count} runs per model{note})", ylim=(0, 1))
         axes.set_ylabel("IoU: median, quartiles")
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(
