@@ -107,18 +107,7 @@ def scene_curves(figure: Any, curves: Sequence[ColorCurve], scenes: Mapping[str,
             show_frame(axes, image, title)
             _draw_boxes(axes, curves, name, scene, index, marked)
         axes = bottom.subplots()
-        runs = [curve for curve in curves if curve.scene == name]
-        for model, color in colors.items():
-            overlaps = stacked(runs, model, "overlaps")
-            plot_band(axes, np.median(overlaps, axis=0), overlaps, color, model, alpha=0.1)
-        shown = np.median([run.visible for run in runs], axis=0)
-        if not scene.visible and runs[0].steps.max() > MIN_FAST_STEP:
-            shown = np.where(runs[0].steps > MIN_FAST_STEP, 0.0, 1.0)
-        shade_hidden(axes, shown)
-        count = len(stacked(runs, models[0], "overlaps"))
-        shade = "hidden" if scene.visible else f"seed 0 moves > {MIN_FAST_STEP:.0f} px"
-        axes.set(xlabel=f"{name}: frame ({count} runs per model; shaded: {shade})", ylim=(0, 1))
-        axes.set_ylabel("IoU: median, quartiles")
+        _plot_overlaps(axes, [curve for curve in curves if curve.scene == name], name, scene, colors)
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(
         handles,
@@ -128,6 +117,23 @@ def scene_curves(figure: Any, curves: Sequence[ColorCurve], scenes: Mapping[str,
         ncols=len(models),
         title="pictures: boxes of the first run, default and as printed; the true one dashed",
     )
+
+
+def _plot_overlaps(
+    axes: Any, runs: Sequence[ColorCurve], name: str, scene: Scene, colors: Mapping[str, str]
+) -> None:
+    """Median overlap and quartiles of each model, over shaded frames: hidden, or else fast ones."""
+    for model, color in colors.items():
+        overlaps = stacked(runs, model, "overlaps")
+        plot_band(axes, np.median(overlaps, axis=0), overlaps, color, model, alpha=0.1)
+    shown, shade = np.median([run.visible for run in runs], axis=0), "hidden"
+    if not scene.visible:
+        shown, shade = 1.0 - (runs[0].steps > MIN_FAST_STEP), f"seed 0 moves > {MIN_FAST_STEP:.0f} px"
+    shade_hidden(axes, shown)
+    count = sum(run.model == runs[0].model for run in runs)
+    note = f"; shaded: {shade}" if shown.min() < 1 else ""
+    axes.set(xlabel=f"{name}: frame ({count} runs per model{note})", ylim=(0, 1))
+    axes.set_ylabel("IoU: median, quartiles")
 
 
 def _marked(models: Sequence[str]) -> dict[str, str]:
