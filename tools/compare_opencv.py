@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -36,29 +37,22 @@ def scenes() -> Iterator[tuple[str, Make]]:
     """Every kind of scene, by name, and how it is made."""
     from tricue import scenes
 
-    yield "light change", lambda: scenes.light_change(0, FRAMES)
-    yield "face over clutter", lambda: scenes.face_over_clutter(0, FRAMES)
+    yield "light change", partial(scenes.light_change, 0, FRAMES)
+    yield "face over clutter", partial(scenes.face_over_clutter, 0, FRAMES)
     for kind in scenes.HEAD_KINDS:
-        yield f"head, {kind}", lambda kind=kind: scenes.head(0, FRAMES, kind=kind)
+        yield f"head, {kind}", partial(scenes.head, 0, FRAMES, kind=kind)
     for kind in scenes.OVERTAKING_KINDS:
-        yield f"overtaking, {kind}", lambda kind=kind: scenes.overtaking(0, FRAMES, kind=kind)
-    yield "overtaking, depth", lambda: scenes.overtaking(0, FRAMES, depth=True)
+        yield f"overtaking, {kind}", partial(scenes.overtaking, 0, FRAMES, kind=kind)
+    yield "overtaking, depth", partial(scenes.overtaking, 0, FRAMES, depth=True)
     for camera in ("tof", "rgbd"):
-        yield f"walker, {camera}", lambda camera=camera: scenes.walker(0, FRAMES, camera)
-        yield f"crossing, {camera}", lambda camera=camera: scenes.crossing(0, FRAMES, camera)
+        yield f"walker, {camera}", partial(scenes.walker, 0, FRAMES, camera)
+        yield f"crossing, {camera}", partial(scenes.crossing, 0, FRAMES, camera)
     for channels in scenes.STRESS_CHANNELS:
-        yield (
-            f"stress, {channels}",
-            lambda channels=channels: scenes.stress_scene("fast", 1, channels=channels),
-        )
+        yield f"stress, {channels}", partial(scenes.stress_scene, "fast", 1, channels=channels)
     for kind in scenes.ROOM_KINDS:
         for channels in ("rgbd", "stereo"):
-            yield (
-                f"room, {kind}, {channels}",
-                lambda kind=kind, channels=channels: scenes.room_scene(
-                    kind, channels=channels, frames=FRAMES
-                ),
-            )
+            made = partial(scenes.room_scene, kind, channels=channels, frames=FRAMES)
+            yield f"room, {kind}, {channels}", made
 
 
 def digest(arrays: Iterator[Any]) -> str:
@@ -114,7 +108,7 @@ def environment(version: str) -> Path:
             "pooch",
             "matplotlib",
         ]
-        command = [python, "-m", "pip", "--disable-pip-version-check", "install", "--quiet", *packages]
+        command = [str(python), "-m", "pip", "--disable-pip-version-check", "install", "--quiet", *packages]
         subprocess.run(command, check=True)
     return python
 

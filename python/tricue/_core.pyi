@@ -190,6 +190,9 @@ def cell_colors(
 
     Raises:
         ValueError: on a step out of range
+
+    Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries'
+    adaptation to the light.
     """
 
 def coherent_cells(

@@ -22,6 +22,7 @@ struct CellColors {
 /// @param image uint8 (H, W, 3) BGR
 /// @param step pixels from one sample to the next, 1 to 1024
 /// @throws std::invalid_argument on a step out of range
+/// Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries' adaptation to the light.
 CellColors cell_colors(const ImageView& image, int step);
 
 }  // namespace tricue

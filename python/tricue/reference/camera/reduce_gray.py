@@ -20,6 +20,5 @@ def reduce_gray(image: Image, step: int) -> Image:
         gray = (gray @ np.array(WEIGHTS) + 2**14) >> 15
     rows, columns = height // step, width // step
     cells = gray[: rows * step, : columns * step].reshape(rows, step, columns, step).sum(axis=(1, 3))
-    if step == 2:
-        return ((cells + 2) >> 2).astype(np.uint8)
-    return np.rint(cells.astype(np.float32) * np.float32(1 / step**2)).astype(np.uint8)
+    mean = (cells + 2) >> 2 if step == 2 else np.rint(cells.astype(np.float32) * np.float32(1 / step**2))
+    return np.asarray(mean, np.uint8)
