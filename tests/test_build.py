@@ -56,7 +56,7 @@ def test_links_only_what_it_uses() -> None:
 
 
 def test_is_hardened() -> None:
-    """The extension has full RELRO, no executable stack, stack canaries and checked copies, as SECURITY.md says."""
+    """The extension has full RELRO, no executable stack and stack canaries, as SECURITY.md says."""
     if shutil.which("readelf") is None or "sanitized" in _core.__file__:
         pytest.skip("needs readelf from binutils, and a build for users")
 

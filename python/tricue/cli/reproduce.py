@@ -16,27 +16,25 @@ examples:
   tricue reproduce sabeti-roc --data my-images --rate 0.05
   tricue reproduce sabeti-fig2 --seeds 50 --jobs 2 --output results
 """
-NAMES = (
-    *(
-        "sabeti-fig1",
-        "sabeti-fig2",
-        "sabeti-fig3",
-        "sabeti-fig4",
-        "sabeti-roc",
-        "sabeti-depth",
-        "sabeti-dark",
-    ),
-    *("moreno-fig2", "moreno-fig3", "okada-fig8", "okada-vergence", "okada-follow"),
-)
+NAMES = [
+    "sabeti-fig1",
+    "sabeti-fig2",
+    "sabeti-fig3",
+    "sabeti-fig4",
+    "sabeti-roc",
+    "sabeti-depth",
+    "sabeti-dark",
+    "moreno-fig2",
+    "moreno-fig3",
+    "okada-fig8",
+    "okada-vergence",
+    "okada-follow",
+]
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
-    command.add_argument(
-        "experiment",
-        metavar="EXPERIMENT",
-        help=", ".join(NAMES),
-    )
+    command.add_argument("experiment", metavar="EXPERIMENT", help=", ".join(NAMES))
     command.add_argument(
         "--seeds", type=int, default=20, help="runs of each model on each scene, default %(default)s"
     )

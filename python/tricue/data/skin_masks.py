@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Color images with a mask for each: ``image/`` and ``mask/`` in one folder, paired by the files' names."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -47,17 +47,31 @@ def find_masked_images(folder: Path) -> list[MaskedImage]:
     """The pairs in a folder with ``image/`` and ``mask/`` (or ``images/``, ``masks/``), in natural order.
 
     A mask has the name of its image, up to the suffix. ValueError names a folder that isn't there or is
-    empty, and an image without a mask.
+    empty, an image without a mask, a mask without an image, and the second of two of one name.
     """
-    images = image_paths(_required(folder, IMAGE_FOLDERS))
-    masks = _required(folder, MASK_FOLDERS)
-    by_name = {path.stem: path for path in image_paths(masks)}
+    image_folder, mask_folder = _required(folder, IMAGE_FOLDERS), _required(folder, MASK_FOLDERS)
+    images, masks = _by_name(image_folder), _by_name(mask_folder)
     if not images:
-        raise ValueError(f"{_required(folder, IMAGE_FOLDERS)}: expected images, found none")
-    for image in images:
-        if image.stem not in by_name:
-            raise ValueError(f"{image}: expected a mask of the same name in {masks}, found none")
-    return [MaskedImage(image, by_name[image.stem]) for image in images]
+        raise ValueError(f"{image_folder}: expected images, found none")
+    _check_partners(images, masks, f"a mask of the same name in {mask_folder}")
+    _check_partners(masks, images, f"an image of the same name in {image_folder}")
+    return [MaskedImage(image, masks[name]) for name, image in images.items()]
+
+
+def _by_name(folder: Path) -> dict[str, Path]:
+    """The images of a folder in natural order, by their names without suffix."""
+    found: dict[str, Path] = {}
+    for path in image_paths(folder):
+        if path.stem in found:
+            raise ValueError(f"{path}: expected one image of this name, got also {found[path.stem].name}")
+        found[path.stem] = path
+    return found
+
+
+def _check_partners(paths: Mapping[str, Path], partners: Mapping[str, Path], expected: str) -> None:
+    for name, path in paths.items():
+        if name not in partners:
+            raise ValueError(f"{path}: expected {expected}, found none")
 
 
 def _required(folder: Path, names: Sequence[str]) -> Path:

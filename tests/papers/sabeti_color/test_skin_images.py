@@ -81,12 +81,12 @@ def break_mask(folder):
 @pytest.mark.parametrize(
     ("spoil", "words"),
     [
-        (remove_mask, r"images.10\.png: expected a mask of that name in .*masks, found none"),
-        (remove_image, r"masks.10\.bmp: expected an image of that name in .*images, found none"),
+        (remove_mask, r"images.10\.png: expected a mask of the same name in .*masks, found none"),
+        (remove_image, r"masks.10\.bmp: expected an image of the same name in .*images, found none"),
         (remove_all, r"images: expected images, found none"),
-        (remove_masks, r"expected the folders images and masks in it"),
-        (double_mask, r"masks.10\.png: expected one mask a name, got also 10\.bmp"),
-        (shrink_mask, r"masks.10\.bmp: expected 16x12 pixels, as 10\.png has, got 16x6"),
+        (remove_masks, r"expected the folders image and mask in it"),
+        (double_mask, r"masks.10\.png: expected one image of this name, got also 10\.bmp"),
+        (shrink_mask, r"masks.10\.bmp: expected a mask of 16x12 pixels, as 10\.png has, got 16x6"),
         (break_image, r"images.10\.png: expected an image, this file can't be read as one"),
         (break_mask, r"masks.10\.bmp: expected an image, this file can't be read as one"),
     ],

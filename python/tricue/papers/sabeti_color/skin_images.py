@@ -3,23 +3,16 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.data.files import image_paths
-from tricue.data.streams import read_image
+from tricue.data.skin_masks import find_masked_images
 from tricue.scenes import skin_picture
 
 Image = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
-
-FOLDERS = (("images", "masks"), ("image", "mask"))
-"""The names that the two folders may have."""
-MIN_SKIN_LEVEL = 128
-"""Of 255: a mask's pixel from which it is skin."""
 
 
 class SkinImages(Protocol):
@@ -52,59 +45,20 @@ class RenderedSkin:
             yield self._pairs[seed]
 
 
-class _Paths(NamedTuple):
-    image: Path
-    mask: Path
-
-
 class SkinFolder:
-    """``images/NAME.*`` and ``masks/NAME.*`` in a folder, or ``image`` and ``mask``; levels of 128 are skin.
+    """``images/NAME.*`` and ``masks/NAME.*`` in a folder of the user's, see :mod:`tricue.data.skin_masks`.
 
-    Errors name the file: ValueError for images without masks, masks without images or of another size, files
-    that are no images, and folders without images; FileNotFoundError for a missing folder.
+    Errors name the file: FileNotFoundError for a missing folder, ValueError for what isn't as it should be.
     """
 
     def __init__(self, folder: Path) -> None:
         if not folder.is_dir():
             raise FileNotFoundError(f"{folder}: expected a folder of images and masks, found none")
-        self._paths = _pair_up(folder)
-        self.title = f"{len(self._paths)} images in {folder.name or folder}"
+        self._files = find_masked_images(folder)
+        self.title = f"{len(self._files)} images in {folder.name or folder}"
 
     def __len__(self) -> int:
-        return len(self._paths)
+        return len(self._files)
 
     def __iter__(self) -> Iterator[tuple[Image, Mask]]:
-        for path, mask_path in self._paths:
-            image, levels = read_image(path, cv2.IMREAD_COLOR), read_image(mask_path, cv2.IMREAD_GRAYSCALE)
-            if levels.shape != image.shape[:2]:
-                (height, width), (rows, columns) = image.shape[:2], levels.shape
-                raise ValueError(
-                    f"{mask_path}: expected {width}x{height} pixels, as {path.name} has, got {columns}x{rows}"
-                )
-            yield image, levels >= MIN_SKIN_LEVEL
-
-
-def _pair_up(folder: Path) -> list[_Paths]:
-    """The images of a folder and their masks, by name."""
-    for names in FOLDERS:
-        images, masks = (folder / name for name in names)
-        if images.is_dir() and masks.is_dir():
-            break
-    else:
-        raise ValueError(f"{folder}: expected the folders images and masks in it")
-    masks_by_name: dict[str, Path] = {}
-    for path in image_paths(masks):
-        if path.stem in masks_by_name:
-            raise ValueError(f"{path}: expected one mask a name, got also {masks_by_name[path.stem].name}")
-        masks_by_name[path.stem] = path
-    pairs = []
-    for path in image_paths(images):
-        if path.stem not in masks_by_name:
-            raise ValueError(f"{path}: expected a mask of that name in {masks}, found none")
-        pairs.append(_Paths(path, masks_by_name.pop(path.stem)))
-    if masks_by_name:
-        left = min(masks_by_name.values())
-        raise ValueError(f"{left}: expected an image of that name in {images}, found none")
-    if not pairs:
-        raise ValueError(f"{images}: expected images, found none")
-    return pairs
+        return (each.read() for each in self._files)

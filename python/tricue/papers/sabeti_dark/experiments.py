@@ -16,7 +16,15 @@ from tricue.evaluation.one_pass import run
 from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.sabeti_dark import curves, figures
 from tricue.papers.sabeti_dark.curves import LitCurve
-from tricue.papers.sabeti_dark.names import COLOR, DUSK, PRINTED, RANGE_SCENES, SUNRISE
+from tricue.papers.sabeti_dark.names import (
+    COLOR,
+    DUSK,
+    HEAD_MODELS,
+    PRINTED,
+    PRINTED_COLOR,
+    RANGE_SCENES,
+    SUNRISE,
+)
 from tricue.scenes import LitScene, lit_walker
 
 DEEP_WALL = 10.5  # meters, beyond most of the unambiguous ranges
@@ -24,8 +32,9 @@ DEEP_WALL = 10.5  # meters, beyond most of the unambiguous ranges
 
 def measure(case: Case, make: Maker, scene: LitScene) -> LitCurve:
     """Overlaps of a tracker that starts on the first true box: the head's for color, as in the paper."""
-    truth = scene.heads if case.model == COLOR else scene.boxes
-    camera: dict[str, Any] = {} if case.model == COLOR else {"intrinsics": scene.intrinsics}
+    color = case.model in HEAD_MODELS
+    truth = scene.heads if color else scene.boxes
+    camera: dict[str, Any] = {} if color else {"intrinsics": scene.intrinsics}
     result = run(make(seed=case.seed, **camera), scene.frames, truth[0])
     overlaps = metrics.overlaps(result.boxes, np.array(truth))
     return LitCurve(*case, overlaps=overlaps, light=scene.light, boxes=result.boxes)
@@ -35,6 +44,9 @@ EXPERIMENTS: dict[str, Experiment[LitScene, LitCurve]] = {
     "sabeti-dark": Experiment(
         models={
             COLOR: partial(tricue.create, "color-particle"),
+            PRINTED_COLOR: partial(
+                tricue.create, "color-particle", params=tricue.ColorParticleTracker.Params.paper()
+            ),
             "depth-particle": partial(tricue.create, "depth-particle"),
             PRINTED: partial(
                 tricue.create, "depth-particle", params=tricue.DepthParticleTracker.Params.paper()

@@ -11,11 +11,11 @@ from tricue.draw.figures import COLORS, draw_box
 from tricue.papers.curves import Floats, first_runs, models_of, stacked
 from tricue.papers.plots import plot_band, show_frame
 from tricue.papers.sabeti_dark.curves import LitCurve
-from tricue.papers.sabeti_dark.names import COLOR, DUSK, RANGE_SCENES, SUNRISE
+from tricue.papers.sabeti_dark.names import DUSK, HEAD_MODELS, RANGE_SCENES, SUNRISE
 from tricue.scenes import LitScene
 
 FRAMES_SHOWN = 6
-MODEL_COLORS = (COLORS[4], COLORS[5], COLORS[3], COLORS[2])  # on dark pictures, too
+MODEL_COLORS = (COLORS[4], COLORS[7], COLORS[5], COLORS[3], COLORS[2])  # on dark pictures, too
 TRUTH_COLOR = "white"
 NEAREST, FARTHEST = 0.5, 9.0  # meters, of the brightest and the darkest color of depth
 
@@ -26,7 +26,7 @@ def light_and_range(figure: Any, curves: Sequence[LitCurve], scenes: Mapping[str
     In the frames: the truth is dashed, the boxes of seed 0 are solid. Lines over time are means over the
     seeds, bands the quartiles.
     """
-    colors = dict(zip(models_of(curves), MODEL_COLORS, strict=False))
+    colors = dict(zip(models_of(curves), MODEL_COLORS, strict=True))
     figure.set_size_inches(13, 10.5)
     top, bottom = figure.subfigures(2, 1, height_ratios=[6.4, 3.6])
     color_row, depth_row, range_row = top.subplots(3, FRAMES_SHOWN)
@@ -38,7 +38,9 @@ def light_and_range(figure: Any, curves: Sequence[LitCurve], scenes: Mapping[str
         show_frame(color_axes, dusk.frames[index].color, title)
         _show_depth(depth_axes, dusk, index, "the same in depth")
         _draw_boxes(color_axes, dusk, index, runs, colors)
-        _draw_boxes(depth_axes, dusk, index, {name: runs[name] for name in runs if name != COLOR}, colors)
+        _draw_boxes(
+            depth_axes, dusk, index, {name: runs[name] for name in runs if name not in HEAD_MODELS}, colors
+        )
     for axes, name in zip(range_row, RANGE_SCENES, strict=True):
         index = len(scenes[name].frames) * 2 // 3
         _show_depth(axes, scenes[name], index, name)
@@ -70,10 +72,10 @@ def _draw_boxes(
     camera = scene.intrinsics
     axes.set(xlim=(-0.5, camera.width - 0.5), ylim=(camera.height - 0.5, -0.5))
     for name, run in runs.items():
-        if heads or name != COLOR:
+        if heads or name not in HEAD_MODELS:
             draw_box(axes, run.boxes[index], colors[name])
     draw_box(axes, scene.boxes[index], TRUTH_COLOR, "dashed")
-    if heads and COLOR in runs:
+    if heads and any(name in runs for name in HEAD_MODELS):
         draw_box(axes, scene.heads[index], TRUTH_COLOR, "dashed")
 
 

@@ -2,7 +2,10 @@
 """The models and scenes that the experiment and its figure name."""
 
 COLOR = "color-particle, head"
+PRINTED_COLOR = "color-particle, head, as printed"
 PRINTED = "depth-particle, as printed"
+HEAD_MODELS = (COLOR, PRINTED_COLOR)
+"""Those that follow the head, as the paper's color tracker does."""
 
 DUSK, SUNRISE = "dusk", "sunrise"
 MIN_REFLECTANCE = 0.15
