@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Run the commands of docs/experiments.md and replace the table below each with what it prints. Of several commands
-above one table it is the last.
+"""Run the commands of docs/experiments.md and replace the table below each with what it prints.
+
+Of several commands above one table the last one counts.
 
 python tools/experiment_tables.py [--jobs N] [NAME ...]      all experiments, or those of these names
 """
