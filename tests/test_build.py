@@ -46,24 +46,42 @@ assert count == 2 and len(blobs) == 1 and list(blobs[0, :5]) == list(boxes[1]), 
 
 
 def test_links_only_what_it_uses() -> None:
-    """Of OpenCV the extension needs the core alone: modules for windows would clash with pip's cv2."""
+    """Of OpenCV the extension needs core and imgproc: modules for windows would clash with pip's cv2."""
     if shutil.which("readelf") is None:
         pytest.skip("needs readelf from binutils")
     output = subprocess.run(
         ["readelf", "-d", _core.__file__], capture_output=True, text=True, check=True
     ).stdout
-    assert re.findall(r"NEEDED.*\[libopencv_(\w+)\.", output) == ["core"]
+    assert re.findall(r"NEEDED.*\[libopencv_(\w+)\.", output) == ["imgproc", "core"]
+
+
+def test_is_hardened() -> None:
+    """The extension has full RELRO, no executable stack and stack canaries, as SECURITY.md says."""
+    if shutil.which("readelf") is None or "sanitized" in _core.__file__:
+        pytest.skip("needs readelf from binutils, and a build for users")
+
+    def read(*options: str) -> str:
+        return subprocess.run(
+            ["readelf", "-W", *options, _core.__file__], capture_output=True, text=True, check=True
+        ).stdout
+
+    headers, symbols = read("-l", "-d"), read("--dyn-syms")
+    assert "GNU_RELRO" in headers
+    assert re.search(r"FLAGS.*(BIND_)?NOW", headers)
+    assert re.search(r"GNU_STACK .* RW +0x", headers)
+    assert "__stack_chk_fail" in symbols
 
 
 def test_starts_no_thread(tmp_path: Path) -> None:
-    """Fourier transforms, the one thing that OpenCV does for the extension, run on the caller's thread."""
+    """What OpenCV does for the extension, Fourier transforms and imgproc, runs on the caller's thread."""
     code = """
 import os, numpy
-from tricue import _core
+from tricue import _core, imgproc
 cells = numpy.ones((64, 128, 128), numpy.float32)
 filters = numpy.ones((2, 64, 128, 65), numpy.complex64)
 before = len(os.listdir("/proc/self/task"))
 _core.correlation_response(cells, filters)
+imgproc.warp_perspective(numpy.ones((2000, 2000, 3), numpy.float32), numpy.eye(3), 2000, 2000)
 after = len(os.listdir("/proc/self/task"))
 assert before == after, (before, after)
 """
@@ -78,6 +96,7 @@ assert before == after, (before, after)
     [
         ("CMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON", "libeigen3-dev"),
         ("OPENCV_CORE=", "libopencv-core-dev"),
+        ("OPENCV_IMGPROC=", "libopencv-imgproc-dev"),
         ("CMAKE_DISABLE_FIND_PACKAGE_Python=ON", "python3-dev"),
         ("CMAKE_CXX_COMPILER=", "g++"),
     ],

@@ -182,6 +182,40 @@ def test_only_the_command_line_parses_arguments() -> None:
     assert {file.relative_to(PACKAGE).parts[0] for file in parsers} == {"cli"}
 
 
+CV2_OF_SCENES = {"imwrite", "FileStorage", "FILE_STORAGE_WRITE", "inpaint", "INPAINT_TELEA"}
+"""Files, and what every version of cv2 does alike."""
+CV2_OF_TRACKERS = {
+    "face_detection": {"cvtColor", "COLOR_BGR2GRAY", "__version__"},  # of the first frame
+    "overlay": {"resize", "INTER_NEAREST", "copyMakeBorder", "BORDER_CONSTANT"},  # for the eye
+    "depth": {"countNonZero"},
+    "depth_trust": {"resize", "INTER_AREA", "absdiff"},  # a warning's, alike in every version
+}
+"""What trackers' files use of cv2: it measures nothing, or has whole results, alike in every version."""
+
+
+def names_of_cv2(file: Path) -> set[str]:
+    """What a file uses of cv2."""
+    nodes = list(ast.walk(ast.parse(file.read_text())))
+    assert not [node for node in nodes if isinstance(node, ast.ImportFrom) and node.module == "cv2"], file
+    return {
+        node.attr
+        for node in nodes
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "cv2"
+    }
+
+
+@pytest.mark.parametrize("file", sorted((PACKAGE / "scenes").rglob("*.py")), ids=lambda file: file.stem)
+def test_scenes_are_rendered_without_cv2(file: Path) -> None:
+    """cv2 resamples otherwise from version to version: what is rendered uses tricue.imgproc instead."""
+    assert names_of_cv2(file) <= CV2_OF_SCENES
+
+
+@pytest.mark.parametrize("file", sorted((PACKAGE / "track").rglob("*.py")), ids=lambda file: file.stem)
+def test_trackers_measure_without_cv2(file: Path) -> None:
+    """A track doesn't depend on which cv2 is installed: pixels are the kernels' work."""
+    assert names_of_cv2(file) <= CV2_OF_TRACKERS.get(file.stem, set())
+
+
 def test_files_carry_their_license() -> None:
     """Every source file begins with one SPDX line."""
     sources = [

@@ -120,10 +120,16 @@ class Binding(NamedTuple):
     @property
     def signature(self) -> str:
         """As a call in Python."""
-        python = {"py::none()": "None", "true": "True", "false": "False"}
+        python = {
+            "py::none()": "None",
+            "true": "True",
+            "false": "False",
+            "std::numeric_limits<double>::quiet_NaN()": "nan",
+            "std::numeric_limits<double>::infinity()": "inf",
+        }
         parts = []
         for name, default in self.parameters.items():
-            value = "nan" if "quiet_NaN" in default else python.get(default, default)
+            value = python.get(default, default)
             parts.append(f"{name}={value}" if value else name)
         return f"{self.name}({', '.join(parts)})"
 

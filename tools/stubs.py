@@ -24,6 +24,7 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+_imgproc: typing.Any  # tricue.imgproc says what is in it
 """
 PROTOCOL = '''
 
@@ -39,7 +40,7 @@ def generate() -> str:
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "pybind11_stubgen", "tricue._core", "-o", folder, "--exit-code"]
         subprocess.run(command, check=True, capture_output=True, text=True)
-        text = Path(folder, "tricue", "_core.pyi").read_text()
+        text = Path(folder, "tricue", "_core", "__init__.pyi").read_text()
     # What pybind11 takes for a number differs between its versions; what we ask for doesn't.
     text = re.sub(
         r"typing\.Supports(Float|Int) \| typing\.SupportsIndex", lambda found: found[1].lower(), text

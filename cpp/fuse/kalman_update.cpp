@@ -24,7 +24,7 @@ Eigen::LLT<Matrix> positive_root(const States& s) {
 }  // namespace
 
 Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
-                         StatesRef noise) {
+                         StatesRef noise, double max_distance) {
     const Eigen::Index size = mean.size(), measured = measurement.size();
     require_gaussian_state(mean, covariance);
     if (measured < 1) refuse("measurement", "at least one number", "none");
@@ -33,12 +33,23 @@ Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measure
     require_finite(observation, "observation");
     require_covariance(noise, measured, "noise");
 
-    const Matrix p = covariance.matrix(), h = observation.matrix(), r = noise.matrix();
-    const Matrix hp = h * p;
-    States s = symmetrized(hp * h.transpose() + r);
-    const Matrix gain = positive_root(s).solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
-    const Matrix rest = Matrix::Identity(size, size) - gain * h;
+    if (!(max_distance > 0.0)) refuse("max_distance", "a number above 0", max_distance);
+
+    const Matrix h = observation.matrix(), r = noise.matrix();
     Vector innovation = (measurement.matrix() - h * mean.matrix()).array();
+    Matrix p = covariance.matrix(), hp = h * p;
+    States s = symmetrized(hp * h.transpose() + r);
+    Eigen::LLT<Matrix> root = positive_root(s);
+    const double distance = root.matrixL().solve(innovation.matrix()).norm();
+    if (distance > max_distance) {
+        const double ratio = distance / max_distance;
+        p *= ratio * ratio;
+        hp = h * p;
+        s = symmetrized(hp * h.transpose() + r);
+        root = positive_root(s);
+    }
+    const Matrix gain = root.solve(hp).transpose();  // K = P Hᵀ S⁻¹, P and S being symmetric
+    const Matrix rest = Matrix::Identity(size, size) - gain * h;
     return {mean + (gain * innovation.matrix()).array(),
             symmetrized(rest * p * rest.transpose() + gain * r * gain.transpose()), std::move(innovation),
             std::move(s)};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 #include "base/arrays.hpp"
 
 namespace tricue {
@@ -17,6 +19,9 @@ struct Correction {
 ///     y = z - H x,  S = H P Hᵀ + R,  K = P Hᵀ S⁻¹
 ///     x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 ///
+/// A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows that the model of the motion
+/// failed: first P is multiplied by y S⁻¹ yᵀ / max_distance², which gives S, too.
+///
 /// P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. Below noises about 1e12 times
 /// smaller than P no form in double precision is safe.
 ///
@@ -25,10 +30,12 @@ struct Correction {
 /// @param measurement float64 (M,), z, M at least 1
 /// @param observation float64 (M, D), H
 /// @param noise float64 (M, M), R: covariance of the measurement noise; may be 0 where P makes S positive definite
+/// @param max_distance standard deviations, above 0; infinite to never widen P
 /// @throws std::invalid_argument on other shapes, numbers that are not finite, invalid covariances, or an S that is not positive
 ///     definite
-/// Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5, where H = I.
+/// Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5, where H = I. A larger P where
+/// the innovation is large: ours, as fading memory has it.
 Correction kalman_update(VectorRef mean, StatesRef covariance, VectorRef measurement, StatesRef observation,
-                         StatesRef noise);
+                         StatesRef noise, double max_distance = std::numeric_limits<double>::infinity());
 
 }  // namespace tricue

@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "fuse/block_counts.hpp"
 #include "fuse/block_mask.hpp"
+#include "fuse/combine_posteriors.hpp"
 #include "fuse/target_distribution.hpp"
 #include "fuse/target_pixels.hpp"
 #include "fuse/temporal_window.hpp"
@@ -37,6 +38,11 @@ Rectangle rectangle(const Corners& corners) {
 
 std::ptrdiff_t pixels(const PlaneView& plane) {
     return std::ptrdiff_t{plane.rows} * plane.cols;
+}
+
+Array<float> combine_posteriors_arrays(const Array<float>& first, const Array<float>& second) {
+    const auto p = plane(first, "first"), q = plane(second, "second");
+    return give(unlocked(pixels(p), [&] { return combine_posteriors(p, q); }));
 }
 
 Array<double> weighted_histogram_arrays(const Array<float>& values, const Array<float>& weights,
@@ -124,6 +130,8 @@ void define_bayes(py::module_& m) {
           docs::block_counts);
     m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
           docs::block_mask);
+    m.def("combine_posteriors", combine_posteriors_arrays, py::arg("first"), py::arg("second"),
+          docs::combine_posteriors);
     m.def("target_distribution", target_distribution_arrays, py::arg("histogram"), py::arg("smoothing"),
           py::arg("ripple") = 0.05, py::arg("expected") = std::numeric_limits<double>::quiet_NaN(),
           py::arg("spread") = 1.0, docs::target_distribution);

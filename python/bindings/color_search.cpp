@@ -2,8 +2,10 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "arrays.hpp"
+#include "cues/color/cell_colors.hpp"
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
@@ -22,8 +24,26 @@ ColorSpace color_space(const Triple& bins, int chroma) {
     return {{first, second, third}, chroma};
 }
 
+std::tuple<Array<std::uint8_t>, Array<double>> cell_colors_arrays(const Array<std::uint8_t>& image,
+                                                                  int step) {
+    const auto view = color_image(image, "image");
+    auto cells = unlocked(std::ptrdiff_t{view.rows} * view.cols / std::max(step, 1),
+                          [&] { return cell_colors(view, step); });
+    const std::vector<py::ssize_t> shape{cells.colors.rows(), cells.colors.cols() / 3, 3};
+    const py::array_t<double> mean(3, cells.mean.data());
+    return {give(std::move(cells.colors), shape), mean};
+}
+
+std::array<double, 3> channel_gains(const Array<double>& gains) {
+    const auto each = vector(gains, "gains");
+    if (each.size() != 3)
+        throw py::value_error("gains: expected float64 (3,), got (" + std::to_string(each.size()) + ",)");
+    return {each[0], each[1], each[2]};
+}
+
 Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const Corners& region,
-                                       const Triple& bins, int chroma, int step) {
+                                       const Triple& bins, int chroma, int step,
+                                       const std::optional<Array<double>>& gains) {
     const auto view = color_image(image, "image");
     const auto [x0, y0, x1, y1] = region;
     const Region corners{x0, y0, x1, y1};
@@ -32,7 +52,9 @@ Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const C
     // In corners that are the wrong way round the difference may not fit an int.
     const auto cols = std::max<std::ptrdiff_t>(0, std::ptrdiff_t{seen.x1} - seen.x0);
     const auto rows = std::max<std::ptrdiff_t>(0, std::ptrdiff_t{seen.y1} - seen.y0);
-    return give(unlocked(cols * rows, [&] { return color_bins(view, corners, space, step); }));
+    const auto light = gains ? std::optional(channel_gains(*gains)) : std::nullopt;
+    return give(unlocked(cols * rows,
+                         [&] { return color_bins(view, corners, space, step, light ? &*light : nullptr); }));
 }
 
 BinsView bins_image(const Array<std::uint16_t>& bins) {
@@ -82,7 +104,8 @@ Array<double> shift_histogram_arrays(const Array<double>& histogram, const Tripl
 
 void define_color_search(py::module_& m) {
     m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("bins"),
-          py::arg("chroma"), py::arg("step"), docs::color_bins);
+          py::arg("chroma"), py::arg("step"), py::arg("gains") = py::none(), docs::color_bins);
+    m.def("cell_colors", cell_colors_arrays, py::arg("image"), py::arg("step"), docs::cell_colors);
     m.def("ellipse_histogram", ellipse_histogram_arrays, py::arg("bins"), py::arg("ellipses"),
           py::arg("size"), py::arg("margin"), docs::ellipse_histogram);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),

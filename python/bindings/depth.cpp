@@ -10,8 +10,10 @@
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/fill_gaps.hpp"
 #include "cues/depth/floor_plane.hpp"
+#include "cues/depth/ground_distance.hpp"
 #include "cues/depth/median_depths.hpp"
 #include "cues/depth/plane_support.hpp"
+#include "cues/depth/support_pixels.hpp"
 #include "kernel_docs.hpp"
 
 namespace tricue::bindings {
@@ -38,8 +40,7 @@ Array<double> depth_histogram_arrays(const Array<float>& depth, const Bytes& mas
 
 Bytes depth_picture_arrays(const Array<float>& depth, double z, double reach) {
     const auto view = depth_image(depth, "depth");
-    auto picture = unlocked(pixels(view), [&] { return depth_picture(view, z, reach); });
-    return give(std::move(picture), {view.rows, view.cols, 3});
+    return give(unlocked(pixels(view), [&] { return depth_picture(view, z, reach); }));
 }
 
 std::tuple<Array<float>, Bytes> depth_posterior_arrays(const Array<float>& depth, double x0, double y0,
@@ -92,6 +93,14 @@ Array<float> above_floor_arrays(const Array<float>& depth, const Array<double>& 
     return give(unlocked(pixels(view), [&] { return above_floor(view, lens, floor, {near, far, clear}); }));
 }
 
+Array<float> ground_distance_arrays(const Array<float>& depth, const Array<double>& camera,
+                                    const Array<double>& up, double near, double far) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto upward = vector(up, "up");
+    return give(unlocked(pixels(view), [&] { return ground_distance(view, lens, upward, near, far); }));
+}
+
 Array<double> median_depths_arrays(const Array<float>& depth, const Array<double>& boxes, int samples,
                                    double expected, double max_offset, double min_share) {
     const auto view = depth_image(depth, "depth");
@@ -108,6 +117,17 @@ Array<double> plane_support_arrays(const Array<float>& depth, const Array<double
     const auto floor = vector(plane, "plane");
     return give(unlocked(pixels(view) / std::max(1, step) / std::max(1, step),
                          [&] { return plane_support(view, lens, floor, tolerance, step); }));
+}
+
+Bytes support_pixels_arrays(const Array<float>& depth, double x0, double y0, double step, int side,
+                            double width, double height, double z, const Array<double>& camera,
+                            const Array<double>& draws, double tolerance) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto random = states(draws, "draws");
+    return give(unlocked(std::ptrdiff_t{side} * side, [&] {
+        return support_pixels(view, {x0, y0, step, side, side}, {width, height, z}, lens, random, tolerance);
+    }));
 }
 
 }  // namespace
@@ -130,10 +150,15 @@ void define_depth(py::module_& m) {
           py::arg("ragged"), py::arg("passes"), docs::fill_gaps);
     m.def("floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),
           py::arg("tolerance"), py::arg("up"), py::arg("min_cosine"), docs::floor_plane);
+    m.def("ground_distance", ground_distance_arrays, py::arg("depth"), py::arg("camera"), py::arg("up"),
+          py::arg("near"), py::arg("far"), docs::ground_distance);
     m.def("median_depths", median_depths_arrays, py::arg("depth"), py::arg("boxes"), py::arg("samples"),
           py::arg("expected"), py::arg("max_offset"), py::arg("min_share"), docs::median_depths);
     m.def("plane_support", plane_support_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("tolerance"), py::arg("step"), docs::plane_support);
+    m.def("support_pixels", support_pixels_arrays, py::arg("depth"), py::arg("x0"), py::arg("y0"),
+          py::arg("step"), py::arg("side"), py::arg("width"), py::arg("height"), py::arg("z"),
+          py::arg("camera"), py::arg("draws"), py::arg("tolerance"), docs::support_pixels);
 }
 
 }  // namespace tricue::bindings

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <limits>
+
 #include "arrays.hpp"
 #include "fuse/kalman_predict.hpp"
 #include "fuse/kalman_update.hpp"
@@ -18,15 +20,13 @@ std::tuple<Numbers, Numbers> kalman_predict_arrays(const Numbers& mean, const Nu
     return {give(std::move(next.mean)), give(std::move(next.covariance))};
 }
 
-std::tuple<Numbers, Numbers, Numbers, Numbers> kalman_update_arrays(const Numbers& mean,
-                                                                    const Numbers& covariance,
-                                                                    const Numbers& measurement,
-                                                                    const Numbers& observation,
-                                                                    const Numbers& noise) {
+std::tuple<Numbers, Numbers, Numbers, Numbers> kalman_update_arrays(
+    const Numbers& mean, const Numbers& covariance, const Numbers& measurement, const Numbers& observation,
+    const Numbers& noise, double max_distance) {
     const auto x = vector(mean, "mean"), z = vector(measurement, "measurement");
     const auto p = states(covariance, "covariance"), h = states(observation, "observation");
     const auto r = states(noise, "noise");
-    auto result = unlocked(p.size(), [&] { return kalman_update(x, p, z, h, r); });
+    auto result = unlocked(p.size(), [&] { return kalman_update(x, p, z, h, r, max_distance); });
     return {give(std::move(result.mean)), give(std::move(result.covariance)),
             give(std::move(result.innovation)), give(std::move(result.innovation_covariance))};
 }
@@ -37,7 +37,8 @@ void define_kalman(py::module_& m) {
     m.def("kalman_predict", kalman_predict_arrays, py::arg("mean"), py::arg("covariance"),
           py::arg("transition"), py::arg("noise"), docs::kalman_predict);
     m.def("kalman_update", kalman_update_arrays, py::arg("mean"), py::arg("covariance"),
-          py::arg("measurement"), py::arg("observation"), py::arg("noise"), docs::kalman_update);
+          py::arg("measurement"), py::arg("observation"), py::arg("noise"),
+          py::arg("max_distance") = std::numeric_limits<double>::infinity(), docs::kalman_update);
 }
 
 }  // namespace tricue::bindings

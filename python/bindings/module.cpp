@@ -9,6 +9,7 @@ void define_correlation(pybind11::module_& m);
 void define_depth(pybind11::module_& m);
 void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
+void define_imgproc(pybind11::module_& m);
 void define_kalman(pybind11::module_& m);
 void define_motion(pybind11::module_& m);
 void define_patch(pybind11::module_& m);
@@ -32,4 +33,5 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_correlation(m);
     tricue::bindings::define_kalman(m);
     tricue::bindings::define_bayes(m);
+    tricue::bindings::define_imgproc(m);
 }

@@ -11,10 +11,13 @@ namespace {
 using Bytes = Array<std::uint8_t>;
 
 Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, int rows, int columns) {
-    const auto view = color_image(image, "image");
+    const bool gray =
+        py::isinstance<py::array>(image) && py::reinterpret_borrow<py::array>(image).ndim() == 2;
+    const auto view = gray ? gray_image(image, "image") : color_image(image, "image");
     const auto each = states(windows, "windows");
     const auto work = each.rows() * rows * columns;
     auto samples = unlocked(work, [&] { return sample_windows(view, each, rows, columns); });
+    if (view.channels == 1) return give(std::move(samples), {each.rows(), rows, columns});
     return give(std::move(samples), {each.rows(), rows, columns, 3});
 }
 

@@ -7,6 +7,8 @@
 #include "arrays.hpp"
 #include "camera/back_project.hpp"
 #include "camera/rectify_verged.hpp"
+#include "camera/reduce_gray.hpp"
+#include "cues/stereo/coherent_cells.hpp"
 #include "cues/stereo/gradient_disparity.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 #include "kernel_docs.hpp"
@@ -82,6 +84,19 @@ Bytes rectify_verged_arrays(const Bytes& right, double angle, double focal,
     return give(std::move(turned), shape);
 }
 
+Bytes reduce_gray_arrays(const Bytes& image, int step) {
+    const bool color = py::isinstance<py::array>(image) && py::cast<py::array>(image).ndim() == 3;
+    const auto view = color ? color_image(image, "image") : gray_image(image, "image");
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return reduce_gray(view, step); }));
+}
+
+Bytes coherent_cells_arrays(const Array<float>& disparities, double expected, double tolerance, int window) {
+    const auto cells = floats(disparities, "disparities", {-1, -1}, "float32 disparities (H, W)");
+    return give(unlocked(cells.size(), [&] {
+        return coherent_cells(cells, static_cast<float>(expected), static_cast<float>(tolerance), window);
+    }));
+}
+
 }  // namespace
 
 void define_stereo(py::module_& m) {
@@ -98,6 +113,9 @@ void define_stereo(py::module_& m) {
     m.def("rectify_verged", rectify_verged_arrays, py::arg("right"), py::arg("angle"), py::arg("focal"),
           py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
           docs::rectify_verged);
+    m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"), docs::reduce_gray);
+    m.def("coherent_cells", coherent_cells_arrays, py::arg("disparities"), py::arg("expected"),
+          py::arg("tolerance"), py::arg("window"), docs::coherent_cells);
 }
 
 }  // namespace tricue::bindings

@@ -14,10 +14,12 @@ except ImportError as error:
 from tricue import former_names
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
+from tricue.camera.pose import Pose
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.base.opencv import as_opencv
 from tricue.track.base.registry import create, tracker_class
 from tricue.track.base.track import Status, Track
+from tricue.track.pan_tilt import PanTilt
 
 former_names.install()
 
@@ -38,6 +40,8 @@ __all__ = [
     "Frame",
     "FusedTracker",
     "Intrinsics",
+    "PanTilt",
+    "Pose",
     "Status",
     "StereoHeadTracker",
     "StereoRig",

@@ -7,6 +7,8 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+_imgproc: typing.Any  # tricue.imgproc says what is in it
+
 def above_floor(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -170,12 +172,60 @@ def box_contrast(
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
     """
 
+def cell_colors(
+    image: numpy.typing.NDArray[numpy.uint8], step: int
+) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Every step-th pixel of an image, from step // 2 on, and their mean.
+
+    Args:
+        image: uint8 (H, W, 3) BGR
+        step: pixels from one sample to the next, 1 to 1024
+
+    Returns:
+        colors: uint8 (ceil((H - step // 2) / step), the same of W, 3): the color of each cell's middle
+            pixel, BGR
+        mean: float64 (3,) blue, green and red: a measure of the light while the scene stays the same; 0
+            of an empty image
+
+    Raises:
+        ValueError: on a step out of range
+
+    Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries'
+    adaptation to the light.
+    """
+
+def coherent_cells(
+    disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The cells at an expected disparity: those whose disparity differs from it by at most the tolerance.
+
+    A cell without a disparity, as in hair of one color, gets the majority of the cells around it that
+    have one.
+
+    Args:
+        disparities: float32 (H, W), NaN where there is none
+        expected: in the disparities' unit
+        tolerance: 0 or more
+        window: side of the square around a cell whose majority counts, odd, 1 to 127
+
+    Returns:
+        uint8 (H, W), 1 at the expected disparity, else 0; a tie gives 0
+
+    Raises:
+        ValueError: on values out of range
+
+    Source: ours, for Moreno et al. 2002, section 3.2, whose pixels of coherent depth are not defined.
+    """
+
 def color_bins(
     image: numpy.typing.NDArray[numpy.uint8],
     region: tuple[int, int, int, int],
     bins: tuple[int, int, int],
     chroma: int,
     step: int,
+    gains: numpy.typing.NDArray[numpy.float64] | None = None,
 ) -> numpy.typing.NDArray[numpy.uint16]:
     """
     The bin of each pixel of a region in the color space (B - G, G - R, B + G + R).
@@ -191,6 +241,8 @@ def color_bins(
         chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond are in
             the end bins
         step: pixels from one sample to the next, 1 to 1024
+        gains: factors (3,) of blue, green and red that turn the colors into those of another light (von
+            Kries), finite, 0 or more; products are rounded half to even and end at 255; None for 1
 
     Returns:
         uint16 (ceil(height / step), ceil(width / step)); 65535 outside the image; empty for an empty
@@ -261,6 +313,29 @@ def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDAr
         ValueError: on n = 0
 
     Source: Sabeti, Parvizi, Wu 2008, equation (17); Muselet, Macaire 2006.
+    """
+
+def combine_posteriors(
+    first: numpy.typing.NDArray[numpy.float32], second: numpy.typing.NDArray[numpy.float32]
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    P(target | two cues) of every pixel, by the posteriors p and q of each, which are independent and
+    have equal priors:
+        p q / max(p q + (1 - p) (1 - q), 1e-9)
+
+    The odds p / (1 - p) and q / (1 - q) multiply, so that 1/2 changes nothing. In float32, and to the
+    last bit as written.
+
+    Args:
+        first, second: float32 (H, W), p and q, of one shape; in [0, 1]
+
+    Returns:
+        float32 (H, W)
+
+    Raises:
+        ValueError: on planes of different shapes
+
+    Source: Okada, Shirai, Miura 1996, (10), for the two classes target and rest.
     """
 
 def correlation_response(
@@ -603,7 +678,7 @@ def depth_picture(
         reach: meters from gray to black or white, finite, above 0
 
     Returns:
-        uint8 (H, W, 3) BGR; in C++ one array of bytes in this order
+        uint8 (H, W)
 
     Raises:
         ValueError: on numbers out of range
@@ -934,6 +1009,36 @@ def gradient_flow(
     Source: Okada, Shirai, Miura 1996, section 2.
     """
 
+def ground_distance(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    up: numpy.typing.NDArray[numpy.float64],
+    near: float,
+    far: float,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Distances along the ground, in the direction in which the camera looks. What stands upright before a
+    tilted camera has one of them, but many depths.
+        distance = z (a_x (u - cx) / fx + a_y (v - cy) / fy + a_z),  a = (e - (e · up) up) / |e - (e · up) up|,  e = (0, 0, 1)
+
+    within near and the largest float32 below far; NaN where the depth is NaN. The factor of z is
+    computed in float64 and rounded to float32.
+
+    Args:
+        depth: float32 (H, W), meters
+        camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+        up: float64 (3,): unit vector, camera frame, not along the view: (0, -1, 0) for a level camera
+        near, far: limits of the distances, meters, finite, far above near
+
+    Returns:
+        float32 (H, W), meters
+
+    Raises:
+        ValueError: on other shapes or values
+
+    Source: ours.
+    """
+
 def histogram_mean(
     histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -1054,6 +1159,7 @@ def kalman_update(
     measurement: numpy.typing.NDArray[numpy.float64],
     observation: numpy.typing.NDArray[numpy.float64],
     noise: numpy.typing.NDArray[numpy.float64],
+    max_distance: float = ...,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.float64],
@@ -1065,6 +1171,10 @@ def kalman_update(
         y = z - H x,  S = H P Hᵀ + R,  K = P Hᵀ S⁻¹
         x' = x + K y,  P' = (I - K H) P (I - K H)ᵀ + K R Kᵀ
 
+    A measurement that is farther off than max_distance, in standard deviations sqrt(y S⁻¹ yᵀ), shows
+    that the model of the motion failed: first P is multiplied by y S⁻¹ yᵀ / max_distance², which gives
+    S, too.
+
     P' is in Joseph's form, a sum of two squares: an error of K enters it to second order only. Below
     noises about 1e12 times smaller than P no form in double precision is safe.
 
@@ -1075,6 +1185,7 @@ def kalman_update(
         observation: float64 (M, D), H
         noise: float64 (M, M), R: covariance of the measurement noise; may be 0 where P makes S positive
             definite
+        max_distance: standard deviations, above 0; infinite to never widen P
 
     Returns:
         mean: float64 (D,), x'
@@ -1087,7 +1198,7 @@ def kalman_update(
             not positive definite
 
     Source: Kalman 1960; Bucy, Joseph 1968; Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, steps 3 to 5,
-    where H = I.
+    where H = I. A larger P where the innovation is large: ours, as fading memory has it.
     """
 
 def learn_contrast(
@@ -1528,6 +1639,29 @@ def rectify_verged(
     Source: Okada, Shirai, Miura 1996, section 3.1 and figure 3.
     """
 
+def reduce_gray(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The gray levels of an image in cells of step x step pixels: their mean, for which a color image is
+    first turned gray.
+
+        gray = (3735 B + 19235 G + 9798 R + 2^14) >> 15
+
+    Rows and columns that fill no cell are left out. Means are rounded half to even, those of 2 x 2
+    pixels half up, as by OpenCV.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, or gray (H, W)
+        step: side of a cell, pixels, 1 to the smaller side of the image
+
+    Returns:
+        uint8 (H // step, W // step), never the image's own memory
+
+    Raises:
+        ValueError: on a step out of range
+
+    Source: ITU-R BT.601's luma, in OpenCV's whole numbers.
+    """
+
 def regularized_filter(
     cells: numpy.typing.NDArray[numpy.float32],
     mask: numpy.typing.NDArray[numpy.float32],
@@ -1738,14 +1872,15 @@ def sample_windows(
     Cost grows with rows times the pixels of the windows' widths, which are read whole.
 
     Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
+        image: uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
         windows: float64 (N, 4): left, top, width, height, pixels, a pixel's edges being at whole
             numbers; finite, sizes above 0
         rows: of the grid, at least 1
         columns: of the grid, at least 1
 
     Returns:
-        uint8 (N, rows, columns, 3) BGR; in C++ one array of bytes in this order
+        uint8 (N, rows, columns, 3) BGR, of a gray image (N, rows, columns); in C++ one array of bytes
+            in this order
 
     Raises:
         ValueError: on other shapes, an image without pixels, or numbers out of range
@@ -1960,6 +2095,55 @@ def summarize(
     sample size).
     """
 
+def support_pixels(
+    depth: numpy.typing.NDArray[numpy.float32],
+    x0: float,
+    y0: float,
+    step: float,
+    side: int,
+    width: float,
+    height: float,
+    z: float,
+    camera: numpy.typing.NDArray[numpy.float64],
+    draws: numpy.typing.NDArray[numpy.float64],
+    tolerance: float,
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    The pixels of a target's surround, and of its box, that lie on one plane: what it stands on, lies on
+    or leans against.
+
+    Read are the depths under the centers of a grid's squares, as by depth_posterior; those of 2 z and
+    more count as not measured. The squares of every second row and column outside of the box, taken
+    1.05 times as wide and high, vote: floor_plane, with any plane for level, takes triples of those
+    that are measured, in their order from top left; a draw u of n is number floor(u n). Then square (i,
+    j) is on the plane where
+        |(nx X + ny Y + nz) z_ij + d| < t,  X = (x0 + j step - cx) / fx,  Y = (y0 + i step - cy) / fy
+
+    in float64. Nothing is, if fewer than 60 squares vote, if the plane has less than 0.15 of them, or
+    if it has more than half of those that are measured in the inner 0.8 of the box: such a target is as
+    flat as the plane. A part of the box has the squares whose centers are nearer to the middle than
+    half its width and height, and than 1 at least.
+
+    Args:
+        depth: float32 (H, W), meters; may be empty
+        x0, y0: top left corner of the grid, pixels, finite
+        step: width of a square, pixels, finite, above 0
+        side: squares on a side of the grid, at least 2
+        width, height: of the box, squares, finite, above 0
+        z: depth of the target, meters, finite, above 0
+        camera: float64 (4,): fx, fy, cx, cy of the depth image, pixels, fx and fy above 0
+        draws: float64 (K, 3), random numbers in [0, 1): a triple each
+        tolerance: t, meters, finite, above 0
+
+    Returns:
+        uint8 (side, side): 1 on the plane, else 0
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: ours; RANSAC after Fischler, Bolles 1981.
+    """
+
 def target_distribution(
     histogram: numpy.typing.NDArray[numpy.float64],
     smoothing: float,
@@ -2164,6 +2348,12 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def cell_colors(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+    ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]: ...
+    def coherent_cells(
+        self, disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def color_bins(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
@@ -2171,6 +2361,7 @@ class Kernels(Protocol):
         bins: tuple[int, int, int],
         chroma: int,
         step: int,
+        gains: numpy.typing.NDArray[numpy.float64] | None = None,
     ) -> numpy.typing.NDArray[numpy.uint16]: ...
     def color_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
@@ -2180,6 +2371,9 @@ class Kernels(Protocol):
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def combine_posteriors(
+        self, first: numpy.typing.NDArray[numpy.float32], second: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
     def correlation_response(
         self, cells: numpy.typing.NDArray[numpy.float32], filters: numpy.typing.NDArray[numpy.complex64]
@@ -2332,6 +2526,14 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
+    def ground_distance(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        up: numpy.typing.NDArray[numpy.float64],
+        near: float,
+        far: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def histogram_mean(
         self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
     ) -> numpy.typing.NDArray[numpy.float64]: ...
@@ -2355,6 +2557,7 @@ class Kernels(Protocol):
         measurement: numpy.typing.NDArray[numpy.float64],
         observation: numpy.typing.NDArray[numpy.float64],
         noise: numpy.typing.NDArray[numpy.float64],
+        max_distance: float = ...,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float64],
@@ -2472,6 +2675,9 @@ class Kernels(Protocol):
         shift: float = 0.0,
         rows_only: bool = False,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def reduce_gray(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def regularized_filter(
         self,
         cells: numpy.typing.NDArray[numpy.float32],
@@ -2563,6 +2769,20 @@ class Kernels(Protocol):
     def summarize(
         self, particles: numpy.typing.NDArray[numpy.float64], weights: numpy.typing.NDArray[numpy.float64]
     ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float]: ...
+    def support_pixels(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        x0: float,
+        y0: float,
+        step: float,
+        side: int,
+        width: float,
+        height: float,
+        z: float,
+        camera: numpy.typing.NDArray[numpy.float64],
+        draws: numpy.typing.NDArray[numpy.float64],
+        tolerance: float,
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def target_distribution(
         self,
         histogram: numpy.typing.NDArray[numpy.float64],

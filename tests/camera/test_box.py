@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tricue import Box
 from tricue.camera.box import as_box
+from tricue.errors import BoxError
 
 places = st.floats(-1000, 1000, allow_nan=False)
 sizes = st.floats(0.1, 1000)
@@ -148,3 +149,10 @@ def test_a_box_dragged_backwards_is_explained() -> None:
     """It proves that the message for a negative size says where such boxes come from."""
     with pytest.raises(ValueError, match="dragged up or left"):
         as_box((50, 60, -20, 30))
+
+
+@pytest.mark.parametrize("value", [10**400, -(10**400)], ids=["above", "below"])
+def test_numbers_beyond_floats_are_infinite(value: int) -> None:
+    """It proves that whole numbers that no float holds are refused by name, as infinity is."""
+    with pytest.raises(BoxError, match="box: expected finite numbers"):
+        as_box((value, 1, 2, 3))

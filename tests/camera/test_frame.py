@@ -81,13 +81,13 @@ def test_one_channel_is_gray() -> None:
 
 @given(arrays.arrays(np.float64, (5, 7), elements=st.floats(width=32)))
 def test_invalid_depth_becomes_nan(depth: NDArray[np.float64]) -> None:
-    """It proves that zero, negative, NaN and infinite depths, and no others, become NaN in float32."""
+    """It proves that zero, negative, NaN and depths beyond 1,000 km, and no others, become NaN in float32."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of values that look like millimeters
         stored = Frame(depth=depth).depth
     assert stored is not None
     assert stored.dtype == np.float32
-    valid = np.isfinite(depth) & (depth > 0)
+    valid = (depth > 0) & (depth <= 1e6)
     assert np.array_equal(stored, np.where(valid, depth, np.nan).astype(np.float32), equal_nan=True)
 
 
@@ -259,3 +259,25 @@ def test_what_is_no_frame_is_refused(value: Any, error: type[Exception], message
     """It proves that as_frame names the caller's argument."""
     with pytest.raises(error, match=f"^{message}"):
         as_frame(value, "image")
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_the_largest_number_is_no_depth(dtype: Any) -> None:
+    """It proves that what drivers write for "nothing measured" is missing, without a word about overflow."""
+    depth = np.full((6, 8), np.finfo(dtype).max, dtype)
+    depth[2, 3] = 1.5
+    stored = Frame(depth=depth).depth
+    assert stored is not None
+    assert np.isfinite(stored).sum() == 1
+
+
+def test_a_depth_scale_is_in_meters() -> None:
+    """It proves that a scale by which no camera measures is refused by name."""
+    with pytest.raises(ValueError, match="depth_scale: expected at most 1000 meters per unit, got 1e\\+300"):
+        Frame(depth=np.ones((6, 8), np.uint16), depth_scale=1e300)
+
+
+def test_a_time_beyond_floats_is_refused() -> None:
+    """It proves that a whole number that no float holds is refused by name."""
+    with pytest.raises(ValueError, match="timestamp: expected a finite number, seconds, got 1000"):
+        Frame(GRAY, timestamp=10**400)

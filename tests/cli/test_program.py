@@ -3,10 +3,8 @@ import csv
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
-import time
 from functools import partial
 from pathlib import Path
 
@@ -241,39 +239,83 @@ def test_opencv_keeps_quiet(tmp_path: Path) -> None:
     assert failed.stderr.count("\n") == 1
 
 
-def long_video(path: Path, frames: int = 2000) -> Path:
-    """A bright square that wanders over noise, 64x48."""
-    noise = np.random.default_rng(0).integers(0, 256, (48, 64, 3), np.uint8)
-    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
-    for index in range(frames):
-        picture = noise.copy()
-        picture[16:32, 20 + index % 8 : 36 + index % 8] = (60, 120, 220)
+def test_a_closed_pipe_is_silent(sequence: Path) -> None:
+    """A reader that stops early, such as head, ends the command without a word, with 141 as a Unix tool."""
+    command = tricue_command("info", str(sequence))
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+        assert process.wait(60) == 141
+
+
+def test_letters_that_the_terminal_lacks_are_escaped(sequence: Path) -> None:
+    """A name with an accent is printed on a terminal that knows only ASCII."""
+    folder = sequence.rename(sequence.with_name("caf\xe9"))
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(
+        tricue_command("info", str(folder)), capture_output=True, env=environment, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert done.stdout.startswith(b"caf\\xe9: ")
+
+
+def test_two_outputs_are_not_one_file(
+    sequence: Path, drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a file given for two outputs is refused before anything is written."""
+    files = ["--csv", str(tmp_path / "out"), "--json", str(tmp_path / "." / "out")]
+    assert main(["track", str(sequence), "--tracker", drift_tracker, *files]) == 2
+    assert "out: expected a file for each output, got this one twice" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("option", ["--csv", "--json"])
+def test_a_full_disk_names_the_file(
+    option: str, sequence: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that an output that can't be written is named, with exit code 2."""
+    assert main(["track", str(sequence), "--tracker", drift_tracker, option, "/dev/full"]) == 2
+    assert capsys.readouterr().err == "tricue track: /dev/full: No space left on device\n"
+
+
+@pytest.mark.parametrize("name", ["out.mp4", "out.avi"])
+def test_a_video_that_the_disk_has_no_room_for_is_an_error(name: str, sequence: Path, tmp_path: Path) -> None:
+    """It proves that frames that OpenCV couldn't write aren't taken for written."""
+    command = tricue_command("track", str(sequence), "--output", str(tmp_path / name))
+    limited = ["sh", "-c", 'ulimit -f 1; exec "$@"', "sh", *command]  # a block of 512 bytes
+    done = subprocess.run(limited, capture_output=True, text=True, check=False)
+    assert (done.returncode, "wrote" in done.stdout) == (2, False)
+    assert f"{name}: only 0 of 10 frames were written; is the disk full?" in done.stderr
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_video_that_is_cut_off_warns(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a video of which half is missing is tracked as far as it goes, and that this is told."""
+    whole = tmp_path / "whole.avi"
+    writer = cv2.VideoWriter(str(whole), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
+    noise = np.random.default_rng(0).integers(0, 256, (40, 48, 64, 3), np.uint8)
+    for picture in noise:
         writer.write(picture)
     writer.release()
-    return path
+    for share, warnings in ((1.0, 0), (0.5, 1)):
+        (tmp_path / "v.avi").write_bytes(whole.read_bytes()[: int(share * whole.stat().st_size)])
+        assert main(["track", str(tmp_path / "v.avi"), "--box", "20,16,16,16"]) == 0
+        assert capsys.readouterr().err.count("of its 40 frames can be decoded; is it cut off?") == warnings
 
 
-def test_ctrl_c_leaves_whole_files(tmp_path: Path) -> None:
-    """It proves that SIGINT in the middle of a run exits with 130 and leaves files that can all be read."""
-    video = long_video(tmp_path / "long.avi")
-    out = {name: tmp_path / f"out.{name}" for name in ("mp4", "csv", "json")}
-    files = [
-        word
-        for name, path in out.items()
-        for word in ("--output" if name == "mp4" else f"--{name}", str(path))
-    ]
-    command = tricue_command("track", str(video), "--box", "20,16,16,16", "--kernels", "reference", *files)
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        deadline = time.monotonic() + 60
-        while not (out["csv"].exists() and out["csv"].stat().st_size) and process.poll() is None:
-            assert time.monotonic() < deadline
-            time.sleep(0.05)
-        os.kill(process.pid, signal.SIGINT)
-        printed, error = process.communicate(timeout=60)
-    assert process.returncode == 130, error
-    assert "until interrupted" in printed
-    rows = read_csv(out["csv"])
-    assert 0 < len(rows) < 2000
-    assert len(json.loads(out["json"].read_text())["tracks"]) == len(rows)
-    capture = cv2.VideoCapture(str(out["mp4"]))
-    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == len(rows)
+def test_paths_need_not_be_utf_8(tmp_path: Path) -> None:
+    """It proves that images are read from any path; a video whose path OpenCV can't open is named."""
+    folder = os.fsencode(tmp_path) + b"/caf\xe9"
+    Path(os.fsdecode(folder)).mkdir()
+    picture = cv2.imencode(".png", np.full((48, 64, 3), 99, np.uint8))[1].tobytes()
+    for name in (b"/1.png", b"/2.png"):
+        Path(os.fsdecode(folder + name)).write_bytes(picture)
+    command = [sys.executable, "-m", "tricue", "track", folder, "--box", "20,16,16,16"]
+    done = subprocess.run(command, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    Path(os.fsdecode(folder + b".avi")).write_bytes(b"RIFF")
+    done = subprocess.run([*command[:4], folder + b".avi", *command[5:]], capture_output=True, check=False)
+    assert done.returncode == 2
+    assert b"OpenCV opens only videos whose path is UTF-8; rename it" in done.stderr

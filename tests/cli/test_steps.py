@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: MIT
-import os
-import signal
 import time
 from collections.abc import Iterator
 
 import numpy as np
 import pytest
 from tricue import Box, Frame, Status, Track
-from tricue.cli.steps import RunClock, catch_interrupt, steps
+from tricue.cli.steps import RunClock, steps
 from tricue.errors import BoxError, TargetNotFoundError
 from tricue.track.base.track import Tracker
 from tricue.track.base.traits import Channels, Traits
@@ -105,15 +103,3 @@ def test_decoding_is_told_apart(drift: Tracker) -> None:
     assert clock.decoding > 0.05
     assert clock.tracking < 0.02
     assert clock.speeds.startswith("tracking ")
-
-
-def test_ctrl_c_asks_first_and_breaks_off_then() -> None:
-    """It proves that the first SIGINT answers "stop?", a second interrupts, and the old handler returns."""
-    before = signal.getsignal(signal.SIGINT)
-    with catch_interrupt() as stop:
-        assert not stop()
-        os.kill(os.getpid(), signal.SIGINT)
-        assert stop()
-        with pytest.raises(KeyboardInterrupt):
-            os.kill(os.getpid(), signal.SIGINT)
-    assert signal.getsignal(signal.SIGINT) is before

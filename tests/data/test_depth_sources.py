@@ -150,6 +150,19 @@ def test_vot_depth_is_millimeters(tmp_path: Path) -> None:
     assert meters(open_source(folder, depth_scale=0.0001)) == pytest.approx([0.1234, 0.2345])
 
 
+@pytest.mark.parametrize("place", ["../other/%08d.png", "color/../../other/%08d.png", "/etc/%08d.png"])
+def test_lists_stay_in_their_folder(tmp_path: Path, place: str) -> None:
+    """It proves that a recording's list can't make tricue read files elsewhere."""
+    write_color(tmp_path / "other" / "00000001.png", 10)
+    folder = vot(tmp_path / "sequence", f"channel.default=color\nchannels.color={place}\n")
+    with pytest.raises(ValueError, match=r"sequence: expected files below its folder, got '"):
+        open_source(folder)
+    times = tum(tmp_path / "tum", [1.0], [1.0])
+    (times / "rgb.txt").write_text(f"1.0 {place.replace('%08d', '00000001')}\n")
+    with pytest.raises(ValueError, match=r"rgb\.txt: expected files below its folder, got '"):
+        open_source(times)
+
+
 def test_vot_depth_alone(tmp_path: Path) -> None:
     """It proves that a VOT sequence whose only, default channel is depth isn't read as color."""
     source = open_source(vot(tmp_path, "channel.default=depth\nchannels.depth=depth/%08d.png\n"))

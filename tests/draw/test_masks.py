@@ -49,6 +49,8 @@ def test_paper_picture_is_white_and_black() -> None:
     assert (picture[200:204, 240:244] == 255).all()
     assert (picture[165:195, 199] == 0).all()
     assert (picture[160, 160:240] == 255).all()
+    without = block_picture(small, mask, (Box(40, 40, 10, 10), Box(50, 40, 10, 10)), window=False)
+    assert (without[160, 160:240] == 0).all()
     np.testing.assert_array_equal(block_picture(small, None), np.full((480, 640, 3), 100))
 
 

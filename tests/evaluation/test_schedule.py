@@ -18,17 +18,17 @@ FEW = Options(("color-particle", "still-box"), seeds=4)
 
 
 class Victim:
-    """Performs tasks, slowly; the worker that performs the given one for the first time dies of it."""
+    """Performs tasks, slowly; the worker that performs the given one dies of it, so many times."""
 
-    def __init__(self, marks: Path, deadly: str) -> None:
-        self.marks, self.deadly = marks, deadly
+    def __init__(self, marks: Path, deadly: str, deaths: int = 1) -> None:
+        self.marks, self.deadly, self.deaths = marks, deadly, deaths
 
     def __call__(self, task: Task) -> Record:
         time.sleep(0.05)
         if task.name == self.deadly:
             with (self.marks / "deaths").open("a") as file:
                 file.write("x")
-            if (self.marks / "deaths").stat().st_size == 1:
+            if (self.marks / "deaths").stat().st_size <= self.deaths:
                 os.kill(os.getpid(), signal.SIGKILL)
         return perform(task)
 
@@ -78,6 +78,18 @@ def test_processes_give_what_is_finished_as_it_comes(tmp_path):
         found = list(schedule.run_tasks(tasks, perform, jobs))
         assert sorted(each.task_index for each in found) == list(range(5))
         assert all("no such file or folder" in each.error for each in found)
+
+
+@pytest.mark.parametrize(("deaths", "failed"), [(1, []), (9, ["one-pass/color-particle/there/seed-2"])])
+def test_a_killed_process_costs_only_the_run_that_kills_it(folders, tmp_path, deaths, failed):
+    """Runs go on without the process; a run that kills another one, too, is reported."""
+    victim = Victim(tmp_path, "one-pass/color-particle/there/seed-2", deaths)
+    evaluation = evaluate(folders, tmp_path / "many", FEW, jobs=2, work=victim)
+    assert (tmp_path / "deaths").read_text() == "xx"
+    assert list(evaluation.failed) == failed
+    assert all("its process was killed" in error for error in evaluation.failed.values())
+    alone = evaluate(folders, tmp_path / "alone", FEW)
+    assert len(evaluation.results) == len(alone.results) - len(failed)
 
 
 def test_no_scheduler_is_told_by_its_address(monkeypatch):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import csv
+import dataclasses
 import json
 
 import numpy as np
@@ -35,6 +36,15 @@ def test_numbers_are_written_in_full_and_absent_ones_are_empty(found, tmp_path):
     assert values["dataset"] == "made"
     assert [row["auc"] for row in values["rows"]] == [each.row.auc for each in found.results]
     assert values["rows"][0]["position_error"] is None
+
+
+def test_a_name_is_no_formula(found, tmp_path):
+    """A recording whose name a spreadsheet would run as a formula is written as text."""
+    run = found.results[0]
+    named = run._replace(row=dataclasses.replace(run.row, sequence="=cmd()"))
+    tables.write(dataclasses.replace(found, results=(named,)), tmp_path, {})
+    with (tmp_path / tables.ROWS).open() as file:
+        assert next(csv.DictReader(file))["sequence"] == "'=cmd()"
 
 
 def test_times_are_apart_from_what_is_the_same_everywhere(found, tmp_path):

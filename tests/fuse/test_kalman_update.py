@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
+from scipy.spatial.distance import mahalanobis
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
@@ -183,6 +184,33 @@ def test_units_do_not_matter(kernels: Kernels) -> None:
         assert_allclose(ours, theirs, rtol=1e-9, atol=1e-9)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_far_off_widens_first(kernels: Kernels, seed: int) -> None:
+    """Beyond the largest distance, by SciPy's mahalanobis, it is the update of the covariance that is larger
+    by the square of how much; within it the distance changes no bit.
+    """
+    arguments = case(seed, 6, 3)
+    mean, covariance, innovation, total = kernels.kalman_update(**arguments)
+    distance = mahalanobis(innovation, np.zeros(3), np.linalg.inv(total))
+    same = kernels.kalman_update(**arguments, max_distance=1.01 * distance)
+    for ours, plain in zip(same, (mean, covariance, innovation, total), strict=True):
+        assert_array_equal(ours, plain)
+    widened = kernels.kalman_update(**arguments, max_distance=distance / 3)
+    expected = kernels.kalman_update(**arguments | {"covariance": 9 * arguments["covariance"]})
+    for ours, theirs in zip(widened, expected, strict=True):
+        assert_allclose(ours, theirs, rtol=1e-9, atol=1e-9 * abs(theirs).max())
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_twin_widens_the_same(seed: int) -> None:
+    """Native and reference agree where the measurement is far off, as where it isn't."""
+    arguments = case(seed, 6, 3, max_distance=0.1)
+    for ours, theirs in zip(
+        _core.kalman_update(**arguments), reference.kalman_update(**arguments), strict=True
+    ):
+        assert_allclose(ours, theirs, rtol=0, atol=1e-11 * max(1, abs(theirs).max()))
+
+
 SKEW = np.array([[1.0, 0.5], [0.0, 1.0]])
 SINGULAR = "noise: expected with the state's a positive definite innovation covariance, got one that isn't"
 BAD: list[tuple[dict[str, Any], str]] = [
@@ -200,6 +228,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"noise": np.zeros((2, 2)), "covariance": np.zeros((4, 4))}, SINGULAR),
     ({"noise": np.zeros((2, 2)), "observation": np.ones((2, 4)) / 3}, SINGULAR),
     ({"covariance": 1e200 * np.eye(4), "observation": 1e200 * np.eye(2, 4)}, SINGULAR),
+    ({"max_distance": 0.0}, "max_distance: expected a number above 0, got 0"),
+    ({"max_distance": np.nan}, "max_distance: expected a number above 0, got nan"),
 ]
 
 

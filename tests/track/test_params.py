@@ -57,6 +57,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "near": (0, -1.0, 8.0, 9.0),
         "far": (0, -1.0),
         "resolution": (15, 0, -1),
+        "sweeps": (0, 3),
         "rate": (0, -15.0),
         "floor": (),
         "floor_clear": (-0.1,),
@@ -70,6 +71,9 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "prominence": (-0.1, 1.1),
         "min_area": (0, -0.1),
         "aspect": ((0, 5), (-1, 5), (5.0, 1.0), (1.0,), (1.0, 2.0, 3.0)),
+        "human_filter": (),
+        "depth_signature": (),
+        "complete": (),
         "human_height": ((0, 2), (-1, 2), (2.2, 0.9), (1.0,)),
         "max_fill": (0, -0.1, 1.1),
         "histogram": ("Relative", "", "both"),
@@ -81,8 +85,10 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "contrast": (-0.1,),
         "margin": (1.0, 0.5),
         "measurement": (-0.1,),
+        "size_prior": (-0.1,),
         "object_share": (-0.1, 1.0),
         "leave_out_others": (),
+        "motion": ("acceleration", ""),
         "max_speed": (0, -1.0),
         "velocity_rate": (-0.1, 1.1),
         "position_noise": (-0.1,),
@@ -94,6 +100,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "max_covered": (-0.1, 1.1),
         "min_visible_share": (-0.1, 1.1),
         "likelihood_drop": (-0.1,),
+        "coast": (),
         "lost_after": (-0.1,),
     },
     StereoHeadTracker: {
@@ -112,6 +119,9 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "learning_rate": (-0.1, 1.1),
         "learn": ("Coherent", "", "none"),
         "min_intersection_to_learn": (-0.1, 1.1),
+        "learning_gate": ("mean", ""),
+        "head_colors": ((), ((0,),), ((0, -1.0),), ((2048, 1.0),), ((1, 1.0), (1, 1.0)), ((1, 0.0),)),
+        "subpixel": (),
         "disparities": ((0, 4), (4, 65), (4,), (4, 4, 4)),
         "window": (0, -1, 4, 17),
         "uniqueness": (-1, 101),
@@ -125,7 +135,9 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "noise_model": ("cubic", ""),
         "disparity_noise": (0, -0.1),
         "place_noise": (0, -0.1),
-        "color_noise": (0, -0.1),
+        "color_noise": (0, -0.1, (4, 4), (4, 4, 0)),
+        "color_drift": (0, -0.1, (4, 4), (4, 4, 0)),
+        "intersection_noise": (0, -0.1),
         "feedback": (),
         "rate": (0, -30.0),
         "min_score": (-0.1, 1.1),
@@ -145,6 +157,17 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "min_angle": (-0.1, 1.1),
         "min_contrast": (-0.1,),
         "disparity_levels": (0, 7),
+        "disparity_radius": (-1, 8),
+        "max_disparity_step": (0, -1),
+        "histogram_region": ("box", ""),
+        "velocity_smoothing": (),
+        "prior_center": (-0.1, 1.1),
+        "min_region_share": (-0.1, 1.1),
+        "outlier_share": (-0.1, 0.5),
+        "block_rules": ("paper", ""),
+        "target_window": ("blocks", ""),
+        "complete_occlusion": ("flow", ""),
+        "votes_to_release": (0, -1),
         "bins": (7, 513),
         "smoothing": (0, 8.1),
         "min_prominence": (-0.1, 1),
@@ -248,8 +271,9 @@ def other_kinds(tracker, name):
 
 
 def infinities(tracker, name):
-    """Both, for numbers; None stands for one that is worked out."""
-    is_number = isinstance(fields(tracker)[name].default, float | None)
+    """Both, for numbers; None stands for one that is worked out, unless the field holds a tuple."""
+    field = fields(tracker)[name]
+    is_number = isinstance(field.default, float | None) and "tuple" not in str(field.type)
     return [float("inf"), -float("inf")] if is_number else []
 
 

@@ -131,7 +131,7 @@ def _elsewhere(tracker: FusedTracker, frame: Frame, step: int, rng: np.random.Ge
     observed = observe_frame(k, frame, state.shape, (None, None), False)
     observation = observed.for_target(k, None)
     appearance = state.models[observation.kind]
-    model = TargetModel(appearance, None, state.first_side, state.typical, state.sides, p)
+    model = TargetModel(appearance, None, state.first_side, state.typical, p)
     height, width = state.shape
     random = state.target._replace(x=rng.uniform(0, width), y=rng.uniform(0, height))
     windows = extract_windows(observation, [random], p.context)

@@ -2,6 +2,7 @@
 #include "cues/color/color_bins.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -55,9 +56,27 @@ struct Span {
     }
 };
 
-/// Copies every step-th pixel.
-void subsample(const std::uint8_t* pixels, Eigen::Index n, int step, std::uint8_t* packed) {
-    for (Eigen::Index k = 0; k < n; ++k, pixels += 3 * step, packed += 3) std::copy_n(pixels, 3, packed);
+/// What each level of each channel becomes in another light, as OpenCV rounds it.
+using Light = std::array<std::array<std::uint8_t, 256>, 3>;
+
+Light light_of(const std::array<double, 3>& gains) {
+    Light light{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (!(gains[c] >= 0.0 && std::isfinite(gains[c])))
+            refuse("gains", "finite numbers, none negative", gains[c]);
+        const auto gain = static_cast<float>(gains[c]);
+        for (std::size_t level = 0; level < 256; ++level)
+            light[c][level] =
+                static_cast<std::uint8_t>(std::nearbyint(std::min(static_cast<float>(level) * gain, 255.0F)));
+    }
+    return light;
+}
+
+/// Copies every step-th pixel, in the light given.
+void subsample(const std::uint8_t* pixels, Eigen::Index n, int step, const Light* light,
+               std::uint8_t* packed) {
+    for (Eigen::Index k = 0; k < n; ++k, pixels += 3 * step, packed += 3)
+        for (std::size_t c = 0; c < 3; ++c) packed[c] = light ? (*light)[c][pixels[c]] : pixels[c];
 }
 
 std::int64_t require_side(std::int64_t begin, std::int64_t end) {
@@ -68,15 +87,19 @@ std::int64_t require_side(std::int64_t begin, std::int64_t end) {
 
 }  // namespace
 
-Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& space, int step) {
+Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& space, int step,
+                const std::array<double, 3>* gains) {
     require_space(space);
     if (step < 1 || step > 1024) refuse("step", "1 to 1024", step);
     const auto width = require_side(region.x0, region.x1), height = require_side(region.y0, region.y1);
 
+    const Light light = gains ? light_of(*gains) : Light{};
+    const bool copied = step > 1 || gains;
+
     Bins bins((height + step - 1) / step, (width + step - 1) / step);
     const Span rows(region.y0, bins.rows(), step, image.rows), cols(region.x0, bins.cols(), step, image.cols);
     const auto inside = cols.end - cols.begin;
-    std::vector<std::uint8_t> packed(step > 1 ? static_cast<std::size_t>(3 * inside) : 0);
+    std::vector<std::uint8_t> packed(copied ? static_cast<std::size_t>(3 * inside) : 0);
     for (Eigen::Index i = 0; i < bins.rows(); ++i) {
         std::uint16_t* out = bins.data() + i * bins.cols();
         if (i < rows.begin || i >= rows.end || inside == 0) {
@@ -85,9 +108,9 @@ Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& 
         }
         const auto y = region.y0 + step * i + step / 2, x = region.x0 + step * cols.begin + step / 2;
         const std::uint8_t* pixels = image.row(static_cast<int>(y)) + 3 * x;
-        if (step > 1) subsample(pixels, inside, step, packed.data());
+        if (copied) subsample(pixels, inside, step, gains ? &light : nullptr, packed.data());
         std::fill_n(out, cols.begin, kNoBin);
-        bin_row(step > 1 ? packed.data() : pixels, inside, space, out + cols.begin);
+        bin_row(copied ? packed.data() : pixels, inside, space, out + cols.begin);
         std::fill(out + cols.end, out + bins.cols(), kNoBin);
     }
     return bins;

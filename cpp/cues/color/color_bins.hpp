@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/image_view.hpp"
@@ -23,9 +24,12 @@ using Bins = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::
 /// @param bins (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
 /// @param chroma the first two axes span [-chroma, chroma), color levels, 1 to 255; values beyond are in the end bins
 /// @param step pixels from one sample to the next, 1 to 1024
+/// @param gains factors (3,) of blue, green and red that turn the colors into those of another light (von Kries), finite, 0 or more;
+///     products are rounded half to even and end at 255; None for 1
 /// @returns uint16 (ceil(height / step), ceil(width / step)); 65535 outside the image; empty for an empty region
 /// @throws std::invalid_argument on values out of range
 /// Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1, after Birchfield 1998; neither says where the axes end.
-Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& space, int step);
+Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& space, int step,
+                const std::array<double, 3>* gains);
 
 }  // namespace tricue

@@ -40,7 +40,7 @@ Axis find_readings(double start, double length, int count, int size) {
     const double apart = step / each, most = size - 1.0;
     for (int i = 0; i < count * each; ++i) {
         const double place = start + (i + 0.5) * apart - 0.5;
-        const double inside = std::min(std::max(place, 0.0), most);
+        const double inside = std::min(std::max(0.0, place), most);
         const int fixed = static_cast<int>(inside * kSubpixels + 0.5);
         axis.readings[static_cast<std::size_t>(i)] = {fixed / kSubpixels, fixed % kSubpixels};
     }
@@ -60,7 +60,7 @@ struct Rows {
     }
 };
 
-/// Where in a row of numbers a reading's two pixels begin, and the weight of each number.
+/// Where in a row of numbers a reading's two pixels begin, and the weight of each number of BGR pixels.
 struct Column {
     int at;
     float weights[kLanes];
@@ -117,6 +117,19 @@ inline void sum_samples(const Column* columns, int count, const float* blend, fl
     }
 }
 
+/// The same of gray pixels: the first number is one pixel's, the next the other's.
+TRICUE_MULTIVERSION
+void sum_gray_columns(const Column* columns, int count, int each, const float* blend, float* sums) {
+    for (int i = 0; i < count; ++i) {
+        float sum = 0.0F;
+        for (int j = 0; j < each; ++j, ++columns) {
+            const float* pixels = blend + columns->at;
+            sum += pixels[0] * columns->weights[0] + pixels[1] * columns->weights[3];
+        }
+        sums[i] = sum;
+    }
+}
+
 TRICUE_MULTIVERSION
 void sum_columns(const Column* columns, int count, int each, const float* blend, float* sums) {
     if (each == 1)
@@ -141,33 +154,34 @@ Rows find_rows(const ImageView& image, const Axis& down, int sample, int left) {
     const Reading* reading = down.readings.data() + std::ptrdiff_t{sample} * down.each;
     for (int j = 0; j < down.each; ++j) {
         const auto [pixel, fraction] = reading[j];
-        rows.add(image.row(pixel) + 3 * left, kSubpixels - fraction);
-        rows.add(image.row(std::min(pixel + 1, image.rows - 1)) + 3 * left, fraction);
+        rows.add(image.row(pixel) + image.channels * left, kSubpixels - fraction);
+        rows.add(image.row(std::min(pixel + 1, image.rows - 1)) + image.channels * left, fraction);
     }
     std::fill(rows.bytes + rows.count, rows.bytes + kMaxRows, rows.bytes[0]);
     return rows;
 }
 
-std::vector<Column> find_columns(const Axis& across) {
+std::vector<Column> find_columns(const Axis& across, int channels) {
     std::vector<Column> columns;
     columns.reserve(across.readings.size());
     for (const auto [pixel, fraction] : across.readings) {
         const auto next = static_cast<float>(fraction), own = static_cast<float>(kSubpixels - fraction);
-        columns.push_back({3 * (pixel - across.first()), {own, own, own, next, next, next, 0, 0}});
+        columns.push_back({channels * (pixel - across.first()), {own, own, own, next, next, next, 0, 0}});
     }
     return columns;
 }
 
 void sample_window(const ImageView& image, const Axis& down, const Axis& across, std::uint8_t* bytes) {
-    const int left = across.first(), numbers = 3 * across.count;
-    const int width = 3 * (std::min(across.last() + 2, image.cols) - left);
-    const std::vector<Column> columns = find_columns(across);
+    const int left = across.first(), channels = image.channels, numbers = channels * across.count;
+    const int width = channels * (std::min(across.last() + 2, image.cols) - left);
+    const std::vector<Column> columns = find_columns(across, channels);
     std::vector<float> blend(static_cast<std::size_t>(width + kLanes)),
         sums(static_cast<std::size_t>(numbers + kLanes));
     const auto whole = static_cast<float>(down.each * across.each * kSubpixels * kSubpixels);
     for (int y = 0; y < down.count; ++y, bytes += numbers) {
         blend_rows(find_rows(image, down, y, left), width, blend.data());
-        sum_columns(columns.data(), across.count, across.each, blend.data(), sums.data());
+        (channels == 1 ? sum_gray_columns : sum_columns)(columns.data(), across.count, across.each,
+                                                         blend.data(), sums.data());
         divide(sums.data(), whole, numbers, bytes);
     }
 }
@@ -187,7 +201,7 @@ void require_arguments(const ImageView& image, StatesRef windows, int rows, int 
 
 WindowBytes sample_windows(const ImageView& image, StatesRef windows, int rows, int columns) {
     require_arguments(image, windows, rows, columns);
-    const Eigen::Index each = Eigen::Index{3} * rows * columns;
+    const Eigen::Index each = Eigen::Index{image.channels} * rows * columns;
     WindowBytes samples(windows.rows() * each);
     for (Eigen::Index i = 0; i < windows.rows(); ++i) {
         const Axis across = find_readings(windows(i, 0), windows(i, 2), columns, image.cols);

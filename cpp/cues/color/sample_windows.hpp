@@ -9,7 +9,7 @@
 
 namespace tricue {
 
-/// The bytes of N windows' samples, BGR, sample by sample, row by row, window by window.
+/// The bytes of N windows' samples, sample by sample, row by row, window by window.
 using WindowBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 
 /// Resamples windows of an image on one grid, smoothed where they have more detail than the grid can hold.
@@ -21,11 +21,11 @@ using WindowBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 ///
 /// Cost grows with rows times the pixels of the windows' widths, which are read whole.
 ///
-/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param image uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
 /// @param windows float64 (N, 4): left, top, width, height, pixels, a pixel's edges being at whole numbers; finite, sizes above 0
 /// @param rows of the grid, at least 1
 /// @param columns of the grid, at least 1
-/// @returns uint8 (N, rows, columns, 3) BGR; in C++ one array of bytes in this order
+/// @returns uint8 (N, rows, columns, 3) BGR, of a gray image (N, rows, columns); in C++ one array of bytes in this order
 /// @throws std::invalid_argument on other shapes, an image without pixels, or numbers out of range
 /// Source: ours; bilinear readings that cover the sample, as mipmaps and OpenCV's INTER_AREA have.
 WindowBytes sample_windows(const ImageView& image, StatesRef windows, int rows, int columns);

@@ -29,7 +29,7 @@ void find_levels(const float* __restrict depth, int n, double near, double scale
     for (int x = 0; x < n; ++x) {
         const bool measured = has_depth(depth[x]);
         const double z = measured ? static_cast<double>(depth[x]) : 0.0;
-        const auto clamped = static_cast<std::int32_t>(std::min(std::max((z - near) * scale, 0.0), last));
+        const auto clamped = static_cast<std::int32_t>(std::min(std::max(0.0, (z - near) * scale), last));
         level[x] = measured ? clamped : levels;
         meters[x] = z;
     }

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-
-#include "base/arrays.hpp"
+#include "base/depth_pixels.hpp"
 #include "base/depth_view.hpp"
 
 namespace tricue {
-
-/// The bytes of a picture, pixel by pixel.
-using PictureBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 
 /// A gray picture of a depth image, in which a target at depth z looks the same at any distance.
 ///     128 + 127 (depth - z) / reach,  within 1 and 255, rounded down, in float32
@@ -19,9 +14,9 @@ using PictureBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 /// @param depth float32 (H, W), meters; may be empty
 /// @param z depth that is gray, meters, finite
 /// @param reach meters from gray to black or white, finite, above 0
-/// @returns uint8 (H, W, 3) BGR; in C++ one array of bytes in this order
+/// @returns uint8 (H, W)
 /// @throws std::invalid_argument on numbers out of range
 /// Source: ours.
-PictureBytes depth_picture(const DepthView& depth, double z, double reach);
+Labels depth_picture(const DepthView& depth, double z, double reach);
 
 }  // namespace tricue

@@ -19,6 +19,9 @@ constexpr float kNear = 0.001F, kFar = 1000.0F;  // meters
 constexpr double kMadToSigma = 1.4826;
 constexpr int kMaxSamples = 1024;
 constexpr int kBins = 512;  // between the smallest and the largest number, in the search for the median
+constexpr float kLast = kBins - 1;
+// Neighbors mostly share a bin, and reading a count that was just written is slow: so they count in different tables.
+constexpr std::size_t kTables = 4;
 
 using Numbers = std::vector<float>;
 
@@ -32,9 +35,21 @@ TRICUE_MULTIVERSION
 void find_bins(const float* __restrict numbers, std::size_t n, float low, float per_bin,
                std::uint16_t* __restrict bins) {
     for (std::size_t i = 0; i < n; ++i) {
-        const int bin = static_cast<int>((numbers[i] - low) * per_bin);
-        bins[i] = static_cast<std::uint16_t>(bin < kBins ? bin : kBins - 1);
+        const float bin = (numbers[i] - low) * per_bin;
+        bins[i] = static_cast<std::uint16_t>(static_cast<int>(bin < kLast ? bin : kLast));
     }
+}
+
+std::array<std::uint32_t, kBins> count_bins(const std::vector<std::uint16_t>& bins) {
+    std::array<std::array<std::uint32_t, kBins>, kTables> tables{};
+    const std::size_t whole = bins.size() / kTables * kTables;
+    for (std::size_t i = 0; i < whole; i += kTables)
+        for (std::size_t t = 0; t < kTables; ++t) ++tables[t][bins[i + t]];
+    for (std::size_t i = whole; i < bins.size(); ++i) ++tables[0][bins[i]];
+    std::array<std::uint32_t, kBins> counts{};
+    for (const auto& table : tables)
+        for (std::size_t bin = 0; bin < kBins; ++bin) counts[bin] += table[bin];
+    return counts;
 }
 
 /// The median of numbers that aren't under `low`, and mostly not above `high`: of an even count the mean of both in the middle.
@@ -45,16 +60,19 @@ float find_median(const Numbers& numbers, float low, float high) {
     const float per_bin = static_cast<float>(kBins) / (high - low);
     std::vector<std::uint16_t> bins(n);
     find_bins(numbers.data(), n, low, per_bin > 0.0F && std::isfinite(per_bin) ? per_bin : 0.0F, bins.data());
-    std::array<std::size_t, kBins> counts{};
-    for (const auto bin : bins) ++counts[bin];
+    const std::array<std::uint32_t, kBins> counts = count_bins(bins);
     std::size_t from = 0, before = 0;
     while (before + counts[from] <= first) before += counts[from++];
     std::size_t to = from, end = before + counts[from];
     while (end <= second) end += counts[++to];
-    Numbers middle;
-    middle.reserve(end - before);
-    for (std::size_t i = 0; i < n; ++i)
-        if (bins[i] >= from && bins[i] <= to) middle.push_back(numbers[i]);
+    Numbers middle(end - before +
+                   1);  // without a branch: the next number overwrites one that isn't in the middle
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        middle[count] = numbers[i];
+        count += static_cast<std::size_t>((bins[i] >= from) & (bins[i] <= to));
+    }
+    middle.pop_back();
     const auto at = middle.begin() + static_cast<std::ptrdiff_t>(first - before);
     std::nth_element(middle.begin(), at, middle.end());
     return first == second ? *at : (*at + *std::min_element(at + 1, middle.end())) / 2;

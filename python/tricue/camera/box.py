@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.camera.numbers import to_float
 from tricue.errors import BoxError
 
 BoxLike = Sequence[float] | NDArray[Any]
@@ -105,7 +106,7 @@ def _four_numbers(value: Any, name: str) -> tuple[float, ...]:
         raise TypeError(wrong)
     if len(numbers) != 4:
         raise ValueError(wrong)
-    return tuple(map(float, numbers))
+    return tuple(map(to_float, numbers))
 
 
 def _is_number(value: object) -> bool:

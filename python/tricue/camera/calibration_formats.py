@@ -15,6 +15,7 @@ import numpy as np
 from tricue.camera import toml
 from tricue.camera.numbers import pinhole, positive
 from tricue.camera.opencv_file import OpenCVFile
+from tricue.camera.pose import Pose
 from tricue.camera.types import Matrix, PathLike, Size
 
 T = TypeVar("T")
@@ -23,7 +24,7 @@ _OPENCV_KEYS = ("camera_matrix", "cameraMatrix", "K", "P1", "M1", "K1")
 
 
 class PinholeParameters(NamedTuple):
-    """A pinhole camera without distortion, all in pixels; see :class:`tricue.Intrinsics`."""
+    """A pinhole camera without distortion, all in pixels, and its pose; see :class:`tricue.Intrinsics`."""
 
     fx: float
     fy: float
@@ -31,6 +32,7 @@ class PinholeParameters(NamedTuple):
     cy: float
     width: int
     height: int
+    pose: Pose | None = None
 
 
 class RigParameters(NamedTuple):
@@ -121,8 +123,10 @@ def read_princeton_camera(path: PathLike, *, size: Size | None = None) -> Pinhol
 def read_toml_camera(
     path: PathLike, *, table: str | None = None, size: Size | None = None
 ) -> PinholeParameters:
-    """The keys fx, fy, cx, cy, and width, height unless ``size`` is given.
+    """The keys fx, fy, cx, cy, and width, height unless ``size`` is given; and, where there is one, the pose.
 
+    The pose is the key ``pose``, (4, 4), or ``rotation``, (3, 3), and ``translation``, (3,), one of them or
+    both.
     table: the TOML table that holds them; by default the top of the file, or its only table with fx.
     """
     return _toml_camera(_toml_table(path, table), size, path)
@@ -223,7 +227,20 @@ def _toml_camera(values: Mapping[str, Any], size: Size | None, path: PathLike) -
         raise ValueError(f"{path}: the file doesn't hold the image's size; pass size=(width, height)")
     fx, fy, cx, cy = (_required(values, key, path) for key in ("fx", "fy", "cx", "cy"))
     width, height = size or (values["width"], values["height"])
-    return _name_file(path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, width, height)))
+    return _name_file(
+        path, lambda: PinholeParameters(*pinhole(fx, fy, cx, cy, width, height), _toml_pose(values))
+    )
+
+
+def _toml_pose(values: Mapping[str, Any]) -> Pose | None:
+    given = [key for key in ("pose", "rotation", "translation") if key in values]
+    if "pose" in given and len(given) > 1:
+        raise ValueError(f"pose: expected alone, got also {given[1]}")
+    if "pose" in given:
+        return Pose.from_matrix(values["pose"])
+    if not given:
+        return None
+    return Pose(values.get("rotation", np.eye(3)), values.get("translation", np.zeros(3)))
 
 
 def _required(values: Mapping[str, Any], key: str, path: PathLike) -> Any:

@@ -6,11 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.numbers import finite, positive
+from tricue.camera.pose import Pose, as_pose
 from tricue.errors import MissingChannelError
 
+MAX_DEPTH = 1e6  # meters; some drivers write the largest number of their type where nothing was measured
+MAX_DEPTH_SCALE = 1e3  # meters per unit
 MIN_MEDIAN_DEPTH, MAX_MEDIAN_DEPTH = 0.05, 50.0  # meters; a median outside is most likely in another unit
 _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
@@ -22,10 +25,12 @@ class Frame:
 
     color: uint8, (H, W, 3) in BGR order or gray (H, W). Of a stereo pair it is the left image.
     depth: (H, W), meters along the optical axis. float32 and float64 are meters; integers need
-        ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, infinite or
-        masked. Its size may differ from the color image's.
+        ``depth_scale``. It is kept as float32, with NaN where the input is 0, negative, NaN, beyond
+        a million meters or masked. Its size may differ from the color image's.
     right: the right image of a rectified stereo pair, of the same shape as ``color``.
     timestamp: seconds.
+    pose: where the camera stands in this frame, a :class:`tricue.Pose` or its (4, 4) matrix, of the camera in
+        whose frame positions are: it counts before that of the tracker's camera. None for no other.
     depth_scale: meters per unit of ``depth``, 0.001 for millimeters.
 
     Color images are not copied where the pixels of a row are contiguous, as in whole arrays and crops. Any
@@ -38,6 +43,7 @@ class Frame:
     depth: NDArray[np.float32] | None
     right: NDArray[np.uint8] | None
     timestamp: float | None
+    pose: Pose | None
 
     def __init__(
         self,
@@ -46,6 +52,7 @@ class Frame:
         right: NDArray[Any] | None = None,
         timestamp: float | None = None,
         depth_scale: float | None = None,
+        pose: Pose | ArrayLike | None = None,
     ) -> None:
         if color is None and depth is None:
             raise ValueError(
@@ -58,6 +65,7 @@ class Frame:
         assign(self, "depth", None if depth is None else _depth(depth, depth_scale))
         assign(self, "right", None if right is None else _right(right, self.color))
         assign(self, "timestamp", None if timestamp is None else finite(timestamp, "timestamp", "seconds"))
+        assign(self, "pose", as_pose(pose))
 
     @property
     def channels(self) -> tuple[str, ...]:
@@ -126,12 +134,22 @@ def _right(value: Any, color: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
 
 
 def _depth(value: Any, scale: float | None) -> NDArray[np.float32]:
-    meters: NDArray[np.float32] = _measurements(value, scale).astype(np.float32, order="C")
-    if scale is not None:
-        meters *= np.float32(positive(scale, "depth_scale", "meters per unit"))
-    meters[~((meters > 0) & (meters < np.inf))] = np.nan
+    with np.errstate(over="ignore"):
+        meters: NDArray[np.float32] = _measurements(value, scale).astype(np.float32, order="C")
+        if scale is not None:
+            meters *= np.float32(_checked_scale(scale))
+    meters[~((meters > 0) & (meters <= MAX_DEPTH))] = np.nan
     _warn_of_unit(meters, scale)
     return meters
+
+
+def _checked_scale(scale: Any) -> float:
+    number = positive(scale, "depth_scale", "meters per unit")
+    if number > MAX_DEPTH_SCALE:
+        raise ValueError(
+            f"depth_scale: expected at most {MAX_DEPTH_SCALE:g} meters per unit, got {scale!r:.80}"
+        )
+    return number
 
 
 def _measurements(value: Any, scale: float | None) -> NDArray[Any]:

@@ -10,16 +10,26 @@ def finite(value: Any, name: str, unit: str) -> float:
     """A number that is neither NaN nor infinite."""
     if not isinstance(value, Real) or isinstance(value, bool):
         raise TypeError(f"{name}: expected a number, {unit}, got {value!r:.80}")
-    if not math.isfinite(value):
-        raise ValueError(f"{name}: expected a finite number, {unit}, got {value!r}")
-    return float(value)
+    number = to_float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{name}: expected a finite number, {unit}, got {value!r:.80}")
+    return number
+
+
+def to_float(value: Any) -> float:
+    """A real number as a float; infinite where it is too large for one."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def positive(value: Any, name: str, unit: str) -> float:
     """A finite number above 0."""
-    if not finite(value, name, unit) > 0:
-        raise ValueError(f"{name}: expected {unit} above 0, got {value!r}")
-    return float(value)
+    number = finite(value, name, unit)
+    if not number > 0:
+        raise ValueError(f"{name}: expected {unit} above 0, got {value!r:.80}")
+    return number
 
 
 def positive_whole(value: Any, name: str, unit: str) -> int:

@@ -4,10 +4,10 @@
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 
 _OUTSIDE_IMAGE = -2.0  # a pixel coordinate that is in no image
@@ -48,8 +48,8 @@ def color_in_depth(
             in_color_frame @ np.asarray(extrinsics.rotation).T + measured[..., None] * extrinsics.translation
         )
     pixels = np.nan_to_num(color_camera.project(in_color_frame), nan=_OUTSIDE_IMAGE).astype(np.float32)
-    found = cv2.remap(color, pixels[..., 0], pixels[..., 1], cv2.INTER_LINEAR, borderMode=cv2.BORDER_CONSTANT)
-    return np.asarray(found, np.uint8)
+    columns, rows = (np.ascontiguousarray(pixels[..., axis]) for axis in (0, 1))
+    return imgproc.remap(np.ascontiguousarray(color), columns, rows)
 
 
 @dataclass(frozen=True)

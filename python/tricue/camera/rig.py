@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from tricue.camera.numbers import finite, pinhole, positive, positive_whole
+from tricue.camera.pose import Pose, as_pose
 from tricue.camera.types import PathLike, Size
 
 MAX_PLAUSIBLE_BASELINE = 2.0  # meters; a larger one is most likely in another unit
@@ -23,6 +24,9 @@ class Intrinsics:
 
     Coordinates (u, v) are OpenCV's: (0, 0) is the *center* of the first pixel. In a :class:`Box` (0, 0) is
     that pixel's corner, so a point (x, y) of a box is at ``(x - 0.5, y - 0.5)`` here.
+
+    pose: where the camera stands, a :class:`tricue.Pose` or its (4, 4) matrix; then tracks also have
+    positions in the world. None where it isn't known.
     """
 
     fx: float
@@ -31,11 +35,13 @@ class Intrinsics:
     cy: float
     width: int
     height: int
+    pose: Pose | None = None
 
     def __post_init__(self) -> None:
         names = ("fx", "fy", "cx", "cy", "width", "height")
         for name, value in zip(names, pinhole(*(getattr(self, name) for name in names)), strict=True):
             object.__setattr__(self, name, value)
+        object.__setattr__(self, "pose", as_pose(self.pose))
 
     @classmethod
     def from_fov(
@@ -68,7 +74,11 @@ class Intrinsics:
 
     @classmethod
     def from_toml(cls, path: PathLike, *, table: str | None = None, size: Size | None = None) -> "Intrinsics":
-        """From the keys fx, fy, cx, cy, width, height of a TOML file or of one of its tables."""
+        """From the keys fx, fy, cx, cy, width, height of a TOML file or of one of its tables.
+
+        The key ``pose``, rows of a (4, 4) matrix, or ``rotation`` and ``translation`` may say where the
+        camera stands.
+        """
         from tricue.camera.calibration_formats import read_toml_camera
 
         return cls(*read_toml_camera(path, table=table, size=size))
@@ -100,7 +110,8 @@ class Intrinsics:
 class StereoRig:
     """Two rectified cameras side by side, of the same intrinsics, and their baseline.
 
-    baseline: meters between the optical centers. Disparity is positive: x_right = x_left - d.
+    baseline: meters between the optical centers. Disparity is positive: x_right = x_left - d. The pose is
+    that of the left camera, in ``intrinsics``.
     Warns (UserWarning) where the baseline is above 2 m, which looks like another unit.
     """
 
@@ -142,6 +153,11 @@ class StereoRig:
 
         camera, baseline = read_toml_rig(path, table=table, size=size)
         return cls(Intrinsics(*camera), baseline)
+
+    @property
+    def pose(self) -> Pose | None:
+        """Where the left camera stands, or None."""
+        return self.intrinsics.pose
 
     def depth(self, disparity: ArrayLike) -> NDArray[np.float64]:
         """Depth z = fx b / d in meters, of the disparity's shape; NaN where the disparity isn't above 0."""

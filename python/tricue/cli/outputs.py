@@ -3,7 +3,8 @@
 
 import csv
 import json
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
@@ -27,6 +28,7 @@ COLUMNS = (
     *COVARIANCE,
     "depth_m",
 )
+WORLD_COLUMNS = tuple(f"world_{name}" for name in ("X_m", "Y_m", "Z_m", *COVARIANCE))
 
 
 class Step(NamedTuple):
@@ -54,62 +56,83 @@ class Output(AbstractContextManager[Any], Protocol):
     def write(self, step: Step) -> None: ...
 
 
-def row(step: Step) -> list[Any]:
-    """The values of COLUMNS, None if absent; six decimals, for covariances six digits."""
-    track, position = step.track, step.track.position
-    meters = [None] * 3 if position is None else np.asarray(position).tolist()
-    numbers = [step.frame.timestamp, track.score, *track.box, *meters]
+def row(step: Step, world: bool = False) -> list[Any]:
+    """The values of COLUMNS, None if absent; six decimals, for covariances six digits.
+
+    world: also those of WORLD_COLUMNS.
+    """
+    track = step.track
+    meters, covariance = _point(track.position), _triangle(track.covariance)
+    numbers = [step.frame.timestamp, track.score, *track.box]
     time, *others = [None if number is None else round(float(number), 6) for number in numbers]
     depth = None if track.depth is None else round(track.depth, 6)
-    return [step.number, time, str(track.status), *others, *_covariance(track), depth]
+    values = [step.number, time, str(track.status), *others, *meters, *covariance, depth]
+    if not world:
+        return values
+    return [*values, *_point(track.world_position), *_triangle(track.world_covariance)]
 
 
-def _covariance(track: Track) -> list[float | None]:
-    if track.covariance is None:
+def _point(position: NDArray[np.float64] | None) -> list[float | None]:
+    return [None] * 3 if position is None else [round(value, 6) for value in position.tolist()]
+
+
+def _triangle(covariance: NDArray[np.float64] | None) -> list[float | None]:
+    if covariance is None:
         return [None] * len(COVARIANCE)
-    return [float(f"{value:.6g}") for value in track.covariance[np.triu_indices(3)]]
+    return [float(f"{value:.6g}") for value in covariance[np.triu_indices(3)]]
 
 
 class CsvOutput:
-    """A header of COLUMNS and a line per frame; absent values are empty."""
+    """A header of COLUMNS and a line per frame; absent values are empty. world: WORLD_COLUMNS, too."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, world: bool = False) -> None:
         self.path = path
+        self._world = world
         self._file = _create(path)
         self._writer = csv.writer(self._file, lineterminator="\n")
-        self._writer.writerow(COLUMNS)
+        with _naming(path):
+            self._writer.writerow(COLUMNS + WORLD_COLUMNS * world)
 
     def write(self, step: Step) -> None:
-        self._writer.writerow(row(step))
+        with _naming(self.path):
+            self._writer.writerow(row(step, self._world))
 
     def __enter__(self) -> "CsvOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.close()
+        with _naming(self.path):
+            self._file.close()
 
 
 class JsonOutput:
-    """One object: the entries of ``about``, and "tracks", a list of objects with COLUMNS as keys."""
+    """One object: the entries of ``about``, and "tracks", a list of objects with COLUMNS as keys.
 
-    def __init__(self, path: Path, about: dict[str, Any]) -> None:
+    world: WORLD_COLUMNS, too.
+    """
+
+    def __init__(self, path: Path, about: dict[str, Any], world: bool = False) -> None:
         self.path = path
+        self._world = world
         head = json.dumps(about, indent=1, allow_nan=False)
         self._file = _create(path)
-        self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        with _naming(path):
+            self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
     def write(self, step: Step) -> None:
-        values = dict(zip(COLUMNS, row(step), strict=True))
-        self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+        values = dict(zip(COLUMNS + WORLD_COLUMNS * self._world, row(step, self._world), strict=True))
+        with _naming(self.path):
+            self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
         self._separator = ",\n"
 
     def __enter__(self) -> "JsonOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._file.write("\n ]\n}\n")
-        self._file.close()
+        with _naming(self.path):
+            self._file.write("\n ]\n}\n")
+            self._file.close()
 
 
 class VideoOutput:
@@ -169,6 +192,17 @@ class VideoOutput:
 
     def __exit__(self, *_: object) -> None:
         self._writer.close()
+
+
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Name the file in an error of writing, such as that of a full disk; Python names only what it opens."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
 
 
 def _create(path: Path) -> Any:

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The command line: parses the arguments, runs the command, and prints errors on one line."""
+"""The command line: parses the arguments, runs the command, and prints errors on one line.
+
+Exit codes are a Unix tool's: 0, 2 for an error, 128 and the signal's number after a signal.
+"""
 
 import argparse
 import importlib
+import io
 import os
 import sys
 import warnings
@@ -11,9 +15,11 @@ from contextlib import contextmanager
 from typing import NoReturn
 
 import tricue
+from tricue.cli.signals import clean_exits
 from tricue.errors import one_line
 
-USAGE, INTERRUPTED = 2, 130
+USAGE = 2
+INTERRUPTED, CLOSED_PIPE = 130, 141
 
 # The help text of each command, which is in the module of the same name.
 COMMANDS = {
@@ -21,6 +27,7 @@ COMMANDS = {
     "track": "track in a video, a folder, a camera",
     "info": "describe a video, a folder, a sequence",
     "evaluate": "compare trackers with OpenCV's on a data set",
+    "calibrate": "measure a tracker's parameters on own images",
     "reproduce": "repeat an experiment of the papers",
     "vot-workspace": "let the VOT toolkit run trackers",
 }
@@ -36,12 +43,21 @@ class Parser(argparse.ArgumentParser):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; the exit code: 0, 2 for an error (one line on stderr), 130 after Ctrl-C."""
     silence_opencv()
+    for stream in (sys.stdout, sys.stderr):  # a terminal may not know all letters of a file's name
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     words = list(sys.argv[1:] if arguments is None else arguments)
     options = parser(words[0] if words else "").parse_args(words)
     try:
-        with _one_line_warnings(options.command):
+        with _one_line_warnings(options.command), clean_exits():
             code: int = options.run(options)
+            sys.stdout.flush()
         return code
+    except BrokenPipeError:
+        os.dup2(
+            os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno()
+        )  # Python flushes it once more at the end
+        return CLOSED_PIPE
     except (ImportError, OSError, RuntimeError, TypeError, ValueError) as error:
         print(f"tricue {options.command}: {one_line(error)}", file=sys.stderr)
         return USAGE

@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Runs a tracker over a source frame by frame, measures times, and stops on Ctrl-C."""
+"""Runs a tracker over a source frame by frame, and measures times."""
 
-import signal
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
-from types import FrameType
 
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
@@ -61,26 +58,6 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
         yield Step(
             index, frame, track, seconds, **{name: getattr(tracker, name) for name in tracker.traits.shows}
         )
-
-
-@contextmanager
-def catch_interrupt() -> Iterator[Callable[[], bool]]:
-    """Yields a function that returns True after Ctrl-C, to finish the current frame. A second Ctrl-C
-    interrupts.
-    """
-    interrupted = False
-
-    def interrupt(_number: int, _frame: FrameType | None) -> None:
-        nonlocal interrupted
-        if interrupted:
-            raise KeyboardInterrupt
-        interrupted = True
-
-    before = signal.signal(signal.SIGINT, interrupt)
-    try:
-        yield lambda: interrupted
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:

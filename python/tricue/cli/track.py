@@ -18,6 +18,7 @@ from tricue.cli.arguments import add_common, angles, box, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
+from tricue.cli.signals import catch_signals
 from tricue.cli.starts import (
     BOX_HINT,
     DEFAULT_TRACKER,
@@ -26,10 +27,10 @@ from tricue.cli.starts import (
     depth_tracker,
     start_hint,
 )
-from tricue.cli.steps import RunClock, Start, catch_interrupt, steps
+from tricue.cli.steps import RunClock, Start, steps
 from tricue.data.open_source import Source, open_source
 from tricue.track.base.registry import names
-from tricue.track.base.settings import make_tracker
+from tricue.track.base.settings import PAPER, make_tracker
 from tricue.track.base.track import Status, Track, Tracker
 
 EXAMPLES = """\
@@ -47,7 +48,6 @@ examples:
   tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
   tricue track video.mp4 --tracker flow-depth --set cues=flow --box 60,30,25,74   without any depth
 """
-INTERRUPTED = 130
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -87,7 +87,14 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
     )
-    command.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
+    base = command.add_mutually_exclusive_group()
+    base.add_argument("--params", type=Path, metavar="FILE", help="parameters of the tracker, TOML")
+    base.add_argument(
+        "--paper",
+        action="store_const",
+        const=PAPER,
+        help="the tracker as its paper prints it, without stages of ours",
+    )
     add_common(command)
 
 
@@ -138,7 +145,7 @@ def run(options: argparse.Namespace) -> int:
     clock, tracks = RunClock(), {}
     with ExitStack() as files:
         outputs = [files.enter_context(output) for output in _outputs(options, run)]
-        stop = files.enter_context(catch_interrupt())
+        stop = files.enter_context(catch_signals())
         progress = files.enter_context(Progress(run.source.length))
         frames = takewhile(lambda _: not stop(), run.source)
         for step in _with_start_hint(steps(run.tracker, frames, run.start, clock), run, clock):
@@ -146,7 +153,8 @@ def run(options: argparse.Namespace) -> int:
                 output.write(step)
             tracks[step.number] = step.track
             progress(step.number + 1, clock.speeds)
-        interrupted = stop()
+        signal_number = stop()
+    interrupted = signal_number != 0
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
     _report(run.source, clock, tracks, interrupted)
@@ -155,13 +163,20 @@ def run(options: argparse.Namespace) -> int:
         notes.append(_plot(options.plot, run, tracks))
     for note in notes:
         print(note)
-    return INTERRUPTED if interrupted else 0
+    return 128 + signal_number if interrupted else 0
 
 
-def _check_not_input(place: Path | None, outputs: Sequence[Path | None]) -> None:
+def _check_not_input(place: Path | None, outputs: Sequence[Path]) -> None:
     for path in outputs:
-        if path and place and path.exists() and place.exists() and path.samefile(place):
+        if place and path.exists() and place.exists() and path.samefile(place):
             raise ValueError(f"{path}: expected another file than the input to write to")
+
+
+def _check_different(outputs: Sequence[Path]) -> None:
+    files = [path.resolve() for path in outputs if path.is_file() or not path.exists()]  # not /dev/null
+    for index, path in enumerate(files):
+        if path in files[:index]:
+            raise ValueError(f"{path}: expected a file for each output, got this one twice")
 
 
 def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
@@ -179,12 +194,19 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     )
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None
+    outputs = [path for path in (options.output, options.csv, options.json, options.plot) if path]
     for place in (Path(options.input), right, options.calibration, options.params):
-        _check_not_input(place, (options.output, options.csv, options.json, options.plot))
+        _check_not_input(place, outputs)
+    _check_different(outputs)
     found = find_calibration(options, source)
     source = found.prepare(source)
     tracker = make_tracker(
-        options.tracker, options.params, options.set, options.seed, options.kernels, **found.keywords
+        options.tracker,
+        options.paper or options.params,
+        options.set,
+        options.seed,
+        options.kernels,
+        **found.keywords,
     )
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics
@@ -196,10 +218,11 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     """Open the outputs one by one, so that the first is closed if the second can't be opened."""
     if options.output:
         yield VideoOutput(options.output, run.source.fps, run.rig)
+    world = run.intrinsics is not None and run.intrinsics.pose is not None
     if options.csv:
-        yield CsvOutput(options.csv)
+        yield CsvOutput(options.csv, world)
     if options.json:
-        yield JsonOutput(options.json, _about(options, run))
+        yield JsonOutput(options.json, _about(options, run), world)
 
 
 def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
@@ -229,9 +252,14 @@ def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:
         "seed": options.seed,
         "kernels": options.kernels,
         "params": {name: _plain(value) for name, value in _params(run.tracker).items()},
-        "intrinsics": None if run.intrinsics is None else dataclasses.asdict(run.intrinsics),
+        "intrinsics": None if run.intrinsics is None else _camera(run.intrinsics),
         "baseline": None if run.rig is None else run.rig.baseline,
     }
+
+
+def _camera(camera: Intrinsics) -> dict[str, Any]:
+    """The camera's numbers; its pose only if it has one."""
+    return {name: value for name, value in dataclasses.asdict(camera).items() if value is not None}
 
 
 def _params(tracker: Tracker) -> dict[str, Any]:

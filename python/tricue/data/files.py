@@ -22,6 +22,13 @@ _IMAGE_SUFFIXES = {
 _VIDEO_SUFFIXES = {".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".ogv", ".webm", ".wmv"}
 
 
+def listed_path(folder: Path, name: str, list_file: Path) -> Path:
+    """The file of that name in a list; ValueError for one outside of the folder."""
+    if Path(name).is_absolute() or ".." in Path(name).parts:
+        raise ValueError(f"{list_file}: expected files below its folder, got {name!r:.80}")
+    return folder / name
+
+
 def image_paths(folder: Path) -> list[Path]:
     """The image files in a folder, in natural order: 2.png before 10.png. Hidden files are left out."""
     paths = (p for p in folder.iterdir() if is_image(p) and not p.name.startswith("."))

@@ -3,6 +3,7 @@
 
 import os
 import time
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 DEFAULT_FPS = 30.0
 MAX_FPS = 1000.0
+MIN_DECODED_SHARE = 0.95  # of the frames that a container states, which it does by its duration at times
 
 Image = NDArray[Any]
 ImageReader = Callable[[Path], Image]
@@ -118,6 +120,7 @@ class Video:
 
     def __iter__(self) -> Iterator[tuple[float, Image]]:
         capture, index = self._open(), 0
+        stated = capture.get(cv2.CAP_PROP_FRAME_COUNT)
         try:
             while (image := _read(capture)) is not None:
                 yield index / self.fps, image
@@ -126,6 +129,11 @@ class Video:
             capture.release()
         if index == 0:
             raise ValueError(f"{self.path}: expected a video, this file has no frame that can be decoded")
+        if index < MIN_DECODED_SHARE * stated:
+            warnings.warn(
+                f"{self.path}: only {index} of its {stated:.0f} frames can be decoded; is it cut off?",
+                stacklevel=2,
+            )
 
     def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
         """Reads all frames between, for seeking in videos isn't reliable."""
@@ -153,6 +161,12 @@ class Video:
         return count
 
     def _open(self) -> cv2.VideoCapture:
+        try:
+            str(self.path).encode()
+        except UnicodeEncodeError:
+            raise ValueError(
+                f"{str(self.path)!a}: OpenCV opens only videos whose path is UTF-8; rename it"
+            ) from None
         capture = cv2.VideoCapture(str(self.path))
         if not capture.isOpened():
             raise ValueError(f"{self.path}: expected a video, this file can't be opened as one")
@@ -193,11 +207,12 @@ class Camera:
 
 
 def read_image(path: Path, flag: int) -> Image:
-    """The image in a file as cv2.imread gives it; ValueError or FileNotFoundError names the file."""
+    """The image in a file as cv2.imdecode gives it; ValueError or FileNotFoundError names the file."""
     if not path.exists():
         raise FileNotFoundError(f"{path}: there is no such file")
+    content = np.fromfile(path, np.uint8)  # cv2.imread can't open every path
     try:
-        image = None if _is_truncated(path) else cv2.imread(str(path), flag)
+        image = cv2.imdecode(content, flag) if content.size and not _is_truncated(path) else None
     except cv2.error:  # an image larger than OpenCV allows
         image = None
     if image is None:

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from tricue.data.depth_images import DepthReader
+from tricue.data.files import listed_path
 from tricue.data.streams import Stream, TimedPaths, timed_images
 
 TUM_METERS_PER_UNIT = 1 / 5000  # by the format's definition, as the next
@@ -73,7 +74,7 @@ def _entry(line: str, path: Path, number: int) -> tuple[float, Path]:
         seconds = np.nan
     if not (name and np.isfinite(seconds)):
         raise ValueError(f"{path}, line {number}: expected a timestamp and a file name, got {line!r:.60}")
-    return seconds, path.parent / name[0]
+    return seconds, listed_path(path.parent, name[0], path)
 
 
 def _match_times(

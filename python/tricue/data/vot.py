@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
-from tricue.data.files import image_paths
+from tricue.data.files import image_paths, listed_path
 from tricue.data.streams import Images, Stream, plausible_fps
 from tricue.data.truth import VOT_TRUTH
 
@@ -58,7 +58,7 @@ def _color(values: Mapping[str, str]) -> str:
 
 def _images(folder: Path, channel: str, pattern: str) -> list[Path]:
     """The images that match the pattern, sorted by number."""
-    place = (folder / pattern).parent
+    place = listed_path(folder, pattern, folder / SEQUENCE_FILE).parent
     around = re.split(r"%\d*d", Path(pattern).name)
     if len(around) != 2 or not _is_folder(place):
         suffix = {"color": "jpg", "depth": "png"}[channel]

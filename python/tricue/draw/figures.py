@@ -3,7 +3,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -45,9 +45,11 @@ def save(draw: Draw[C, S], curves: Sequence[C], scenes: Mapping[str, S], path: P
         figure.savefig(path)
 
 
-def draw_box(axes: Any, box: ArrayLike, color: str) -> None:
+def draw_box(axes: Any, box: ArrayLike, color: str, linestyle: Literal["solid", "dashed"] = "solid") -> None:
     """Outline a box (x, y, width, height) over an image; pixel (i, j) has its center at (j, i)."""
     from matplotlib.patches import Rectangle
 
     x, y, width, height = np.asarray(box, np.float64).tolist()
-    axes.add_patch(Rectangle((x - 0.5, y - 0.5), width, height, fill=False, edgecolor=color, linewidth=1.2))
+    outline = Rectangle((x - 0.5, y - 0.5), width, height, fill=False, edgecolor=color, linewidth=1.2)
+    outline.set_linestyle(linestyle)
+    axes.add_patch(outline)

@@ -53,11 +53,14 @@ def block_picture(
     mask: NDArray[np.uint8] | None,
     targets: Sequence[Box] = (),
     occluded: Sequence[Box] = (),
+    *,
+    window: bool = True,
 ) -> Image:
     """A frame as in figure 8 of Okada, Shirai and Miura (1996), enlarged.
 
     The target's pixels are white, its blocks and the occluded ones black (the latter crossed), and their
-    window is white. image: BGR (H, W, 3) or gray (H, W). mask: (H, W), above 0 at the target's pixels.
+    window is white, unless ``window=False``. image: BGR (H, W, 3) or gray (H, W). mask: (H, W), above 0 at
+    the target's pixels.
     """
     canvas = to_bgr(image).copy()
     if mask is not None:
@@ -70,7 +73,8 @@ def block_picture(
     canvas = canvas.astype(np.uint8, copy=False)
     _draw_blocks(canvas, targets, BLOCK_PICTURE_SCALE, BLACK, crossed=False)
     _draw_blocks(canvas, occluded, BLOCK_PICTURE_SCALE, BLACK, crossed=True)
-    _draw_window(canvas, (*targets, *occluded), BLOCK_PICTURE_SCALE, WHITE, 3)
+    if window:
+        _draw_window(canvas, (*targets, *occluded), BLOCK_PICTURE_SCALE, WHITE, 3)
     return canvas
 
 

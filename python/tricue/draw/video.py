@@ -20,6 +20,7 @@ class OverlayWriter:
     def __init__(self, path: str | os.PathLike[str], fps: float) -> None:
         self.path, self.fps = Path(path), fps
         self._writer: cv2.VideoWriter | None = None
+        self._written = 0
         if self.path.suffix.lower() not in (".mp4", ".avi"):
             raise ValueError(f"{path}: expected a video file's name that ends in .mp4 or .avi")
         self.path.parent.mkdir(parents=True, exist_ok=True)
@@ -36,13 +37,25 @@ class OverlayWriter:
         if self._writer is None:
             self._writer = self._open(picture.shape[1], picture.shape[0])
         self._writer.write(picture)
+        self._written += 1
 
     def close(self) -> None:
         """Finish the file; without any image it is removed."""
         if self._writer is not None:
             self._writer.release()
+            self._check_whole()
         elif self.path.exists() and self.path.stat().st_size == 0:
             self.path.unlink()
+
+    def _check_whole(self) -> None:
+        """OSError where frames are missing from the file: OpenCV doesn't tell a full disk."""
+        capture = cv2.VideoCapture(str(self.path))
+        found = int(capture.get(cv2.CAP_PROP_FRAME_COUNT)) if capture.isOpened() else 0
+        capture.release()
+        if found < self._written:
+            raise OSError(
+                f"{self.path}: only {max(found, 0)} of {self._written} frames were written; is the disk full?"
+            )
 
     def _open(self, width: int, height: int) -> cv2.VideoWriter:
         names = (

@@ -2,7 +2,9 @@
 """Where tasks run: in this process, in several of this machine (joblib), on a Dask cluster. One code path."""
 
 from collections.abc import Callable, Generator, Sequence
-from contextlib import closing
+from concurrent.futures import FIRST_COMPLETED, wait
+from concurrent.futures.process import BrokenProcessPool
+from itertools import islice
 from typing import Any, NamedTuple
 
 from tricue.errors import one_line
@@ -50,14 +52,55 @@ def _run_here(tasks: Sequence[Task], perform: Perform) -> Generator[Finished, No
 
 
 def _run_in_processes(tasks: Sequence[Task], perform: Perform, jobs: int) -> Generator[Finished, None, None]:
+    """A killed process breaks its pool. What ran then runs again, each alone, to find the cause."""
     try:
-        from joblib import Parallel, delayed
+        from joblib.externals.loky import ProcessPoolExecutor  # unlike Python's it needs no main module
     except ImportError:
         raise ImportError(f"--jobs above 1 {MISSING_EXTRA.format('evaluate')}") from None
-    parallel = Parallel(n_jobs=jobs, return_as="generator_unordered", batch_size=1)
-    calls = (delayed(perform_task)(index, task, perform) for index, task in enumerate(tasks))
-    with closing(parallel(calls)) as results:
-        yield from results
+    waiting = list(range(len(tasks)))
+    while waiting:
+        done = set()
+        try:
+            with ProcessPoolExecutor(jobs) as pool:
+                for finished in _run_in_pool(tasks, waiting, perform, pool, jobs):
+                    done.add(finished.task_index)
+                    yield finished
+        except BrokenProcessPool:
+            running = [index for index in waiting if index not in done][:jobs]
+            for index in running:
+                yield _run_alone(index, tasks[index], perform, ProcessPoolExecutor)
+            done.update(running)
+        waiting = [index for index in waiting if index not in done]
+
+
+def _run_in_pool(
+    tasks: Sequence[Task], indices: Sequence[int], perform: Perform, pool: Any, jobs: int
+) -> Generator[Finished, None, None]:
+    """Submit in order, as many at once as there are processes: the first unfinished ones are running."""
+    left = iter(indices)
+    running: set[Any] = set()
+    try:
+        while True:
+            running |= {
+                pool.submit(perform_task, index, tasks[index], perform)
+                for index in islice(left, jobs - len(running))
+            }
+            if not running:
+                return
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            yield from (future.result() for future in done)
+    finally:
+        if running:  # closed, or broken
+            pool.shutdown(wait=False, kill_workers=True)
+
+
+def _run_alone(index: int, task: Task, perform: Perform, executor: Any) -> Finished:
+    try:
+        with executor(1) as pool:
+            finished: Finished = pool.submit(perform_task, index, task, perform).result()
+            return finished
+    except BrokenProcessPool:
+        return Finished(index, None, "its process was killed, twice; was there too little memory?")
 
 
 def _run_on_cluster(tasks: Sequence[Task], perform: Perform, address: str) -> Generator[Finished, None, None]:

@@ -18,8 +18,8 @@ class Store:
 
     def path(self, task: Task) -> Path:
         """Where a task's record is or will be."""
-        parts = [re.sub(r'[\\\\:*?"<>|]', "_", part) for part in task.name.split("/")]
-        return self.folder.joinpath(*parts).with_suffix(".json")
+        *folders, name = (_file_name(part) for part in task.name.split("/"))
+        return self.folder.joinpath(*folders, f"{name}.json")
 
     def load(self, task: Task, fingerprint: str) -> Record | None:
         """The task's record; None if it is missing, incomplete, or has another fingerprint."""
@@ -44,3 +44,8 @@ class Store:
         unfinished = path.with_suffix(f".{os.getpid()}.part")
         unfinished.write_text(record.to_json(about) + "\n", encoding="utf-8")
         unfinished.replace(path)
+
+
+def _file_name(part: str) -> str:
+    """The part as a file's name on any system; other parts have other names."""
+    return re.sub(r'[%\\:*?"<>|]', lambda found: f"%{ord(found[0]):02X}", part)

@@ -189,10 +189,13 @@ def _write_csv(path: Path, lines: Sequence[Line]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(lines[0]) if lines else [], lineterminator="\n")
         writer.writeheader()
-        writer.writerows({name: _empty_if_nan(value) for name, value in line.items()} for line in lines)
+        writer.writerows({name: _cell(value) for name, value in line.items()} for line in lines)
 
 
-def _empty_if_nan(value: Any) -> Any:
+def _cell(value: Any) -> Any:
+    """Empty for NaN. A name that a spreadsheet would run as a formula gets an apostrophe, which it hides."""
+    if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")):
+        return f"'{value}"
     return "" if isinstance(value, float) and math.isnan(value) else value
 
 

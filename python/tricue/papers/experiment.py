@@ -30,6 +30,15 @@ class Case(NamedTuple):
     seed: int
 
 
+@dataclass(frozen=True, slots=True)
+class Report:
+    """The summary of an experiment, and its files."""
+
+    summary: str
+    figure: Path
+    table: Path
+
+
 @dataclass(frozen=True)  # slots and type parameters don't go together in Python 3.11
 class Experiment(Generic[S, C]):
     """Models, scenes, and functions that measure a run, summarize curves, write and draw them."""

@@ -3,17 +3,18 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
 from tricue.draw import figures
-from tricue.papers.experiment import C, Case, Experiment, Maker, Models, S
+from tricue.papers.experiment import C, Case, Experiment, Maker, Models, Report, S
 from tricue.papers.moreno import experiments as moreno
 from tricue.papers.okada import experiments as okada
 from tricue.papers.sabeti_color import experiments as sabeti_color
+from tricue.papers.sabeti_color import skin_threshold
+from tricue.papers.sabeti_dark import experiments as sabeti_dark
 from tricue.papers.sabeti_depth import experiments as sabeti_depth
 
 SceneTask = tuple[str, Callable[..., S], int]
@@ -22,18 +23,11 @@ SceneTask = tuple[str, Callable[..., S], int]
 EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     **sabeti_color.EXPERIMENTS,
     **sabeti_depth.EXPERIMENTS,
+    **sabeti_dark.EXPERIMENTS,
     **moreno.EXPERIMENTS,
     **okada.EXPERIMENTS,
 }
-
-
-@dataclass(frozen=True, slots=True)
-class Report:
-    """The summary of an experiment, and its files."""
-
-    summary: str
-    figure: Path
-    table: Path
+NAMES = (*EXPERIMENTS, skin_threshold.NAME)
 
 
 def run(
@@ -43,17 +37,29 @@ def run(
     jobs: int = 1,
     progress: Callable[[int, int], None] | None = None,
     models: Models | None = None,
+    data: Path | None = None,
+    rate: float | None = None,
 ) -> Report:
     """Run an experiment and write ``output/NAME.png`` and ``output/NAME.csv``, a line per frame.
 
     Every model runs on every scene from ``seeds`` seeds, on slow scenes from fewer. ``jobs`` scenes run at
-    once, and ``progress(done, total)`` is called after each. ``models`` replaces the experiment's. ValueError
-    for an unknown name, ImportError that names the extra where scikit-image or matplotlib is missing.
+    once, and ``progress(done, total)`` is called after each. ``models`` replaces the experiment's. ``data``,
+    a folder of images, and ``rate``, a false-positive rate, are for "sabeti-roc" alone
+    (:mod:`tricue.papers.sabeti_color.skin_threshold`). ValueError for an unknown name, ImportError that names
+    the extra where scikit-image or matplotlib is missing.
     """
-    if name not in EXPERIMENTS:
-        raise ValueError(f"experiment: expected one of {', '.join(EXPERIMENTS)}, got {name!r}")
+    if name not in NAMES:
+        raise ValueError(f"experiment: expected one of {', '.join(NAMES)}, got {name!r}")
     if seeds < 1 or jobs < 1:
         raise ValueError(f"seeds, jobs: expected 1 or more, got {seeds}, {jobs}")
+    if name == skin_threshold.NAME:
+        chosen = skin_threshold.MAX_FALSE_POSITIVES if rate is None else rate
+        return skin_threshold.run(output, data, chosen, seeds, progress)
+    for argument, value in (("data", data), ("rate", rate)):
+        if value is not None:
+            raise ValueError(
+                f"{argument}: expected none, as only {skin_threshold.NAME} takes it, got {value}"
+            )
     experiment = EXPERIMENTS[name]
     figures.require()
     curves = list(_all_curves(experiment, models or experiment.models, seeds, jobs, progress))

@@ -6,8 +6,10 @@ compute. Their help is how they compute, then the native kernel's contract.
 from tricue import _core
 from tricue.reference.camera.back_project import back_project
 from tricue.reference.camera.rectify_verged import rectify_verged
+from tricue.reference.camera.reduce_gray import reduce_gray
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.box_contrast import box_contrast
+from tricue.reference.cues.color.cell_colors import cell_colors
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -45,16 +47,20 @@ from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
 from tricue.reference.cues.depth.floor_plane import floor_plane
+from tricue.reference.cues.depth.ground_distance import ground_distance
 from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.median_depths import median_depths
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.depth.support_pixels import support_pixels
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
+from tricue.reference.cues.stereo.coherent_cells import coherent_cells
 from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
+from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.kalman_predict import kalman_predict
@@ -77,10 +83,13 @@ __all__ = [
     "block_counts",
     "block_mask",
     "box_contrast",
+    "cell_colors",
+    "coherent_cells",
     "color_bins",
     "color_histogram",
     "color_lookup",
     "color_ranks",
+    "combine_posteriors",
     "correlation_response",
     "correlation_train",
     "cut_sides",
@@ -100,6 +109,7 @@ __all__ = [
     "floor_plane",
     "gradient_disparity",
     "gradient_flow",
+    "ground_distance",
     "histogram_mean",
     "hog_color_cells",
     "joint_histogram",
@@ -117,6 +127,7 @@ __all__ = [
     "rectangle_histogram",
     "rectangle_prior",
     "rectify_verged",
+    "reduce_gray",
     "regularized_filter",
     "resample",
     "reweight",
@@ -132,6 +143,7 @@ __all__ = [
     "skin_reference",
     "skin_rule",
     "summarize",
+    "support_pixels",
     "target_distribution",
     "target_pixels",
     "temporal_window",

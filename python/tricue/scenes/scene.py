@@ -23,6 +23,8 @@ class Scene:
     """The true box in each frame, pixels."""
     changes: tuple[int, ...] = ()
     """The frames in which the light or the brightness of the target changes abruptly."""
+    visible: tuple[float, ...] = ()
+    """The share of the target that nothing hides, in each frame; empty where nothing ever does."""
 
 
 class Bystander(NamedTuple):
@@ -125,8 +127,10 @@ class WalkScene:
     pixel, in pixels; NaN in the first frame."""
     disparity: Sequence[NDArray[np.float32]]
     """(H, W) each, computed on access: x_left - x_right in pixels."""
-    others: tuple[tuple[Bystander, Bystander], ...]
+    others: tuple[tuple[Bystander, ...], ...]
     """The overtaking and the standing person in each frame; they may be outside the image."""
     rig: StereoRig
     """The stereo rig; in scenes with depth instead of a right image its right camera takes no image."""
     events: Events
+    vergence: float = 0.0
+    """Degrees by which the right camera is turned inwards; ``rig`` has a parallel pair's numbers."""

@@ -60,6 +60,33 @@ def test_agrees_with_opencv(kernels: Kernels, picture: Image) -> None:
         assert_array_equal(np.bincount(bins.ravel(), minlength=32 * 16 * 4), counts.ravel())
 
 
+@given(images, arrays(np.float64, 3, elements=st.floats(0, 300)), st.integers(1, 9))
+def test_twin_takes_the_same_light(image: Image, gains: NDArray[np.float64], step: int) -> None:
+    """Native and reference agree in any light: both multiply in float32 and round half to even."""
+    arguments = (image, (0, 0, 140, 8), (32, 32, 4), 64, step, gains)
+    assert_array_equal(_core.color_bins(*arguments), reference.color_bins(*arguments))
+
+
+@pytest.mark.parametrize("step", [1, 3])
+def test_light_agrees_with_opencv(kernels: Kernels, step: int) -> None:
+    """Bins in another light are those of the image that OpenCV's transform multiplies."""
+    image = np.random.default_rng(0).integers(0, 256, (40, 50, 3), np.uint8)
+    gains = np.array([0.83, 1.0, 1.37])
+    lit = np.asarray(cv2.transform(image, np.diag(gains)), np.uint8)
+    region = (-3, 2, 45, 44)
+    found = kernels.color_bins(image, region, (32, 16, 4), 64, step, gains)
+    assert_array_equal(found, kernels.color_bins(lit, region, (32, 16, 4), 64, step))
+
+
+@pytest.mark.parametrize("gain", [-0.1, np.nan, np.inf])
+def test_light_that_is_none_is_refused(kernels: Kernels, gain: float) -> None:
+    """Gains are finite and not negative."""
+    with pytest.raises(ValueError, match="gains: expected finite numbers, none negative, got"):
+        kernels.color_bins(
+            np.zeros((2, 2, 3), np.uint8), (0, 0, 2, 2), (8, 8, 4), 64, 1, np.array([1, gain, 1.0])
+        )
+
+
 def test_example_by_hand(kernels: Kernels) -> None:
     """Gray, blue by 64 and red by 63 over 8 x 8 x 4 bins of ±64: the ends of the axes and their middle."""
     image = np.array(

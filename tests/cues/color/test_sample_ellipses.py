@@ -109,3 +109,12 @@ def test_native_refuses_other_images() -> None:
         _core.sample_ellipses(np.zeros((6, 8, 3), np.uint8)[:, ::-1], ONE, CENTER)
     with pytest.raises(TypeError, match=r"ellipses: expected float64 \(N, D\), got float32"):
         _core.sample_ellipses(np.zeros((6, 8, 3), np.uint8), ONE.astype(np.float32), CENTER)
+
+
+@pytest.mark.parametrize("ellipse", [(80, 60, 1e39, 10), (1e300, -1e39, 5, 5), (-1e39, 60, 1e39, 1e308)])
+def test_ellipses_beyond_float32_read_the_border(ellipse: tuple[float, ...]) -> None:
+    """Numbers that are finite as float64 and infinite as float32 stay inside the image; NaN reads pixel 0."""
+    image = np.random.default_rng(3).integers(0, 256, (120, 160, 3), np.uint8)
+    pattern = np.tile([[0.0, 0.0], [0.5, 0.5], [1.0, -1.0], [1e300, -1e39]], (3, 1))
+    found = _core.sample_ellipses(image, np.array([ellipse]), pattern)
+    assert_array_equal(found, reference.sample_ellipses(image, np.array([ellipse]), pattern))

@@ -35,6 +35,19 @@ def test_native_is_the_twin(seed: int) -> None:
     assert_array_equal(native, reference.sample_windows(image, windows, rows, columns))
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_gray_is_one_channel(kernels: Kernels, seed: int) -> None:
+    """Of a gray image, also of a part of one, samples are those of a channel of BGR with that image in it."""
+    rng = np.random.default_rng(seed)
+    image = noise(*rng.integers(1, 90, 2).tolist(), seed)
+    part = np.ascontiguousarray(image[:, :, 1])[:, : int(rng.integers(1, image.shape[1] + 1))]
+    rows, columns = rng.integers(1, 40, 2).tolist()
+    windows = np.column_stack([rng.normal(20, 40, (3, 2)), 10 ** rng.uniform(-2, 3, (3, 2))])
+    found = kernels.sample_windows(part, windows, rows, columns)
+    expected = kernels.sample_windows(np.dstack([part] * 3), windows, rows, columns)
+    assert_array_equal(found, expected[..., 0], strict=True)
+
+
 @pytest.mark.parametrize("sizes", [(1e300, 1e300), (5e-324, 5e-324), (1e18, 1.0)])
 def test_native_is_the_twin_of_monstrous_windows(sizes: tuple[float, float]) -> None:
     """No place, step or size is too large or too small."""
@@ -137,8 +150,8 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 
 def test_native_refuses_other_arrays() -> None:
-    """Gray images and other numbers are named, never converted."""
+    """Images of four channels and other numbers are named, never converted."""
     with pytest.raises(ValueError, match="image: expected a uint8 BGR image"):
-        _core.sample_windows(np.zeros((4, 4), np.uint8), np.ones((1, 4)), 2, 2)
+        _core.sample_windows(np.zeros((4, 4, 4), np.uint8), np.ones((1, 4)), 2, 2)
     with pytest.raises(TypeError, match="windows: expected float64"):
         _core.sample_windows(np.zeros((4, 4, 3), np.uint8), np.ones((1, 4), np.float32), 2, 2)

@@ -22,6 +22,7 @@ def curve(**changes):
         "model": "m",
         "scene": "s",
         "seed": 0,
+        "boxes": np.tile([10.0, 20.0, 30.0, 40.0], (FRAMES, 1)),
         "positions": place(TIME),
         "truth": place(TIME),
         "covariances": np.tile(np.diag([1e-4, 4e-4, 9e-4]), (FRAMES, 1, 1)),

@@ -64,6 +64,7 @@ def test_snapshots_are_of_their_frames(scene):
     for index, snapshot in curve.snapshots.items():
         assert (snapshot.mask > 0).sum() == index
         assert snapshot.targets == Follower.blocks[0]
+        assert snapshot.box == scene.boxes[index]
     other = walk_experiments.measure(Case("m", "s", 1), lambda seed, rig: Follower(scene), scene)
     assert other.snapshots == {}
 
@@ -76,9 +77,14 @@ def test_a_depth_camera_has_intrinsics():
 
 
 def test_cues_are_both_and_each_alone():
-    """The default beside one cue at a time, on both kinds of scenes, in stereo and with depth."""
-    cues = [make.keywords.get("cues") for make in EXPERIMENT.models.values()]
-    assert cues == [None, ("flow",), ("disparity",)]
+    """Both cues beside one at a time, by default and as printed and nothing else, on both kinds of scenes, in
+    stereo and with depth.
+    """
+    makers = list(EXPERIMENT.models.values())
+    assert [make.keywords.get("cues") for make in makers[:3]] == [None, ("flow",), ("disparity",)]
+    paper = FlowDepthTracker.Params.paper()
+    cues = [paper.cues, ("flow",), ("disparity",)]
+    assert [make.keywords["params"] for make in makers[3:]] == [replace(paper, cues=each) for each in cues]
     scenes = [(make.keywords["kind"], make.keywords["depth"]) for make in EXPERIMENT.scenes.values()]
     assert sorted(scenes) == [(kind, depth) for kind in OVERTAKING_KINDS for depth in (False, True)]
 

@@ -21,6 +21,7 @@ def curve(visible, statuses="", overlaps=None, errors=None, on_other=None, start
         overlaps=np.ones(count) if overlaps is None else np.array(overlaps, float),
         visible=np.array(visible, float),
         statuses=tuple(LETTERS[letter] for letter in statuses) or count * (Status.TRACKED,),
+        boxes=np.zeros((count, 4)),
         on_other=np.zeros(count, bool) if on_other is None else np.array(on_other, bool),
         starts=starts,
     )

@@ -283,3 +283,32 @@ def test_walks_keep_their_distance_from_the_cameras():
         assert z.max() <= room.far
         assert (np.abs(x - room.baseline / 2) + room.baseline / 2 + 0.12 < room.side * z).all()
         assert (np.abs(y) + 0.12 < room.up * z).all()
+
+
+def test_a_head_at_rest_stays_where_it_is_asked_to(rendered):
+    """Box and position are the same in all frames, only noise differs; swinging light changes all pixels."""
+    scene = rendered(scenes.static_head, 2, 3, distance=2.0, aside=(0.4, -0.2))
+    assert len(set(scene.boxes)) == 1
+    np.testing.assert_array_equal(scene.positions, scene.positions[:1].repeat(3, 0))
+    assert 1.8 < scene.positions[0, 2] < 2.0
+    half = scene.rig.intrinsics.width / 2 / scene.rig.intrinsics.fx
+    assert scene.positions[0, 0] == pytest.approx(0.4 * half * 2 + scene.rig.baseline / 2, abs=0.05)
+    first, second = (frame.color.astype(int) for frame in scene.frames[:2])
+    assert 0 < np.abs(first - second).mean() < 3
+    swinging = scenes.static_head(2, 3, distance=2.0, light=0.3)
+    assert np.ptp(swinging.light) > 0
+    still = scenes.static_head(2, 2, noise=0.0)
+    np.testing.assert_array_equal(still.frames[0].color, still.frames[1].color)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"distance": 0.2}, "distance: expected 0.5 to 10 m"),
+        ({"aside": (0.9, 0.0)}, "aside: expected a head in both views at 1.5 m"),
+    ],
+)
+def test_a_head_at_rest_is_in_sight(wrong, message):
+    """A head that a camera couldn't see is refused by the argument's name."""
+    with pytest.raises(ValueError, match=message):
+        scenes.static_head(**wrong)

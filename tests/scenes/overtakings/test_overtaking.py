@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue import scenes
+from tricue.reference import rectify_verged
 from tricue.scenes.overtakings import overtaking as overtakings
 from tricue.scenes.overtakings import plan as overtaking_moves
 from tricue.scenes.overtakings.hall import Hall
@@ -345,3 +346,29 @@ def test_overtakings_need_no_scikit_image():
         "assert len(overtaking(frames=2).frames) == 2"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("vergence", [1.0, 5.0])
+def test_a_verged_right_image_rectifies_to_the_parallel_one(vergence):
+    """Turned back by the kernel, the right image of a verged pair is that of a parallel one, where both see
+    the same; left image and truth are the same.
+    """
+    parallel, verged = (scenes.overtaking(0, 2, noise=0, vergence=angle) for angle in (0.0, vergence))
+    camera = parallel.rig.intrinsics
+    angle = np.radians(vergence)
+    for one, other in zip(parallel.frames, verged.frames, strict=True):
+        np.testing.assert_array_equal(one.color, other.color)
+        back = rectify_verged(other.right, angle, camera.fx, (camera.cx, camera.cy), 0.0)
+        seen = np.s_[8:-8, 4 : camera.width - round(camera.fx * np.tan(angle)) - 8]
+        wrong = np.abs(back[seen].astype(float) - one.right[seen]).mean()
+        unrectified = np.abs(other.right[seen].astype(float) - one.right[seen]).mean()
+        assert wrong < 5
+        assert wrong < 0.4 * unrectified
+    assert (verged.vergence, verged.boxes) == (vergence, parallel.boxes)
+
+
+@pytest.mark.parametrize("vergence", [-1, 21, np.nan])
+def test_vergence_is_checked(vergence):
+    """It is 0 to 20 degrees."""
+    with pytest.raises(ValueError, match="vergence: expected"):
+        scenes.overtaking(0, 2, vergence=vergence)

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
+import dataclasses
 from pathlib import Path
 
 import pytest
-from tricue.track.base.settings import make_tracker, parse_settings, read_settings
+from tricue.track.base.registry import tracker_class
+from tricue.track.base.settings import PAPER, make_tracker, papers, parse_settings, read_settings
 
 
 @pytest.mark.parametrize("text", ["flow,disparity", "flow, disparity", "('flow', 'disparity')"])
@@ -35,3 +37,34 @@ def test_other_settings_are_refused(setting: str) -> None:
     """It proves that what isn't name=value is an error that shows it."""
     with pytest.raises(ValueError, match=r"^--set: expected name=value, got "):
         parse_settings([setting])
+
+
+@pytest.mark.parametrize("name", papers())
+def test_a_printed_tracker_is_its_preset_and_nothing_else(name: str) -> None:
+    """All parameters are those of Params.paper(); a setting overrides one of them."""
+    printed = tracker_class(name).Params.paper()
+    assert make_tracker(name, PAPER, [], 0, "native").params == printed != tracker_class(name).Params()
+    field = next(f.name for f in dataclasses.fields(printed) if f.name in ("lost_after", "rate"))
+    made = make_tracker(name, PAPER, [f"{field}=7.5"], 0, "native")
+    assert made.params == dataclasses.replace(printed, **{field: 7.5})
+
+
+def test_trackers_without_a_paper_have_nothing_printed() -> None:
+    """The fused one follows no paper, nor does a third party's class."""
+    assert set(papers()) == {"color-particle", "depth-particle", "flow-depth", "stereo-head"}
+    with pytest.raises(ValueError, match="fused follows no paper; those that do: color-particle, depth-"):
+        read_settings("fused", PAPER, [])
+
+
+@pytest.mark.parametrize("text", ["-" * 90_000, "(" * 90_000, "1" + "0" * 400], ids=["-", "(", "10^400"])
+def test_what_no_parser_can_hold_is_refused_by_its_name(text: str) -> None:
+    """Text nested too deeply for Python's parser is text; a number beyond floats is infinite."""
+    with pytest.raises((TypeError, ValueError), match="min_score: expected"):
+        make_tracker("fused", None, [f"min_score={text}"], 0, "native")
+
+
+def test_tables_nested_too_deeply_name_their_file(tmp_path: Path) -> None:
+    """A file on which Python's parser gives up is named."""
+    (tmp_path / "p.toml").write_text("a = " + "[" * 100_000)
+    with pytest.raises(ValueError, match=r"p\.toml: expected a TOML file, its values are nested too deeply"):
+        make_tracker("fused", tmp_path / "p.toml", [], 0, "native")

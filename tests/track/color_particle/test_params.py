@@ -18,7 +18,8 @@ def test_pairs_out_of_order_are_named(name, pair):
 
 
 @pytest.mark.parametrize(
-    "params", [Params(), Params(particles=7, sharpness=12.5, grid=(5, 9), observation="lookup")]
+    "params",
+    [Params(), Params.paper(), Params(particles=7, sharpness=12.5, grid=(5, 9), observation="lookup")],
 )
 def test_a_file_brings_them_back(params, tmp_path: Path):
     """Parameters written to TOML and read again are equal, the None of sharpness too."""

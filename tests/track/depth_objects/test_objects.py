@@ -292,7 +292,7 @@ def test_who_stands_before_a_tilted_camera_has_one_distance(pitch, kernels):
     panel = np.zeros(depth.shape, np.bool_)
     panel[20:130, 70:100] = True
     fg = Foreground(np.where(panel, depth, np.nan).astype(np.float32), NUMBERS, 1, (0, 0, 176, 144))
-    found = ground_distance(fg, plane, P)
+    found = ground_distance(kernels, fg, plane, P)
     np.testing.assert_allclose(found[panel], distance, rtol=1e-6)
     assert np.isnan(found[~panel]).all()
     assert (np.ptp(depth[panel]) > 0.2) == (pitch > 0)

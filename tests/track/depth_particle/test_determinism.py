@@ -13,17 +13,7 @@ from tricue.scenes import DepthScene
 
 HALF = 12  # the target is still seen,
 HIDDEN = 19  # and here it is hidden
-FORMS = {
-    "usual": {},
-    "as printed": {
-        "histogram": "absolute",
-        "likelihood": "linear",
-        "contrast": 0,
-        "measurement": 0,
-        "floor": False,
-        "edges": False,
-    },
-}
+FORMS = {"usual": {}, "as printed": {"params": DepthParticleTracker.Params.paper()}}
 
 FRESH = """
 import tricue

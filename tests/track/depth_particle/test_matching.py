@@ -20,9 +20,9 @@ def moved(*by: float) -> list[float]:
     return (EXPECTED + np.pad(by, (0, 5 - len(by)))).tolist()
 
 
-def match(objects, motion=KNOWN, seconds=FRAME, max_cost=MAX_COST, signature=EVEN):
+def match(objects, motion=KNOWN, seconds=FRAME, max_cost=MAX_COST, signature=EVEN, **options):
     """The best match among objects."""
-    return best_match(objects, EXPECTED, motion, signature, seconds, max_cost)
+    return best_match(objects, EXPECTED, motion, signature, seconds, max_cost, **options)
 
 
 def test_nothing_matches_nothing(objects_of):
@@ -104,6 +104,21 @@ def test_a_whole_object_is_recognized_by_its_signature(cut, objects_of):
     rows = two.rows.copy()
     rows[0] = np.eye(1, rows.shape[1], dtype=np.float32)
     assert match(two._replace(rows=rows)) == (0 if cut else 1)
+
+
+def test_other_costs_come_on_top(objects_of):
+    """The nearest object isn't the target where it costs more otherwise; an infinite cost excludes it."""
+    two = objects_of([TARGET, moved(0.1)])
+    assert match(two) == 0
+    assert match(two, other_costs=[1.0, 0.0]) == 1
+    assert match(two, other_costs=[np.inf, np.inf]) is None
+
+
+def test_what_is_cut_may_count_as_it_is(objects_of):
+    """Without completion the half that is visible beside an occluder is somebody narrow who stands aside."""
+    half = objects_of([[0.15, 0, 3.0, 0.3, 1.7]], [[1, 0, 0, 0]])
+    assert match(half, max_cost=1.0) == 0
+    assert match(half, max_cost=1.0, complete=False) is None
 
 
 def test_matching_changes_nothing(objects_of):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The depth tracker's motion model: its predictions, and what it learns from a position and a size."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from tricue import DepthParticleTracker
@@ -69,6 +71,15 @@ def test_k_increases_with_velocity():
         assert (np.diff(scales[:, :3], axis=0) > 0).all()
         assert np.ptp(scales[:, 3:], axis=0).max() == 0
         assert scales[-1, 0] > 1.5 * scales[0, 0]
+
+
+def test_constant_motion_has_no_drift_and_the_same_noise():
+    """(39) with A = I: neither the velocity nor the mean size moves a particle, and K is as with a drift."""
+    moving = motion(velocity=np.array([0.8, 0.0, -0.6]), mean_size=np.array([0.8, 1.6]))
+    constant = moving.predict(replace(P, motion="constant"), SECOND, 0)
+    np.testing.assert_array_equal(constant.drift, np.zeros(5))
+    np.testing.assert_array_equal(constant.scale, moving.predict(P, SECOND, 0).scale)
+    assert moving.predict(P, SECOND, 0).drift.all(where=[True, False, True, True, True])
 
 
 def test_noise_grows_while_missed_up_to_a_second():

@@ -3,27 +3,25 @@
 the paper's own forms run.
 """
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 import tricue
 from tricue import DepthParticleTracker, Status, Track
 from tricue.scenes import DepthScene
+from tricue.track.depth_objects.foreground import Foreground
+from tricue.track.depth_particle.measurement import NOT_MEASURED
 
 Params = DepthParticleTracker.Params
 
 
-PRINTED: dict[str, Any] = {
-    "histogram": "absolute",
-    "likelihood": "linear",
-    "contrast": 0,
-    "measurement": 0,
-    "floor": False,
-    "edges": False,
-    "leave_out_others": False,
-}
+PAPER = Params.paper()
+CHOICES = (  # of the paper, each of which alone changes a track
+    *("histogram", "likelihood", "contrast", "measurement", "floor", "edges", "leave_out_others"),
+    *("motion", "sweeps", "size_prior", "human_filter", "complete", "grid"),
+)
 
 
 def assert_sane(tracks: list[Track]) -> None:
@@ -45,7 +43,7 @@ def test_a_bandwidth_above_the_range_is_named(values):
 
 @pytest.mark.parametrize(
     "params",
-    [Params(), Params(**PRINTED), Params(particles=7, grid=(5, 9), aspect=(1.5, 4), near=0.1, far=20)],
+    [Params(), PAPER, Params(particles=7, grid=(5, 9), aspect=(1.5, 4), near=0.1, far=20)],
 )
 def test_a_file_brings_them_back(params, tmp_path: Path):
     """Parameters written to TOML and read again are equal, pairs and truth values too."""
@@ -60,24 +58,106 @@ def test_a_file_is_checked_as_keywords_are(tmp_path: Path):
         Params.from_toml(tmp_path / "params.toml")
 
 
-@pytest.mark.parametrize("name", [*PRINTED, "all"])
+def test_the_paper_has_no_stage_of_ours():
+    """Every weight of ours is 0 and every stage of ours off; counts and ranges are those that are printed."""
+    assert (PAPER.contrast, PAPER.measurement, PAPER.size_prior, PAPER.prominence) == (0, 0, 0, 0)
+    assert not any([PAPER.floor, PAPER.edges, PAPER.complete, PAPER.leave_out_others, PAPER.coast])
+    assert (PAPER.gap_passes, PAPER.sweeps, PAPER.max_fill) == (0, 1, 1)
+    assert (PAPER.histogram, PAPER.likelihood, PAPER.motion) == ("absolute", "linear", "constant")
+    assert PAPER.human_filter
+    assert PAPER.depth_signature
+    assert (PAPER.near, PAPER.far, PAPER.particles, PAPER.levels) == (0.3, 7.5, 100, 256)
+    assert PAPER.speed_noise > 0  # K of (39)
+
+
+def test_nothing_is_in_front_for_the_paper(passing: DepthScene):
+    """The paper knows no occluder: in its form every frame is TRACKED, also while the target is hidden."""
+    tracker = DepthParticleTracker(params=PAPER, intrinsics=passing.intrinsics)
+    tracker.init(passing.frames[0], passing.boxes[0])
+    assert {tracker.update(frame).status for frame in passing.frames[1:]} == {Status.TRACKED}
+
+
+def test_without_coasting_the_filter_goes_on(passing: DepthScene, follow):
+    """Where nothing is measured any more, a target that isn't confirmed still is TRACKED, and its particles
+    spread; the default tracker calls it missed.
+    """
+    nothing = tricue.Frame(depth=np.full_like(passing.frames[0].depth, np.nan))
+    frames = [passing.frames[0], *[nothing] * 5]
+    statuses, spreads = {}, {}
+    for coast in (True, False):
+        tracker = DepthParticleTracker(coast=coast, size_prior=0, intrinsics=passing.intrinsics)
+        tracks = follow(tracker, frames, passing.boxes[0])
+        statuses[coast] = {track.status for track in tracks[1:]}
+        spreads[coast] = np.ptp(tracker.particles[:, 0])
+    assert Status.TRACKED not in statuses[True]
+    assert statuses[False] == {Status.TRACKED}
+    assert spreads[True] == 0 < spreads[False]
+
+
+def test_confidence_decides_what_is_learned(passing: DepthScene, follow):
+    """The paper updates histograms "if estimation confidence is high": never, where it cannot be."""
+    learned = {}
+    for drop in (0.0, 1e9):
+        params = replace(PAPER, likelihood_drop=drop, learning_rate=1.0)
+        tracker = DepthParticleTracker(params=params, intrinsics=passing.intrinsics)
+        tracker.init(passing.frames[0], passing.boxes[0])
+        first = tracker._state.model.histogram
+        empty = tricue.Frame(depth=np.where(np.isnan(passing.frames[0].depth), np.nan, np.float32(7.0)))
+        tracker.update(empty)
+        learned[drop] = not np.array_equal(tracker._state.model.histogram, first)
+    assert learned == {0.0: False, 1e9: True}
+
+
+def test_no_size_prior_means_none(walkers, follow):
+    """Without the object and the size in the likelihood a rectangle of twice the size costs nothing."""
+    scene = walkers[0]
+    costs = {}
+    for weight in (0.0, 1.0):
+        tracker = DepthParticleTracker(
+            size_prior=weight, contrast=0, likelihood="linear", intrinsics=scene.intrinsics
+        )
+        tracker.init(scene.frames[0], scene.boxes[0])
+        state = tracker._state
+        wide = np.stack([state.motion.state, state.motion.state * [1, 1, 1, 2, 2]])
+        nowhere = extract_nothing(scene)
+        costs[weight] = np.ptp(tracker._log_likelihood(state, nowhere, wide, NOT_MEASURED))
+    assert costs[0.0] == 0
+    assert costs[1.0] > 5
+
+
+def extract_nothing(scene: DepthScene) -> Foreground:
+    """The foreground of a frame without any depth."""
+    camera = scene.intrinsics
+    depth = np.full(scene.frames[0].depth.shape, np.nan, np.float32)
+    return Foreground(
+        depth, np.array([camera.fx, camera.fy, camera.cx, camera.cy]), 1, (0, 0, *depth.shape[::-1])
+    )
+
+
+@pytest.mark.parametrize("name", [*CHOICES, "all"])
 def test_the_printed_form_runs(name, pass_by):
     """Each choice of the paper, and all of them at once, gives sane tracks that differ from the usual, and
     begin TRACKED.
     """
-    tracks = pass_by(**(PRINTED if name == "all" else {name: PRINTED[name]}))
+    tracks = pass_by(params=PAPER) if name == "all" else pass_by(**{name: getattr(PAPER, name)})
     assert_sane(tracks)
     assert tracks[0].status is Status.TRACKED
     assert tracks != pass_by()
 
 
-@pytest.mark.parametrize("name", ["likelihood", "contrast", "measurement", "edges"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("likelihood", "contrast", "measurement", "edges", "motion", "sweeps", "size_prior", "grid"),
+        *("human_filter", "depth_signature", "complete", "coast"),
+    ],
+)
 def test_one_choice_of_the_paper_still_follows(name, walkers, follow):
     """With one of the paper's milder choices alone a walker is on the whole still followed: the choice is an
     ablation, not a fault.
     """
     scene = walkers[0]
-    tracker = DepthParticleTracker(intrinsics=scene.intrinsics, **{name: PRINTED[name]})
+    tracker = DepthParticleTracker(intrinsics=scene.intrinsics, **{name: getattr(PAPER, name)})
     tracks = follow(tracker, scene.frames, scene.boxes[0])
     overlaps = [track.box.iou(box) for track, box in zip(tracks, scene.boxes, strict=True)]
     assert np.mean(overlaps) > 0.5

@@ -13,10 +13,12 @@ from tricue.track.flow_depth.blocks import (
     TRUSTED_FRAMES,
     BlockObservation,
     Blocks,
+    DisparityLimits,
 )
 
 P = FlowDepthTracker.Params()
 OURS, NEAREST, OCCLUDER, WALL = 12.0, 14.0, 20.0, 4.0  # disparities, cells
+LIMITS = DisparityLimits(target=OURS, tolerance=0.75, occluder=NEAREST)
 FULL = 40  # cells of a block
 
 
@@ -56,7 +58,7 @@ def states(start: Blocks, *frames: BlockObservation, p=P) -> list[int]:
     """The block's state after each frame."""
     after = []
     for frame in frames:
-        start = start.voted(frame, NEAREST, p)
+        start = start.voted(frame, LIMITS, p)
         after.append(int(start.states[0]))
     return after
 
@@ -178,6 +180,38 @@ def test_an_occluded_block_waits():
     assert states(block(OCCLUDED_BLOCK), *9 * [BLANK], *9 * [OUTSIDE])[-1] == OCCLUDED_BLOCK
 
 
+@pytest.mark.parametrize("mean", [WALL, OURS - 0.76, OURS + 0.76, NEAREST])
+def test_the_background_ends_no_occlusion(mean):
+    """An occluded block whose mean disparity isn't similar to the target's stays occluded, though nothing
+    nearer hides it: section 4.4 returns it to the target by a similar one alone.
+    """
+    frames = [seen(mean=mean), seen(mean=mean), BLANK, seen(mean=mean)]
+    assert states(block(OCCLUDED_BLOCK), *frames) == 4 * [OCCLUDED_BLOCK]
+
+
+@pytest.mark.parametrize("mean", [OURS - 0.75, OURS, OURS + 0.75])
+def test_a_similar_disparity_ends_an_occlusion(mean):
+    """An occluded block whose mean disparity is similar to the target's is the target's at once, with or
+    without target pixels; a mean of too few cells doesn't count.
+    """
+    assert states(block(OCCLUDED_BLOCK), seen(mean=mean, measured=7), seen(mean=mean)) == [
+        OCCLUDED_BLOCK,
+        TARGET_BLOCK,
+    ]
+
+
+@pytest.mark.parametrize("frames", [2, 8])
+def test_the_background_releases_an_occluded_block_late(frames):
+    """An occluded block that shows what is behind the target in ``votes_to_release`` frames isn't the
+    target's any more; something nearer in between takes no vote back, and a similar disparity all of them.
+    """
+    p = FlowDepthTracker.Params(votes_to_release=frames)
+    shown = [AWAY, BEHIND, *(frames - 1) * [AWAY]]
+    assert states(block(OCCLUDED_BLOCK), *shown, p=p) == frames * [OCCLUDED_BLOCK] + [NOT_TARGET_BLOCK]
+    back = [*(frames - 1) * [AWAY], seen(same_depth=FULL), BLANK, *3 * [AWAY]]
+    assert states(block(OCCLUDED_BLOCK), *back, p=p)[frames - 1 :] == 5 * [TARGET_BLOCK]
+
+
 def test_no_other_state_is_occluded():
     """Something nearer before a block that isn't the target's doesn't make it occluded."""
     assert states(block(NOT_TARGET_BLOCK), *9 * [BEHIND])[-1] == NOT_TARGET_BLOCK
@@ -187,14 +221,14 @@ def test_blocks_stay_trusted_for_a_while():
     """A block's measured count for so many frames after its last target pixels; while it is hidden the time
     stands still.
     """
-    start = block(TARGET_BLOCK).voted(GOOD, NEAREST, P)
+    start = block(TARGET_BLOCK).voted(GOOD, LIMITS, P)
     for expected in (TRUSTED_FRAMES - 1, TRUSTED_FRAMES - 2):
-        start = start.voted(AWAY, NEAREST, P)
+        start = start.voted(AWAY, LIMITS, P)
         assert start.trusted[0] == expected
     for frame in (BEHIND, BEHIND):
-        start = start.voted(frame, NEAREST, P)
+        start = start.voted(frame, LIMITS, P)
         assert start.trusted[0] == TRUSTED_FRAMES - 2
-    assert start.voted(GOOD, NEAREST, P).trusted[0] == TRUSTED_FRAMES
+    assert start.voted(GOOD, LIMITS, P).trusted[0] == TRUSTED_FRAMES
 
 
 def test_a_vote_changes_a_copy():
@@ -202,7 +236,7 @@ def test_a_vote_changes_a_copy():
     start = Blocks.of((10.0, 10.0, 30.0, 60.0), P)
     kept = [np.copy(field) for field in start]
     many = BlockObservation(*(np.repeat(field, len(start.states)) for field in BEHIND))
-    assert (start.voted(many, NEAREST, P).states == OCCLUDED_BLOCK).any()
+    assert (start.voted(many, LIMITS, P).states == OCCLUDED_BLOCK).any()
     for field, before in zip(start, kept, strict=True):
         np.testing.assert_array_equal(field, before)
 
@@ -286,5 +320,52 @@ def test_the_occluded_share_is_of_blocks_in_the_image():
     four = four._replace(**{n: getattr(four, n)[four.core] for n in ("corners", "states", "votes", "core")})
     shown = [BEHIND, BEHIND, AWAY, OUTSIDE]
     together = BlockObservation(*(np.concatenate(fields) for fields in zip(*shown, strict=True)))
-    assert four.occluded_share(together, NEAREST) == pytest.approx(2 / 3)
-    assert four._replace(states=np.zeros(4, np.int64)).occluded_share(together, NEAREST) == 0
+    assert four.occluded_share(together, LIMITS) == pytest.approx(2 / 3)
+    assert four._replace(states=np.zeros(4, np.int64)).occluded_share(together, LIMITS) == 0
+
+
+PRINTED = FlowDepthTracker.Params(block_rules="printed", votes_to_add=2, votes_to_remove=3)
+
+
+def test_as_printed_blocks_divide_the_first_window():
+    """By the printed rules there is no block around the first window, and all are Not_Target."""
+    blocks = Blocks.of(WINDOWS["a person"], PRINTED)
+    assert (blocks.states == NOT_TARGET_BLOCK).all()
+    assert blocks.core.all()
+    np.testing.assert_allclose(blocks.rectangles[0, :2], WINDOWS["a person"][:2])
+    np.testing.assert_allclose(blocks.rectangles[-1, 2:], WINDOWS["a person"][2:])
+    assert blocks.window is None
+
+
+def test_as_printed_votes_add_up():
+    """Votes by target pixels add up over all frames, and depth alone gives none."""
+    frames = [GOOD, AWAY, seen(same_depth=FULL), GOOD]
+    assert states(block(NOT_TARGET_BLOCK), *frames, p=PRINTED) == 3 * [NOT_TARGET_BLOCK] + [TARGET_BLOCK]
+
+
+@pytest.mark.parametrize("frame", [AWAY, seen(same_depth=FULL), BLANK], ids=["away", "depth", "blank"])
+def test_as_printed_negative_votes_add_up(frame):
+    """Without target pixels, and without something nearer, a target block gets a vote against it, also at the
+    target's depth; target pixels in between take none back. Outside of the image there are none.
+    """
+    frames = [frame, GOOD, OUTSIDE, frame, GOOD, frame]
+    assert states(block(TARGET_BLOCK), *frames, p=PRINTED) == 5 * [TARGET_BLOCK] + [NOT_TARGET_BLOCK]
+
+
+def test_as_printed_an_occlusion_ends_at_a_similar_disparity():
+    """Something nearer hides a target block without target pixels; only a similar disparity brings it back,
+    however long something else is seen there.
+    """
+    frames = [seen(targets=FULL, mean=OCCLUDER), BEHIND, *40 * [AWAY], BLANK, seen()]
+    after = states(block(TARGET_BLOCK), *frames, p=PRINTED)
+    assert after == [TARGET_BLOCK, *42 * [OCCLUDED_BLOCK], TARGET_BLOCK]
+
+
+def test_as_printed_a_new_state_has_no_votes():
+    """Who was voted out needs all votes again, and who was voted in all votes against."""
+    frames = [GOOD, GOOD, *3 * [AWAY], GOOD, GOOD, AWAY]
+    after = states(block(NOT_TARGET_BLOCK), *frames, p=PRINTED)
+    assert after == [
+        *[NOT_TARGET_BLOCK, TARGET_BLOCK, TARGET_BLOCK, TARGET_BLOCK],
+        *[NOT_TARGET_BLOCK, NOT_TARGET_BLOCK, TARGET_BLOCK, TARGET_BLOCK],
+    ]

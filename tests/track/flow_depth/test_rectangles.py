@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tricue.track.flow_depth.rectangles import cells_of, grown, moved
+from tricue.track.flow_depth.rectangles import around, cells_of, grown, moved
 
 SHAPE = (12, 20)
 numbers = st.floats(-1e6, 1e6)
@@ -31,6 +31,11 @@ def test_moving_and_growing():
 def test_every_cell_that_it_touches(rectangle, region):
     """The region is that of all cells that the rectangle touches and that the picture has."""
     assert cells_of(rectangle, SHAPE) == region
+
+
+def test_around_two_is_the_smallest_that_holds_both():
+    """Each side is the outermost of the two."""
+    assert around((1, 2, 5, 9), (3, -4, 4, 20)) == (1, -4, 5, 20)
 
 
 @given(numbers, numbers, st.floats(0, 1e6), st.floats(0, 1e6))

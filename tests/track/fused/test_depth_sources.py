@@ -42,30 +42,6 @@ def pair(disparity: float, kernels=None) -> StereoSource:
     return StereoSource(kernels or kernel_sets.load("native"), left, right, RIG)
 
 
-@pytest.mark.parametrize(
-    ("grid", "side", "expected"),
-    [
-        ((0, 0, 1), 2, [[1, 2], [5, 6]]),
-        ((1.2, 0.9, 1), 2, [[6, 7], [10, 11]]),
-        ((0, 0, 0.5), 4, [[1, 1, 2, 2], [1, 1, 2, 2], [5, 5, 6, 6], [5, 5, 6, 6]]),
-        ((-1, -1, 1), 2, [[NAN, NAN], [NAN, 1]]),
-        ((3, 2, 1), 2, [[12, NAN], [NAN, NAN]]),
-        ((-0.5 - 1e-9, 0, 1), 1, [[NAN]]),
-        ((-0.5, 0, 1), 1, [[1]]),
-        ((3.5 - 1e-9, 2.4, 1), 1, [[12]]),
-        ((3.5, 2.4, 1), 1, [[NAN]]),
-        ((-9, -9, 20), 1, [[6]]),
-        ((1e9, -1e9, 1), 1, [[NAN]]),
-    ],
-    ids=str,
-)
-def test_depth_is_that_of_the_pixel_under_the_center(grid, side, expected):
-    """Pixel (i, j) covers [j, j + 1) x [i, i + 1); beyond the image there is nothing."""
-    depths = DepthImageSource(NUMBERED).sample(grid, side)
-    assert depths.dtype == np.float32
-    np.testing.assert_array_equal(depths, np.array(expected, np.float32))
-
-
 def test_a_depth_image_measures_each_box(kernels):
     """Of several boxes each has its own depth; beyond the image there is none."""
     boxes = np.array([[0.5, 0.5, 1, 1], [2.5, 1.5, 1, 1], [9.0, 1.0, 1, 1], [2.0, 2.5, 4, 1]])

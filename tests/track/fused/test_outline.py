@@ -13,10 +13,12 @@ from tricue.track.fused.outline import (
     MAX_CUT_REACH,
     MAX_FIRST_DEVIATION,
     MAX_SEEN_DEVIATION,
+    MIN_FILLED_POSTERIOR,
     Outline,
     Reaches,
     Side,
     Sides,
+    _extent,
     measure_reaches,
 )
 from tricue.track.fused.support import SUPPORT_TOLERANCE
@@ -264,3 +266,12 @@ def test_outlines_are_blended(rate):
     expected = [(1 - rate) * a + rate * b for a, b in zip(old, new, strict=True)]
     assert old.blend(new, rate) == pytest.approx(expected)
     assert isinstance(old.blend(new, rate), Outline)
+
+
+def test_exactly_half_is_filled():
+    """Pixels of which exactly half is the target's, in float32, go on to the side behind them."""
+    half = np.float32(MIN_FILLED_POSTERIOR)
+    profile = np.array([0, 0.9, 0.9, half, half, 0], np.float32)
+    before, after = _extent(profile, 2.0, 1.0)
+    assert before == pytest.approx(2 - (0.5 + MIN_FILLED_POSTERIOR / 0.9))
+    assert after == pytest.approx(4.5 - 2)

@@ -2,7 +2,15 @@
 """What posteriors by several cues are combined to."""
 
 import numpy as np
-from tricue.track.fused.experts import combine_posteriors
+from tricue import kernels as kernel_sets
+from tricue.track.fused import experts
+
+K = kernel_sets.load("native")
+
+
+def combine_posteriors(posteriors):
+    """The tracker's, by native kernels."""
+    return experts.combine_posteriors(K, posteriors)
 
 
 def plane(value: float) -> np.ndarray:

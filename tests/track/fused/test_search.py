@@ -12,7 +12,7 @@ from tricue import Box, FusedTracker, Status
 from tricue.track.fused.experts.depth import DepthMeasurement
 from tricue.track.fused.identity import APPEARANCE, STRUCTURE, IdentityFeatures, probability
 from tricue.track.fused.localize import Candidate, TargetModel
-from tricue.track.fused.measure import Match
+from tricue.track.fused.measure import Match, Recognition
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.proposals import LostTarget
 from tricue.track.fused.redetect import redetect
@@ -35,8 +35,8 @@ def match(
     """A match with these features; odds: its log-odds, by default those by color."""
     odds = features.log_odds(ALIKE, APPEARANCE) if odds is None else odds
     structure = features.log_odds(ALIKE, STRUCTURE)
-    observation: Any = None
-    return Match(target, observation, features, odds, structure, 0.5, measured, 0.0, None)
+    window: Any = None
+    return Match(target, window, 0.0, 0.0, features, odds, structure, 0.5, measured, 0.0)
 
 
 NEAR = match(HERE, odds=-6.0)
@@ -57,11 +57,23 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
 
         monkeypatch.setattr(module, "propose_windows", lambda *_: list(range(len(others)))[::-1])
         monkeypatch.setattr(module, "localize", localized)
-        monkeypatch.setattr(module, "measure_candidate", lambda _, at: others[round(-at.evidence)])
+
+        def recognized(_: TargetModel, at: Candidate) -> Recognition:
+            other = others[round(-at.evidence)]
+            return Recognition(at, other.features, other.log_odds, other.structure_log_odds)
+
+        monkeypatch.setattr(module, "recognize", recognized)
+
+        def measured(_: TargetModel, found: Recognition) -> Match:
+            among.measured.append(others[round(-found.candidate.evidence)])
+            return among.measured[-1]
+
+        monkeypatch.setattr(module, "measure", measured)
         nothing: Any = None
-        model = TargetModel(nothing, None, HERE.side, ALIKE, nothing, P)
+        model = TargetModel(nothing, None, HERE.side, ALIKE, P)
         return redetect(model, nothing, LostTarget(HERE, None, missed_frames, 0), near)
 
+    among.measured = []
     return among
 
 
@@ -126,6 +138,14 @@ def test_those_with_most_evidence_are_measured(search_among):
     assert P.candidates == 2
     assert search_among(poor, good).target == good.target
     assert search_among(poor, poor, good).target == poor.target
+
+
+@pytest.mark.parametrize("features", [REPAINTED, REARRANGED], ids=["structure alone", "color alone"])
+def test_what_looks_otherwise_is_not_measured(features, search_among):
+    """Size and depth are measured only of what looks enough like the target."""
+    good = match(THERE)
+    search_among(match(THERE.shift(5.0, 0.0), features), good)
+    assert search_among.measured == [good]
 
 
 @pytest.mark.parametrize("background", ["coffee", "cat", "motorcycle"])

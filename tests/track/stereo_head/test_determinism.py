@@ -15,20 +15,7 @@ from tricue.scenes import StereoScene
 HALF = 12  # the head is still seen,
 FORMS = {
     "usual": {},
-    "as printed": {
-        "ring_weight": 0,
-        "depth_weight": 0,
-        "compensate_light": False,
-        "learn": "all",
-        "learning_rate": 0.1,
-        "first_frame_weight": 0,
-        "ellipse_margin": 0,
-        "disparity_statistic": "mean",
-        "motion": "constant",
-        "noise_model": "polynomial",
-        "disparity_noise": 1,
-        "feedback": True,
-    },
+    "as printed": {"params": StereoHeadTracker.Params.paper()},
     "unfused": {"fuse": False},
 }
 

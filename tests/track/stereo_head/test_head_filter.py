@@ -11,7 +11,6 @@ from tricue import StereoHeadTracker
 from tricue.track.stereo_head import head_filter
 from tricue.track.stereo_head.head_filter import (
     COASTING_FACTOR,
-    COLOR_DRIFT,
     INTERSECTION_DRIFT,
     MEASUREMENT_SIZE,
     HeadFilter,
@@ -32,7 +31,7 @@ VALUES = np.array([0.2, -0.1, 2.0, 5.0, -12.0, 300.0, 0.8])
 ROOT = np.diag([0.004, 0.005, 0.03, 4.0, 4.0, 4.0, 0.1])
 ROOT[2, :2] = 0.01, -0.008  # of a head aside, whose errors along the ray go together
 NOISE = ROOT @ ROOT.T
-DRIFTS = np.array([COLOR_DRIFT] * 3 + [INTERSECTION_DRIFT])
+DRIFTS = np.array([*P.color_drift, INTERSECTION_DRIFT])
 RUNS, FRAMES = 150, 25
 CHANCE = 1e-4  # of a test on simulated data to fail with another seed
 
@@ -55,7 +54,7 @@ def simulated(kernels, seed: int) -> Iterator[tuple[np.ndarray, HeadFilter, floa
             truth[3:7] += DRIFTS * rng.standard_normal(4)
             measured = truth[:7] + ROOT @ rng.standard_normal(7)
             state = predict(kernels, state, SECONDS, WIDE)
-            off = mahalanobis_distance(state, measured, NOISE)
+            off = mahalanobis_distance(state, measured[:3], NOISE)
             state = correct(kernels, state, measured, NOISE)
         yield truth, state, off
 
@@ -129,8 +128,8 @@ def test_deviations_have_their_closed_form():
     off = np.array([0.3, -0.5, 1.1, 99.0, 99.0, 99.0, 9.0])
     noise = np.diag([0.08, 0.21, 0.16, 1, 1, 1, 1])
     expected = math.sqrt(0.3**2 / 0.09 + 0.5**2 / 0.25 + 1.1**2 / 0.25)
-    assert mahalanobis_distance(state, VALUES + off, noise) == pytest.approx(expected, rel=1e-12)
-    assert mahalanobis_distance(state, VALUES, noise) == 0
+    assert mahalanobis_distance(state, (VALUES + off)[:3], noise) == pytest.approx(expected, rel=1e-12)
+    assert mahalanobis_distance(state, VALUES[:3], noise) == 0
 
 
 @pytest.mark.parametrize("motion", ["velocity", "constant"])

@@ -5,12 +5,14 @@ import cv2
 import numpy as np
 import pytest
 from tricue import StereoHeadTracker
-from tricue.track.stereo_head.prepared_pair import PreparedPair, mean_color
+from tricue.kernels import load
+from tricue.track.stereo_head.prepared_pair import PreparedPair
 from tricue.track.stereo_head.search_region import crop_region
 
 Params = StereoHeadTracker.Params
 P = Params()
 NO_BIN = 65535
+K = load("native")
 
 
 def picture(height: int, width: int, seed: int = 0) -> np.ndarray:
@@ -26,10 +28,15 @@ def shifted(image: np.ndarray, disparity: int) -> np.ndarray:
     return np.roll(image, -disparity, axis=1)
 
 
+def mean_color(image: np.ndarray) -> np.ndarray:
+    """(3,) mean blue, green and red."""
+    return image.mean(axis=(0, 1))
+
+
 def all_bins(k, image: np.ndarray, light: np.ndarray | None) -> np.ndarray:
     """The bins of an image's cells, with the light compensated to a first mean color."""
     height, width = image.shape[:2]
-    return PreparedPair.of(image, image, light, P).bins(k, (0, 0, width, height), 1, P)
+    return PreparedPair.of(k, image, image, light, P).bins(k, (0, 0, width, height), 1, P)
 
 
 @pytest.mark.parametrize("gains", [(2, 2, 2), (2, 1, 4), (1, 1, 1)], ids=str)
@@ -50,7 +57,7 @@ def test_gains_are_those_of_the_light(gain):
     """
     first = picture(60, 80) // 2 + 20
     lit = np.rint(first * gain).astype(np.uint8)
-    gains = PreparedPair.of(lit, lit, mean_color(first), P).gains
+    gains = PreparedPair.of(K, lit, lit, mean_color(first), P).gains
     np.testing.assert_allclose(gains, 1 / gain, rtol=0.5 / mean_color(lit).min())
 
 
@@ -70,7 +77,7 @@ def test_a_region_is_a_part_of_the_whole(region, step, light, kernels):
     """Bins of a region, over the edge too, are those of the whole picture in that light, and none outside."""
     image = picture(24, 32) // 4
     lit = 2 * image
-    pair = PreparedPair.of(lit, lit, mean_color(image) if light else None, P)
+    pair = PreparedPair.of(K, lit, lit, mean_color(image) if light else None, P)
     expected = kernels.color_bins(image if light else lit, region, P.bins, P.max_chroma, step)
     np.testing.assert_array_equal(pair.bins(kernels, region, step, P), expected)
 
@@ -80,17 +87,11 @@ def test_black_and_white_have_finite_gains(level, kernels):
     """A picture without light, or full of it, has finite gains, and one bin everywhere: black stays black."""
     image = np.full((24, 32, 3), level, np.uint8)
     light = mean_color(picture(24, 32))
-    assert np.isfinite(PreparedPair.of(image, image, light, P).gains).all()
+    assert np.isfinite(PreparedPair.of(K, image, image, light, P).gains).all()
     bins = all_bins(kernels, image, light)
     assert (bins == bins[0, 0]).all()
     if level == 0:
         np.testing.assert_array_equal(bins, all_bins(kernels, image, None))
-
-
-def test_the_mean_color_is_the_mean():
-    """It is the mean of each channel."""
-    image = picture(24, 32)
-    np.testing.assert_allclose(mean_color(image), image.mean(axis=(0, 1)), rtol=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -102,7 +103,7 @@ def test_cells_are_squares_of_step_pixels(width, resolution, step):
     About ``resolution`` cells lie in a row.
     """
     image = picture(48, width)
-    pair = PreparedPair.of(image, shifted(image, 3), None, Params(resolution=resolution))
+    pair = PreparedPair.of(K, image, shifted(image, 3), None, Params(resolution=resolution))
     assert pair.step == step
     np.testing.assert_array_equal(pair.colors, image[step // 2 :: step, step // 2 :: step])
     gray = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
@@ -115,7 +116,7 @@ def test_cells_are_squares_of_step_pixels(width, resolution, step):
 def test_sizes_that_step_does_not_divide_are_whole(shape, kernels):
     """Where the step leaves a rest, every cell of the reduced images still has a color."""
     image = picture(*shape)
-    pair = PreparedPair.of(image, image, None, P)
+    pair = PreparedPair.of(K, image, image, None, P)
     assert pair.step > 1
     for color, small in zip(pair.colors.shape, pair.reduced[0].shape, strict=False):
         assert small <= color <= small + 1
@@ -126,7 +127,7 @@ def test_the_images_stay_as_they_were():
     image = picture(48, 64)
     left, right = image.copy(), shifted(image, 2)
     kept = right.copy()
-    PreparedPair.of(left, right, 2 * mean_color(left), P)
+    PreparedPair.of(K, left, right, 2 * mean_color(left), P)
     np.testing.assert_array_equal(left, image)
     np.testing.assert_array_equal(right, kept)
 
@@ -137,7 +138,7 @@ def test_cells_near_a_disparity_are_coherent(width, expected, kernels):
     cells more or less.
     """
     image = picture(3 * width // 4, width)
-    pair = PreparedPair.of(image, shifted(image, round(expected)), None, P)
+    pair = PreparedPair.of(K, image, shifted(image, round(expected)), None, P)
     ellipse = (width / 2, 3 * width / 8, 10.0 * pair.step, 12.0 * pair.step)
     shares = [
         crop_region(kernels, pair, ellipse, expected + off * pair.step, P).coherent.mean()
@@ -153,7 +154,7 @@ def test_a_region_covers_all_that_the_search_touches(center, kernels):
     depth, those inside the bin of their color.
     """
     image = picture(120, 160)
-    pair = PreparedPair.of(image, shifted(image, 5), None, P)
+    pair = PreparedPair.of(K, image, shifted(image, 5), None, P)
     x, y = center
     cropped = crop_region(kernels, pair, (x, y, 8.0, 10.0), 5.0, P)
     assert cropped.bins.shape == cropped.coherent.shape

@@ -11,7 +11,8 @@
 namespace tricue {
 namespace {
 
-/// The places of one ellipse as byte offsets into the image. Clamping comes first, so truncation is the floor.
+/// The places of one ellipse as byte offsets into the image. Clamping comes first, so truncation is the floor. An ellipse
+/// that float32 can't hold has infinite places, or NaN, which max() turns to 0 only as its second argument.
 TRICUE_MULTIVERSION
 void find_offsets(const float* __restrict u, const float* __restrict v, std::ptrdiff_t n,
                   const double* ellipse, int cols, int rows, std::int32_t stride,
@@ -20,8 +21,8 @@ void find_offsets(const float* __restrict u, const float* __restrict v, std::ptr
     const auto minor = static_cast<float>(ellipse[2]), major = static_cast<float>(ellipse[3]);
     const auto right = static_cast<float>(cols - 1), bottom = static_cast<float>(rows - 1);
     for (std::ptrdiff_t k = 0; k < n; ++k) {
-        const float column = std::min(std::max(x + minor * u[k], 0.0f), right);
-        const float row = std::min(std::max(y + major * v[k], 0.0f), bottom);
+        const float column = std::min(std::max(0.0f, x + minor * u[k]), right);
+        const float row = std::min(std::max(0.0f, y + major * v[k]), bottom);
         offsets[k] = static_cast<std::int32_t>(row) * stride + static_cast<std::int32_t>(column) * 3;
     }
 }

@@ -29,7 +29,7 @@ void add_row(const double* __restrict above, int n, double* __restrict sums) {
 }
 
 FractionalIndex split_index(double at, int size) {
-    const double inside = std::min(std::max(at, 0.0), static_cast<double>(size));
+    const double inside = std::min(std::max(0.0, at), static_cast<double>(size));
     const int index = std::min(static_cast<int>(inside), size - 1);
     return {index, inside - index};
 }

@@ -41,9 +41,9 @@ void interpolate(const std::uint32_t* __restrict quads, int rows, int cols, int 
     const auto row = static_cast<float>(y);
     for (int i = 0; i < n; ++i) {
         float x = static_cast<float>(x0 + i) - u[i], down = row - v[i];
-        x = x < 0 ? 0 : x;
+        x = x > 0 ? x : 0;  // NaN becomes 0, too
         x = x > right ? right : x;
-        down = down < 0 ? 0 : down;
+        down = down > 0 ? down : 0;
         down = down > bottom ? bottom : down;
         const int left = static_cast<int>(x), top = static_cast<int>(down);
         const float a = x - static_cast<float>(left), b = down - static_cast<float>(top);

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT
-"""Figure 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo."""
+"""Figures 2 and 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo."""

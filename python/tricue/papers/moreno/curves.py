@@ -19,7 +19,9 @@ from tricue.papers.curves import (
     scenes_of,
 )
 
-FUSED, UNFUSED, PAPERS_FILTER = "fused (default)", "unfused", "the paper's filter"
+FUSED, UNFUSED = "fused (default)", "unfused"
+PRINTED, PRINTED_UNFUSED = "as printed", "as printed, unfused"
+PAPERS_FILTER = "default with the paper's filter"
 TIMED_MODULES = ("search", "disparity", "filter", "rest")
 
 MAX_HEAD_RECOVERY_DELAY = 15
@@ -44,7 +46,7 @@ COLUMNS = (
 )
 CSV_COLUMNS = (
     *("model", "scene", "seed", "frame", "x", "y", "z", "true_x", "true_y", "true_z"),
-    *("deviation_m", "nees", "iou", "visible", "status"),
+    *("box_x", "box_y", "box_width", "box_height", "deviation_m", "nees", "iou", "visible", "status"),
 )
 
 
@@ -52,6 +54,8 @@ CSV_COLUMNS = (
 class StereoCurve(OcclusionCurve):
     """One model in one scene."""
 
+    boxes: Floats
+    """(M, 4) estimated x, y, width, height, pixels."""
     positions: Floats
     """(M, 3) estimated, meters; NaN without a position."""
     truth: Floats
@@ -141,7 +145,10 @@ def write_csv(path: Path, curves: Iterable[StereoCurve]) -> None:
 
 def _frames(curve: StereoCurve) -> Iterator[list[object]]:
     numbers = np.column_stack(
-        [curve.positions, curve.truth, curve.deviations, curve.nees, curve.overlaps, curve.visible]
+        [
+            *(curve.positions, curve.truth, curve.boxes),
+            *(curve.deviations, curve.nees, curve.overlaps, curve.visible),
+        ]
     )
     for row, status in zip(numbers.tolist(), curve.statuses, strict=True):
         yield [*map(tables.csv_number, row), status]

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Figure 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo, in meters.
+"""Figures 2 and 3 of Moreno, Tarrida, Andrade-Cetto and Sanfeliu (2002): a head in stereo, in meters.
 
-The tracker with its defaults, without one part at a time, with the paper's own filter, and in the form that
-the paper prints.
+Figure 2 is the noise of a head at rest (:mod:`noise`). In figure 3 a head moves: before the tracker with its
+defaults, as the paper prints it with and without its filter, and the default with the paper's filter or
+without one part at a time.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -17,9 +18,17 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import run
 from tricue.papers.experiment import Case, Experiment, Maker
 from tricue.papers.kernel_probes import ProbedTracker
-from tricue.papers.moreno import curves, figures
-from tricue.papers.moreno.curves import FUSED, PAPERS_FILTER, UNFUSED, StereoCurve
+from tricue.papers.moreno import curves, figures, noise
+from tricue.papers.moreno.curves import (
+    FUSED,
+    PAPERS_FILTER,
+    PRINTED,
+    PRINTED_UNFUSED,
+    UNFUSED,
+    StereoCurve,
+)
 from tricue.scenes import StereoScene, head
+from tricue.track.stereo_head.params import StereoHeadParams
 
 SCENE_DISPARITY_NOISE = 0.3
 """Pixels, standard deviation, in the perturbed scene."""
@@ -48,6 +57,7 @@ def measure(case: Case, make: Maker, trial: Trial) -> StereoCurve:
         overlaps=metrics.overlaps(result.boxes, np.array(scene.boxes)),
         visible=scene.visible,
         statuses=result.statuses,
+        boxes=result.boxes,
         positions=result.positions,
         truth=scene.positions,
         covariances=result.covariances,
@@ -63,36 +73,31 @@ def _scene(kind: str = "normal", camera: str = "160x120", noise: float = 0.0) ->
     return partial(Trial.make, kind=kind, camera=camera, noise=noise)
 
 
+PRINTED_PARAMS = StereoHeadParams.paper()
 PAPERS_FILTER_PARAMS: dict[str, Any] = {
-    "motion": "constant",
-    "noise_model": "polynomial",
-    "disparity_noise": 1.0,
+    name: getattr(PRINTED_PARAMS, name) for name in ("motion", "max_speed", "noise_model", "disparity_noise")
 }
-PRINTED_PARAMS: dict[str, Any] = {
-    **PAPERS_FILTER_PARAMS,
-    "ring_weight": 0.0,
-    "depth_weight": 0.0,
-    "compensate_light": False,
-    "learn": "all",
-    "learning_rate": 0.1,
-    "first_frame_weight": 0.0,
-    "ellipse_margin": 0.0,
-    "disparity_statistic": "mean",
-    "feedback": True,
-}
-
 COLOR_ONLY_PARAMS: dict[str, Any] = {
     "compensate_light": False,
     "depth_weight": 0.0,
 }  # of the search for the head
 
-EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
+EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
+    "moreno-fig2": Experiment(
+        models={FUSED: _stereo(), PRINTED: _stereo(params=PRINTED_PARAMS)},
+        scenes=noise.SCENES,
+        measure=noise.measure,
+        summarize=noise.summarize,
+        write_csv=noise.write_csv,
+        draw=noise.draw,
+    ),
     "moreno-fig3": Experiment(
         models={
             FUSED: _stereo(),
             UNFUSED: _stereo(fuse=False),
+            PRINTED: _stereo(params=PRINTED_PARAMS),
+            PRINTED_UNFUSED: _stereo(params=replace(PRINTED_PARAMS, fuse=False)),
             PAPERS_FILTER: _stereo(**PAPERS_FILTER_PARAMS),
-            "as printed": _stereo(**PRINTED_PARAMS),
             "without depth in the search": _stereo(depth_weight=0.0),
             "without updating": _stereo(learning_rate=0.0),
             "light not compensated": _stereo(compensate_light=False),
@@ -115,5 +120,5 @@ EXPERIMENTS: dict[str, Experiment[Trial, StereoCurve]] = {
         write_csv=curves.write_csv,
         draw=figures.paths,
         max_seeds={figures.LARGE: 4},
-    )
+    ),
 }

@@ -29,7 +29,7 @@ MIN_VISIBLE_AT_RESTART = 0.9
 """Share of the target that is visible, from which the second run starts."""
 
 COLUMNS = (
-    *("scene", "cues", "IoU > 0.5: mean", "minimum"),
+    *("scene", "tracker", "IoU > 0.5: mean", "minimum"),
     *("before the overtaking", "after it", "after the pass"),
     *("started after it: before the pass", "then after it"),
     *("OCCLUDED in time", "recovered in time", "both", "error m", "% of distance", "runs"),
@@ -40,16 +40,17 @@ AROUND_PASS = "before_pass", "after_pass"  # parts of a curve
 
 
 class Snapshot(NamedTuple):
-    """The tracker's target in one frame: its pixels (H, W), 255 or 0, and its blocks."""
+    """The tracker's target in one frame: its pixels (H, W), 255 or 0, its blocks, and its box."""
 
     mask: NDArray[np.uint8] | None
     targets: tuple[Box, ...]
     occluded: tuple[Box, ...]
+    box: Box
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class WalkCurve(OcclusionCurve):
-    """One set of cues in one scene."""
+    """One tracker in one scene."""
 
     errors: Floats
     """(M,) distances from the true positions, meters; NaN without a position."""
@@ -126,12 +127,12 @@ def restart_frame(events: Events, visible: Floats) -> int | None:
 
 
 def summarize(curves: Sequence[WalkCurve]) -> str:
-    """Markdown, a line per scene and set of cues: COLUMNS."""
+    """Markdown, a line per scene and tracker: COLUMNS."""
     return "\n".join(tables.scene_table(curves, COLUMNS, _cells))
 
 
 def write_csv(path: Path, curves: Iterable[WalkCurve]) -> None:
-    """A line per set of cues, scene, seed and frame: CSV_COLUMNS; without a position the error is empty."""
+    """A line per tracker, scene, seed and frame: CSV_COLUMNS; without a position the error is empty."""
     tables.write_csv(path, CSV_COLUMNS, curves, _frames)
 
 

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Figure 8 of Okada, Shirai and Miura (1996): a walker is overtaken, and passes somebody who stands.
 
-Flow and disparity together, and each alone. The paper says that flow alone fails on the overtaking, as both
-walk alike, and disparity alone on the pass, as both are as far away.
+Flow and disparity together, and each alone, by default and as printed. The paper says that flow alone fails
+on the overtaking, as both walk alike, and disparity alone on the pass, as both are as far away.
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -18,7 +19,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import AnyTracker, run
 from tricue.papers.curves import Floats
 from tricue.papers.experiment import Case, Experiment, Maker
-from tricue.papers.okada import curves, figures
+from tricue.papers.okada import curves, figures, following, vergence
 from tricue.papers.okada.curves import Snapshot, WalkCurve
 from tricue.scenes import WalkScene, overtaking
 from tricue.track.base.adapter import traits_of
@@ -45,11 +46,10 @@ class SnapshotRecorder:
 
     def _recorded(self, track: Track) -> Track:
         if self._index in self._frames:
-            self.snapshots[self._index] = (
-                Snapshot(self._tracker.mask, *self._tracker.blocks)
-                if "mask" in traits_of(self._tracker).shows
-                else Snapshot(None, (), ())
-            )
+            shows = "mask" in traits_of(self._tracker).shows
+            targets, occluded = self._tracker.blocks if shows else ((), ())
+            mask = self._tracker.mask if shows else None
+            self.snapshots[self._index] = Snapshot(mask, targets, occluded, track.box)
         return track
 
 
@@ -87,16 +87,24 @@ def _cues(*cues: str) -> Maker:
     return partial(tricue.create, "flow-depth", **({"cues": cues} if cues else {}))
 
 
+def _printed(**changes: Any) -> Maker:
+    params = replace(tricue.FlowDepthTracker.Params.paper(), **changes)
+    return partial(tricue.create, "flow-depth", params=params)
+
+
 def _scene(kind: str, depth: bool) -> Callable[..., WalkScene]:
     return partial(overtaking, kind=kind, depth=depth)
 
 
-EXPERIMENTS: dict[str, Experiment[WalkScene, WalkCurve]] = {
+EXPERIMENTS: dict[str, Experiment[Any, Any]] = {
     "okada-fig8": Experiment(
         models={
             figures.BOTH: _cues(),
             figures.FLOW: _cues("flow"),
             figures.DISPARITY: _cues("disparity"),
+            figures.PRINTED: _printed(),
+            figures.PRINTED_FLOW: _printed(cues=("flow",)),
+            figures.PRINTED_DISPARITY: _printed(cues=("disparity",)),
         },
         scenes={
             figures.PLAIN_STEREO: _scene("plain", depth=False),
@@ -108,5 +116,7 @@ EXPERIMENTS: dict[str, Experiment[WalkScene, WalkCurve]] = {
         summarize=curves.summarize,
         write_csv=curves.write_csv,
         draw=figures.frames_and_overlaps,
-    )
+    ),
+    **vergence.EXPERIMENTS,
+    **following.EXPERIMENTS,
 }

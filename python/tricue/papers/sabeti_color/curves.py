@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Center errors and overlaps over time, their table and their CSV."""
+"""Center errors and overlaps over time, their tables and their CSV."""
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -8,12 +8,29 @@ from pathlib import Path
 import numpy as np
 
 from tricue.papers import tables
-from tricue.papers.curves import MIN_OVERLAP, Curve, Floats, models_of
+from tricue.papers.curves import HIDDEN_BELOW, MIN_OVERLAP, MIN_VISIBLE, Curve, Flags, Floats, models_of
 
 MAX_CENTER_ERROR = 25.0
 """Pixels; a face farther off counts as lost."""
+MIN_FAST_STEP = 10.0
+"""Pixels; the target is fast in a frame in which it has moved by more."""
+MAX_RECOVERY_DELAY = 15
+"""Frames within which a hidden target has to be held again."""
+END_FRAMES = 5
+"""Last frames of a scene, whose mean overlap says whether the tracker is on the target at the end."""
+
 COLUMNS = ("model", "mean error px", "frames > 25 px off", "frames IoU > 0.5", "runs")
-CSV_COLUMNS = ("model", "scene", "seed", "frame", "error_px", "iou")
+SCENE_COLUMNS = (
+    "scene",
+    "model",
+    "error px: median",
+    "IoU > 0.5",
+    f"IoU > 0.5 in steps > {MIN_FAST_STEP:.0f} px",
+    f"held within {MAX_RECOVERY_DELAY} after hidden",
+    "correct at the end",
+    "runs",
+)
+CSV_COLUMNS = ("model", "scene", "seed", "frame", "error_px", "iou", "visible")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,6 +41,33 @@ class ColorCurve(Curve):
     """(M,) center errors in pixels."""
     boxes: Floats
     """(M, 4)"""
+    visible: Floats
+    """(M,) share of the target that nothing hides."""
+    steps: Floats
+    """(M,) pixels by which the target has moved since the last frame; 0 in the first."""
+
+    @property
+    def counted(self) -> Flags:
+        """(M,) where at least half of the target is visible."""
+        return np.asarray(self.visible >= MIN_VISIBLE)
+
+    @property
+    def recovered(self) -> list[bool]:
+        """For each time that the target comes back after it was hidden, whether it is held again in time."""
+        answers, hidden = [], False
+        for frame, share in enumerate(self.visible.tolist()):
+            if share < HIDDEN_BELOW:
+                hidden = True
+            elif hidden and share >= MIN_VISIBLE:
+                hidden = False
+                window = self.overlaps[frame : frame + MAX_RECOVERY_DELAY + 1]
+                answers.append(bool((window > MIN_OVERLAP).any()))
+        return answers
+
+    @property
+    def correct_at_end(self) -> bool:
+        """Whether the mean overlap of the last frames is high enough."""
+        return bool(self.overlaps[-END_FRAMES:].mean() > MIN_OVERLAP)
 
 
 def summarize(curves: Sequence[ColorCurve]) -> str:
@@ -38,11 +82,32 @@ def summarize(curves: Sequence[ColorCurve]) -> str:
     return "\n".join(lines)
 
 
+def summarize_scenes(curves: Sequence[ColorCurve]) -> str:
+    """Markdown, a line per scene and model: SCENE_COLUMNS, of the frames with half of the target visible."""
+    return "\n".join(tables.scene_table(curves, SCENE_COLUMNS, _cells))
+
+
 def write_csv(path: Path, curves: Iterable[ColorCurve]) -> None:
     """A line per model, scene, seed and frame: CSV_COLUMNS."""
     tables.write_csv(path, CSV_COLUMNS, curves, _frames)
 
 
-def _frames(curve: ColorCurve) -> Iterator[tuple[str, str]]:
-    for error, overlap in zip(curve.errors, curve.overlaps, strict=True):
-        yield f"{error:.3f}", f"{overlap:.4f}"
+def _cells(runs: Sequence[ColorCurve]) -> list[str]:
+    counted = np.concatenate([run.counted for run in runs])
+    errors, overlaps, steps = (
+        np.concatenate([getattr(run, name) for run in runs])[counted]
+        for name in ("errors", "overlaps", "steps")
+    )
+    return [
+        f"{np.median(errors):.1f}",
+        tables.percent(overlaps > MIN_OVERLAP, 1),
+        tables.percent(overlaps[steps > MIN_FAST_STEP] > MIN_OVERLAP, 1),
+        tables.percent([answer for run in runs for answer in run.recovered]),
+        tables.percent([run.correct_at_end for run in runs]),
+        f"{len(runs)}",
+    ]
+
+
+def _frames(curve: ColorCurve) -> Iterator[tuple[str, str, str]]:
+    for error, overlap, visible in zip(curve.errors, curve.overlaps, curve.visible, strict=True):
+        yield f"{error:.3f}", f"{overlap:.4f}", f"{visible:.4f}"

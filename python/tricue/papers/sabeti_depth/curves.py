@@ -43,6 +43,8 @@ class DepthCurve(OcclusionCurve):
     """(M,) distances of the position from the true one, meters; NaN without a position."""
     on_other: Flags
     """(M,) where the status is TRACKED and the tracker is on somebody else."""
+    boxes: Floats
+    """(M, 4) pixels."""
     starts: bool | None = None
     """Whether the tracker finds the person without a box; None where that wasn't tested."""
 

@@ -39,6 +39,7 @@ def measure(case: Case, make: Maker, scene: DepthScene) -> DepthCurve:
         statuses=result.statuses,
         errors=errors,
         on_other=tracked & _nearer_to_others(result.positions, errors, scene),
+        boxes=result.boxes,
         starts=None if scene.others[0] else _starts(make, case.seed, scene),
     )
 
@@ -77,16 +78,7 @@ EXPERIMENTS: dict[str, Experiment[DepthScene, DepthCurve]] = {
             "absolute histogram": _depth(histogram="absolute"),
             "no contrast": _depth(contrast=0.0),
             "object as proposal only": _depth(measurement=0.0),
-            "as printed": _depth(
-                histogram="absolute",
-                likelihood="linear",
-                contrast=0.0,
-                measurement=0.0,
-                floor=False,
-                edges=False,
-                gap_passes=0,
-                leave_out_others=False,
-            ),
+            "as printed": _depth(params=tricue.DepthParticleTracker.Params.paper()),
         },
         scenes={
             "pose and scale": walker,
@@ -100,6 +92,6 @@ EXPERIMENTS: dict[str, Experiment[DepthScene, DepthCurve]] = {
         measure=measure,
         summarize=curves.summarize,
         write_csv=curves.write_csv,
-        draw=figures.metric_curves,
+        draw=figures.frames_and_curves,
     )
 }

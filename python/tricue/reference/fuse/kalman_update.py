@@ -11,7 +11,12 @@ Floats = NDArray[np.float64]
 
 
 def kalman_update(
-    mean: Floats, covariance: Floats, measurement: Floats, observation: Floats, noise: Floats
+    mean: Floats,
+    covariance: Floats,
+    measurement: Floats,
+    observation: Floats,
+    noise: Floats,
+    max_distance: float = np.inf,
 ) -> tuple[Floats, Floats, Floats, Floats]:
     """Inverts S for the gain, and takes the covariance in Joseph's form."""
     require_belief(mean, covariance)
@@ -21,14 +26,25 @@ def kalman_update(
     require_shape("observation", observation, (measurement.size, mean.size))
     require_finite("observation", observation)
     require_covariance("noise", noise, measurement.size)
+    if not max_distance > 0:
+        refuse("max_distance", "a number above 0", float(max_distance))
 
     y = measurement - observation @ mean
-    s = symmetric(observation @ covariance @ observation.T + noise)
-    if not positive_definite(s):
-        refuse("noise", "with the state's a positive definite innovation covariance", "one that isn't")
+    s = _innovation_covariance(covariance, observation, noise)
+    distance = np.sqrt(y @ np.linalg.solve(s, y))
+    if distance > max_distance:
+        covariance = (distance / max_distance) ** 2 * covariance
+        s = _innovation_covariance(covariance, observation, noise)
     gain = covariance @ observation.T @ np.linalg.inv(s)
     rest = np.eye(mean.size) - gain @ observation
     return mean + gain @ y, symmetric(rest @ covariance @ rest.T + gain @ noise @ gain.T), y, s
+
+
+def _innovation_covariance(covariance: Floats, observation: Floats, noise: Floats) -> Floats:
+    s = symmetric(observation @ covariance @ observation.T + noise)
+    if not positive_definite(s):
+        refuse("noise", "with the state's a positive definite innovation covariance", "one that isn't")
+    return s
 
 
 def positive_definite(s: Floats) -> bool:

@@ -12,7 +12,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.arrays import Array
 from tricue.scenes.heads import moves as head_moves
 from tricue.scenes.heads.actor import Actor, PosedActor
-from tricue.scenes.heads.moves import HeadRange
+from tricue.scenes.heads.moves import HandMotion, HeadMotion, HeadRange
 from tricue.scenes.heads.room import StereoRoom, furnish_room, render_room
 from tricue.scenes.rendering.depth_view import MountedCamera
 from tricue.scenes.rendering.ellipsoids import Ellipsoids
@@ -30,6 +30,7 @@ from tricue.scenes.scene import StereoScene
 HEAD_KINDS = ("normal", "distractor", "turning", "jump", "ramp", "hidden")
 MIN_HEAD_DISTANCE, MAX_HEAD_DISTANCE = 0.9, 4.05  # meters, of the head's center
 HIDDEN_HEAD_DISTANCES = 1.0, 2.1  # the same in scenes with a hand in front
+RADIUS = 0.13  # meters, round a head's center
 
 
 def head(
@@ -64,23 +65,83 @@ def head(
     rig = _rig(camera, rng)
     moves = head_moves.sample_walk(frames, _range(rig, kind), kind == "turning", rng)
     gain = _light(kind, frames, light, rng)
-    person = Actor.sample(moves, head_moves.sample_hand(frames, rng) if kind == "hidden" else None, rng)
-    skin = person.looks.skin if kind == "distractor" else None
-    room = furnish_room(rig, moves.center, person.floor, skin, rng)
-    stage = _StereoStage.build(RayCamera.pair(rig, RAYS_PER_PIXEL[camera]), room, rng)
-    colors = gain[:, None] * head_moves.sample_tint(frames, rng)
-    truths = [stage.record(person, index, color, noise, rng) for index, color in enumerate(colors)]
-    return StereoScene(
-        name=f"head, {kind}, {camera}, seed {seed}",
-        frames=tuple(truth.frame for truth in truths),
-        boxes=tuple(truth.box for truth in truths),
-        positions=np.stack([truth.position for truth in truths]),
-        visible=np.array([truth.visible for truth in truths]),
-        facing=np.array([truth.facing for truth in truths]),
-        light=gain,
-        changes=tuple((np.flatnonzero(np.diff(gain)) + 1).tolist()) if kind == "jump" else (),
-        rig=rig,
-    )
+    hand = head_moves.sample_hand(frames, rng) if kind == "hidden" else None
+    film = _Film(f"head, {kind}, {camera}, seed {seed}", rig, camera, moves, gain, noise)
+    changes = tuple((np.flatnonzero(np.diff(gain)) + 1).tolist()) if kind == "jump" else ()
+    return film.render(rng, hand, kind == "distractor", changes=changes)
+
+
+def static_head(
+    seed: int = 0,
+    frames: int = 60,
+    camera: str = "160x120",
+    *,
+    distance: float = 1.5,
+    aside: tuple[float, float] = (0.0, 0.0),
+    light: float = 0.0,
+    noise: float = 2.0,
+) -> StereoScene:
+    """As :func:`head`, of a person who stands still and looks at the cameras.
+
+    distance: of the head's center along the camera's axis, 0.5 to 10 m. aside: where the head is to the right
+    of and below the middle between the cameras, as shares of half the view. ValueError where a camera
+    wouldn't see all of it.
+    light: by how much the light's gain differs from 1 at most; its color sways by 4 % then, and neither
+    changes at 0.
+    """
+    _check(frames, camera, "normal", light, noise)
+    if not 0.5 <= finite(distance, "distance", "meters") <= 10:
+        raise ValueError(f"distance: expected 0.5 to 10 m, got {distance!r}")
+    rng = np.random.default_rng(seed)
+    rig = _rig(camera, rng)
+    gain = head_moves.sample_smooth_light(frames, light, rng) if light else np.ones(frames)
+    view = _range(rig, "normal")
+    for share, half, part in zip(aside, (view.side, view.up), (rig.baseline / 2, 0.0), strict=True):
+        if abs(finite(share, "aside", "shares of half the view")) * half + (part + RADIUS) / distance > half:
+            raise ValueError(f"aside: expected a head in both views at {distance:g} m, got {aside!r}")
+    center = np.array([aside[0] * view.side, aside[1] * view.up, 1.0]) * distance
+    moves = head_moves.stand(frames, center + [rig.baseline / 2, 0, 0])
+    name = f"head at rest, {distance:g} m, {camera}, seed {seed}"
+    return _Film(name, rig, camera, moves, gain, noise).render(rng, tinted=light > 0)
+
+
+class _Film(NamedTuple):
+    """What a person does before a stereo pair, and in which light."""
+
+    name: str
+    rig: StereoRig
+    camera: str
+    moves: HeadMotion
+    gain: Array
+    noise: float
+
+    def render(
+        self,
+        rng: np.random.Generator,
+        hand: HandMotion | None = None,
+        distractors: bool = False,
+        *,
+        tinted: bool = True,
+        changes: tuple[int, ...] = (),
+    ) -> StereoScene:
+        """A random person and room, recorded. tinted: whether the light's color changes."""
+        person = Actor.sample(self.moves, hand, rng)
+        skin = person.looks.skin if distractors else None
+        room = furnish_room(self.rig, self.moves.center, person.floor, skin, rng)
+        stage = _StereoStage.build(RayCamera.pair(self.rig, RAYS_PER_PIXEL[self.camera]), room, rng)
+        colors = self.gain[:, None] * (head_moves.sample_tint(len(self.gain), rng) if tinted else np.ones(3))
+        truths = [stage.record(person, index, color, self.noise, rng) for index, color in enumerate(colors)]
+        return StereoScene(
+            name=self.name,
+            frames=tuple(truth.frame for truth in truths),
+            boxes=tuple(truth.box for truth in truths),
+            positions=np.stack([truth.position for truth in truths]),
+            visible=np.array([truth.visible for truth in truths]),
+            facing=np.array([truth.facing for truth in truths]),
+            light=self.gain,
+            changes=changes,
+            rig=self.rig,
+        )
 
 
 class _VisibleHead(NamedTuple):

@@ -66,6 +66,12 @@ def sample_walk(frames: int, room: HeadRange, turning: bool, rng: np.random.Gene
     )
 
 
+def stand(frames: int, center: Array) -> HeadMotion:
+    """A head at rest at ``center`` (3,), meters, that looks along -z."""
+    still = np.zeros(frames)
+    return HeadMotion(np.tile(center, (frames, 1)), *[still] * 6)
+
+
 def sample_smooth_light(frames: int, amplitude: float, rng: np.random.Generator) -> Array:
     """A gain (M,) that varies smoothly between 1 - amplitude and 1 + amplitude, reaching both."""
     curve = sample_sway(np.arange(frames) / HEAD_FRAME_RATE, 1.5, 4.0, rng)

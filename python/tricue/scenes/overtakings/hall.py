@@ -24,13 +24,19 @@ class Hall(NamedTuple):
 
     rectangles: list[TexturedRectangle]
 
-    def render(self, camera: RayCamera, to_camera: Array) -> RayImage:
-        """Render the hall for a camera. to_camera: rotation (3, 3) from the level frame to the camera's."""
+    def render(self, camera: RayCamera, to_camera: Array, shift: Array | None = None) -> RayImage:
+        """Render the hall for a camera.
+
+        to_camera, shift: rotation (3, 3) from the level frame to the camera's, and what is added then, (3,)
+        meters.
+        """
+        moved = np.zeros(3) if shift is None else shift
         shape = camera.intrinsics.height, camera.intrinsics.width
         canvas = RayImage(np.full((*shape, 3), 90, np.float32), np.full(shape, np.inf, np.float32))
         for corner, along, down, texture in self.rectangles:
             camera.draw_rectangle(
-                canvas, TexturedRectangle(to_camera @ corner, to_camera @ along, to_camera @ down, texture)
+                canvas,
+                TexturedRectangle(to_camera @ corner + moved, to_camera @ along, to_camera @ down, texture),
             )
         return canvas
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A walker who is overtaken before a panning stereo pair, as in Okada, Shirai and Miura (1996), section 5."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
@@ -24,7 +25,7 @@ from tricue.scenes.overtakings.plan import (
     sample_plan,
 )
 from tricue.scenes.overtakings.truth import LazySequence, WalkGeometry
-from tricue.scenes.people.body import Person
+from tricue.scenes.people.body import Person, rotation_about_y
 from tricue.scenes.people.pedestrian import Outfit, Pedestrian
 from tricue.scenes.rendering.depth_sensor import DEPTH_SENSORS
 from tricue.scenes.rendering.stereo_camera import RAYS_PER_PIXEL, Lamp, RayCamera, expose_lit
@@ -32,6 +33,7 @@ from tricue.scenes.scene import Events, WalkScene
 
 OVERTAKING_KINDS = ("plain", "varied")
 MAX_OVERTAKING_FRAMES = 2 * STORY_FRAMES  # later the camera would pan out of the hall
+MAX_VERGENCE = 20.0  # degrees
 MISSING_SHARE = 0.02  # of the depth camera's pixels
 MAX_OVERTAKING_DEPTH = 16.0  # meters, of the depth camera's range
 WEARS_COAT = False, True, False  # target, overtaker (whose coat hides the target's legs), standing person
@@ -45,6 +47,7 @@ def overtaking(
     kind: str = "plain",
     depth: bool = False,
     noise: float = 2.0,
+    vergence: float = 0.0,
 ) -> WalkScene:
     """A target walks through a hall, is overtaken, and passes a standing person; 15 frames per second.
 
@@ -60,15 +63,19 @@ def overtaking(
     noise: standard deviation in levels of 255, independent in both images; it doesn't change the depth
         camera's noise.
 
+    vergence: degrees by which the right camera is turned inwards, 0 to 20; the truth stays that of the left
+        camera, and disparities those of a parallel pair.
+
     The pair pans with the target at constant velocity. The target and the standing person are only 0.3 to
     0.45 m apart in depth, some 0.3 pixels of disparity in a width of 160. There is no motion blur and no cast
     shadow. ValueError or TypeError names the argument that is wrong.
     """
-    _check(frames, camera, kind, noise)
+    _check(frames, camera, kind, noise, vergence)
     rng = np.random.default_rng(seed)
     plan = PLAIN_PLAN if kind == "plain" else sample_plan(rng)
     geometry, depths = _sample_geometry(plan, camera, max(frames, STORY_FRAMES), rng)
     stage = _PanningStage.build(geometry, depths, RAYS_PER_PIXEL[camera], rng)
+    stage = stage._replace(vergence=math.radians(vergence))
     truths = [geometry.truth_at(index) for index in range(frames)]
     visible = np.array([truth.visible for truth in truths])
     record = _record_depth if depth else _record_stereo
@@ -84,6 +91,7 @@ def overtaking(
         disparity=LazySequence(frames, geometry.disparity),
         others=tuple(truth.others for truth in truths),
         rig=geometry.pan.rig,
+        vergence=float(vergence),
         events=_events(visible, round(plan.passing_frame)),
     )
 
@@ -97,6 +105,7 @@ class _PanningStage(NamedTuple):
     people: list[Pedestrian]
     lamp: Lamp  # level frame
     geometry: WalkGeometry
+    vergence: float = 0.0  # radians
 
     @classmethod
     def build(
@@ -112,11 +121,15 @@ class _PanningStage(NamedTuple):
 
     def render(self, camera: RayCamera, index: int) -> Picture:
         """Render a frame for a camera, before gain and noise."""
-        to_camera = self.pan.to_camera(index)
-        canvas = self.hall.render(camera, to_camera)
+        to_camera, shift = self.pan.to_camera(index), np.zeros(3)
+        if self.vergence and camera.offset:  # the right camera: turned about its own center
+            turned = rotation_about_y(self.vergence)
+            shift = turned @ [-camera.offset, 0.0, 0.0]
+            to_camera, camera = turned @ to_camera, camera._replace(offset=0.0)
+        canvas = self.hall.render(camera, to_camera, shift)
         lamp = self.lamp._replace(direction=to_camera @ self.lamp.direction)
         for person in self.people:
-            camera.draw_ellipsoids(canvas, person.ellipsoids(index, to_camera), lamp)
+            camera.draw_ellipsoids(canvas, person.ellipsoids(index, to_camera, shift), lamp)
         return camera.average_rays(canvas)
 
 
@@ -187,7 +200,7 @@ def _first(true: NDArray[np.bool_]) -> int | None:
     return int(np.argmax(true)) if true.any() else None
 
 
-def _check(frames: int, camera: str, kind: str, noise: float) -> None:
+def _check(frames: int, camera: str, kind: str, noise: float, vergence: float) -> None:
     if positive_whole(frames, "frames", "a count") > MAX_OVERTAKING_FRAMES:
         raise ValueError(f"frames: expected at most {MAX_OVERTAKING_FRAMES}, got {frames!r}")
     for value, name, known in ((camera, "camera", tuple(RAYS_PER_PIXEL)), (kind, "kind", OVERTAKING_KINDS)):
@@ -195,3 +208,5 @@ def _check(frames: int, camera: str, kind: str, noise: float) -> None:
             raise ValueError(f"{name}: expected one of {', '.join(known)}, got {value!r}")
     if finite(noise, "noise", "levels of 255") < 0:
         raise ValueError(f"noise: expected levels of 255, 0 or more, got {noise!r}")
+    if not 0 <= finite(vergence, "vergence", "degrees") <= MAX_VERGENCE:
+        raise ValueError(f"vergence: expected 0 to {MAX_VERGENCE} degrees, got {vergence!r}")

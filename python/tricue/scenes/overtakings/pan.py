@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A stereo rig that pans about the vertical with constant angular velocity.
+"""A stereo rig that pans about the vertical.
 
 The level frame is fixed to the room, with the left camera at its origin: x right, y down, z forward, meters.
 The rig rotates about the left camera's center.
@@ -21,10 +21,15 @@ class Pan(NamedTuple):
     rig: StereoRig
     height: float  # of the cameras above the floor, meters
     angles: Array  # (M,) radians from z towards x
+    tilt: float = 0.0  # radians upwards, after the pan
 
     def to_camera(self, index: int) -> Array:
         """The rotation (3, 3) from the level frame to the left camera's frame."""
-        return rotation_about_y(-float(self.angles[index]))
+        pan = rotation_about_y(-float(self.angles[index]))
+        if not self.tilt:
+            return pan
+        cos, sin = math.cos(self.tilt), math.sin(self.tilt)
+        return np.array([[1, 0, 0], [0, cos, sin], [0, -sin, cos]]) @ pan
 
     def on_floor(self, column: Array, depth: Array) -> Array:
         """The places (M, 2), x and z in the level frame, at a column and a depth in each frame.

@@ -48,7 +48,7 @@ class FrameTruth(NamedTuple):
     """The people in one frame, in the left camera's image and frame."""
 
     target: Bystander
-    others: tuple[Bystander, Bystander]
+    others: tuple[Bystander, ...]
     mask: Mask  # (H, W), the target's visible pixels
     visible_box: Box | None  # of the mask
     visible: float  # share of the target's pixels that are in the mask
@@ -65,7 +65,7 @@ class WalkGeometry(NamedTuple):
         """Where the people are in a frame, and which pixels of the target are visible."""
         bodies = [self._parts(index, person).ellipsoids for person in self.people]
         windows = [self._view.render(body) for body in bodies]
-        target, overtaker, standing = (
+        target, *others = (
             Bystander(self._view.bounding_box(body), self._view.surface_points(window).mean(axis=0))
             for body, window in zip(bodies, windows, strict=True)
         )
@@ -73,7 +73,7 @@ class WalkGeometry(NamedTuple):
         for window in windows:
             zbuffer.merge_window(window, nearest)
         mask, visible = zbuffer.find_visible_pixels(windows[0], nearest)
-        return FrameTruth(target, (overtaker, standing), mask, zbuffer.box_of_mask(mask), visible)
+        return FrameTruth(target, tuple(others), mask, zbuffer.box_of_mask(mask), visible)
 
     def depth(self, index: int) -> Array:
         """The depth z (H, W) at each pixel's center, meters."""

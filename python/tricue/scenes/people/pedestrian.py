@@ -113,9 +113,10 @@ class Pedestrian(NamedTuple):
         ]
         return self._replace(part_textures=part_textures)
 
-    def ellipsoids(self, index: int, to_camera: Array) -> list[TexturedEllipsoid]:
-        """The textured ellipsoids of a frame, in the camera's frame."""
-        centers, roots = self.parts[index].transformed(to_camera, np.zeros(3))
+    def ellipsoids(self, index: int, to_camera: Array, shift: Array | None = None) -> list[TexturedEllipsoid]:
+        """The textured ellipsoids of a frame, in the camera's frame; shift: (3,) meters, added there."""
+        moved = np.zeros(3) if shift is None else shift
+        centers, roots = self.parts[index].transformed(to_camera, moved)
         units = np.linalg.inv(roots)
         return [TexturedEllipsoid(*part) for part in zip(centers, units, self.part_textures, strict=True)]
 

@@ -4,10 +4,10 @@
 import math
 from dataclasses import dataclass
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask
 
@@ -80,7 +80,7 @@ def drop_pixels(depth: Array, edges: Mask, share: float, grain: float, rng: np.r
 
     The number of pixels is exact, share times the number measured. grain: sigma of the blur, pixels.
     """
-    blurred = cv2.GaussianBlur(rng.standard_normal(depth.shape), (0, 0), grain)
+    blurred = imgproc.gaussian_blur(rng.standard_normal(depth.shape), grain)
     # Blurred white noise has a deviation of 1 / (2 sqrt(pi) grain); an edge adds two deviations.
     field = (blurred + edges / (math.sqrt(math.pi) * grain)).ravel()
     measured = np.flatnonzero(np.isfinite(depth))
@@ -92,8 +92,7 @@ def drop_pixels(depth: Array, edges: Mask, share: float, grain: float, rng: np.r
 
 def _neighborhood_range(depth: Array) -> tuple[Array, Array]:
     """The smallest and the largest depth in the 3x3 neighborhood of each pixel."""
-    square = np.ones((3, 3), np.uint8)
-    return np.asarray(cv2.erode(depth, square)), np.asarray(cv2.dilate(depth, square))
+    return imgproc.erode(depth, 3), imgproc.dilate(depth, 3)
 
 
 DEPTH_SENSORS = {

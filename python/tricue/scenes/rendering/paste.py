@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Pastes cut-outs into images at subpixel positions, and turns the result into 8-bit images."""
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.scenes.arrays import Picture
 
 
@@ -21,9 +21,8 @@ def paste(picture: Picture, cutout: Picture, opacity: Picture, x: float, y: floa
     opacity: (h, w) of the cut-out, 0 to 1.
     """
     height, width = picture.shape[:2]
-    shift = np.array([[1, 0, x], [0, 1, y]], dtype=np.float64)
-    moved = cv2.warpAffine(cutout, shift, (width, height), borderMode=cv2.BORDER_REPLICATE)
-    share = cv2.warpAffine(opacity, shift, (width, height), borderMode=cv2.BORDER_CONSTANT)[..., None]
+    moved = imgproc.shift(cutout, x, y, height, width, border="replicate")
+    share = imgproc.shift(opacity, x, y, height, width)[..., None]
     return np.asarray(picture * (1 - share) + moved * share, dtype=np.float32)
 
 

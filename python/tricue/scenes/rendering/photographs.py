@@ -5,10 +5,10 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.box import Box
 
 Image = NDArray[np.uint8]
@@ -67,4 +67,4 @@ def crop(picture: Image, box: Box) -> Image:
 
 def resize(picture: Image, height: int, width: int) -> Image:
     """Scale an image down without aliasing, to (height, width)."""
-    return np.asarray(cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    return imgproc.resize(picture, height, width, "area")

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.scenes.arrays import Array, Picture
 from tricue.scenes.rendering.paste import expose
@@ -61,9 +61,8 @@ class RayImage(NamedTuple):
         self, color: Picture, depth: Picture, seen: NDArray[np.bool_], place: tuple[slice, slice]
     ) -> None:
         """Write color and depth into a part of the image, where ``seen``."""
-        mask = seen.view(np.uint8)  # cv2 copies many times faster than NumPy
-        cv2.copyTo(color, mask, self.color[place])
-        cv2.copyTo(depth, mask, self.depth[place])
+        imgproc.copy_where(color, seen, self.color[place])
+        imgproc.copy_where(np.ascontiguousarray(depth), seen, self.depth[place])
 
 
 class DrawnEllipsoid(NamedTuple):
@@ -152,9 +151,8 @@ class RayCamera(NamedTuple):
 
     def average_rays(self, canvas: RayImage) -> Picture:
         """The image (H, W, 3) of the rays: their mean in each pixel, slightly blurred."""
-        size = self.intrinsics.width // self.rays, self.intrinsics.height // self.rays
-        image = cv2.resize(canvas.color, size, interpolation=cv2.INTER_AREA)
-        return np.asarray(cv2.GaussianBlur(image, (0, 0), BLUR_DEVIATION, borderType=cv2.BORDER_REPLICATE))
+        size = self.intrinsics.height // self.rays, self.intrinsics.width // self.rays
+        return imgproc.gaussian_blur(imgproc.resize(canvas.color, *size, "area"), BLUR_DEVIATION, "replicate")
 
     def _texture(self, ellipsoid: TexturedEllipsoid, q: Sequence[Picture]) -> Picture:
         longitude, latitude = np.arctan2(q[0], q[2]), np.arcsin(np.minimum(np.maximum(q[1], -1), 1))

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.scenes.arrays import Picture
 
 # sRGB colors as BGR: skin from light to dark, hair from black to gray. Our own choice.
@@ -61,7 +61,7 @@ def make_noise(
 
     Its amplitude falls as 1 / frequency^slope. stretch: factors by which structures are longer along v and u.
     """
-    spectrum = np.fft.rfft2(rng.standard_normal((height, width)))
+    spectrum = np.ascontiguousarray(np.fft.rfft2(rng.standard_normal((height, width))))
     parts = spectrum.view(np.float64)  # a product of complex numbers would take three times as long
     parts *= _amplitudes(height, width, slope, stretch)
     values = np.fft.irfft2(spectrum, s=(height, width))
@@ -172,7 +172,7 @@ def make_surface(
         coarse = (max(shape[0] // 4, 4), max(shape[1] // 4, 4))
         tones = rng.uniform(0.03, 0.15) * np.stack([make_noise(*coarse, 1.2, rng) for _ in range(3)], axis=-1)
         tones += np.float32(0.22) * make_noise(*coarse, 1.2, rng)[..., None]
-        picture *= cv2.resize(np.exp(tones), shape[::-1], interpolation=cv2.INTER_LINEAR)
+        picture *= imgproc.resize(np.exp(tones), *shape, "linear")
     elif kind == CLUTTERED_SURFACE:
         _add_clutter(picture, rng)
     return np.clip(picture, 4, 250, out=picture)
@@ -213,8 +213,7 @@ def build_pyramid(texture: Picture, smallest: int = 4) -> list[Picture]:
     levels = [texture]
     while min(levels[-1].shape[:2]) >= 2 * smallest:
         height, width = levels[-1].shape[:2]
-        half = cv2.resize(levels[-1], (width // 2, height // 2), interpolation=cv2.INTER_AREA)
-        levels.append(np.asarray(half, np.float32))
+        levels.append(imgproc.resize(levels[-1], height // 2, width // 2, "area"))
     return levels
 
 
@@ -235,4 +234,4 @@ def sample_texture(levels: Sequence[Picture], u: Picture, v: Picture, texels: fl
     height, width = level.shape[:2]
     columns, rows = u * np.float32(width) - np.float32(0.5), v * np.float32(height) - np.float32(0.5)
     np.clip(rows, 0, height - 1, out=rows)
-    return np.asarray(cv2.remap(level, columns, rows, cv2.INTER_LINEAR, borderMode=cv2.BORDER_WRAP))
+    return imgproc.remap(level, columns, rows, "wrap")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """How things in rooms look: printed packages, plain and patterned surfaces."""
 
-import cv2
 import numpy as np
 
+from tricue import imgproc
 from tricue.scenes.arrays import Picture
 from tricue.scenes.rendering import textures
 from tricue.scenes.rendering.photographs import load_photograph
@@ -29,10 +29,8 @@ def print_picture(aspect: float, rng: np.random.Generator) -> Picture:
     rows, columns = max(int(height), 8), max(int(height * aspect), 8)
     top, left = (rng.random(2) * (np.array(picture.shape[:2]) - [rows, columns]).clip(0)).astype(int)
     part = picture[top : top + rows, left : left + columns]
-    size = round(PRINT_TEXELS * min(aspect, 1.0)), round(PRINT_TEXELS * min(1 / aspect, 1.0))
-    return cv2.resize(part, (max(size[0], 8), max(size[1], 8)), interpolation=cv2.INTER_AREA).astype(
-        np.float32
-    )
+    width, height = round(PRINT_TEXELS * min(aspect, 1.0)), round(PRINT_TEXELS * min(1 / aspect, 1.0))
+    return imgproc.resize(part, max(height, 8), max(width, 8), "area").astype(np.float32)
 
 
 def cover(kinds: tuple[str, ...], rows: int, columns: int, rng: np.random.Generator) -> Picture:

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -175,7 +175,7 @@ class _Recorder:
         for index in range(len(colors)):
             source = int(np.clip(index - self.depth_faults.delay, 0, len(colors) - 1))
             view = self.truths[source].view
-            gray = np.asarray(cv2.cvtColor(colors[source], cv2.COLOR_BGR2GRAY), np.uint8)
+            gray = imgproc.bgr_to_gray(colors[source])
             measured = camera.measure(view.depth, gray, view.shiny)
             millimeters = np.rint(measured * 1000) * np.float32(METERS_PER_MILLIMETER)
             found.append(np.asarray(millimeters, np.float32))

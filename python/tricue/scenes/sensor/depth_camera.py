@@ -8,10 +8,10 @@ two RealSense; docs/scenes.md has the numbers.
 import math
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask
 from tricue.scenes.sensor.holes import HoleField, HoleShares
@@ -105,14 +105,7 @@ class FaultyDepthCamera:
         """The depth in the color image's pixels, as far off as calibration is, and without its margins."""
         x, y = self._faults.shift
         height, width = depth.shape
-        moved = cv2.warpAffine(
-            depth.astype(np.float32),
-            np.array([[1, 0, x], [0, 1, y]]),
-            (width, height),
-            flags=cv2.INTER_NEAREST,
-            borderMode=cv2.BORDER_CONSTANT,
-            borderValue=math.nan,
-        )
+        moved = imgproc.shift(depth.astype(np.float32), x, y, height, width, "nearest", value=math.nan)
         beside, over = (round(self._faults.margin * side) for side in (width, height))
         framed = np.full(depth.shape, np.nan, np.float32)
         inside = slice(over, height - over), slice(beside, width - beside)

@@ -3,10 +3,10 @@
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask
 from tricue.scenes.rendering.depth_sensor import find_depth_edges
@@ -51,8 +51,7 @@ class HoleField:
             [shares.shiny, shares.dark, shares.bright],
             shares.medium,
         )
-        square = np.ones((2 * shares.reach + 1,) * 2, np.uint8)
-        beside = cv2.dilate(find_depth_edges(depth).astype(np.uint8), square) > 0
+        beside = imgproc.dilate(find_depth_edges(depth).astype(np.uint8), 2 * shares.reach + 1) > 0
         chance[beside] = np.maximum(chance[beside], shares.edge)
         slant = (_slant(depth, intrinsics) - MIN_SLANT) / (MAX_SLANT - MIN_SLANT)
         chance = np.maximum(chance, np.clip(slant, 0, 1))
@@ -77,7 +76,7 @@ def _slant(depth: Array, camera: Intrinsics) -> Array:
     for axis, focal in ((1, camera.fx), (0, camera.fy)):
         before, after = (np.abs(depth - _shifted(depth, by, axis)) for by in (SLANT_STEP, -SLANT_STEP))
         slopes.append(np.minimum(before, after) * focal / (SLANT_STEP * depth))
-    return np.asarray(cv2.blur(np.hypot(*slopes), (3, 3)))
+    return imgproc.box_blur(np.hypot(*slopes), 3)
 
 
 def _shifted(values: Array, by: int, axis: int) -> Array:

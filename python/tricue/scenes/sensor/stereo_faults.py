@@ -3,9 +3,9 @@
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 
+from tricue import imgproc
 from tricue.scenes.arrays import Picture
 
 
@@ -24,11 +24,6 @@ class StereoFaults(NamedTuple):
 
     def apply(self, picture: Picture) -> Picture:
         """The right image (H, W, 3), before noise, of one that is rectified and exposed as the left."""
-        moved = cv2.warpAffine(
-            picture,
-            np.array([[1.0, 0, 0], [0, 1, self.rows]]),
-            picture.shape[1::-1],
-            flags=cv2.INTER_LINEAR,
-            borderMode=cv2.BORDER_REPLICATE,
-        )
+        height, width = picture.shape[:2]
+        moved = imgproc.shift(picture, 0, self.rows, height, width, border="replicate")
         return np.asarray(np.float32(self.gain) * moved, np.float32)

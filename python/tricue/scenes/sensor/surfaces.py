@@ -3,9 +3,9 @@
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 
+from tricue import imgproc
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering.depth_sensor import add_flying_pixels, find_depth_edges
 
@@ -30,22 +30,21 @@ class SurfaceFaults(NamedTuple):
         seen = _lose_thin_things(depth, self.thin)
         seen = _displace(seen, self.ragged, rng)
         if self.smear > 0:
-            seen = np.asarray(cv2.GaussianBlur(seen, (0, 0), self.smear))
+            seen = imgproc.gaussian_blur(seen, self.smear)
         return add_flying_pixels(seen, find_depth_edges(seen), self.flying, rng)
 
 
 def smooth_noise(shape: tuple[int, ...], grain: float, rng: np.random.Generator) -> Array:
     """Gaussian noise (H, W) of mean 0 and deviation 1, blurred by a sigma of ``grain`` pixels."""
-    noise = np.asarray(cv2.GaussianBlur(rng.standard_normal(shape), (0, 0), grain))
+    noise = imgproc.gaussian_blur(rng.standard_normal(shape), grain)
     return np.asarray(noise / noise.std())
 
 
 def _lose_thin_things(depth: Array, width: int) -> Array:
     """A morphological closing: narrow near things get the depth of what is behind them."""
-    square = np.ones((width + 1, width + 1), np.uint8)
     # The second anchor mirrors the first, without which an even square would move everything.
-    anchors = [((width + odd) // 2,) * 2 for odd in (1, 0)]
-    closed = np.asarray(cv2.erode(cv2.dilate(depth, square, anchor=anchors[0]), square, anchor=anchors[1]))
+    anchors = [(width + odd) // 2 for odd in (1, 0)]
+    closed = imgproc.erode(imgproc.dilate(depth, width + 1, anchors[0]), width + 1, anchors[1])
     return np.where(closed - depth > MIN_THIN_STEP * depth, closed, depth)
 
 

@@ -5,13 +5,14 @@ Targets and walls are cut from different photographs of scikit-image; the occlud
 textures of :mod:`tricue.scenes.textures`.
 """
 
+import math
 from functools import cache
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array
 from tricue.scenes.rendering import photographs, textures
@@ -104,7 +105,8 @@ def _sample_window(aspect: float, wall: str, rng: np.random.Generator) -> tuple[
         width, height = np.array([aspect**0.5, aspect**-0.5]) * rng.uniform(90, 170)
         top, left = (rng.random(2) * (np.array(picture.shape[:2]) - [height, width])).astype(int)
         part = picture[top : top + int(height), left : left + int(width)]
-        part = np.asarray(cv2.resize(part, _texels(aspect), interpolation=cv2.INTER_CUBIC), np.uint8)
+        columns, rows = _texels(aspect)
+        part = imgproc.resize(part, rows, columns, "cubic")
         if _is_distinct(part, behind):
             break
     return part, name
@@ -117,18 +119,19 @@ def _texels(aspect: float) -> tuple[int, int]:
     return columns, rows
 
 
-def _is_distinct(part: Image, behind: NDArray[np.float32]) -> bool:
-    gray = cv2.cvtColor(part, cv2.COLOR_BGR2GRAY).astype(np.float32)
+def _is_distinct(part: Image, behind: Array) -> bool:
+    gray = imgproc.bgr_to_gray(part).astype(np.float32)
     detail = np.abs(np.diff(gray, axis=0)).mean() + np.abs(np.diff(gray, axis=1)).mean()
-    distance = cv2.compareHist(_histogram(part), behind, cv2.HISTCMP_BHATTACHARYYA)
+    distance = math.sqrt(max(0.0, 1 - float(np.sqrt(_histogram(part) * behind).sum())))  # Bhattacharyya's
     return bool(
         gray.std() > MIN_TARGET_CONTRAST and detail > MIN_TARGET_DETAIL and distance > MIN_WALL_DISTANCE
     )
 
 
-def _histogram(picture: Image) -> NDArray[np.float32]:
-    counts = cv2.calcHist([picture], [0, 1, 2], None, [8] * 3, [0, 256] * 3)
-    return np.asarray(counts / counts.sum(), np.float32)
+def _histogram(picture: Image) -> Array:
+    """The share (512,) of the pixels that fall in each of 8x8x8 bins of colors."""
+    bins = (picture >> 5).reshape(-1, 3) @ np.array([64, 8, 1])
+    return np.asarray(np.bincount(bins, minlength=512) / len(bins))
 
 
 def _shuffle_blocks(picture: Image, rng: np.random.Generator) -> Image:
@@ -144,10 +147,10 @@ def _shuffle_blocks(picture: Image, rng: np.random.Generator) -> Image:
 
 def _recolor(picture: Image, rng: np.random.Generator) -> Image:
     """The same lightness with opposite hues, and a tint, since gray has no opposite hue."""
-    lab = cv2.cvtColor((picture / np.float32(255)).astype(np.float32), cv2.COLOR_BGR2LAB)
+    lab = imgproc.bgr_to_lab((picture / np.float32(255)).astype(np.float32))
     angle = rng.uniform(0, 2 * np.pi)
     lab[..., 1:] = -lab[..., 1:] + np.array([45 * np.cos(angle), 45 * np.sin(angle)], np.float32)
-    colors = cv2.cvtColor(lab, cv2.COLOR_LAB2BGR)
+    colors = imgproc.lab_to_bgr(lab)
     return np.asarray(np.clip(np.rint(255 * colors), 0, 255), np.uint8)
 
 
@@ -158,9 +161,7 @@ def _wall(camera: Intrinsics, name: str, far: float, rng: np.random.Generator) -
         picture = picture[:, ::-1]
     rows, columns = picture.shape[:2]
     beside, over = columns * 3 // 4, rows * 3 // 4
-    tiled: Image = np.asarray(
-        cv2.copyMakeBorder(picture, over, over, beside, beside, cv2.BORDER_REFLECT), np.uint8
-    )
+    tiled: Image = np.pad(picture, ((over, over), (beside, beside), (0, 0)), "symmetric")
     scale = far * max(camera.width / camera.fx / columns, camera.height / camera.fy / rows)
     scale *= rng.uniform(1.0, 1.2)  # meters per texel
     size = tiled.shape[1] * scale, tiled.shape[0] * scale

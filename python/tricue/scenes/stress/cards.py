@@ -8,10 +8,10 @@ right, y down, z forward, meters.
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 from tricue.scenes.arrays import Array, Mask, Picture
 from tricue.scenes.rendering.textures import build_pyramid, select_level
@@ -34,7 +34,7 @@ class Card(NamedTuple):
     ) -> "Card":
         """A card of an image (h, w, 3), cut along an outline."""
         share = _opacity(outline, *picture.shape[:2])
-        cut = np.asarray(cv2.merge([*(channel * share for channel in cv2.split(picture)), share]), np.float32)
+        cut = np.dstack([picture * share[..., None], share]).astype(np.float32, copy=False)
         return cls(build_pyramid(cut), outline, size)
 
 
@@ -128,10 +128,9 @@ class CardCamera(NamedTuple):
         corner, along, down = pose.edges(card)
         to_ray = np.stack([along, down, corner - [self.offset, 0, 0]], axis=1)
         to_part = np.array([[1, 0, -columns.start], [0, 1, -rows.start], [0, 0, 1]])
-        size = columns.stop - columns.start, rows.stop - rows.start
-        return np.asarray(
-            cv2.warpPerspective(level, to_part @ self.intrinsics.matrix @ to_ray @ to_unit, size)
-        )
+        homography = to_part @ self.intrinsics.matrix @ to_ray @ to_unit
+        size = rows.stop - rows.start, columns.stop - columns.start
+        return imgproc.warp_perspective(level, homography, *size)
 
     def _depth(self, pose: CardPose, columns: slice, rows: slice) -> Picture:
         """The depth (h, w) of a card's plane: n . (z ray) = n . center."""
@@ -174,10 +173,6 @@ def _opacity(outline: Array, height: int, width: int) -> Picture:
     """The share (height, width) of each texel that is inside an outline."""
     if np.array_equal(outline, rectangle_outline()):
         return np.ones((height, width), np.float32)
-    fine = np.zeros((height * OUTLINE_SAMPLES, width * OUTLINE_SAMPLES), np.float32)
-    cv2.fillPoly(
-        fine,
-        [np.rint(outline * [width * OUTLINE_SAMPLES, height * OUTLINE_SAMPLES] - 0.5).astype(np.int32)],
-        1.0,
-    )
-    return np.asarray(cv2.resize(fine, (width, height), interpolation=cv2.INTER_AREA), np.float32)
+    fine = height * OUTLINE_SAMPLES, width * OUTLINE_SAMPLES
+    corners = np.rint(outline * fine[::-1] - 0.5).astype(np.int32)
+    return imgproc.resize(imgproc.fill_polygon(corners, *fine), height, width, "area")

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue import imgproc
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import finite, positive_whole
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -164,7 +164,7 @@ class _StressCameras(NamedTuple):
             color = np.mean([stage.draw(camera, index, time).color for time in times], axis=0)
         else:
             color = (sharp or stage.draw(camera, index, index)).color
-        blurred = np.asarray(cv2.GaussianBlur(color, (0, 0), BLUR_DEVIATION), np.float32)
+        blurred = imgproc.gaussian_blur(np.asarray(color, np.float32), BLUR_DEVIATION)
         return expose_lit(blurred, motion.light[index], self.noise, rng if self.noise else None)
 
 

@@ -3,7 +3,6 @@
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -118,4 +117,10 @@ class StressStage(NamedTuple):
         inside = (outline >= 0).all() and (
             outline <= [camera.intrinsics.width, camera.intrinsics.height]
         ).all()
-        return count if inside else max(count, float(cv2.contourArea(outline.astype(np.float32))))
+        return count if inside else max(count, _area(outline))
+
+
+def _area(outline: Array) -> float:
+    """The area of a polygon (n, 2), by the shoelace formula."""
+    x, y = outline.T
+    return abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from tricue.camera import toml
+from tricue.camera.numbers import to_float
 
 if typing.TYPE_CHECKING:
     from typing_extensions import Self
@@ -153,8 +154,10 @@ def seconds_of_frames(value: Any, name: str, rate: float) -> Any:
     """
     if not isinstance(value, int) or isinstance(value, bool) or value < 1:
         return value
-    seconds = value / rate
-    message = f"{name}: a number of frames is deprecated, give seconds: {seconds:.3g} instead of {value}"
+    seconds = to_float(value) / rate
+    message = (
+        f"{name}: a number of frames is deprecated, give seconds: {seconds:.3g} instead of {value!r:.20}"
+    )
     warnings.warn(message, DeprecationWarning, stacklevel=_caller_stacklevel())
     return seconds
 
@@ -207,7 +210,7 @@ def _convert(value: Any, kind: Any, f: "dataclasses.Field[Any]") -> Any:
     abstract = {int: Integral, float: Real}.get(kind, kind)
     if not isinstance(value, abstract) or (isinstance(value, bool) and kind is not bool):
         raise TypeError(f"{f.name}: expected {_TYPE_NAMES.get(kind, kind)}, got {value!r:.80}")
-    return kind(value)
+    return to_float(value) if kind is float else kind(value)
 
 
 def _check_choice(value: Any, choices: tuple[Any, ...] | None, name: str) -> None:
@@ -225,4 +228,4 @@ def _check_bounds(value: Any, f: "dataclasses.Field[Any]") -> None:
     }
     if not all(within[key](bound) for key, bound in bounds.items()):
         expected = " and ".join(f"{_BOUNDS[key]} {bound}" for key, bound in bounds.items())
-        raise ValueError(f"{f.name}: expected {expected}, got {value!r}")
+        raise ValueError(f"{f.name}: expected {expected}, got {value!r:.80}")

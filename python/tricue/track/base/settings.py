@@ -5,30 +5,46 @@ import ast
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from tricue.camera import toml
 from tricue.track.base.params import current_names
-from tricue.track.base.registry import create, tracker_class
+from tricue.track.base.registry import create, names, tracker_class
 from tricue.track.base.track import Tracker
+
+PAPER = "paper"
+"""In the place of a TOML file: the parameters as the tracker's paper prints them."""
 
 
 def make_tracker(
-    name: str, params_file: Path | None, settings: Sequence[str], seed: int, kernels: str, **camera: Any
+    name: str,
+    base: Path | Literal["paper"] | None,
+    settings: Sequence[str],
+    seed: int,
+    kernels: str,
+    **camera: Any,
 ) -> Tracker:
-    """A tracker with the parameters of a TOML file, overridden by settings "name=value"."""
-    return create(name, **read_settings(name, params_file, settings), seed=seed, kernels=kernels, **camera)
+    """A tracker with the parameters of ``base``, overridden by settings "name=value".
+
+    base: a TOML file, :data:`PAPER`, or None for the defaults.
+    """
+    return create(name, **read_settings(name, base, settings), seed=seed, kernels=kernels, **camera)
 
 
-def read_settings(name: str, params_file: Path | None, settings: Sequence[str]) -> dict[str, Any]:
-    """The same parameters as keywords. Those of the file are checked; the settings are not yet."""
+def read_settings(name: str, base: Path | Literal["paper"] | None, settings: Sequence[str]) -> dict[str, Any]:
+    """The same parameters as keywords. Those of ``base`` are checked; the settings are not yet."""
     kind = tracker_class(name).Params
+    if base == PAPER:
+        return _printed(name, kind) | _parse_for(kind, settings)
     if kind is None:  # a third-party class, which checks its own parameters
-        return ({} if params_file is None else toml.read(params_file)) | parse_settings(settings)
-    values: dict[str, Any] = {}
-    if params_file is not None:
-        values = dataclasses.asdict(kind.from_toml(params_file))
-    return values | _split_words(current_names(kind, parse_settings(settings)), kind)
+        return ({} if base is None else toml.read(base)) | parse_settings(settings)
+    values = {} if base is None else dataclasses.asdict(kind.from_toml(base))
+    return values | _parse_for(kind, settings)
+
+
+def papers() -> tuple[str, ...]:
+    """The names of the trackers that have parameters as printed."""
+    return tuple(name for name in names() if hasattr(tracker_class(name).Params, PAPER))
 
 
 def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
@@ -38,6 +54,17 @@ def parse_settings(settings: Sequence[str]) -> dict[str, Any]:
         if not (equals and name.isidentifier()):
             raise ValueError(f"--set: expected name=value, got {name + equals!r}")
     return {name: _literal(text.strip()) for name, _, text in pairs}
+
+
+def _printed(name: str, kind: Any) -> dict[str, Any]:
+    """The parameters as the tracker's paper prints them; ValueError for a tracker that follows no paper."""
+    if not hasattr(kind, PAPER):
+        raise ValueError(f"--paper: {name} follows no paper; those that do: {', '.join(papers())}")
+    return dataclasses.asdict(kind.paper())
+
+
+def _parse_for(kind: Any, settings: Sequence[str]) -> dict[str, Any]:
+    return _split_words(current_names(kind, parse_settings(settings)), kind)
 
 
 def _split_words(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
@@ -54,5 +81,5 @@ def _split_words(values: Mapping[str, Any], kind: Any) -> dict[str, Any]:
 def _literal(text: str) -> Any:
     try:
         return ast.literal_eval(text.title() if text in ("true", "false") else text)
-    except (ValueError, SyntaxError):
+    except (ValueError, SyntaxError, MemoryError, RecursionError):  # the last two: nested too deeply
         return text

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike
+from tricue.camera.pose import Pose
 from tricue.track.base.traits import Traits
 
 
@@ -34,6 +35,7 @@ class Track:
     covariance: (3, 3) of the position, square meters, or None.
     depth: meters along the camera's axis, or None where it wasn't measured. It needs no camera where a depth
         image measures it, and is the position's z where there is a position.
+    pose: where the camera stands, or None; see :class:`tricue.Pose`.
     """
 
     box: Box
@@ -42,6 +44,21 @@ class Track:
     position: NDArray[np.float64] | None = None
     covariance: NDArray[np.float64] | None = None
     depth: float | None = None
+    pose: Pose | None = None
+
+    @property
+    def world_position(self) -> NDArray[np.float64] | None:
+        """(3,) meters in the world's frame, or None without position or pose."""
+        if self.position is None or self.pose is None:
+            return None
+        return self.pose.to_world(self.position)
+
+    @property
+    def world_covariance(self) -> NDArray[np.float64] | None:
+        """(3, 3) of the world position, square meters, or None. The pose is taken to be exact."""
+        if self.covariance is None or self.pose is None:
+            return None
+        return self.pose.covariance_to_world(self.covariance)
 
     __hash__ = None  # type: ignore[assignment]  # arrays have none
 
@@ -49,7 +66,7 @@ class Track:
         """Bit-exact equality, arrays included, so that runs can be compared."""
         if not isinstance(other, Track):
             return NotImplemented
-        mine, theirs = ((each.box, each.score, each.status, each.depth) for each in (self, other))
+        mine, theirs = ((each.box, each.score, each.status, each.depth, each.pose) for each in (self, other))
         if mine != theirs:
             return False
         return _same(self.position, other.position) and _same(self.covariance, other.covariance)

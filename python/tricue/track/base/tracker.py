@@ -2,12 +2,15 @@
 """The base class of the package's trackers: construction, copying and pickling."""
 
 from abc import ABC, abstractmethod
+from dataclasses import replace
 from typing import Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue import kernels as kernel_sets
+from tricue.camera.frame import Frame, FrameLike
+from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.base import validation
 from tricue.track.base.params import Params
 from tricue.track.base.track import Track
@@ -27,6 +30,8 @@ class TrackerBase(ABC, Generic[P, S]):
 
     traits: ClassVar[Traits]
     Params: ClassVar[type[Any]]
+    rig: StereoRig | None = None
+    intrinsics: Intrinsics | None = None
 
     def __init__(
         self, params: P | None, seed: int, kernels: kernel_sets.Name, values: dict[str, Any]
@@ -37,9 +42,17 @@ class TrackerBase(ABC, Generic[P, S]):
         self._state: S | None = None
         self._derive()
 
-    def _keep(self, state: S) -> Track:
-        """The track of a state, which replaces the one before unless making the track fails."""
+    def _keep(self, state: S, frame: FrameLike) -> Track:
+        """The track of a state, which replaces the one before unless making the track fails.
+
+        The track gets the pose of the frame, or else that of the camera.
+        """
         track = self._track(state)
+        pose = frame.pose if isinstance(frame, Frame) else None
+        if pose is None and (camera := self.rig or self.intrinsics) is not None:
+            pose = camera.pose
+        if pose is not None:
+            track = replace(track, pose=pose)
         self._state = state
         return track
 

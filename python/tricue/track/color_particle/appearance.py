@@ -49,10 +49,13 @@ class Appearance(NamedTuple):
     def create(cls, p: ColorParticleParams) -> "Appearance":
         """Models that have learned nothing yet."""
         model: ObservationModel = OBSERVATION_MODELS[p.observation].create(p)
+        window = grid(*p.grid, p.grid_reach)
+        if p.window_shape == "ellipse":
+            window = window[np.hypot(*window.T) <= p.grid_reach]
         return cls(
             model,
             ColorContrast(p.color_weight) if p.color_weight > 0 else None,
-            grid(*p.grid, p.grid_reach),
+            window,
             ring(p.ring_samples, *p.ring),
             p.likelihood == "linear",
             model.sharpness if p.sharpness is None else p.sharpness,

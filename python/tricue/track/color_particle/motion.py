@@ -53,7 +53,7 @@ class EllipseMotion(NamedTuple):
         mean_minor, mean_major = self.mean_size
         (smallest, largest), (first_minor, first_major) = p.size_range, self.first_size
         return Prediction(
-            np.array((vx, vy, pull * (mean_minor - minor), pull * (mean_major - major))),
+            np.array((p.drift * vx, p.drift * vy, pull * (mean_minor - minor), pull * (mean_major - major))),
             np.array((noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major)),
             np.array((left, top, smallest * first_minor, smallest * first_major)),
             np.array((right, bottom, largest * first_minor, largest * first_major)),

@@ -49,12 +49,15 @@ def detect_skin(
     prediction: Prediction,
     p: ColorParticleParams,
 ) -> SkinDetection:
-    """The Gaussian of the skin pixels, (11)-(16), in the part of the image that the target can reach."""
+    """The Gaussian of the skin pixels, (11)-(16), where the target can be next or in the whole image."""
     if p.skin_share == 0:
         return NO_DETECTION
-    (left, top, *_), (right, bottom, *_) = prediction.lower.tolist(), prediction.upper.tolist()
     minor, major = ellipse[2:]
-    region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
+    if p.skin_region == "image":
+        region = (0, 0, image.shape[1], image.shape[0])
+    else:
+        (left, top, *_), (right, bottom, *_) = prediction.lower.tolist(), prediction.upper.tolist()
+        region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
     count, x, y, xx, yy, xy = k.skin_moments(image, skin_color, p.skin_threshold, region).tolist()
     if count < MIN_SKIN_AREA * 4 * minor * major:
         return NO_DETECTION

@@ -112,7 +112,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             random=RandomSource(self.seed).save(),
             timestamp=timestamp,
         )
-        return self._keep(state)
+        return self._keep(state, frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Track the target into the next frame, of the same size as the first.
@@ -134,7 +134,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             timestamp=timestamp,
             missed_seconds=before.missed_seconds + seconds if state.missed_frames else 0.0,
         )
-        return self._keep(state)
+        return self._keep(state, frame)
 
     def _follow(self, state: State, image: Image) -> State:
         """Predict, measure, weigh, estimate; once more and wider where the likelihood has dropped."""

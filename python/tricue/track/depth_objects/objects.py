@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Objects in depth, section IV.A: divisions of the range, (32)-(36), and their connected components."""
 
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -64,7 +63,7 @@ def segment(
     NO_FLOOR without one. free: (h, w) 0 where no object is looked for, otherwise 1; None for 1 everywhere.
     """
     depth = fg.depth
-    distance = ground_distance(fg, plane, p)
+    distance = ground_distance(k, fg, plane, p)
     gap = p.edge_gap if p.edges else NO_EDGES
     mask = k.depth_edges(distance, gap, p.edge_slope) ^ np.uint8(1)
     if free is not None:
@@ -87,7 +86,7 @@ def segment(
     return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])
 
 
-def ground_distance(fg: Foreground, plane: Floats, p: SegmentationParams) -> Singles:
+def ground_distance(k: Kernels, fg: Foreground, plane: Floats, p: SegmentationParams) -> Singles:
     """(h, w) meters along the ground, in the camera's direction, within near and far; NaN in the background.
 
     What stands upright before a tilted camera has one distance along the ground, but many depths. Without a
@@ -96,22 +95,7 @@ def ground_distance(fg: Foreground, plane: Floats, p: SegmentationParams) -> Sin
     up = plane[:3]
     if not up.any():
         return fg.depth
-    per_depth = _distance_per_depth(fg.depth.shape, tuple(fg.camera.tolist()), tuple(up.tolist()))
-    distance: Singles = fg.depth * per_depth
-    np.maximum(distance, np.float32(p.near), out=distance)
-    np.minimum(distance, np.nextafter(np.float32(p.far), np.float32(0)), out=distance)
-    return distance
-
-
-@lru_cache(maxsize=4)
-def _distance_per_depth(shape: tuple[int, ...], camera: tuple[float, ...], up: tuple[float, ...]) -> Singles:
-    """(h, w) meters along the ground per meter of depth; the same while the camera stands."""
-    fx, fy, cx, cy = camera
-    ahead = np.array([0.0, 0.0, 1.0]) - up[2] * np.array(up)
-    ahead /= np.linalg.norm(ahead)
-    down, across = ((np.arange(n) - c) / f for n, c, f in zip(shape, (cy, cx), (fy, fx), strict=True))
-    per_depth: Singles = np.add.outer(ahead[1] * down + ahead[2], ahead[0] * across).astype(np.float32)
-    return per_depth
+    return k.ground_distance(fg.depth, fg.camera, up, p.near, p.far)
 
 
 def _at_edge(table: Floats, measured: tuple[int, int, int, int]) -> NDArray[np.bool_]:

@@ -47,17 +47,30 @@ class DepthModel(NamedTuple):
 
     def observe(self, k: Kernels, fg: Foreground, states: Floats) -> DepthObservation:
         """Compare the foreground in and around the rectangles of states (N, 5) with the model."""
+        distance, inside, front, around = self._measure(k, fg, states).T
+        if self.p.histogram == "absolute":
+            distance = self._absolute_distance(k, fg, states)
+        contrast = inside - around
+        log_likelihood = self._log_likelihood(distance) + self.p.contrast * contrast
+        return DepthObservation(log_likelihood, inside, contrast, front)
+
+    def distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
+        """(N,) the distance (38) of the histograms in the rectangles of states (N, 5), in [0, 1]."""
+        if self.p.histogram == "absolute":
+            return self._absolute_distance(k, fg, states)
+        distance: Floats = self._measure(k, fg, states)[:, 0]
+        return distance
+
+    def _measure(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
+        """(N, 4) as the kernel depth_contrast returns it; without distance for an absolute histogram."""
         p = self.p
         relative = self.histogram if p.histogram == "relative" else NO_HISTOGRAM
         ring = (p.margin, SURROUND_SAMPLES)
         reach, margin = p.histogram_reach, p.occluder_margin
-        measured = k.depth_contrast(fg.depth, fg.camera, states, relative, p.grid, ring, reach, margin)
-        distance, inside, front, around = measured.T
-        if p.histogram == "absolute":
-            distance = self._absolute_distance(k, fg, states)
-        contrast = inside - around
-        log_likelihood = self._log_likelihood(distance) + p.contrast * contrast
-        return DepthObservation(log_likelihood, inside, contrast, front)
+        measured: Floats = k.depth_contrast(
+            fg.depth, fg.camera, states, relative, p.grid, ring, reach, margin
+        )
+        return measured
 
     def _log_likelihood(self, distance: Floats) -> Floats:
         if self.p.likelihood == "linear":

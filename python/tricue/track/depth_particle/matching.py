@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Which of the segmented objects is the target: by its predicted position, its size and its signature."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -45,11 +46,14 @@ def best_match(
     signature: Signature,
     seconds: float,
     max_cost: float,
+    *,
+    complete: bool = True,
+    other_costs: Sequence[float] | None = None,
 ) -> int | None:
     """The index of the object of the least cost against the expected state (5,), if any is below max_cost.
 
-    The cost is in nats, of position, size and signature. Objects count as completed where they are cut.
-    seconds: since the target was seen.
+    The cost is in nats, of position, size and signature; ``other_costs``, of each object, come on top.
+    complete: whether objects count as completed where they are cut. seconds: since the target was seen.
     """
     # Hardly more than one object is near enough: a loop over those is faster than arrays.
     deviation = [
@@ -63,9 +67,12 @@ def best_match(
         z_off = abs(state[2] - target[2]) / deviation[2]
         if z_off * z_off / 2 >= best_cost or state[3] * state[4] < min_area:
             continue
-        cost = _cost(complete_rectangle(state, cut, target, size), target, deviation, known)
+        whole_state = complete_rectangle(state, cut, target, size) if complete else state
+        cost = _cost(whole_state, target, deviation, known)
         if not any(cut):
             cost += SIGNATURE_COST * signature.distance(objects, i)
+        if other_costs is not None:
+            cost += other_costs[i]
         if cost < best_cost:
             best, best_cost = i, cost
     return best

@@ -19,6 +19,7 @@ SIZE_RETURN = 0.3  # per frame, of the size to its running mean
 MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
 FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole, until it is known
 MIN_SIZE = 0.1  # meters
+NO_DRIFT = np.zeros(5)
 
 
 class BodyMotion(NamedTuple):
@@ -45,7 +46,10 @@ class BodyMotion(NamedTuple):
         The noise, K of (39), grows with the speed, with them, and with ``missed``, the seconds without the
         target before them.
         """
-        drift = np.concatenate([self.velocity * seconds, SIZE_RETURN * (self.mean_size - self.state[3:])])
+        drift = NO_DRIFT
+        if p.motion == "velocity":
+            to_mean_size = SIZE_RETURN * (self.mean_size - self.state[3:])
+            drift = np.concatenate([self.velocity * seconds, to_mean_size])
         time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
         speed = math.hypot(*self.velocity.tolist())
         noise = MIN_POSITION_NOISE + (p.position_noise + p.speed_noise * speed) * time * AXIS_NOISE

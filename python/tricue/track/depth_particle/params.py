@@ -2,24 +2,35 @@
 """The parameters of the depth particle tracker."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from tricue.track.base.params import parameter
 from tricue.track.depth_objects.params import SegmentationParams
 
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 OURS = "our experiment: benchmarks/README.md"
+SR_3000_NEAR, SR_3000_FAR = 0.3, 7.5  # meters, section V
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DepthParticleParams(SegmentationParams):
     """Lengths are in meters: a person has about the same size everywhere in front of the camera.
 
-    The paper's own form is ``histogram="absolute"``, ``likelihood="linear"``, ``contrast=0``,
-    ``measurement=0``, ``floor=False``, ``edges=False``, ``gap_passes=0``, ``leave_out_others=False``.
+    :meth:`paper` has the paper's own form.
     """
 
     particles: int = parameter(
         100, unit="particles", source="section V", low=2, high=100_000, doc="of the filter"
+    )
+    sweeps: int = parameter(
+        2,
+        unit="samplings",
+        source="1 as printed; " + OURS,
+        low=1,
+        high=2,
+        doc="per frame; the second is close to the first's estimate",
     )
     rate: float = parameter(
         15.0, unit="frames/s", source=OURS, above=0, doc="assumed for frames without timestamps"
@@ -36,6 +47,21 @@ class DepthParticleParams(SegmentationParams):
         high=1,
         doc="by a human candidate; furniture fills more",
         was="fill",
+    )
+    human_filter: bool = parameter(
+        False,
+        unit="-",
+        source="True: section IV.A; " + OURS,
+        doc="only a human candidate can be the target, also while it is tracked",
+    )
+    depth_signature: bool = parameter(
+        False,
+        unit="-",
+        source="True: section IV.A; " + OURS,
+        doc="objects are told apart by their depth histograms, too",
+    )
+    complete: bool = parameter(
+        True, unit="-", source=OURS, doc="join the pieces of a body, and complete it where it is cut"
     )
     human_height: tuple[float, float] = parameter(
         (0.9, 2.2), unit="m", source="section IV.A; " + OURS, above=0, doc="of a human candidate"
@@ -75,6 +101,9 @@ class DepthParticleParams(SegmentationParams):
     measurement: float = parameter(
         1.0, unit="-", source=OURS, low=0, doc="weight of the segmented object in the likelihood; 0: not used"
     )
+    size_prior: float = parameter(
+        1.0, unit="-", source=OURS, low=0, doc="weight of the usual size in the likelihood; 0: not used"
+    )
     object_share: float = parameter(
         0.4,
         unit="of particles",
@@ -91,6 +120,12 @@ class DepthParticleParams(SegmentationParams):
         doc="what wasn't the target, and still has the depth it had, is no part of it",
     )
 
+    motion: Literal["velocity", "constant"] = parameter(
+        "velocity",
+        unit="-",
+        source="constant: A = I in (39); " + OURS,
+        doc="particles drift with the velocity, and to the mean size, or not at all",
+    )
     max_speed: float = parameter(
         2.0, unit="m/s", source="a brisk walk", above=0, doc="of the target", was="fastest"
     )
@@ -148,6 +183,12 @@ class DepthParticleParams(SegmentationParams):
         doc="of the log-likelihood below its running mean, from which the target is missed",
         was="surprise",
     )
+    coast: bool = parameter(
+        True,
+        unit="-",
+        source=OURS,
+        doc="a missed target moves as predicted; False: the filter goes on, and always says TRACKED",
+    )
     lost_after: float = parameter(
         1.5, unit="s", source=OURS, low=0, doc="time missed, with nothing in front, until LOST"
     )
@@ -158,3 +199,52 @@ class DepthParticleParams(SegmentationParams):
             low, high = getattr(self, name)
             if low > high:
                 raise ValueError(f"{name}: expected the lower number first, got {(low, high)}")
+
+    @classmethod
+    def paper(cls) -> "Self":
+        """The tracker as section IV prints it, with no stage of ours.
+
+        - Segmentation (32)-(36): all maxima of the density divide the range (``prominence``), and nothing but
+          connected components separates what a division holds: no floor, no edges, no filled gaps, nothing
+          remembered or completed. The kernel's width (``bandwidth``) and the least area of an object aren't
+          printed, and stay ours.
+        - Human candidates: by aspect ratio and by size at their mean depth, always; not by how much of its
+          box one fills. The limits aren't printed, and stay ours.
+        - Which candidate is the target: by place and extent along the image's axes and in depth, by its
+          horizontal and vertical distribution, and by the depth histogram of its rectangle, (38). No measure
+          of likeness is printed: it is the cost of :mod:`tricue.track.depth_particle.matching`.
+        - State: "a scalable rectangle"; ours is in meters, with a depth. Particles, (39): A = I, and K grows
+          with the speed; K's numbers, and the share drawn from the segmented object, aren't printed.
+        - Likelihood (37), (38): 1 - d of the depths' histograms, 256 levels over the camera's range, of 64 x
+          64 places in a rectangle in place of its every pixel. Printed are counts, with which d would
+          exceed 1: they are divided by their sum, and d by its maximum, the square root of 2.
+        - The histogram is updated "if estimation confidence is high": while the likelihood of the estimate is
+          above 0.6 of its running mean (``likelihood_drop``). Neither number nor rate is printed.
+        - Nothing is printed of hidden targets: the filter goes on, and every frame is TRACKED.
+        - Number of particles and range: those of section V, 100 (of figure 1) and 0.3 to 7.5 m.
+        """
+        return cls(
+            near=SR_3000_NEAR,
+            far=SR_3000_FAR,
+            floor=False,
+            edges=False,
+            gap_passes=0,
+            prominence=0.0,
+            occluder_margin=SR_3000_FAR,  # nothing counts as being in front
+            sweeps=1,
+            max_fill=1.0,
+            human_filter=True,
+            depth_signature=True,
+            complete=False,
+            histogram="absolute",
+            likelihood="linear",
+            grid=(64, 64),
+            contrast=0.0,
+            measurement=0.0,
+            size_prior=0.0,
+            leave_out_others=False,
+            motion="constant",
+            min_visible_share=0.0,
+            likelihood_drop=0.5,
+            coast=False,
+        )

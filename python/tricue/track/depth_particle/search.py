@@ -6,10 +6,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.kernels import Kernels
 from tricue.track.base.prediction import Prediction
+from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.objects import Objects
-from tricue.track.depth_particle.body import join_pieces
-from tricue.track.depth_particle.matching import MAX_COST, MAX_COST_MISSED, TargetObject, best_match
+from tricue.track.depth_particle.body import Body, join_pieces
+from tricue.track.depth_particle.initialize import find_people
+from tricue.track.depth_particle.matching import (
+    MAX_COST,
+    MAX_COST_MISSED,
+    SIGNATURE_COST,
+    TargetObject,
+    best_match,
+)
 from tricue.track.depth_particle.motion import MAX_NOISE_TIME, BodyMotion
 from tricue.track.depth_particle.occluder import follow_occluder, remove_occluder
 from tricue.track.depth_particle.params import DepthParticleParams
@@ -33,20 +42,54 @@ class SearchResult(NamedTuple):
 
 
 def find_target(
-    state: State, objects: Objects, prediction: Prediction, seconds: float, p: DepthParticleParams
+    k: Kernels,
+    state: State,
+    fg: Foreground,
+    objects: Objects,
+    prediction: Prediction,
+    seconds: float,
+    p: DepthParticleParams,
 ) -> SearchResult:
     """Search the target among a frame's objects. seconds: since the last frame."""
     expected = state.motion.state + prediction.drift
     time = min(seconds + state.missed_seconds, MAX_SEARCH_TIME if state.lost(p) else MAX_NOISE_TIME)
     candidates, occluder = _candidates(state, objects, seconds, p)
     max_cost = MAX_COST if state.missed_seconds == 0 else MAX_COST_MISSED
-    best = best_match(candidates, expected, state.motion, state.signature, time, max_cost)
+    best = best_match(
+        candidates,
+        expected,
+        state.motion,
+        state.signature,
+        time,
+        max_cost,
+        complete=p.complete,
+        other_costs=_other_costs(k, state, fg, candidates, p),
+    )
     if best is None:
         return SearchResult(None, state.motion, occluder)
-    body = join_pieces(candidates, best, expected, state.motion.mean_size)
     motion = state.motion.grow(candidates.states[best, 3:])
+    if not p.complete:
+        body = Body.from_object(candidates, best)
+        return SearchResult(TargetObject(body.state, body.whole, body.signature), motion, occluder)
+    body = join_pieces(candidates, best, expected, state.motion.mean_size)
     completed = body.complete(expected, motion.mean_size)
     return SearchResult(TargetObject(completed, body.whole, body.signature), motion, occluder)
+
+
+def _other_costs(
+    k: Kernels, state: State, fg: Foreground, objects: Objects, p: DepthParticleParams
+) -> list[float] | None:
+    """Nats, of each object: of a depth histogram unlike the target's, and of who isn't a human candidate."""
+    if not (p.human_filter or p.depth_signature) or len(objects.states) == 0:
+        return None
+    costs = np.zeros(len(objects.states))
+    if p.depth_signature:
+        costs += SIGNATURE_COST * state.model.distance(k, fg, np.ascontiguousarray(objects.states))
+    if p.human_filter:
+        others = np.ones(len(costs), np.bool_)
+        others[find_people(objects, p)] = False
+        costs[others] = np.inf
+    return [float(cost) for cost in costs]
 
 
 def _candidates(

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -39,6 +40,7 @@ VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behin
 MEAN_RATE = 0.1  # per frame, of the running means
 MAX_COVERED_TO_LEARN = 0.1  # of the target, by what is in front of it
 LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their running means
+NO_SIZE_PRIOR = np.full(2, 1e100)  # deviations that no size feels
 MIN_POSITION_DEVIATION = 0.01  # meters, of a track's position
 IDENTITY = np.eye(3)
 NO_DRIFT = np.zeros(5)
@@ -146,7 +148,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             random=random.save(),
             timestamp=timestamp,
         )
-        return self._keep(state)
+        return self._keep(state, frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Track the target into the next frame, of the same size as the first.
@@ -159,7 +161,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         self._random.resume(before.random)
         state = self._follow(before, depth, seconds)
-        return self._keep(state._replace(random=self._random.save(), timestamp=timestamp))
+        return self._keep(state._replace(random=self._random.save(), timestamp=timestamp), frame)
 
     def _follow(self, state: State, depth: NDArray[np.float32], seconds: float) -> State:
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
@@ -169,14 +171,18 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         objects = segment(k, fg, plane, p, free)
         before = state.motion
         prediction = before.predict(p, seconds, state.missed_seconds)
-        target, motion, occluder = find_target(state, objects, prediction, seconds, p)
+        target, motion, occluder = find_target(k, state, fg, objects, prediction, seconds, p)
         state = state._replace(plane=plane, objects=objects, motion=motion, occluder=occluder)
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
         particles = self._filter(state, fg, prediction, target, measured)
-        particles = self._refine(state, fg, particles, measured)
+        if p.sweeps > 1:
+            particles = self._refine(state, fg, particles, measured)
         observed = state.model.observe(k, fg, particles.state[None])
-        if self._recognized(state, observed, target):
-            return self._accept(state, fg, particles, observed, target, seconds)
+        recognized = self._recognized(state, observed, target)
+        if recognized or not p.coast:
+            state = self._accept(state, fg, particles, observed, seconds)
+            clear = float(observed.front[0]) < MAX_COVERED_TO_LEARN
+            return self._learn(state, fg, observed, target) if recognized and clear else state
         return self._coast(state._replace(motion=before), fg, prediction, seconds)
 
     def _filter(
@@ -216,7 +222,8 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         self, state: State, fg: Foreground, particles: Floats, measured: Measurement
     ) -> Floats:
         """(N,) nats: of the depths in and around each rectangle, of its size, and of the measured object."""
-        prior = self._k.rectangle_prior(particles, state.motion.mean_size, LOG_SIZE_DEVIATION, *measured)
+        deviation = _size_deviation(self.params.size_prior)
+        prior = self._k.rectangle_prior(particles, state.motion.mean_size, deviation, *measured)
         return state.model.observe(self._k, fg, particles).log_likelihood + prior
 
     def _recognized(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
@@ -234,14 +241,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         fg: Foreground,
         particles: ParticleSet,
         observed: DepthObservation,
-        target: TargetObject | None,
         seconds: float,
     ) -> State:
-        """The state of a recognized target, which is learned where hardly anything is in front of it."""
+        """The state at the particles' estimate, which is where the target is."""
         p = self.params
-        front = float(observed.front[0])
-        visible = state.missed_seconds == 0 and front < p.max_covered
-        state = state._replace(
+        visible = state.missed_seconds == 0 and float(observed.front[0]) < p.max_covered
+        return state._replace(
             particles=particles,
             others=remember_others(state.others, fg, particles.state, p.histogram_reach),
             motion=state.motion.update(particles.state, p, seconds, visible),
@@ -251,7 +256,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             occluder=None,
             position_spread=0.0,
         )
-        return state if front >= MAX_COVERED_TO_LEARN else self._learn(state, fg, observed, target)
 
     def _learn(
         self, state: State, fg: Foreground, observed: DepthObservation, target: TargetObject | None
@@ -304,6 +308,12 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         covariance = state.particles.covariance[:3, :3] + variance * IDENTITY
         position[:2] += state.signature.centroid_offset
         return Track(box, state.score, status, position, covariance, depth)
+
+
+@cache
+def _size_deviation(weight: float) -> Floats:
+    """(2,) of the logarithms of width and height against their running means, for their prior's weight."""
+    return LOG_SIZE_DEVIATION / np.sqrt(weight) if weight > 0 else NO_SIZE_PRIOR
 
 
 def _score(observed: DepthObservation) -> float:

@@ -22,6 +22,18 @@ TRUSTED_FRAMES = 3  # for which a block is trusted after it had target pixels
 MIN_MEASURED_SHARE = 0.2  # of a block's cells: with fewer disparities, nothing is concluded from them
 
 
+class DisparityLimits(NamedTuple):
+    """What the mean disparity of a block is compared with, cells.
+
+    target: the target's disparity. tolerance: by which a similar one differs from it. occluder: above it
+    something hides the target.
+    """
+
+    target: float
+    tolerance: float
+    occluder: float
+
+
 class BlockObservation(NamedTuple):
     """What a frame measures in each block, (N,) each.
 
@@ -35,10 +47,18 @@ class BlockObservation(NamedTuple):
     mean_disparity: Floats
     same_depth: Counts
 
-    def is_nearer(self, disparity: float) -> Flags:
-        """(N,) whether a block's mean disparity is above one, with enough cells measured."""
-        enough = self.measured >= MIN_MEASURED_SHARE * self.cells
-        return np.asarray((self.mean_disparity > disparity) & enough & (self.cells > 0))
+    @property
+    def has_mean(self) -> Flags:
+        """(N,) whether enough cells of a block are measured for their mean to count."""
+        return np.asarray((self.measured >= MIN_MEASURED_SHARE * self.cells) & (self.cells > 0))
+
+    def is_nearer(self, limits: DisparityLimits) -> Flags:
+        """(N,) whether a block's mean disparity is that of something that hides the target."""
+        return np.asarray((self.mean_disparity > limits.occluder) & self.has_mean)
+
+    def is_similar(self, limits: DisparityLimits) -> Flags:
+        """(N,) whether a block's mean disparity is similar to the target's."""
+        return np.asarray((np.abs(self.mean_disparity - limits.target) <= limits.tolerance) & self.has_mean)
 
     def has_share(self, counts: Counts, share: float) -> Flags:
         """(N,) whether the counts are at least a share of a block's cells."""
@@ -72,21 +92,22 @@ class Blocks(NamedTuple):
     def of(cls, window: Rectangle, p: FlowDepthParams) -> "Blocks":
         """A grid over the first window and around it.
 
-        The blocks of the window belong to the target until they are voted out, as the window was given. In
-        the paper every block has to be voted in.
+        The blocks of the window belong to the target until they are voted out, as the window was given. By
+        the printed rules there are none around it, and every block has to be voted in.
         """
+        adaptive = p.block_rules == "adaptive"
         x0, y0, x1, y1 = window
         width, height = x1 - x0, y1 - y0
         side = max(p.block_side * math.sqrt(width * height), MIN_BLOCK_SIDE)
         columns, rows = (min(max(round(length / side), 1), MAX_BLOCKS) for length in (width, height))
-        margin = math.ceil(GRID_MARGIN * rows / 2)
+        margin = math.ceil(GRID_MARGIN * rows / 2) if adaptive else 0
         i, j = np.meshgrid(np.arange(-margin, columns + margin), np.arange(-margin, rows + margin))
         left, top = i.ravel() * width / columns - width / 2, j.ravel() * height / rows - height / 2
         corners = np.stack([left, top, left + width / columns, top + height / rows], axis=1)
         zeros = np.zeros(len(corners), np.int64)
         core = ((i >= 0) & (i < columns) & (j >= 0) & (j < rows)).ravel()
         anchor = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
-        states = np.where(core, TARGET_BLOCK, NOT_TARGET_BLOCK)
+        states = np.where(core & adaptive, TARGET_BLOCK, NOT_TARGET_BLOCK)
         return cls(corners, anchor, 1.0, states, zeros, zeros, core, TRUSTED_FRAMES * core, zeros)
 
     def moved(self, right: float, down: float) -> "Blocks":
@@ -107,38 +128,68 @@ class Blocks(NamedTuple):
         (x0, y0), (x1, y1) = mine[:, :2].min(axis=0).tolist(), mine[:, 2:].max(axis=0).tolist()
         return x0, y0, x1, y1
 
-    def occluded_share(self, observed: BlockObservation, occluder_disparity: float) -> float:
+    def occluded_share(self, observed: BlockObservation, limits: DisparityLimits) -> float:
         """The share of the target's blocks inside the image that something nearer hides."""
         mine = (self.states != NOT_TARGET_BLOCK) & (observed.cells > 0)
-        return float((mine & observed.is_nearer(occluder_disparity)).sum() / max(mine.sum(), 1))
+        return float((mine & observed.is_nearer(limits)).sum() / max(mine.sum(), 1))
 
-    def voted(self, observed: BlockObservation, occluder_disparity: float, p: FlowDepthParams) -> "Blocks":
-        """The blocks after the votes of a frame, figure 7.
+    def voted(self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams) -> "Blocks":
+        """The blocks after the votes of a frame, figure 7."""
+        vote = self._voted_by_pixels if p.block_rules == "printed" else self._voted_by_pixels_and_depth
+        return vote(observed, limits, p)
 
-        occluder_disparity: the disparity above which something hides the target.
+    def _voted_by_pixels(
+        self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
+    ) -> "Blocks":
+        """Section 4.4 as printed: without target pixels a block gets a vote against it, unless what is there
+        is nearer. Votes add up over all frames in a state.
+        """
+        found = observed.has_share(observed.target_pixels, p.min_block_share)
+        nearer = observed.is_nearer(limits)
+        target, occluded = self.states == TARGET_BLOCK, self.states == OCCLUDED_BLOCK
+        votes = self.votes + (found & ~target & ~occluded)
+        against = self.votes_against + (target & ~found & ~nearer & (observed.cells > 0))
+        states = self.states.copy()
+        states[votes >= p.votes_to_add] = TARGET_BLOCK
+        states[against >= p.votes_to_remove] = NOT_TARGET_BLOCK
+        states[target & ~found & nearer] = OCCLUDED_BLOCK
+        states[occluded] = np.where(observed.is_similar(limits), TARGET_BLOCK, OCCLUDED_BLOCK)[occluded]
+        same = states == self.states
+        return self._replace(
+            states=states, votes=np.where(same, votes, 0), votes_against=np.where(same, against, 0)
+        )
+
+    def _voted_by_pixels_and_depth(
+        self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
+    ) -> "Blocks":
+        """The adaptive rules.
+
         A core block stays, and comes back, also by the target's disparity alone; for a limited time, as the
         floor around the feet has it too. A block with hardly any disparities gets no vote against it: cloth
-        and cardboard without texture have none.
+        and cardboard without texture have none. An occluded block is the target's again only at a disparity
+        similar to the target's. One that shows what is behind the target for long isn't the target's any
+        more; figure 7 has no way out for it.
         """
         found = observed.has_share(observed.target_pixels, p.min_block_share)
         same_depth = observed.has_share(observed.same_depth, p.min_block_share)
-        hidden = observed.is_nearer(occluder_disparity) & ~found
+        hidden = observed.is_nearer(limits) & ~found
+        similar = observed.is_similar(limits)
         inside = observed.cells > 0
-        measured = observed.measured >= MIN_MEASURED_SHARE * observed.cells
         target, occluded = self.states == TARGET_BLOCK, self.states == OCCLUDED_BLOCK
         without_pixels = np.where(found, 0, self.frames_without_pixels + (same_depth & ~hidden))
         core = self.core & (without_pixels < p.max_frames_without_pixels)
         votes = np.where(found | (same_depth & core), self.votes + 1, np.maximum(self.votes - inside, 0))
-        missing = target & ~found & ~same_depth & ~hidden & inside & measured
+        away = ~found & ~same_depth & ~hidden & observed.has_mean
         against = np.where(
-            missing,
+            away & (target | (occluded & ~similar)),
             self.votes_against + 1,
             np.where(target & (found | same_depth), 0, self.votes_against),
         )
         states = self.states.copy()
         states[(states == NOT_TARGET_BLOCK) & (votes >= p.votes_to_add)] = TARGET_BLOCK
         states[target & hidden] = OCCLUDED_BLOCK
-        states[occluded & ~hidden & (found | (observed.measured > 0))] = TARGET_BLOCK
+        states[occluded & (against >= p.votes_to_release)] = NOT_TARGET_BLOCK
+        states[occluded & similar] = TARGET_BLOCK
         removed = (against >= p.votes_to_remove) | (without_pixels >= p.max_frames_without_pixels)
         states[target & removed] = NOT_TARGET_BLOCK
         outside = states == NOT_TARGET_BLOCK
@@ -147,8 +198,8 @@ class Blocks(NamedTuple):
         )
         return self._replace(
             states=states,
-            votes=np.where(outside & target, 0, np.minimum(votes, p.votes_to_add)),
-            votes_against=np.where(outside, 0, against),
+            votes=np.where(outside & (target | occluded), 0, np.minimum(votes, p.votes_to_add)),
+            votes_against=np.where(states == self.states, against, 0),
             core=core,
             trusted=trusted,
             frames_without_pixels=without_pixels,

@@ -84,4 +84,13 @@ def _measure_disparity(
         disparity = np.ascontiguousarray(now.disparity[y0:y1, x0:x1])
         return CueMap(disparity, np.ones_like(disparity))
     assert now.right is not None
-    return CueMap(*k.gradient_disparity(now.gray, now.right, expected, p.disparity_levels, region=region))
+    values, reliability = k.gradient_disparity(
+        now.gray,
+        now.right,
+        expected,
+        p.disparity_levels,
+        radius=p.disparity_radius,
+        max_step=p.max_disparity_step,
+        region=region,
+    )
+    return CueMap(values, reliability)

@@ -2,11 +2,11 @@
 """What a frame with the target teaches: its velocity, disparity, blocks, outline and running means."""
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, TARGET_BLOCK
+from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, TARGET_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
 from tricue.track.flow_depth.masks import mask_blocks, mask_disparity
 from tricue.track.flow_depth.params import FlowDepthParams
-from tricue.track.flow_depth.rectangles import Rectangle, moved
+from tricue.track.flow_depth.rectangles import Rectangle, around, moved
 from tricue.track.flow_depth.state import FlowDepthState, Velocity
 from tricue.track.flow_depth.verify import Verdict
 
@@ -26,10 +26,13 @@ def learn(
         window = verdict.temporal_window
         measured = (model.peaks[0], model.peaks[1]) if cues.flow else _follow_center(state, window)
         disparity = state.disparity if cues.disparity is None else model.peaks[-1]
-        velocity = state.smooth_velocity(measured, verdict.pixel_count)
-        state = state._replace(velocity=velocity, disparity=disparity)
-    blocks = state.blocks._replace(size=_estimate_size(state))
-    blocks = blocks.voted(verdict.observed, verdict.occluder_disparity, p)
+        if p.velocity_smoothing:
+            measured = state.smooth_velocity(measured, verdict.pixel_count)
+        state = state._replace(velocity=measured, disparity=disparity)
+    blocks = state.blocks
+    if p.block_rules == "adaptive":
+        blocks = blocks._replace(size=_estimate_size(state))
+    blocks = blocks.voted(verdict.observed, verdict.limits, p)
     state = state._replace(
         model=model,
         temporal_window=verdict.temporal_window,
@@ -37,9 +40,16 @@ def learn(
         occluded=False,
         score=min(verdict.pixel_count / max(state.mean_pixels, 1.0), 1.0),
         blocks=blocks,
-        window=blocks.window or state.window,
+        window=_target_window(blocks, verdict, p) or state.window,
     )
     return _learn_unoccluded(k, state, cues, verdict, p)
+
+
+def _target_window(blocks: Blocks, verdict: Verdict, p: FlowDepthParams) -> Rectangle | None:
+    """The window around the blocks, section 4.5, and around the target pixels where they count, too."""
+    if p.target_window == "outline" or blocks.window is None:
+        return blocks.window if p.target_window == "outline" else verdict.temporal_window
+    return around(blocks.window, verdict.temporal_window)
 
 
 def _estimate_size(state: FlowDepthState) -> float:

@@ -21,8 +21,13 @@ def mask_blocks(k: Kernels, state: FlowDepthState, cues: Cues, chosen: Flags) ->
 
 def mask_disparity(state: FlowDepthState, cues: Cues, disparity: float, p: FlowDepthParams) -> Mask:
     """(h, w) 1 at the cells whose disparity is within the tolerance of one, cells; 0 without a disparity."""
-    reduced = state.reduced
-    thickness = p.thickness * abs(disparity + state.disparity_offset) / reduced.scale
-    tolerance = np.float32(max(p.disparity_tolerance, thickness) * reduced.disparity_scale(p))
+    tolerance = np.float32(disparity_tolerance(state, disparity, p))
     near: Flags = np.abs(cues.disparities() - np.float32(disparity)) < tolerance
     return near.view(np.uint8)
+
+
+def disparity_tolerance(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> float:
+    """By how much a disparity may differ from the target's, cells, to be similar to it."""
+    reduced = state.reduced
+    thickness = p.thickness * abs(disparity + state.disparity_offset) / reduced.scale
+    return max(p.disparity_tolerance, thickness) * reduced.disparity_scale(p)

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: MIT
 """The parameters of the flow and depth tracker."""
 
+import typing
 from dataclasses import dataclass
 from typing import Literal
 
 from tricue.track.base.params import Params, parameter
+
+if typing.TYPE_CHECKING:
+    from typing_extensions import Self
 
 OURS = "our experiment: benchmarks/README.md"
 
@@ -13,10 +17,7 @@ OURS = "our experiment: benchmarks/README.md"
 class FlowDepthParams(Params):
     """Flow and disparity are measured in a reduced image of at most about ``resolution`` columns. A cell is
     one of its pixels. Lengths in cells are those in an image of 160 columns, the paper's, and grow with it.
-
-    Nearest to the paper's own form is ``flow_levels=1``, ``disparity_levels=1``, ``min_prominence=0``,
-    ``surround_weight=0``, ``density_memory=0``, ``min_posterior=0.5``, ``flow_change=100``,
-    ``disparity_change=100``.
+    :meth:`paper` has the paper's own form.
     """
 
     cues: tuple[Literal["flow", "disparity"], ...] = parameter(
@@ -50,6 +51,21 @@ class FlowDepthParams(Params):
     disparity_levels: int = parameter(
         3, unit="levels", source="1: section 3; " + OURS, low=1, high=6, doc="of the disparity's pyramid"
     )
+    disparity_radius: int = parameter(
+        2,
+        unit="cells",
+        source="0: section 3; " + OURS,
+        low=0,
+        high=7,
+        doc="of the window over which a disparity is solved for; 0 takes every pixel alone",
+    )
+    max_disparity_step: float = parameter(
+        1.0,
+        unit="cells",
+        source=OURS,
+        above=0,
+        doc="from where the finest level starts; a disparity that is farther from there is left out",
+    )
 
     bins: int = parameter(48, unit="bins", source=OURS, low=8, high=512, doc="of each histogram")
     smoothing: float = parameter(
@@ -59,6 +75,14 @@ class FlowDepthParams(Params):
         above=0,
         high=8,
         doc="of histograms, standard deviation",
+    )
+    histogram_region: Literal["blocks", "window"] = parameter(
+        "blocks",
+        unit="-",
+        source="window: section 4.2; blocks: " + OURS,
+        choices=("blocks", "window"),
+        doc="cells of the histograms: those of the target's blocks in the temporal window, flow only at the "
+        "target's depth; or all in the temporal window",
     )
     min_prominence: float = parameter(
         0.05,
@@ -100,6 +124,12 @@ class FlowDepthParams(Params):
         doc="of the disparity in a frame, standard deviation",
         was="depth_change",
     )
+    velocity_smoothing: bool = parameter(
+        True,
+        unit="-",
+        source="False: section 4.2; " + OURS,
+        doc="whether few target pixels pull the velocity to its mean, by which a missed target moves on",
+    )
     surround_weight: float = parameter(
         0.8,
         unit="of P(F)",
@@ -125,6 +155,14 @@ class FlowDepthParams(Params):
         low=0,
         high=2,
         doc="of the candidate region around the window",
+    )
+    prior_center: float = parameter(
+        1.0,
+        unit="of the window",
+        source="section 4.1; " + OURS,
+        low=0,
+        high=1,
+        doc="sides of the region in which the prior is 1",
     )
     density_memory: float = parameter(
         0.8,
@@ -163,6 +201,31 @@ class FlowDepthParams(Params):
         doc="target pixels around a target pixel",
         was="neighbours",
     )
+    min_region_share: float = parameter(
+        0.2,
+        unit="of the largest",
+        source="0: section 4; " + OURS,
+        low=0,
+        high=1,
+        doc="size of a connected region of target pixels, below which it is left out",
+    )
+    outlier_share: float = parameter(
+        0.02,
+        unit="of the pixels",
+        source="0: section 4; " + OURS,
+        low=0,
+        below=0.5,
+        doc="left out on each side of the temporal window",
+    )
+    block_rules: Literal["adaptive", "printed"] = parameter(
+        "adaptive",
+        unit="-",
+        source="section 4.4; adaptive: " + OURS,
+        choices=("adaptive", "printed"),
+        doc="printed: blocks divide the box, keep their size, are Not_Target at first, and need target "
+        "pixels; adaptive: there are some around the box, too, they grow as the target comes nearer, those "
+        "of the box are the target's at first, and depth alone holds them for a while",
+    )
     block_side: float = parameter(
         0.15,
         unit="of the window",
@@ -197,6 +260,13 @@ class FlowDepthParams(Params):
         doc="until a block isn't the target's any more",
         was="against",
     )
+    votes_to_release: int = parameter(
+        8,
+        unit="frames",
+        source=OURS,
+        low=1,
+        doc="in which an occluded block shows what is behind the target, until it isn't the target's",
+    )
     max_frames_without_pixels: int = parameter(
         20,
         unit="frames",
@@ -230,6 +300,22 @@ class FlowDepthParams(Params):
         doc="of the target: lower bound of that tolerance and that margin",
     )
 
+    target_window: Literal["outline", "pixels"] = parameter(
+        "outline",
+        unit="-",
+        source="pixels: section 4.5; outline: " + OURS,
+        choices=("outline", "pixels"),
+        doc="pixels: the box is the target window, around blocks and target pixels; outline: the window is "
+        "around the blocks, and the box halfway from there to the mean outline of the pixels",
+    )
+    complete_occlusion: Literal["blocks", "disparity"] = parameter(
+        "blocks",
+        unit="-",
+        source="disparity: section 4.5; blocks: " + OURS,
+        choices=("blocks", "disparity"),
+        doc="by which a target counts as completely occluded and as back: by its blocks and pixels, or by "
+        "jumps of the disparity in its window",
+    )
     max_occluded_share: float = parameter(
         0.75,
         unit="of the blocks",
@@ -286,3 +372,67 @@ class FlowDepthParams(Params):
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if len(self.cues) not in (1, 2) or len(set(self.cues)) < len(self.cues):
             raise ValueError(f"cues: expected 'flow', 'disparity' or both, got {self.cues}")
+
+    @classmethod
+    def paper(cls) -> "Self":
+        """The paper as printed, without any stage of ours; for one cue alone, ``cues`` can be replaced.
+
+        Where print is wrong:
+
+        - (4) lacks the minus of (3); it is there.
+        - (7) equates slopes with slopes; the difference of brightness is meant.
+        - (8) lacks its parentheses and moves rows alone, so that one depth has other disparities in other
+          columns. Rows and columns are rectified (the kernel rectify_verged).
+
+        Where it is silent, and what was taken:
+
+        - The filters g, h of (4): derivatives of a Gaussian along x and y. Flow beyond 2.2 of its deviations,
+          where it is ambiguous, is left out. f in (7) is the derivative along x.
+        - (7) reaches one or two pixels: the right image is shifted by the last disparity. A depth camera's
+          disparities all have the weight 1 in place of (9).
+        - The first disparity: the one that most of the box has by block matching, or by the depth image.
+        - Histograms (section 4.2) are centered on the last peak.
+        - P(F) in (11) is constant: that of even densities, which makes the posterior a probability.
+        - Votes and negative votes (section 4.4) add up over all frames in which a block has one state. A mean
+          disparity needs a fifth of the block's cells; without it a block isn't nearer.
+        - Too few target pixels and no occluded block (section 4.5): the target is missed, moves on at its
+          last velocity, and is LOST after a while.
+        - After a complete occlusion the disparity in the window is the target's.
+        - All thresholds, sizes and numbers of votes: those that did best of some 100 random settings on the
+          scenes of ``tricue reproduce okada-fig8``, seeds 0 to 2.
+        """
+        return cls(
+            resolution=160,
+            sigma=1.2,
+            flow_levels=1,
+            min_contrast=10.0,
+            disparity_levels=1,
+            disparity_radius=0,
+            max_disparity_step=100.0,
+            bins=64,
+            smoothing=1.0,
+            histogram_region="window",
+            min_prominence=0.0,
+            disparity_half_range=10.0,
+            flow_change=100.0,
+            disparity_change=100.0,
+            velocity_smoothing=False,
+            surround_weight=0.0,
+            depth_camera_scale=1.0,
+            margin=0.05,
+            prior_center=0.5,
+            density_memory=0.0,
+            min_posterior=0.98,
+            min_posterior_one_cue=0.85,
+            min_neighbors=0,
+            min_region_share=0.0,
+            outlier_share=0.0,
+            block_rules="printed",
+            min_block_share=0.1,
+            votes_to_remove=8,
+            disparity_tolerance=1.2,
+            thickness=0.0,
+            target_window="pixels",
+            complete_occlusion="disparity",
+            min_pixels=0.2,
+        )

@@ -19,6 +19,12 @@ def grown(rectangle: Rectangle, across: float, along: float) -> Rectangle:
     return x0 - across, y0 - along, x1 + across, y1 + along
 
 
+def around(one: Rectangle, other: Rectangle) -> Rectangle:
+    """The rectangle around two."""
+    (x0, y0, x1, y1), (left, top, right, bottom) = one, other
+    return min(x0, left), min(y0, top), max(x1, right), max(y1, bottom)
+
+
 def cells_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
     """The whole cells of an image (H, W) that a rectangle touches; empty where it touches none."""
     x0, y0, x1, y1 = rectangle

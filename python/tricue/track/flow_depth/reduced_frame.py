@@ -3,7 +3,6 @@
 
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -49,7 +48,7 @@ def reduce_frame(k: Kernels, frame: Frame, geometry: DisparityGeometry, p: FlowD
     height, width = image.shape[:2]
     step = max(1, min(round(width / p.resolution), height, width))
     gray = (
-        _reduce(_copy_gray(frame.color), step)
+        k.reduce_gray(frame.color, step)  # a copy, as the caller may reuse the array for the next frame
         if frame.color is not None
         else np.zeros((height // step, width // step), np.uint8)
     )
@@ -59,27 +58,13 @@ def reduce_frame(k: Kernels, frame: Frame, geometry: DisparityGeometry, p: FlowD
     if frame.right is None:
         assert frame.depth is not None
         return ReducedFrame(gray, None, _depth_to_disparity(frame.depth, geometry, step), step, offset)
-    right = _copy_gray(frame.right)
+    right = frame.right
     if geometry.angle:
+        right = right if right.ndim == 2 else k.reduce_gray(right, 1)
         camera = geometry.camera
         center = float(camera[2]), float(camera[3])
         right = k.rectify_verged(right, geometry.angle, float(camera[0]), center, geometry.offset)
-    return ReducedFrame(gray, _reduce(right, step), None, step, offset)
-
-
-def _copy_gray(image: Image) -> Image:
-    """A gray copy: the flow of the next frame needs it, and the caller may reuse the array for that frame."""
-    if image.ndim == 2:
-        return np.array(image)
-    return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY).astype(np.uint8, copy=False)
-
-
-def _reduce(image: Image, step: int) -> Image:
-    if step == 1:
-        return image
-    height, width = (size // step for size in image.shape)
-    whole = image[: height * step, : width * step]
-    return cv2.resize(whole, (width, height), interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
+    return ReducedFrame(gray, k.reduce_gray(right, step), None, step, offset)
 
 
 def _depth_to_disparity(depth: Plane, geometry: DisparityGeometry, step: int) -> Plane:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """What the flow and depth tracker keeps from frame to frame."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +45,7 @@ class FlowDepthState(NamedTuple):
     learned_frames: int = 0  # how many of them there were
     score: float = 1.0
     occluded: bool = False  # whether something nearer hides the target
+    occluder_disparity: float = math.nan  # in the window, as long as jumps of it decide on complete occlusion
     missed: float = 0.0  # seconds since the target was last found
 
     @property

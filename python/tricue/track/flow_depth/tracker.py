@@ -3,6 +3,7 @@
 Bayes' rule.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from tricue.track.base.track import Track
 from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK, TARGET_BLOCK
+from tricue.track.flow_depth.complete_occlusion import disparity_in_window, is_back, is_occluded
 from tricue.track.flow_depth.cues import Cues, measure
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.initialize import initialize
@@ -28,7 +30,7 @@ from tricue.track.flow_depth.position import locate
 from tricue.track.flow_depth.rectangles import cells_of, moved
 from tricue.track.flow_depth.reduced_frame import reduce_frame
 from tricue.track.flow_depth.state import FlowDepthState
-from tricue.track.flow_depth.verify import candidate_region, verify
+from tricue.track.flow_depth.verify import candidate_region, verify, verify_by
 
 MIN_REGION_SIDE = 4  # cells, of the region that is measured
 MIN_OCCLUDED_SHARE = 0.5  # of the blocks, from which a missed target counts as occluded
@@ -91,7 +93,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             warn_of_stereo(checked.frame)  # the right image of a verged pair isn't turned back yet
         geometry = self._geometry(checked.image.shape, checked.frame)
         reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
-        return self._keep(initialize(self._k, checked, reduced, geometry, target, self.params))
+        return self._keep(initialize(self._k, checked, reduced, geometry, target, self.params), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -103,14 +105,17 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         checked = validation.require_cue_channels(frame, self.params.cues, before.shape)
         reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
-        state = _predict(before)
+        state = _predict(before, self.params)
         region = cells_of(candidate_region(state, self.params), reduced.gray.shape)
         if min(region[2] - region[0], region[3] - region[1]) < MIN_REGION_SIDE:
             state = _coast(state._replace(pixels=np.zeros_like(state.pixels)), seconds)
         else:
-            cues = measure(self._k, before.reduced, reduced, region, before.disparity, self.params)
-            state = self._follow(state, cues, seconds)
-        return self._keep(state._replace(reduced=reduced, timestamp=checked.frame.timestamp))
+            expected = before.occluder_disparity if _waits(before) else before.disparity
+            cues = measure(self._k, before.reduced, reduced, region, expected, self.params)
+            by_disparity = self.params.complete_occlusion == "disparity" and cues.disparity is not None
+            follow = self._follow_by_disparity if by_disparity else self._follow
+            state = follow(state, cues, seconds)
+        return self._keep(state._replace(reduced=reduced, timestamp=checked.frame.timestamp), frame)
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
@@ -136,9 +141,28 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         if found:
             return learn(k, state, cues, verdict, p)
         if not state.missed:
-            blocks = state.blocks.voted(verdict.observed, verdict.occluder_disparity, p)
-            state = state._replace(blocks=blocks)
+            state = state._replace(blocks=state.blocks.voted(verdict.observed, verdict.limits, p))
         return _coast(state._replace(occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE), seconds)
+
+    def _follow_by_disparity(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
+        """The same with complete occlusion as section 4.5 prints it."""
+        p, k = self.params, self._k
+        state = state._replace(region=cues.region, pixels=np.zeros(cues.shape, np.uint8))
+        if _waits(state):
+            disparity = disparity_in_window(k, state, cues, p)
+            if not is_back(state, disparity, p):
+                return _coast(state._replace(occluder_disparity=disparity), seconds)
+            state = state._replace(
+                disparity=disparity, occluder_disparity=math.nan, temporal_window=state.window
+            )
+        verdict = verify_by(k, state, cues, None, p)
+        if is_occluded(state, verdict, p):
+            disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
+            return _coast(state._replace(occluded=True, occluder_disparity=disparity), seconds)
+        state = state._replace(pixels=verdict.pixels)
+        if verdict.has_pixels(state, p.min_pixels):
+            return learn(k, state._replace(missed=0.0), cues, verdict, p)
+        return _coast(state._replace(occluded=False), seconds)
 
     def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
         """The geometry of the rig; without a right image or a rig, that of a depth camera."""
@@ -151,9 +175,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         """The track of a state.
 
         Its box is the mean of the blocks' window, which is up to a block too large, and of the pixels'
-        outline, which is too small.
+        outline, which is too small; or, as printed, the target window.
         """
-        outline = state.outline.rectangle(state.blocks)
+        outlined = self.params.target_window == "outline"
+        outline = state.outline.rectangle(state.blocks) if outlined else state.window
         step = state.reduced.step
         x0, y0, x1, y1 = (step * (a + b) / 2 for a, b in zip(state.window, outline, strict=True))
         box = Box.from_xyxy(x0, y0, x1, y1)
@@ -168,9 +193,15 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         return Track(box, state.score, status, position, covariance, depth)
 
 
-def _predict(state: FlowDepthState) -> FlowDepthState:
+def _waits(state: FlowDepthState) -> bool:
+    """Whether the target is completely occluded until the disparity in its window jumps back."""
+    return state.occluded and math.isfinite(state.occluder_disparity)
+
+
+def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
     """The state moved by its velocity, or by the mean velocity while the target is missed."""
-    right, down = state.mean_velocity if state.missed and state.learned_frames else state.velocity
+    by_mean = p.velocity_smoothing and state.missed and state.learned_frames
+    right, down = state.mean_velocity if by_mean else state.velocity
     return state._replace(
         window=moved(state.window, right, down),
         temporal_window=moved(state.temporal_window, right, down),

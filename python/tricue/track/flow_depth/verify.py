@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation
+from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation, DisparityLimits
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.masks import mask_blocks, mask_disparity
+from tricue.track.flow_depth.masks import disparity_tolerance, mask_blocks, mask_disparity
 from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, grown, moved
@@ -21,7 +21,6 @@ MIN_CANDIDATE_MARGIN = 4.0  # cells of the paper's images, to each side of the w
 CANDIDATE_GROWTH = 0.1  # of the margin, for each frame in which the target was missed
 MAX_GROWTH_FRAMES = 20  # that make the margin larger
 MIN_DISPARITY_CHANGE, MIN_DISPARITY_HALF_RANGE = 0.03, 0.3  # of the disparity, for near targets
-MIN_PIXEL_REGION = 0.2  # of the largest connected region of target pixels, that others must have
 MIN_TARGET_PIXELS = 8
 REDETECTION_OCCLUSION = 0.1  # of the blocks, by which more may be occluded when the target is re-detected
 
@@ -31,7 +30,7 @@ class Verdict(NamedTuple):
 
     model: by which it was searched. disparity: the target's, cells. pixels: (h, w) 1 at the target's.
     pixel_count: how many. temporal_window: the rectangle around them. observed: the measurements in the
-    blocks. occluder_disparity: above which something hides the target. occluded_share: of its blocks.
+    blocks. limits: which disparities are the target's, and which hide it. occluded_share: of its blocks.
     """
 
     model: TargetModel
@@ -40,7 +39,7 @@ class Verdict(NamedTuple):
     pixel_count: int
     temporal_window: Rectangle
     observed: BlockObservation
-    occluder_disparity: float
+    limits: DisparityLimits
     occluded_share: float
 
     def found(self, state: FlowDepthState, p: FlowDepthParams) -> bool:
@@ -49,35 +48,53 @@ class Verdict(NamedTuple):
             min_pixels, max_share = p.min_pixels_to_redetect, p.max_occluded_share + REDETECTION_OCCLUSION
         else:
             min_pixels, max_share = p.min_pixels, p.max_occluded_share
-        enough = self.pixel_count >= max(min_pixels * state.mean_pixels, MIN_TARGET_PIXELS)
-        return enough and self.occluded_share < max_share
+        return self.has_pixels(state, min_pixels) and self.occluded_share < max_share
+
+    def has_pixels(self, state: FlowDepthState, share: float) -> bool:
+        """Whether there are enough target pixels: at least a share of their mean number."""
+        return self.pixel_count >= max(share * state.mean_pixels, MIN_TARGET_PIXELS)
 
 
 def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> Verdict:
     """Find the target's pixels and blocks by the cues; a missed target's model is the one from before."""
+    return verify_by(k, state, cues, state.model if state.missed else None, p)
+
+
+def verify_by(
+    k: Kernels, state: FlowDepthState, cues: Cues, model: TargetModel | None, p: FlowDepthParams
+) -> Verdict:
+    """The same by a model, whose disparity is the state's; or by that of this frame."""
     x, y = cues.region[:2]
-    model = state.model if state.missed and state.model is not None else _estimate(k, state, cues, p)
+    known = model is not None
+    model = model or estimate(k, state, cues, p)
     box, count, pixels = _find_pixels(k, state, cues, model, p)
-    disparity = state.disparity if state.missed or cues.disparity is None else model.peaks[-1]
+    disparity = state.disparity if known or cues.disparity is None else model.peaks[-1]
     observed = _observe_blocks(k, state, cues, pixels, disparity, p)
-    occluder_disparity = disparity + max(
+    limits = disparity_limits(state, disparity, p)
+    share = state.blocks.occluded_share(observed, limits)
+    return Verdict(model, disparity, pixels, count, moved(box, x, y), observed, limits, share)
+
+
+def disparity_limits(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> DisparityLimits:
+    """Which disparities are similar to the target's, and which hide it."""
+    margin = max(
         p.occluder_margin * state.reduced.disparity_scale(p),
         p.thickness * abs(disparity + state.disparity_offset),
     )
-    share = state.blocks.occluded_share(observed, occluder_disparity)
-    return Verdict(model, disparity, pixels, count, moved(box, x, y), observed, occluder_disparity, share)
+    return DisparityLimits(disparity, disparity_tolerance(state, disparity, p), disparity + margin)
 
 
 def candidate_region(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
     """The candidate region of section 4.1, cells; it grows while the target is missed."""
     x0, y0, x1, y1 = state.window
-    growth = 1 + CANDIDATE_GROWTH * min(state.missed * p.rate, MAX_GROWTH_FRAMES)
+    frames = min(state.missed * p.rate, MAX_GROWTH_FRAMES) if p.complete_occlusion == "blocks" else 0.0
+    growth = 1 + CANDIDATE_GROWTH * frames
     minimum = MIN_CANDIDATE_MARGIN * state.reduced.scale
     across, along = p.margin * (x1 - x0), p.margin * (y1 - y0) / 2
     return grown(state.window, growth * max(across, minimum), growth * max(along, minimum))
 
 
-def _estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
+def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
     """The target's densities in the temporal window, section 4.2."""
     scale = state.reduced.scale
     x, y = cues.region[:2]
@@ -87,20 +104,31 @@ def _estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams)
         expected += [
             ExpectedPeak(each, deviation * scale, p.flow_half_range * scale) for each in state.velocity
         ]
-    same_depth = np.ones(cues.shape, np.uint8)
+    everywhere = np.ones(cues.shape, np.uint8)
+    masks = HistogramMasks(everywhere, everywhere)
     if cues.disparity is not None:
         disparity_scale = state.reduced.disparity_scale(p)
         parallel = abs(state.disparity + state.disparity_offset)
         change = max(p.disparity_change * disparity_scale, MIN_DISPARITY_CHANGE * parallel)
         half_range = max(p.disparity_half_range * disparity_scale, MIN_DISPARITY_HALF_RANGE * parallel)
         expected.append(ExpectedPeak(state.disparity, change, half_range))
-        # What is at another depth, as the background in the first window, moves differently.
-        off = np.abs(cues.disparity.values - np.float32(state.disparity))
-        same_depth = (~(off > np.float32(p.disparity_tolerance * disparity_scale))).view(np.uint8)
+    if p.histogram_region == "blocks":
+        masks = _histogram_masks(k, state, cues, p)
+    window = moved(state.temporal_window, -x, -y)
+    return estimate_model(k, cues, expected, window, masks, state.model, p)
+
+
+def _histogram_masks(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> HistogramMasks:
+    """The cells of the target's blocks; flow counts only at the target's depth."""
     blocks = state.blocks
     target = mask_blocks(k, state, cues, (blocks.states == TARGET_BLOCK) & (blocks.trusted > 0))
-    window = moved(state.temporal_window, -x, -y)
-    return estimate_model(k, cues, expected, window, HistogramMasks(target, same_depth), state.model, p)
+    same_depth = np.ones(cues.shape, np.uint8)
+    if cues.disparity is not None:
+        # What is at another depth, as the background in the first window, moves differently.
+        off = np.abs(cues.disparity.values - np.float32(state.disparity))
+        tolerance = np.float32(p.disparity_tolerance * state.reduced.disparity_scale(p))
+        same_depth = (~(off > tolerance)).view(np.uint8)
+    return HistogramMasks(target, same_depth)
 
 
 def _find_pixels(
@@ -109,12 +137,14 @@ def _find_pixels(
     """The target pixels of section 4.3 without noise: the box around them, their number, and (h, w) which."""
     x, y = cues.region[:2]
     window, candidate = (moved(each, -x, -y) for each in (state.window, candidate_region(state, p)))
+    x0, y0, x1, y1 = window
+    center = grown(window, (p.prior_center - 1) * (x1 - x0) / 2, (p.prior_center - 1) * (y1 - y0) / 2)
     min_posterior = p.min_posterior if len(p.cues) > 1 else p.min_posterior_one_cue
     values = [cue.values for cue in cues.maps]
     mask, _ = k.target_pixels(
-        values, model.densities, model.ranges, window, candidate, min_posterior, model.alternatives
+        values, model.densities, model.ranges, center, candidate, min_posterior, model.alternatives
     )
-    return k.temporal_window(mask, p.min_neighbors, MIN_PIXEL_REGION)
+    return k.temporal_window(mask, p.min_neighbors, p.min_region_share, p.outlier_share)
 
 
 def _observe_blocks(

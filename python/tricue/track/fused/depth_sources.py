@@ -4,7 +4,6 @@
 import math
 from typing import NamedTuple, Protocol
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -78,17 +77,6 @@ class DepthImageSource(NamedTuple):
         """True: each pixel is measured by itself."""
         return True
 
-    def sample(self, grid: Grid, side: int) -> Plane:
-        """(side, side) depths of the pixels under the centers of a grid's squares, NaN beyond the image."""
-        x, y, step = grid
-        centers = (np.arange(side) + 0.5) * step
-        rows, columns = np.floor(y + centers).astype(int), np.floor(x + centers).astype(int)
-        height, width = self.depth.shape
-        inside = ((rows >= 0) & (rows < height))[:, None] & ((columns >= 0) & (columns < width))
-        sampled = self.depth[rows.clip(0, height - 1)[:, None], columns.clip(0, width - 1)]
-        depths: Plane = np.where(inside, sampled, np.float32(np.nan))
-        return depths
-
     def medians(
         self, k: Kernels, boxes: Floats, samples: int, expected: ExpectedDepth | None, gate: Gate
     ) -> Floats:
@@ -137,8 +125,9 @@ class StereoSource(NamedTuple):
         last = min(last, 4 * side)
         width = side + last
         part = np.array([[x - last * step, y, width * step, side * step]])
-        left = _gray(self.k.sample_windows(self.left, part, side, width)[0])
-        right = _gray(self.k.sample_windows(self.right, part - [[shift, 0, 0, 0]], side, width)[0])
+        left = self.k.reduce_gray(self.k.sample_windows(self.left, part, side, width)[0], 1)
+        moved = part - [[shift, 0, 0, 0]]
+        right = self.k.reduce_gray(self.k.sample_windows(self.right, moved, side, width)[0], 1)
         region = (last, 0, width, side)
         found = self.k.sad_disparity(
             left, right, region, False, first, last, SAD_WINDOW, SAD_UNIQUENESS, True, SAD_TOLERANCE
@@ -171,7 +160,3 @@ class StereoSource(NamedTuple):
     def noise(self, z: float, pixel_size: float) -> float:
         """Proportional to the squared depth, by the noise of a disparity."""
         return DISPARITY_NOISE * pixel_size * z * z / (self.rig.intrinsics.fx * self.rig.baseline)
-
-
-def _gray(samples: Image) -> Image:
-    return cv2.cvtColor(samples, cv2.COLOR_BGR2GRAY)  # type: ignore[return-value]

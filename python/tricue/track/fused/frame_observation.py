@@ -4,7 +4,7 @@
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-import cv2
+import numpy as np
 
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
@@ -91,4 +91,4 @@ def _depth_source(k: Kernels, frame: Frame, rig: StereoRig) -> DepthSource | Non
 
 
 def _bgr(image: Image) -> Image:
-    return image if image.ndim == 3 else cv2.cvtColor(image, cv2.COLOR_GRAY2BGR)  # type: ignore[return-value]
+    return image if image.ndim == 3 else np.repeat(image[..., None], 3, axis=2)

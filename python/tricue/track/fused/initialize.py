@@ -33,7 +33,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
     depth, position = _depth_models(observation, target, measured, p)
     appearance = _appearance_models(observation, target, p)
     sides = _see_sides(Sides.cut_by_border(target, frame.shape), observation, target, p)
-    model = TargetModel(appearance, depth, target.side, None, sides, p)
+    model = TargetModel(appearance, depth, target.side, None, p)
     window = extract_windows(observation, [target], p.context)[0]
     return State(
         shape=frame.shape,

@@ -3,7 +3,9 @@
 
 import math
 
+from tricue.track.fused.experts.depth import covered_share
 from tricue.track.fused.measure import Match
+from tricue.track.fused.outline import Side, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import AppearanceModels, State
@@ -47,10 +49,14 @@ def _rate_between_learning(rate: float, p: FusedParams) -> float:
 
 
 def _update_outline(state: State, match: Match, p: FusedParams) -> State:
-    if match.reaches is None or state.missed_frames:
+    if state.missed_frames or state.sides.are_hidden:
+        return state
+    place = match.window, match.right, match.down
+    reaches = measure_reaches(*place, covered_share(*place), Side.CUT in state.sides)
+    if reaches is None:
         return state
     rate = 1 - math.exp(-state.seconds / p.outline_time_constant)
-    return state._replace(outline=state.outline.blend(state.sides.outline(match.reaches), rate))
+    return state._replace(outline=state.outline.blend(state.sides.outline(reaches), rate))
 
 
 def _update_depth(

@@ -10,7 +10,6 @@ from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts import PixelExpert, combine_posteriors
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
-from tricue.track.fused.outline import Sides
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.peak import peak_offset
 from tricue.track.fused.state import AppearanceModels
@@ -30,7 +29,6 @@ class TargetModel(NamedTuple):
     depth: DepthExpert | None
     first_side: float
     typical: IdentityFeatures | None
-    sides: Sides
     params: FusedParams
 
     def limit_growth(self, growth: float, target: Target) -> float:
@@ -62,10 +60,10 @@ def localize(model: TargetModel, window: Window) -> Candidate:
     appearance, p = model.appearance, model.params
     responses = appearance.filter.responses(window)
     evidence = (p.filter_weight if "filter" in p.cues else 0.0) * responses[0]
-    posterior = combine_posteriors([each.posterior(window) for each in _pixel_experts(model)])
+    k = window.observation.k
+    posterior = combine_posteriors(k, [each.posterior(window) for each in _pixel_experts(model)])
     contrast = None
     if posterior is not None:
-        k = window.observation.k
         contrast = k.box_contrast(posterior, *window.size, p.surround_size, p.surround_weight)
         evidence += p.color_weight * contrast
     i, j = divmod(int(evidence.argmax()), WINDOW_CELLS)

@@ -12,27 +12,45 @@ from tricue.track.fused.identity import (
     probability,
 )
 from tricue.track.fused.localize import Candidate, TargetModel, recenter
-from tricue.track.fused.outline import Reaches, Side, measure_reaches
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import Window
+
+
+class Recognition(NamedTuple):
+    """A candidate, and its log-odds of being the target: by all that is known of its appearance, and by what
+    light doesn't change.
+    """
+
+    candidate: Candidate
+    features: IdentityFeatures
+    log_odds: float
+    structure_log_odds: float
 
 
 class Match(NamedTuple):
     """A candidate that was measured.
 
+    window, right, down: where it was measured, so many patch pixels off the window's center.
     log_odds, structure_log_odds: of its being the target, by all that is known, and by what light doesn't
     change. response: of the learned filter. covered: the share of its box that an occluder covers.
     """
 
     target: Target
-    observation: TargetObservation
+    window: Window
+    right: float
+    down: float
     features: IdentityFeatures
     log_odds: float
     structure_log_odds: float
     response: float
     depth: DepthMeasurement | None
     covered: float
-    reaches: Reaches | None
+
+    @property
+    def observation(self) -> TargetObservation:
+        """The frame, given the depth at which the target was expected there."""
+        return self.window.observation
 
     @property
     def score(self) -> float:
@@ -41,33 +59,51 @@ class Match(NamedTuple):
 
 
 def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
-    """Measure the size and depth of what is at a candidate's place, and its log-odds by appearance."""
+    """Recognize what is at a candidate's place, and measure its size and depth."""
+    return measure(model, recognize(model, candidate))
+
+
+def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
+    """The log-odds of what is at a candidate's place by appearance."""
     candidate = recenter(model, candidate)
-    appearance, p, window = model.appearance, model.params, candidate.window
-    observation, offset = window.observation, (candidate.right, candidate.down)
+    window = candidate.window
+    first_colors = model.appearance.first_colors
+    features = IdentityFeatures(
+        peak_sharpness=candidate.peak_sharpness,
+        color_similarity=first_colors.similarity(window, candidate.right, candidate.down),
+        contrast=candidate.contrast,
+        first_response=candidate.responses[1],
+    )
+    offset_of_kind = DEPTH_PICTURE_OFFSET if window.observation.kind == "depth" else 0.0
+    return Recognition(
+        candidate,
+        features,
+        log_odds=features.log_odds(model.typical, APPEARANCE) + offset_of_kind,
+        structure_log_odds=features.log_odds(model.typical, STRUCTURE),
+    )
+
+
+def measure(model: TargetModel, recognition: Recognition) -> Match:
+    """Measure the size and depth of what was recognized."""
+    candidate, p = recognition.candidate, model.params
+    window = candidate.window
+    observation = window.observation
     depth, predicted = None, candidate.target
     if model.depth is not None:
         depth = measure_depth(observation, candidate.target, observation.expected_depth)
         if depth is not None:
             predicted = predicted.scale(model.depth.growth(depth, predicted.side))
-    growth = appearance.size.growth(observation, predicted) if "size" in p.cues else 1.0
+    growth = model.appearance.size.growth(observation, predicted) if "size" in p.cues else 1.0
     measured = predicted.scale(growth)
-    features = IdentityFeatures(
-        peak_sharpness=candidate.peak_sharpness,
-        color_similarity=appearance.first_colors.similarity(window, *offset),
-        contrast=candidate.contrast,
-        first_response=candidate.responses[1],
-    )
-    covered = covered_share(window, *offset)
-    offset_of_kind = DEPTH_PICTURE_OFFSET if observation.kind == "depth" else 0.0
     return Match(
         target=measured.scale(model.limit_growth(1.0, measured)),
-        observation=observation,
-        features=features,
-        log_odds=features.log_odds(model.typical, APPEARANCE) + offset_of_kind,
-        structure_log_odds=features.log_odds(model.typical, STRUCTURE),
+        window=window,
+        right=candidate.right,
+        down=candidate.down,
+        features=recognition.features,
+        log_odds=recognition.log_odds,
+        structure_log_odds=recognition.structure_log_odds,
         response=candidate.responses[0],
         depth=depth,
-        covered=covered,
-        reaches=measure_reaches(window, *offset, covered, Side.CUT in model.sides),
+        covered=covered_share(window, candidate.right, candidate.down),
     )

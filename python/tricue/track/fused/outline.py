@@ -6,14 +6,13 @@ keeps its aspect ratio. A side counts only where depth showed it in the first fr
 something that is as far away.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from tricue.track.base.params import Params, parameter
+from tricue.track.fused.arrays import Plane
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
@@ -104,6 +103,11 @@ class Sides(NamedTuple):
         ends = box.x, box.y, width - box.x - box.width, height - box.y - box.height
         return cls(*(Side.CUT if end <= margin else Side.HIDDEN for end in ends))
 
+    @property
+    def are_hidden(self) -> bool:
+        """Whether none of them is to be looked for in depth."""
+        return self == ALL_HIDDEN
+
     def see(self, reaches: Reaches | None) -> "Sides":
         """The same after the first depth: sides that are where the box has them are SEEN."""
         if reaches is None:
@@ -120,6 +124,9 @@ class Sides(NamedTuple):
     def outline(self, reaches: Reaches) -> Outline:
         """The outline with the sides that depth shows, and those of the box."""
         return Outline(*(_side(*each) for each in zip(self, reaches, strict=True)))
+
+
+ALL_HIDDEN = Sides(*4 * [Side.HIDDEN])
 
 
 def _side(side: Side, reach: float | None) -> float:
@@ -147,25 +154,33 @@ def measure_reaches(
     assert posterior is not None, "the window has depth"
     rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
-    left, far = _extent(posterior[rows].mean(axis=0), x, window.size[0] / 2)
-    top, bottom = _extent(posterior[:, columns].mean(axis=1), y, window.size[1] / 2)
+    across, along = posterior[rows], posterior[:, columns]
+    left, far = _extent(across.sum(axis=0) / len(across), x, window.size[0] / 2)
+    top, bottom = _extent(along.sum(axis=1) / along.shape[1], y, window.size[1] / 2)
     return Reaches(left, top, far, bottom)
 
 
-def _extent(filled: NDArray[np.floating], center: float, half: float) -> tuple[float | None, float | None]:
+def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:
     """How far the filled part reaches before and after a place, in halves of the box."""
+    filled = (profile >= MIN_FILLED_POSTERIOR).tolist()
     start = min(max(int(center), 0), len(filled) - 1)
-    empty = np.flatnonzero(filled < MIN_FILLED_POSTERIOR)
-    before, after = empty[empty <= start], empty[empty > start]
-    if len(before) and before[-1] == start:
+    if not filled[start]:
         return None, None
+    before, after = (
+        _first_empty(filled, range(start, -1, -1)),
+        _first_empty(filled, range(start, len(filled))),
+    )
     return (
-        (center - _crossing(filled, before[-1])) / half if len(before) else None,
-        (_crossing(filled, after[0] - 1) - center) / half if len(after) else None,
+        None if before is None else (center - _crossing(profile, before)) / half,
+        None if after is None else (_crossing(profile, after - 1) - center) / half,
     )
 
 
-def _crossing(filled: NDArray[np.floating], index: int) -> float:
+def _first_empty(filled: list[bool], indices: Iterable[int]) -> int | None:
+    return next((i for i in indices if not filled[i]), None)
+
+
+def _crossing(profile: Plane, index: int) -> float:
     """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
-    first, second = float(filled[index]), float(filled[index + 1])
+    first, second = float(profile[index]), float(profile[index + 1])
     return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)

@@ -72,7 +72,8 @@ class PositionFilter(NamedTuple):
         frames. This error lies along the line of sight and doesn't average out: it is added to the filter's.
         """
         ray = self.mean[:3] / max(float(self.mean[2]), MIN_POSITION_Z)
-        error: Floats = self.covariance[:3, :3] + (SHARED_DEPTH_ERROR * spread) ** 2 * np.outer(ray, ray)
+        shared = (SHARED_DEPTH_ERROR * spread) ** 2
+        error: Floats = self.covariance[:3, :3] + shared * (ray[:, None] * ray)
         return error
 
     def expected_depth(self, spread: float) -> ExpectedDepth:
@@ -106,9 +107,9 @@ class PositionFilter(NamedTuple):
 
         A large innovation shows that the motion model failed: the covariance is widened to it first.
         """
-        widening = max(self.distance(point, noise) / MAX_INNOVATION, 1.0) ** 2
-        widened = widening * self.covariance
-        mean, covariance, *_ = k.kalman_update(self.mean, widened, point, POSITION_MATRIX, noise)
+        mean, covariance, *_ = k.kalman_update(
+            self.mean, self.covariance, point, POSITION_MATRIX, noise, MAX_INNOVATION
+        )
         return PositionFilter(mean, covariance)
 
 

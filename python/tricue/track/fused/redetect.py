@@ -3,8 +3,9 @@
 
 import math
 
-from tricue.track.fused.localize import Candidate, TargetModel, localize
-from tricue.track.fused.measure import Match, measure_candidate
+from tricue.track.fused.identity import probability
+from tricue.track.fused.localize import TargetModel, localize
+from tricue.track.fused.measure import Match, Recognition, measure, recognize
 from tricue.track.fused.position_filter import back_project
 from tricue.track.fused.proposals import LostTarget, propose_windows
 from tricue.track.fused.target_observation import TargetObservation
@@ -13,27 +14,31 @@ from tricue.track.fused.target_observation import TargetObservation
 def redetect(model: TargetModel, observation: TargetObservation, lost: LostTarget, local: Match) -> Match:
     """Re-detect the target in the whole frame; local: what was found where it should be.
 
-    A match elsewhere needs ``min_score_to_redetect`` and higher log-odds than the local one.
+    A match elsewhere needs ``min_score_to_redetect`` and higher log-odds than the local one. Its distance
+    only counts against it: what doesn't look enough like the target isn't measured.
     """
     p = model.params
     windows = propose_windows(model, observation, lost)
     candidates = sorted((localize(model, each) for each in windows), key=lambda each: -each.evidence)
-    best = max(
-        (_match_elsewhere(model, lost, each) for each in candidates[: p.candidates]),
-        key=lambda each: each.log_odds,
-    )
     local = local._replace(log_odds=local.log_odds - _distance_penalty(model, lost, local))
+    recognitions = [recognize(model, each) for each in candidates[: p.candidates]]
+    matches = [
+        _match_elsewhere(model, lost, each)
+        for each in recognitions
+        if probability(min(each.log_odds, each.structure_log_odds)) >= p.min_score_to_redetect
+    ]
+    best = max(matches, key=lambda each: each.log_odds, default=local)
     found = best.score >= p.min_score_to_redetect and best.log_odds > local.log_odds
     return best if found else local
 
 
-def _match_elsewhere(model: TargetModel, lost: LostTarget, candidate: Candidate) -> Match:
+def _match_elsewhere(model: TargetModel, lost: LostTarget, recognition: Recognition) -> Match:
     """A candidate measured away from where the target should be.
 
     Its structure has to agree by itself, too: look-alikes share the colors. Without its depth, which gives
     its size, the distance counts against that as well.
     """
-    match = measure_candidate(model, candidate)
+    match = measure(model, recognition)
     penalty = _distance_penalty(model, lost, match)
     structure = match.structure_log_odds - (penalty if match.depth is None else 0.0)
     return match._replace(log_odds=min(match.log_odds - penalty, structure))

@@ -2,9 +2,11 @@
 """What the experts read of one frame, given the depth at which the target is expected."""
 
 import math
+import operator
 from dataclasses import dataclass, replace
 from typing import Literal
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -58,11 +60,13 @@ class TargetObservation:
             return np.zeros((len(windows), side, side, 3), np.uint8)
         assert self.depth_image is not None, "the picture is drawn of it"
         height, width = self.shape
-        left, right = _span(windows[:, 0], windows[:, 2], width)
-        top, bottom = _span(windows[:, 1], windows[:, 3], height)
+        lefts, tops, widths, heights = windows.T.tolist()
+        left, right = _span(lefts, widths, width)
+        top, bottom = _span(tops, heights, height)
         part = self.depth_image[top:bottom, left:right]
         picture = self.k.depth_picture(part, self.expected_depth.z, PICTURE_DEPTH_RANGE)
-        return self.k.sample_windows(picture, windows - (left, top, 0, 0), side, side)
+        samples = self.k.sample_windows(picture, windows - (left, top, 0, 0), side, side)
+        return _bgr(samples.reshape(-1, side)).reshape(-1, side, side, 3)
 
     def depth_posterior(
         self, x: float, y: float, pixel_size: float, side: int
@@ -82,8 +86,12 @@ class TargetObservation:
         return self.depth_source.posterior(self.k, grid, side, expected._replace(sigma=sigma), margin)
 
 
-def _span(starts: Floats, lengths: Floats, size: int) -> tuple[int, int]:
+def _bgr(gray: Image) -> Image:
+    return cv2.cvtColor(gray, cv2.COLOR_GRAY2BGR)  # type: ignore[return-value]
+
+
+def _span(starts: list[float], lengths: list[float], size: int) -> tuple[int, int]:
     """The first and the end of the pixels of an axis that windows read, at least one."""
-    first = max(float(starts.min()) - SAMPLE_REACH, 0.0)
-    end = min(float((starts + lengths).max()) + SAMPLE_REACH, size)
+    first = max(min(starts) - SAMPLE_REACH, 0.0)
+    end = min(max(map(operator.add, starts, lengths)) + SAMPLE_REACH, size)
     return int(min(first, size - 1)), max(math.ceil(end), 1)

@@ -95,7 +95,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         elif isinstance(observed.depth_source, DepthImageSource) and observed.color is not None:
             warn_of_depth(as_frame(frame))
         state = initialize(self._k, observed, target, self.params)
-        return self._keep(state._replace(depth_trust=trust, is_metric=self._is_metric(observed)))
+        return self._keep(state._replace(depth_trust=trust, is_metric=self._is_metric(observed)), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -115,7 +115,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         state = ensure_models(state, observation, self.params)
         match = self._localize(state, observation)
         state = verify(state, match, self.params)
-        return self._keep(update_models(before, state, observation, match, self.params))
+        return self._keep(update_models(before, state, observation, match, self.params), frame)
 
     def _observe(self, frame: FrameLike, shape: tuple[int, int] | None) -> FrameObservation:
         cameras = self.rig, self.intrinsics
@@ -144,7 +144,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
     def _localize(self, state: State, observation: TargetObservation) -> Match:
         """The target near its last place; in the whole frame once it isn't followed any more."""
         models, p = state.models[observation.kind], self.params
-        model = TargetModel(models, state.depth, state.first_side, state.typical, state.sides, p)
+        model = TargetModel(models, state.depth, state.first_side, state.typical, p)
         if state.is_followed(p):
             return search_local(model, observation, state.target, state.mean_response)
         local = search_local(model, observation, state.target, None)

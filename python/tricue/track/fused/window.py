@@ -81,12 +81,10 @@ class Window:
         source, expected = self.observation.depth_source, self.observation.expected_depth
         if expected is None or not isinstance(source, DepthImageSource):
             return posterior
-        depths = source.sample(self._grid, PATCH_PIXELS)
-        observation = self.observation
-        support = find_support(observation.k, depths, self._grid, self.size, expected.z, observation.camera)
-        if support is None:
-            return posterior
-        without: Plane = np.where(support, np.minimum(posterior, SUPPORT_POSTERIOR), posterior)
+        k, camera = self.observation.k, self.observation.camera
+        support = find_support(k, source.depth, self._grid, PATCH_PIXELS, self.size, expected.z, camera)
+        without: Plane = posterior.copy()
+        np.minimum(posterior, SUPPORT_POSTERIOR, out=without, where=support)
         return without
 
     def inner(self, right: float = 0.0, down: float = 0.0, share: float = 1.0) -> tuple[slice, slice]:

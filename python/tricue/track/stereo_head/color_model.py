@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The color histogram of a head: of an ellipse's cells at its depth (Moreno et al. 2002, section 3.1)."""
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,14 +38,24 @@ def measure_histogram(
 def measure_first_histogram(
     k: Kernels, region: SearchRegion, ellipse: Ellipse, step: int, p: StereoHeadParams
 ) -> Floats:
-    """The model of the first frame, (L,) of sum 1: the whole ellipse mixed with the hair at its top.
+    """The first model, (L,) of sum 1: that of the parameters, or the ellipse mixed with the hair at its top.
 
     With more hair in the model, a head is still recognized from behind.
     """
+    if p.head_colors is not None:
+        return _fill(p.head_colors, p)
     x, y, minor, major = ellipse
     cap = (x, y - (1 - HAIR_CAP) * major, minor, HAIR_CAP * major)
     whole, hair = (measure_histogram(k, region, each, step, p) for each in (ellipse, cap))
     return (1 - p.hair) * whole + p.hair * hair
+
+
+def _fill(weights: Sequence[tuple[int, float]], p: StereoHeadParams) -> Floats:
+    """(L,) of sum 1 of (bin, weight)."""
+    histogram = np.zeros(math.prod(p.bins))
+    for index, weight in weights:
+        histogram[index] = weight
+    return np.asarray(histogram / histogram.sum())
 
 
 def _count(
@@ -54,7 +67,6 @@ def _count(
     p: StereoHeadParams,
 ) -> Floats:
     """(L,) cells of each bin in an ellipse."""
-    size = p.bins[0] * p.bins[1] * p.bins[2]
-    inside, _ = k.ellipse_histogram(bins, region.to_cells(ellipse, step)[None], size, 1.0)
+    inside, _ = k.ellipse_histogram(bins, region.to_cells(ellipse, step)[None], math.prod(p.bins), 1.0)
     counts: Floats = inside[0].astype(np.float64)
     return counts

@@ -58,8 +58,13 @@ def find_initial_disparity(
 
 
 def limits_around(disparity: float, step: int, p: StereoHeadParams) -> tuple[int, int]:
-    """The limits of the search around an expected disparity, pixels (4)."""
+    """The limits of the search around an expected disparity, pixels (4).
+
+    With fractions of a pixel they are wider, as the first and the last candidate have none.
+    """
     below, above = p.disparities
+    if not p.subpixel:
+        return round(disparity) - below * step, round(disparity) + above * step
     return math.floor(disparity) - below * step, math.ceil(disparity) + above * step
 
 
@@ -85,7 +90,10 @@ def _match(
     disparities = k.sad_disparity(
         *pair.gray, region, True, *limits, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
     )
-    return disparities[np.isfinite(disparities)], math.pi * minor * major
+    matched = disparities[np.isfinite(disparities)]
+    if not p.subpixel:
+        matched = np.ceil(matched - np.float32(0.5))  # of two equal costs the smaller disparity, as (3) found
+    return matched, math.pi * minor * major
 
 
 def _near(

@@ -14,8 +14,7 @@ from tricue.track.stereo_head.params import StereoHeadParams
 Floats = NDArray[np.float64]
 
 MEASUREMENT_SIZE = 7  # (7): X, Y, Z, three colors, the intersection; in a state the velocity comes after
-COLOR_DRIFT = 2.0  # levels a frame, standard deviation of the model's mean color
-INTERSECTION_DRIFT, INTERSECTION_NOISE = 1.0, 0.1  # section 4.1: unity; ours
+INTERSECTION_DRIFT = 1.0  # standard deviation, section 4.1: unity
 COASTING_FACTOR = 0.9  # of the velocity, for each frame without a measurement
 
 
@@ -57,15 +56,15 @@ def initialize(measured: Floats, noise: Floats, p: StereoHeadParams) -> HeadFilt
 def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) -> HeadFilter:
     """The prediction (6), or, with ``motion="velocity"``, by the velocity. Z stays between near and far."""
     limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
-    dynamics = _dynamics(len(state.mean), seconds, limit)
+    dynamics = _dynamics(len(state.mean), seconds, limit, p.color_drift)
     mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
     mean[2] = min(max(mean[2], p.near), p.far)
     return HeadFilter(mean, covariance)
 
 
 def mahalanobis_distance(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
-    """The distance of a measured position, of (7,), from the predicted one, in standard deviations."""
-    off = (measured[:3] - predicted.position).tolist()
+    """The distance of a measured position (3,) from the predicted one, in standard deviations."""
+    off = (measured - predicted.position).tolist()
     xx, xy, xz, _, yy, yz, _, _, zz = (predicted.position_covariance + noise[:3, :3]).ravel().tolist()
     # The three steps of Cholesky written out: numpy.linalg takes longer than the whole correction.
     a = xx**0.5
@@ -94,7 +93,9 @@ def coast(predicted: HeadFilter) -> HeadFilter:
 
 
 @lru_cache(maxsize=16)
-def _dynamics(size: int, seconds: float, limit: float) -> tuple[Floats, Floats]:
+def _dynamics(
+    size: int, seconds: float, limit: float, color_drift: tuple[float, float, float]
+) -> tuple[Floats, Floats]:
     """Transition F and process noise Q of a state of 7 or 10 numbers.
 
     limit: with 7 numbers the maximum speed, m/s; with 10 the deviation of the acceleration, m/s².
@@ -102,7 +103,7 @@ def _dynamics(size: int, seconds: float, limit: float) -> tuple[Floats, Floats]:
     transition, noise = np.eye(size), np.zeros((size, size))
     positions, velocities = np.arange(3), np.arange(MEASUREMENT_SIZE, size)
     others = range(3, MEASUREMENT_SIZE)
-    noise[others, others] = [COLOR_DRIFT**2] * 3 + [INTERSECTION_DRIFT**2]
+    noise[others, others] = [*(each**2 for each in color_drift), INTERSECTION_DRIFT**2]
     if size == MEASUREMENT_SIZE:
         noise[positions, positions] = (limit * seconds) ** 2  # "the maximum displacement that we expect"
         return transition, noise

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.color_model import measure_first_histogram, measure_histogram
 from tricue.track.stereo_head.disparity import EllipseDisparity, limits_around, measure_disparity
-from tricue.track.stereo_head.head_filter import INTERSECTION_NOISE, MEASUREMENT_SIZE
+from tricue.track.stereo_head.head_filter import MEASUREMENT_SIZE
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import EllipseMatch, search_local
@@ -25,14 +25,18 @@ class HeadMeasurement(NamedTuple):
     """A measured head.
 
     match, depth: its best match and the disparity there. histogram: (L,) its colors, C of (2).
-    values: (7,) the measurement of (8). noise: (7, 7) its covariance.
+    position: (3,) meters. noise: (7, 7) covariance of the measurement of (8).
     """
 
     match: EllipseMatch
     depth: EllipseDisparity
     histogram: Floats
-    values: Floats
+    position: Floats
     noise: Floats
+
+    def values(self, color: Floats) -> Floats:
+        """(7,) the measurement of (8), with the mean color (3,) of the updated model."""
+        return np.array([*self.position, *color, self.match.intersection])
 
     def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":
         """The same with a larger covariance of the position, where the score is below the running mean.
@@ -78,6 +82,5 @@ def measure(
     noise = np.zeros((MEASUREMENT_SIZE, MEASUREMENT_SIZE))
     noise[:3, :3] = covariance
     others = range(3, MEASUREMENT_SIZE)
-    noise[others, others] = [p.color_noise**2] * 3 + [INTERSECTION_NOISE**2]
-    color = k.histogram_mean(histogram, p.bins, p.max_chroma)
-    return HeadMeasurement(match, depth, histogram, np.array([*point, *color, match.intersection]), noise)
+    noise[others, others] = [*(each**2 for each in p.color_noise), p.intersection_noise**2]
+    return HeadMeasurement(match, depth, histogram, point, noise)

@@ -3,11 +3,15 @@
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from tricue.track.base.params import Params, parameter
 
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
 MAX_COLOR_BINS = 65535  # that 16 bits can number, one value left for "none"
+NEVER = 1e9  # seconds, or standard deviations, that no frame reaches
 OURS = "our experiment: benchmarks/README.md"
 
 
@@ -15,10 +19,7 @@ OURS = "our experiment: benchmarks/README.md"
 class StereoHeadParams(Params):
     """The head is searched in a reduced image of about ``resolution`` columns. A cell is one of its pixels.
 
-    The paper's own form is ``ring_weight=0``, ``depth_weight=0``, ``compensate_light=False``,
-    ``learn="all"``, ``learning_rate=0.1``, ``first_frame_weight=0``, ``ellipse_margin=0``,
-    ``disparity_statistic="mean"``, ``motion="constant"``, ``noise_model="polynomial"``,
-    ``disparity_noise=1``, ``feedback=True``. Its figure 3, unfused, is that with ``fuse=False``.
+    :meth:`paper` has the values with which the tracker is the one that the paper prints.
     """
 
     resolution: int = parameter(
@@ -27,7 +28,7 @@ class StereoHeadParams(Params):
     search: tuple[int, int] = parameter(
         (8, 4),
         unit="cells",
-        source="section 5: 8, 2; " + OURS,
+        source="8, 2: section 5; " + OURS,
         low=0,
         high=64,
         doc="range of the search: to each side; up and down",
@@ -76,6 +77,13 @@ class StereoHeadParams(Params):
         high=1,
         doc="weight of the head's top in the first model",
     )
+    head_colors: tuple[tuple[int, float], ...] | None = parameter(
+        None,
+        unit="(bin, weight)",
+        source="section 3.1: skin and hair samples",
+        low=0,
+        doc="the first model, bins in the order of color_bins; None: that of the first frame's ellipse",
+    )
     first_frame_weight: float = parameter(
         0.15,
         unit="of the model",
@@ -86,7 +94,7 @@ class StereoHeadParams(Params):
         was="anchor",
     )
     learning_rate: float = parameter(
-        0.3, unit="per frame", source="a of (2); 0.1: section 5; " + OURS, low=0, high=1
+        0.3, unit="per frame", source="a of (2), not printed; " + OURS, low=0, high=1
     )
     learn: Literal["coherent", "all"] = parameter(
         "coherent",
@@ -103,6 +111,12 @@ class StereoHeadParams(Params):
         doc="intersection (1), from which colors are learned",
         was="gate",
     )
+    learning_gate: Literal["relative", "absolute"] = parameter(
+        "relative",
+        unit="-",
+        source="absolute: section 3.1; " + OURS,
+        doc="min_intersection_to_learn is a share of the running mean of (1), or a value of (1) itself",
+    )
 
     disparities: tuple[int, int] = parameter(
         (4, 4),
@@ -114,6 +128,9 @@ class StereoHeadParams(Params):
     )
     window: int = parameter(
         5, unit="cells", source=OURS, low=1, high=15, doc="side of the matching window, odd"
+    )
+    subpixel: bool = parameter(
+        True, unit="-", source="False: (3), (4); " + OURS, doc="disparities in fractions of a pixel"
     )
     uniqueness: int = parameter(
         5, unit="percent", source=OURS, low=0, high=100, doc="by which other disparities must cost more"
@@ -158,8 +175,26 @@ class StereoHeadParams(Params):
     place_noise: float = parameter(
         0.7, unit="cells", source=OURS, above=0, doc="standard deviation of the ellipse's center"
     )
-    color_noise: float = parameter(
-        4.0, unit="levels", source="section 4.1; " + OURS, above=0, doc="standard deviation of the mean color"
+    color_noise: tuple[float, float, float] = parameter(
+        (4.0, 4.0, 4.0),
+        unit="levels",
+        source="section 4.1; " + OURS,
+        above=0,
+        doc="standard deviations of the measured mean color; one number stands for all three",
+    )
+    color_drift: tuple[float, float, float] = parameter(
+        (2.0, 2.0, 2.0),
+        unit="levels per frame",
+        source="section 4.1; " + OURS,
+        above=0,
+        doc="standard deviations by which the mean color changes; one number stands for all three",
+    )
+    intersection_noise: float = parameter(
+        0.1,
+        unit="-",
+        source="section 4.1; " + OURS,
+        above=0,
+        doc="standard deviation of the intersection (1)",
     )
     feedback: bool = parameter(
         False, unit="-", source="True: section 4.1; " + OURS, doc="the filter's mean color moves the model"
@@ -207,10 +242,83 @@ class StereoHeadParams(Params):
     far: float = parameter(6.0, unit="m", source=OURS, above=0, doc="greatest distance of a head")
 
     def __post_init__(self) -> None:
+        for name in ("color_noise", "color_drift"):
+            if isinstance(value := getattr(self, name), (int, float)):
+                object.__setattr__(self, name, (value,) * 3)
         Params.__post_init__(self)  # not super(): slots=True makes another class of the same name
         if self.near >= self.far:
             raise ValueError(f"near: expected under far, {self.far:g} m, got {self.near:g}")
         if math.prod(self.bins) > MAX_COLOR_BINS:
             raise ValueError(f"bins: expected at most {MAX_COLOR_BINS} in all, got {self.bins}")
+        if self.head_colors is not None:
+            _check_histogram(self.head_colors, math.prod(self.bins))
         if self.window % 2 == 0:
             raise ValueError(f"window: expected an odd number, got {self.window}")
+
+    @classmethod
+    def paper(cls) -> "Self":
+        """The tracker that the paper prints, with no stage of ours; figure 3, unfused, has ``fuse=False``.
+
+        Where print is silent or can't be followed to the letter:
+
+        - Color space: neither bins nor the ends of the axes are printed: the defaults.
+        - Model: "a bimodal histogram containing skin and hair data samples" is that of all pixels of the
+          first frame's ellipse, which has both. ``head_colors`` holds one of given samples instead.
+        - (2): a isn't printed: 0.1. Nor is the gate's threshold on (1): 0.5.
+        - Search region, 16x4 pixels: the center moves up to 8 pixels to each side and 2 up and down.
+        - (3) sums over the ellipse, which would give one disparity to all its pixels and leave (5) nothing to
+          average. The text speaks of each pixel and of area-based correlation, so the sum is over a window
+          around each, whose side isn't printed: 5 pixels, the default. The sign of d is that of the rig.
+        - (4), with 9 candidates: those around the whole number that is nearest to the expected disparity.
+        - The first disparity comes from elsewhere in the paper. Here it is that of most pixels between
+          ``near`` and ``far``, which also limit the position.
+        - (6): the maximum displacement per frame isn't printed: 3 m/s along each axis, which suited it best
+          of 1, 1.5 and 3 m/s.
+        - Q of μ is said to depend on the bins alone: a bin's width / √12, the deviation of a color of
+          which only the bin is known. Q of the intersection is 1, as printed.
+        - (9): the coefficients aren't printed: fitted to back-projection with 1 pixel of disparity error, as
+          figure 2 assumes. X and Y have no error on the optical axis.
+        - e of μ and of the intersection are to be measured from a static head: as ``tricue reproduce
+          moreno-fig2`` measures them, the root mean square over the distances.
+        - The position is filtered in the camera's frame, not in the world's; the rig's pose turns the result.
+        - How the filter's μ goes back to the histogram isn't printed: the histogram is shifted as a whole.
+        - Nothing tells a head from what hides it, so every measurement counts. Without one, for want of
+          disparities, the prediction stays.
+        """
+        return cls(
+            search=(8, 2),
+            hair=0.0,
+            compensate_light=False,
+            ring_weight=0.0,
+            depth_weight=0.0,
+            first_frame_weight=0.0,
+            learning_rate=0.1,
+            learn="all",
+            min_intersection_to_learn=0.5,
+            learning_gate="absolute",
+            uniqueness=0,
+            prefilter=False,
+            subpixel=False,
+            ellipse_margin=0.0,
+            disparity_statistic="mean",
+            motion="constant",
+            max_speed=3.0,
+            noise_model="polynomial",
+            disparity_noise=1.0,
+            color_noise=(0.5, 0.6, 2.4),
+            color_drift=(2.31, 2.31, 27.6),
+            intersection_noise=0.04,
+            feedback=True,
+            min_score=0.0,
+            max_deviations=NEVER,
+            search_frame_after=NEVER,
+        )
+
+
+def _check_histogram(histogram: tuple[tuple[int, float], ...], bins: int) -> None:
+    """ValueError for a bin that there isn't, one that is there twice, and for no weight at all."""
+    indices = [index for index, _ in histogram]
+    if len(set(indices)) < len(indices) or max(indices, default=0) >= bins:
+        raise ValueError(f"head_colors: expected each bin once and below {bins}, the product of bins")
+    if not sum(weight for _, weight in histogram) > 0:
+        raise ValueError("head_colors: expected weights of a sum above 0")

@@ -4,7 +4,6 @@
 import math
 from typing import NamedTuple
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,7 +11,9 @@ from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, Image, PreparedPair
 
-FILL_WINDOW = 7  # cells, side of the square by which gaps in the disparity are filled
+FILL_WINDOW = (
+    7  # cells, side of the square by which gaps in the disparity are filled, as in hair of one color
+)
 
 
 class SearchRegion(NamedTuple):
@@ -47,21 +48,8 @@ def crop_region(
     disparities = k.sad_disparity(
         *pair.reduced, region, False, first, last, p.window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
     )
-    coherent = _select_coherent(disparities, expected, p.disparity_tolerance)
+    coherent = k.coherent_cells(disparities, expected, p.disparity_tolerance, FILL_WINDOW)
     height, width = pair.reduced[0].shape  # cells outside the image aren't the head's
     coherent[: max(-top, 0)] = coherent[max(height - top, 0) :] = 0
     coherent[:, : max(-left, 0)] = coherent[:, max(width - left, 0) :] = 0
     return SearchRegion(left, top, bins, coherent)
-
-
-def _select_coherent(disparities: NDArray[np.float32], expected: float, tolerance: float) -> Image:
-    """(h, w) 1 where disparities are within the tolerance of the expected one, else 0.
-
-    A cell without a disparity, as in hair of one color, gets the majority of the cells around it.
-    """
-    off = np.abs(disparities - np.float32(expected))
-    near, beyond = off <= np.float32(tolerance), off > np.float32(tolerance)  # both False without a disparity
-    votes = (near.view(np.int8) - beyond.view(np.int8)).astype(np.int16)
-    window = (FILL_WINDOW, FILL_WINDOW)
-    majority = cv2.boxFilter(votes, -1, window, normalize=False, borderType=cv2.BORDER_CONSTANT)
-    return np.asarray(near | ((majority > 0) > beyond)).view(np.uint8)

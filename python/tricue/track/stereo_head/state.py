@@ -37,6 +37,11 @@ class HeadState(NamedTuple):
             p.first_frame_weight * self.first_histogram + (1 - p.first_frame_weight) * self.learned_histogram
         )
 
+    def min_intersection_to_learn(self, p: StereoHeadParams) -> float:
+        """The intersection (1) from which colors are learned."""
+        of = self.mean_intersection if p.learning_gate == "relative" else 1.0
+        return p.min_intersection_to_learn * of
+
     def lost(self, p: StereoHeadParams) -> bool:
         """Whether the head has been missed for ``lost_after`` seconds."""
         return self.missed >= p.lost_after

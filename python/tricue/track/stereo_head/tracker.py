@@ -3,6 +3,9 @@
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import FrameLike, as_frame
@@ -19,10 +22,12 @@ from tricue.track.stereo_head.disparity import find_initial_disparity, limits_be
 from tricue.track.stereo_head.head_filter import HeadFilter
 from tricue.track.stereo_head.measure import HeadMeasurement, measure
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import PreparedPair, mean_color
+from tricue.track.stereo_head.prepared_pair import PreparedPair
 from tricue.track.stereo_head.search_frame import LostHead, search_frame
 from tricue.track.stereo_head.state import HeadState
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
+
+Floats = NDArray[np.float64]
 
 MIN_SEARCH_RADIUS = 0.3  # meters, from where a head that was just missed was last seen
 MIN_INITIAL_SHARE = 0.3  # of the box's ellipse at one disparity; what is beyond ``far`` has chance matches
@@ -88,17 +93,17 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         if max(head.width, head.height) > MAX_BOX_SIDE:
             raise BoxError(f"box: expected a head of at most {MAX_BOX_SIDE} pixels, got {tuple(head)}")
         warn_of_stereo(as_frame(frame), stacklevel=2)
-        pair = PreparedPair.of(left, right, None, self.params)
-        first_mean = mean_color(pair.colors) if self.params.compensate_light else None
+        pair = PreparedPair.of(self._k, left, right, None, self.params)
+        first_mean = pair.mean if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
         state = HeadState(
             shape=left.shape,
             geometry=geometry,
-            size=geometry.size(*head.ellipse[2:], float(first.values[2])),
+            size=geometry.size(*head.ellipse[2:], float(first.position[2])),
             first_histogram=first.histogram,
             learned_histogram=first.histogram,
-            filter=head_filter.initialize(first.values, first.noise, self.params),
-            last_seen=first.values[:3],
+            filter=head_filter.initialize(self._values(first, first.histogram), first.noise, self.params),
+            last_seen=first.position,
             score=first.match.score,
             mean_score=first.match.score,
             mean_intersection=first.match.intersection,
@@ -106,7 +111,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             first_mean=first_mean,
             timestamp=timestamp,
         )
-        return self._keep(state)
+        return self._keep(state, frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the head into the next stereo pair, of the same size as the first.
@@ -117,8 +122,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         before = validation.require_initialized(self._state)
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
-        pair = PreparedPair.of(left, right, before.first_mean, self.params)
-        return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp))
+        pair = PreparedPair.of(self._k, left, right, before.first_mean, self.params)
+        return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp), frame)
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
         """Measure the head in a box; NoDepthInBoxError where nothing in it has a disparity."""
@@ -144,11 +149,10 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         if measured is not None:
             measured = measured.inflated(state.mean_score, p)
         if measured is not None and self._recognizes(state, measured, predicted):
-            corrected = head_filter.correct(k, predicted, measured.values, measured.noise)
-            return self._learn(state, measured, corrected)
+            return self._learn(state, measured, predicted)
         detected = self._redetect(state, pair) if state.missed > p.search_frame_after else None
         if detected is not None:
-            return self._learn(state, detected, head_filter.initialize(detected.values, detected.noise, p))
+            return self._learn(state, detected, None)
         coasting = head_filter.coast(predicted)  # neither size nor model changes
         return state._replace(filter=coasting, missed=state.missed + seconds, score=0.0)
 
@@ -167,7 +171,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
 
     def _recognizes(self, state: HeadState, measured: HeadMeasurement, predicted: HeadFilter) -> bool:
         """Whether a measurement is like the head, and near the predicted position."""
-        distance = head_filter.mahalanobis_distance(predicted, measured.values, measured.noise)
+        distance = head_filter.mahalanobis_distance(predicted, measured.position, measured.noise)
         if not distance < self.params.max_deviations:
             return False
         return self._scores(state, measured, self.params.min_score)
@@ -179,26 +183,38 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             and measured.depth.share >= minimum * state.mean_share
         )
 
-    def _learn(self, state: HeadState, measured: HeadMeasurement, corrected: HeadFilter) -> HeadState:
-        """The state after a frame with the head; its colors are learned where they are like the model's."""
+    def _learn(self, state: HeadState, measured: HeadMeasurement, predicted: HeadFilter | None) -> HeadState:
+        """The state after a frame with the head; its colors are learned where they are like the model's.
+
+        predicted: what the measurement corrects; without it the filter starts anew.
+        """
         p, match = self.params, measured.match
-        head = corrected if p.fuse else head_filter.initialize(measured.values, measured.noise, p)
-        state = state._replace(
+        unlike = match.intersection < state.min_intersection_to_learn(p)
+        learned = state.learned_histogram
+        if not unlike:
+            learned = learned + p.learning_rate * (measured.histogram - learned)  # (2)
+        values = self._values(measured, learned)
+        if predicted is None or not p.fuse:
+            head = head_filter.initialize(values, measured.noise, p)
+        else:
+            head = head_filter.correct(self._k, predicted, values, measured.noise)
+        if p.feedback:
+            learned = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
+        off = 0.0 if unlike else match.intersection - state.mean_intersection
+        return state._replace(
+            learned_histogram=learned,
             filter=head,
             last_seen=head.position,
             score=match.score,
             mean_score=state.mean_score + MEAN_RATE * (match.score - state.mean_score),
+            mean_intersection=state.mean_intersection + MEAN_RATE * off,
             mean_share=state.mean_share + MEAN_RATE * (measured.depth.share - state.mean_share),
             missed=0.0,
         )
-        if match.intersection < p.min_intersection_to_learn * state.mean_intersection:
-            return state
-        old = state.learned_histogram
-        learned = old + p.learning_rate * (measured.histogram - old)
-        if p.feedback:
-            learned = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
-        mean = state.mean_intersection + MEAN_RATE * (match.intersection - state.mean_intersection)
-        return state._replace(learned_histogram=learned, mean_intersection=mean)
+
+    def _values(self, measured: HeadMeasurement, histogram: Floats) -> Floats:
+        """(7,) the measurement of (8), with the mean color of the updated model."""
+        return measured.values(self._k.histogram_mean(histogram, self.params.bins, self.params.max_chroma))
 
     def _track(self, state: HeadState) -> Track:
         """The track of a state; without a rig it has no position."""

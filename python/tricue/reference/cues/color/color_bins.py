@@ -16,6 +16,7 @@ def color_bins(
     bins: tuple[int, int, int],
     chroma: int,
     step: int,
+    gains: NDArray[np.float64] | None = None,
 ) -> NDArray[np.uint16]:
     """Reads every step-th pixel inside the image, and bins each axis in whole numbers."""
     require_space(bins, chroma)
@@ -30,5 +31,11 @@ def color_bins(
     )
     inside = (x >= 0) & (x < image.shape[1]) & (y >= 0) & (y < image.shape[0])
     found = np.full(x.shape, NO_BIN, np.uint16)
-    found[inside] = indices(image[y[inside], x[inside]], bins, chroma)
+    colors = image[y[inside], x[inside]]
+    if gains is not None:
+        strange = gains[~(np.isfinite(gains) & (gains >= 0))]
+        if strange.size:
+            refuse("gains", "finite numbers, none negative", float(strange[0]))
+        colors = np.rint(np.minimum(colors * gains.astype(np.float32), 255)).astype(np.uint8)
+    found[inside] = indices(colors, bins, chroma)
     return found

@@ -20,9 +20,11 @@ def sample_ellipses(
     require_finite("pattern", pattern)
 
     samples = np.empty((len(ellipses), 3, len(pattern)), np.uint8)
-    u, v = pattern.astype(np.float32).T
-    for i, (x, y, minor, major) in enumerate(ellipses.astype(np.float32)):
-        columns = np.clip(x + minor * u, 0, width - 1).astype(int)
-        rows = np.clip(y + major * v, 0, height - 1).astype(int)
-        samples[i] = image[rows, columns].T
+    with np.errstate(over="ignore"):
+        u, v = pattern.astype(np.float32).T
+        ellipses = ellipses.astype(np.float32)
+    for i, (x, y, minor, major) in enumerate(ellipses):
+        with np.errstate(invalid="ignore", over="ignore"):  # infinite in float32: at the border, NaN at 0
+            columns, rows = np.fmax(x + minor * u, 0), np.fmax(y + major * v, 0)
+        samples[i] = image[np.fmin(rows, height - 1).astype(int), np.fmin(columns, width - 1).astype(int)].T
     return samples

@@ -16,15 +16,15 @@ def sample_windows(
     """Multiplies each window by the weights of its bilinear readings, rows first."""
     _require_arguments(image, windows, rows, columns)
     height, width = image.shape[:2]
-    samples = np.empty((len(windows), rows, columns, 3), np.uint8)
+    samples = np.empty((len(windows), rows, columns, *image.shape[2:]), np.uint8)
     for i, (x, y, wide, high) in enumerate(windows.tolist()):
         top, down = _weights(y, high, rows, height)
         left, across = _weights(x, wide, columns, width)
         part = image[top : top + down.shape[1], left : left + across.shape[1]].astype(np.float64)
-        blends = (down @ part.reshape(len(part), -1)).reshape(rows, -1, 3)
+        blends = (down @ part.reshape(len(part), -1)).reshape(rows, across.shape[1], -1)
         sums = np.einsum("cx,rxk->rck", across, blends, optimize=True)
         whole = down[0].sum() * across[0].sum()
-        samples[i] = np.floor(sums / whole + 0.5)
+        samples[i] = np.floor(sums / whole + 0.5).reshape(samples.shape[1:])
     return samples
 
 

@@ -17,4 +17,5 @@ def depth_picture(depth: NDArray[np.float32], z: float, reach: float) -> NDArray
         refuse("reach", "a finite number above 0", float(reach))
     inside = np.maximum(np.fmin(depth, np.float32(z + reach)), np.float32(z - reach))
     levels = (inside - np.float32(z)) * np.float32(CONTRAST / reach) + np.float32(MIDDLE)
-    return np.repeat(levels.astype(np.uint8)[..., None], 3, axis=2)
+    picture: NDArray[np.uint8] = levels.astype(np.uint8)
+    return picture

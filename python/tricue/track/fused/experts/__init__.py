@@ -7,10 +7,10 @@ All are immutable: learning returns another. What they tell of pixels is combine
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Literal, Protocol
 
-import numpy as np
-
+from tricue.kernels import Kernels
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Plane
 from tricue.track.fused.window import Window
@@ -49,18 +49,7 @@ class PlaceExpert(Protocol):
         """(n, 32, 32) of n models, for the target's center at each cell: about 1 on it, 0 elsewhere."""
 
 
-def combine_posteriors(posteriors: Sequence[Plane | None]) -> Plane | None:
-    """(64, 64) posterior by independent cues of equal priors, whose odds multiply; None of none.
-
-    Okada, Shirai and Miura 1996, (10), for the two classes target and rest.
-    """
+def combine_posteriors(k: Kernels, posteriors: Sequence[Plane | None]) -> Plane | None:
+    """(64, 64) posterior by independent cues of equal priors, whose odds multiply; None of none."""
     given = [each for each in posteriors if each is not None]
-    if len(given) < 2:
-        return given[0] if given else None
-    target, rest = given[0], 1 - given[0]
-    for each in given[1:]:
-        target, rest = target * each, rest * (1 - each)
-    rest += target
-    np.maximum(rest, np.float32(1e-9), out=rest)
-    target /= rest
-    return target
+    return reduce(k.combine_posteriors, given) if given else None

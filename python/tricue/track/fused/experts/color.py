@@ -79,11 +79,10 @@ def _target_and_surround(window: Window) -> tuple[NDArray[Any], NDArray[Any]]:
     inside, outside = ellipse_and_surround(round(window.size[0], 1), round(window.size[1], 1))
     if window.depth is None:
         return inside, outside
-    by_depth = window.depth[0].ravel()
-    own = inside[by_depth[inside] > MIN_TARGET_POSTERIOR]
-    behind = inside[by_depth[inside] < MAX_SURROUND_POSTERIOR]
+    by_depth = window.depth[0].take(inside)
+    own = inside[by_depth > MIN_TARGET_POSTERIOR]
     if 2 * len(own) > len(inside):
-        return own, np.concatenate([outside, behind])
+        return own, np.concatenate([outside, inside[by_depth < MAX_SURROUND_POSTERIOR]])
     return inside, outside
 
 

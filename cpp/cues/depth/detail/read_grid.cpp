@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/detail/read_grid.hpp"
+
+#include <cmath>
+
+#include "base/check.hpp"
+#include "cues/depth/detail/sample_pixels.hpp"
+
+namespace tricue {
+
+Floats read_grid(const DepthView& depth, const SampleGrid& grid) {
+    const SamplePixels across = find_sample_pixels(grid.x, grid.step, grid.columns, depth.cols),
+                       down = find_sample_pixels(grid.y, grid.step, grid.rows, depth.rows);
+    Floats depths = Floats::Zero(grid.rows, grid.columns);
+    for (std::size_t i = 0; i < down.pixels.size(); ++i) {
+        const float* row = depth.row(down.pixels[i]);
+        float* to = depths.data() + (down.first + i) * static_cast<std::size_t>(grid.columns) + across.first;
+        for (const int x : across.pixels) *to++ = row[x];
+    }
+    return depths;
+}
+
+void require_grid(const SampleGrid& grid) {
+    if (!std::isfinite(grid.x)) refuse("x0", "a finite number", grid.x);
+    if (!std::isfinite(grid.y)) refuse("y0", "a finite number", grid.y);
+    if (!(grid.step > 0.0 && std::isfinite(grid.step))) refuse("step", "a finite number above 0", grid.step);
+    if (grid.rows < 1) refuse("rows", "at least 1", grid.rows);
+    if (grid.columns < 1) refuse("columns", "at least 1", grid.columns);
+}
+
+}  // namespace tricue

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+
+namespace tricue {
+
+/// Distances along the ground, in the direction in which the camera looks. What stands upright before a tilted camera has one of
+/// them, but many depths.
+///     distance = z (a_x (u - cx) / fx + a_y (v - cy) / fy + a_z),  a = (e - (e · up) up) / |e - (e · up) up|,  e = (0, 0, 1)
+///
+/// within near and the largest float32 below far; NaN where the depth is NaN. The factor of z is computed in float64 and rounded to
+/// float32.
+///
+/// @param depth float32 (H, W), meters
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+/// @param up float64 (3,): unit vector, camera frame, not along the view: (0, -1, 0) for a level camera
+/// @param near, far limits of the distances, meters, finite, far above near
+/// @returns float32 (H, W), meters
+/// @throws std::invalid_argument on other shapes or values
+/// Source: ours.
+Floats ground_distance(const DepthView& depth, VectorRef camera, VectorRef up, double near, double far);
+
+}  // namespace tricue

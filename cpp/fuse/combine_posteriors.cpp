@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/combine_posteriors.hpp"
+
+#include <string>
+
+#include "base/check.hpp"
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr float kLeastSum = 1e-9F;  // so that a contradiction, of 0 and 1, is finite
+
+TRICUE_MULTIVERSION
+void combine_row(const float* __restrict first, const float* __restrict second, int n,
+                 float* __restrict combined) {
+    for (int i = 0; i < n; ++i) {
+        const float target = first[i] * second[i], rest = (1.0F - first[i]) * (1.0F - second[i]);
+        const float sum = rest + target;
+        combined[i] = target / (sum > kLeastSum ? sum : kLeastSum);
+    }
+}
+
+std::string shape(const PlaneView& plane) {
+    return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
+}
+
+}  // namespace
+
+Floats combine_posteriors(const PlaneView& first, const PlaneView& second) {
+    if (second.rows != first.rows || second.cols != first.cols)
+        refuse("second", "shape " + shape(first), shape(second));
+    Floats combined(first.rows, first.cols);
+    for (int i = 0; i < first.rows; ++i)
+        combine_row(first.row(i), second.row(i), first.cols, combined.row(i).data());
+    return combined;
+}
+
+}  // namespace tricue

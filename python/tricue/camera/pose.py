@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""Where a camera stands: the transform from its frame to the world's."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+MAX_SKEW = 1e-3
+"""By which RᵀR may differ from the identity, as in a rotation that was written with few digits."""
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class Pose:
+    """A camera in the world: p_world = R p_camera + t, with the camera frame x right, y down, z forward.
+
+    rotation: R, (3, 3), rows first. translation: t, (3,) meters: where the camera is in the world. Any
+    right-handed world frame will do. A rotation matrix that was rounded is made orthogonal.
+    TypeError or ValueError names what is wrong.
+    """
+
+    rotation: tuple[tuple[float, float, float], ...]
+    translation: tuple[float, float, float]
+
+    def __init__(self, rotation: ArrayLike, translation: ArrayLike = (0.0, 0.0, 0.0)) -> None:
+        turn = _orthogonal(_numbers(rotation, "rotation", (3, 3)))
+        assign = object.__setattr__  # the dataclass is frozen
+        assign(self, "rotation", tuple(map(tuple, turn.tolist())))
+        assign(self, "translation", tuple(_numbers(translation, "translation", (3,)).tolist()))
+
+    @classmethod
+    def from_matrix(cls, matrix: ArrayLike) -> "Pose":
+        """From a (4, 4) matrix [R t; 0 0 0 1], or its first three rows."""
+        values = np.asarray(matrix, np.float64)
+        rows = _numbers(values, "pose", (3, 4) if values.shape == (3, 4) else (4, 4))
+        if len(rows) == 4 and not np.allclose(rows[3], [0, 0, 0, 1]):
+            raise ValueError(f"pose: expected the last row 0, 0, 0, 1, got {rows[3].tolist()}")
+        return cls(rows[:3, :3], rows[:3, 3])
+
+    @property
+    def matrix(self) -> Floats:
+        """(4, 4) [R t; 0 0 0 1]."""
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = self.rotation, self.translation
+        return matrix
+
+    @property
+    def inverse(self) -> "Pose":
+        """From the world's frame to the camera's."""
+        back = np.array(self.rotation).T
+        return Pose(back, -back @ np.array(self.translation))
+
+    def to_world(self, points: ArrayLike) -> Floats:
+        """Points (..., 3) of the camera's frame in the world's, meters."""
+        return np.asarray(np.asarray(points, np.float64) @ np.array(self.rotation).T + self.translation)
+
+    def covariance_to_world(self, covariance: ArrayLike) -> Floats:
+        """R C Rᵀ of covariances (..., 3, 3), square meters."""
+        turn = np.array(self.rotation)
+        return np.asarray(turn @ np.asarray(covariance, np.float64) @ turn.T)
+
+
+def as_pose(value: Any) -> Pose | None:
+    """A pose or None unchanged, or a pose of a matrix (4, 4); TypeError or ValueError for anything else."""
+    return value if value is None or isinstance(value, Pose) else Pose.from_matrix(value)
+
+
+def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Floats:
+    try:
+        array = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: expected numbers of shape {shape}, got {value!r:.80}") from None
+    if array.shape != shape:
+        raise ValueError(f"{name}: expected numbers of shape {shape}, got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name}: expected finite numbers, got {array.tolist()}")
+    return array
+
+
+def _orthogonal(turn: Floats) -> Floats:
+    """The rotation nearest to a matrix; ValueError for a matrix that is none."""
+    if not np.allclose(turn.T @ turn, np.eye(3), rtol=0, atol=MAX_SKEW):
+        raise ValueError(f"rotation: expected a rotation matrix, got {turn.tolist()}")
+    if np.linalg.det(turn) < 0:
+        raise ValueError("rotation: expected a right-handed rotation, got a reflection, of determinant -1")
+    left, _, right = np.linalg.svd(turn)
+    nearest = left @ right
+    return turn if np.allclose(nearest, turn, rtol=0, atol=1e-15) else np.asarray(nearest)

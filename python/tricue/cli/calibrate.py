@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: MIT
+"""``tricue calibrate WHAT``: parameters of the trackers, measured on the user's own images."""
+
+import argparse
+from collections.abc import Mapping
+from itertools import tee
+from pathlib import Path
+from typing import Any
+
+from tricue.camera import toml
+from tricue.cli.arguments import box
+from tricue.cli.calibrations import find_calibration
+from tricue.data.color_samples import read_color_samples
+from tricue.data.open_source import open_source
+from tricue.data.skin_masks import find_masked_images
+from tricue.track.base.params import Params
+from tricue.track.base.registry import tracker_class
+
+EXAMPLES = """\
+examples:
+  tricue calibrate skin-threshold skin/ --output skin.toml          skin/image/ and skin/mask/
+  tricue calibrate head-colors --skin skin/ --hair hair/ --output head.toml
+  tricue calibrate stereo-noise pair/ --box 60,30,25,33 --calibration stereo.yml --output noise.toml
+  tricue calibrate stereo-noise pair/ --params head.toml --output head.toml       adds to a file
+  tricue track video.mp4 --tracker color-particle --params skin.toml --box 120,80,64,78
+"""
+RATES = (0.02, 0.05, 0.1, 0.2, 0.3)
+"""False-positive rates at which the threshold is printed."""
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    kinds = command.add_subparsers(dest="what", metavar="WHAT", required=True)
+    skin = kinds.add_parser("skin-threshold", help="of color-particle, from images with masks of the skin")
+    skin.add_argument("place", type=Path, metavar="FOLDER", help="with image/ and mask/, white where skin is")
+    skin.add_argument(
+        "--false-positives",
+        type=float,
+        default=0.1,
+        metavar="SHARE",
+        help="of the other pixels that may be taken for skin, default %(default)s",
+    )
+    skin.set_defaults(measure=_skin_threshold, tracker="color-particle")
+    head = kinds.add_parser("head-colors", help="of stereo-head, from samples of skin and of hair")
+    for part in ("skin", "hair"):
+        head.add_argument(
+            f"--{part}",
+            type=Path,
+            required=True,
+            metavar="PLACE",
+            help=f"images with masks of the {part}, image/ and mask/, or a recording with boxes",
+        )
+    head.add_argument(
+        "--hair-weight", type=float, metavar="SHARE", help="of the hair in the model, default: parameter hair"
+    )
+    head.set_defaults(measure=_head_colors, tracker="stereo-head")
+    noise = kinds.add_parser("stereo-noise", help="of stereo-head, from stereo pairs of a head at rest")
+    noise.add_argument("input", metavar="INPUT", help="as for tricue track")
+    noise.add_argument("--box", type=box, metavar="X,Y,W,H", help="the head; default the first true box")
+    noise.add_argument("--distance", type=float, metavar="M", help="of the head along the camera's axis")
+    noise.add_argument("--right", metavar="PLACE", help="the right camera's images; INPUT is the left one's")
+    noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
+    noise.add_argument("--rectify", action="store_true", help="rectify raw pairs by OpenCV's --calibration")
+    noise.add_argument("--unit", type=float, metavar="M", help="meters per unit of its board")
+    noise.set_defaults(measure=_stereo_noise, tracker="stereo-head", fov=None)
+    for kind in (skin, head, noise):
+        kind.add_argument(
+            "--params", type=Path, metavar="FILE", help="parameters to measure with and to keep, TOML"
+        )
+        kind.add_argument("--output", type=Path, required=True, metavar="FILE", help="parameters, TOML")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure, print, and write the parameters; the exit code."""
+    kind = tracker_class(options.tracker).Params
+    params = kind.from_toml(options.params) if options.params else kind()
+    given = toml.read(options.params) if options.params else {}
+    measured = options.measure(options, params)
+    _write(options.output, kind, given | measured, measured)
+    print(f"wrote {options.output}; tricue track --tracker {options.tracker} --params {options.output}")
+    return 0
+
+
+def _skin_threshold(options: argparse.Namespace, _params: Any) -> dict[str, Any]:
+    from tricue.papers.roc import skin_roc
+
+    pairs = find_masked_images(options.place)
+    images, masks = tee(pair.read() for pair in pairs)
+    try:
+        curve = skin_roc((image for image, _ in images), (mask for _, mask in masks))
+    except ValueError as error:
+        if str(error).startswith("masks:"):
+            raise ValueError(f"{options.place}: {error}; no mask marks skin, or all do") from None
+        raise
+    threshold, _ = curve.at_false_positive_rate(options.false_positives)
+    print(f"{options.place}: {len(pairs)} images, area under the ROC curve {curve.area:.3f}")
+    for rate in sorted({*RATES, options.false_positives}):
+        at, share = curve.at_false_positive_rate(rate)
+        print(f"  false positives {rate:5.1%}: threshold {at:6.3f}, {share:.1%} of the skin")
+    return {"skin_threshold": round(threshold, 4)}
+
+
+def _head_colors(options: argparse.Namespace, params: Any) -> dict[str, Any]:
+    from tricue.track.stereo_head.color_samples import head_colors
+
+    weight = params.hair if options.hair_weight is None else options.hair_weight
+    skin, hair = read_color_samples(options.skin), read_color_samples(options.hair)
+    colors = head_colors(skin, hair, weight, params)
+    print(f"{len(colors)} of {params.bins[0] * params.bins[1] * params.bins[2]} bins have a color")
+    return {"bins": params.bins, "max_chroma": params.max_chroma, "head_colors": colors}
+
+
+def _stereo_noise(options: argparse.Namespace, params: Any) -> dict[str, Any]:
+    from tricue.track.stereo_head.static_head import measure_static_head
+
+    calibration, output = options.calibration, options.output
+    if calibration and output.exists() and calibration.exists() and output.samefile(calibration):
+        raise ValueError(f"{output}: expected another file than --calibration to write to")
+    source = open_source(options.input, right=options.right)
+    found = find_calibration(options, source)
+    head = options.box or source.first_box
+    if head is None:
+        raise ValueError(f"{source.name}: expected a box; give --box x,y,width,height")
+    if options.distance is not None and not (found.rig and options.distance > 0):
+        raise ValueError("--distance: expected meters above 0, and the calibration of the stereo pair")
+    try:
+        static = measure_static_head(found.prepare(source), head, found.rig, params)
+    except ValueError as error:
+        raise ValueError(f"{source.name}: {error}") from None
+    measured = static.noise
+    print(f"{source.name}: a head measured in {len(static.colors)} of {static.frames} stereo pairs")
+    if options.distance is not None:
+        assert found.rig
+        measured["disparity_noise"] = static.disparity_noise(found.rig, options.distance)
+    measured = {name: _rounded(value) for name, value in measured.items()}
+    for name, value in measured.items():
+        print(f"  {name:18} {value}")
+    if found.rig:
+        for axis, values in zip("XYZ", static.positions.T, strict=True):
+            print(f"  {axis} {values.mean():8.3f} m ± {1000 * values.std(ddof=1):.1f} mm")
+    return measured
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_rounded(each) for each in value)
+    return float(f"{value:.4g}")
+
+
+def _write(path: Path, kind: type[Params], values: Mapping[str, Any], measured: Mapping[str, Any]) -> None:
+    """Write the parameters, once they are known to be good: a whole file or none."""
+    kind(**values)
+    text = toml.dumps(values, dict.fromkeys(measured, "measured: tricue calibrate"))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f"{path.name}.part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""Signals that end a command: Ctrl-C, what `kill` sends, and a closed terminal. All leave whole files."""
+
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+ENDING = tuple(
+    getattr(signal, name)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP")
+    if hasattr(signal, name)  # not all on Windows
+)
+"""A signal that is ignored stays so: that is how nohup keeps a command alive."""
+
+
+@contextmanager
+def clean_exits() -> Iterator[None]:
+    """SIGTERM and SIGHUP raise SystemExit, with 128 and their number, so that open files are finished."""
+
+    def leave(number: int, _frame: FrameType | None) -> None:
+        raise SystemExit(128 + number)
+
+    with _handled(ENDING[1:], leave):
+        yield
+
+
+@contextmanager
+def catch_signals() -> Iterator[Callable[[], int]]:
+    """Yields a function that returns the number of the signal that came, 0 before; the current frame can be
+    finished then. A second signal interrupts.
+    """
+    caught = 0
+
+    def catch(number: int, _frame: FrameType | None) -> None:
+        nonlocal caught
+        if caught:
+            raise KeyboardInterrupt
+        caught = number
+
+    with _handled(ENDING, catch):
+        yield lambda: caught
+
+
+@contextmanager
+def _handled(numbers: tuple[signal.Signals, ...], handler: Any) -> Iterator[None]:
+    """The handler for these signals in the main thread, the only one that Python lets handle any."""
+    main = threading.current_thread() is threading.main_thread()
+    free = [number for number in numbers if main and signal.getsignal(number) is not signal.SIG_IGN]
+    before = {number: signal.signal(number, handler) for number in free}
+    try:
+        yield
+    finally:
+        for number, former in before.items():
+            signal.signal(number, former)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: MIT
+"""Color images with a mask for each: ``image/`` and ``mask/`` in one folder, paired by the files' names."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.data.files import image_paths
+from tricue.data.streams import read_image
+
+IMAGE_FOLDERS, MASK_FOLDERS = ("image", "images"), ("mask", "masks")
+MARKED_ABOVE = 127  # levels of a mask that marks by white
+
+
+class MaskedImage(NamedTuple):
+    """The files of an image and of its mask."""
+
+    image: Path
+    mask: Path
+
+    def read(self) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
+        """BGR (H, W, 3), and (H, W) True where the mask is white.
+
+        ValueError or OSError names the file that can't be read, or the mask of another size.
+        """
+        image: NDArray[np.uint8] = read_image(self.image, cv2.IMREAD_COLOR).astype(np.uint8, copy=False)
+        mask = read_image(self.mask, cv2.IMREAD_GRAYSCALE)
+        if mask.shape != image.shape[:2]:
+            (height, width), (rows, columns) = image.shape[:2], mask.shape
+            raise ValueError(
+                f"{self.mask}: expected a mask of {width}x{height} pixels, as {self.image.name} has, "
+                f"got {columns}x{rows}"
+            )
+        return image, np.asarray(mask > MARKED_ABOVE)
+
+
+def is_mask_folder(folder: Path) -> bool:
+    """Whether a folder has a folder ``mask`` or ``masks``, or one of images that should have one."""
+    return any(_subfolder(folder, names) is not None for names in (IMAGE_FOLDERS, MASK_FOLDERS))
+
+
+def find_masked_images(folder: Path) -> list[MaskedImage]:
+    """The pairs in a folder with ``image/`` and ``mask/`` (or ``images/``, ``masks/``), in natural order.
+
+    A mask has the name of its image, up to the suffix. ValueError names a folder that isn't there or is
+    empty, an image without a mask, a mask without an image, and the second of two of one name.
+    """
+    image_folder, mask_folder = _required(folder, IMAGE_FOLDERS), _required(folder, MASK_FOLDERS)
+    images, masks = _by_name(image_folder), _by_name(mask_folder)
+    if not images:
+        raise ValueError(f"{image_folder}: expected images, found none")
+    _check_partners(images, masks, f"a mask of the same name in {mask_folder}")
+    _check_partners(masks, images, f"an image of the same name in {image_folder}")
+    return [MaskedImage(image, masks[name]) for name, image in images.items()]
+
+
+def _by_name(folder: Path) -> dict[str, Path]:
+    """The images of a folder in natural order, by their names without suffix."""
+    found: dict[str, Path] = {}
+    for path in image_paths(folder):
+        if path.stem in found:
+            raise ValueError(f"{path}: expected one image of this name, got also {found[path.stem].name}")
+        found[path.stem] = path
+    return found
+
+
+def _check_partners(paths: Mapping[str, Path], partners: Mapping[str, Path], expected: str) -> None:
+    for name, path in paths.items():
+        if name not in partners:
+            raise ValueError(f"{path}: expected {expected}, found none")
+
+
+def _required(folder: Path, names: Sequence[str]) -> Path:
+    found = _subfolder(folder, names)
+    if found is None:
+        raise ValueError(f"{folder}: expected the folders image and mask in it, found no {names[0]}")
+    return found
+
+
+def _subfolder(folder: Path, names: Sequence[str]) -> Path | None:
+    return next((folder / name for name in names if (folder / name).is_dir()), None)

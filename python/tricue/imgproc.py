@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""Image processing by the OpenCV of the system that the core was built with, for scenes and cameras.
+
+cv2 gives other pixels from version to version: its warps interpolate at multiples of 1/32 pixel before
+version 5, and anywhere since. So what is rendered or rectified never depends on which cv2 is installed.
+
+Images are uint8, float32 or float64, (H, W) or (H, W, C) with up to 4 channels; their pixels are packed, rows
+may be padded. Results have the image's type and channels. ValueError or TypeError names what is wrong.
+"""
+
+from typing import Literal, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue._core import _imgproc
+
+__all__ = [
+    "bgr_to_gray",
+    "bgr_to_lab",
+    "box_blur",
+    "copy_where",
+    "dilate",
+    "erode",
+    "fill_polygon",
+    "gaussian_blur",
+    "lab_to_bgr",
+    "remap",
+    "resize",
+    "shift",
+    "warp_perspective",
+]
+
+Scalar = TypeVar("Scalar", bound=np.generic)
+MIDDLE = -1  # the anchor in the middle of a square
+Floats = NDArray[np.float32]
+
+
+def resize(
+    image: NDArray[Scalar], height: int, width: int, method: Literal["area", "linear", "cubic"]
+) -> NDArray[Scalar]:
+    """Scale an image. method: "area" gives means, for scaling down."""
+    return cast("NDArray[Scalar]", _imgproc.resize(image, height, width, method))
+
+
+def gaussian_blur(
+    image: NDArray[Scalar], sigma: float, border: Literal["reflect", "replicate"] = "reflect"
+) -> NDArray[Scalar]:
+    """Blur by a Gaussian of ``sigma`` pixels; beyond the border the image is mirrored or repeats its edge."""
+    return cast("NDArray[Scalar]", _imgproc.gaussian_blur(image, sigma, border))
+
+
+def box_blur(image: NDArray[Scalar], side: int) -> NDArray[Scalar]:
+    """The mean of the square of ``side`` pixels around each pixel; beyond the border it is mirrored."""
+    return cast("NDArray[Scalar]", _imgproc.box_blur(image, side))
+
+
+def erode(image: NDArray[Scalar], side: int, anchor: int = MIDDLE) -> NDArray[Scalar]:
+    """The minimum in a square of ``side`` pixels. anchor: its pixel, in both axes, that is the result's."""
+    return cast("NDArray[Scalar]", _imgproc.erode(image, side, anchor))
+
+
+def dilate(image: NDArray[Scalar], side: int, anchor: int = MIDDLE) -> NDArray[Scalar]:
+    """The maximum in a square of ``side`` pixels. anchor: its pixel, in both axes, that is the result's."""
+    return cast("NDArray[Scalar]", _imgproc.dilate(image, side, anchor))
+
+
+def shift(
+    image: NDArray[Scalar],
+    x: float,
+    y: float,
+    height: int,
+    width: int,
+    method: Literal["linear", "nearest"] = "linear",
+    border: Literal["constant", "replicate"] = "constant",
+    value: float = 0.0,
+) -> NDArray[Scalar]:
+    """An image (height, width) in which the given one begins at x, y, which needn't be whole pixels.
+
+    border: around it is a constant value, or its edge.
+    """
+    return cast("NDArray[Scalar]", _imgproc.shift(image, x, y, height, width, method, border, value))
+
+
+def warp_perspective(
+    image: NDArray[Scalar], matrix: NDArray[np.float64], height: int, width: int
+) -> NDArray[Scalar]:
+    """Map an image by a homography (3, 3) from its pixels to the result's, linearly; 0 outside of it."""
+    return cast("NDArray[Scalar]", _imgproc.warp_perspective(image, matrix, height, width))
+
+
+def remap(
+    image: NDArray[Scalar],
+    columns: Floats,
+    rows: Floats,
+    border: Literal["constant", "replicate", "wrap"] = "constant",
+) -> NDArray[Scalar]:
+    """The image at ``columns`` and ``rows`` (h, w), interpolated linearly. border: "constant" is 0."""
+    return cast("NDArray[Scalar]", _imgproc.remap(image, columns, rows, border))
+
+
+def copy_where(source: NDArray[Scalar], where: NDArray[np.bool_], target: NDArray[Scalar]) -> None:
+    """Copy pixels into ``target`` where the mask (H, W) is true, in place, many times faster than NumPy."""
+    _imgproc.copy_where(source, where, target)
+
+
+def fill_polygon(points: NDArray[np.int32], height: int, width: int) -> Floats:
+    """An image of 1 in a polygon (n, 2) of columns and rows, its outline included, and 0 outside."""
+    return cast("Floats", _imgproc.fill_polygon(points, height, width))
+
+
+def bgr_to_gray(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The gray levels (H, W) of a BGR image (H, W, 3)."""
+    return cast("NDArray[np.uint8]", _imgproc.bgr_to_gray(image))
+
+
+def bgr_to_lab(image: Floats) -> Floats:
+    """CIE L*a*b* (H, W, 3), L* from 0 to 100, of BGR in [0, 1]."""
+    return cast("Floats", _imgproc.bgr_to_lab(image))
+
+
+def lab_to_bgr(image: Floats) -> Floats:
+    """BGR (H, W, 3) in [0, 1] of CIE L*a*b*."""
+    return cast("Floats", _imgproc.lab_to_bgr(image))

@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: MIT
+"""P(target | two cues) of every pixel."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+
+Plane = NDArray[np.float32]
+LEAST_SUM = np.float32(1e-9)  # so that a contradiction, of 0 and 1, is finite
+
+
+def combine_posteriors(first: Plane, second: Plane) -> Plane:
+    """Multiplies the probabilities of both classes, whole planes at once."""
+    if second.shape != first.shape:
+        refuse("second", f"shape {first.shape}", second.shape)
+    target, rest = first * second, (1 - first) * (1 - second)
+    combined: Plane = target / np.maximum(rest + target, LEAST_SUM)
+    return combined

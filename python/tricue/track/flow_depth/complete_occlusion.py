@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""Complete occlusion as section 4.5 prints it: it begins and ends by jumps of the disparity in the window."""
+
+from tricue.kernels import Kernels
+from tricue.track.flow_depth.blocks import OCCLUDED_BLOCK
+from tricue.track.flow_depth.cues import Cues
+from tricue.track.flow_depth.params import FlowDepthParams
+from tricue.track.flow_depth.state import FlowDepthState
+from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate
+
+
+def is_occluded(state: FlowDepthState, verdict: Verdict, p: FlowDepthParams) -> bool:
+    """Whether the target is completely occluded in this frame.
+
+    It is where its disparity has become much larger, and where it has too few pixels and an occluded block.
+    """
+    if verdict.disparity > disparity_limits(state, state.disparity, p).occluder:
+        return True
+    blocks = state.blocks.voted(verdict.observed, verdict.limits, p)
+    return not verdict.has_pixels(state, p.min_pixels) and bool((blocks.states == OCCLUDED_BLOCK).any())
+
+
+def is_back(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> bool:
+    """Whether the disparity in the window is much smaller than in the frame before: the occluder is gone."""
+    return state.occluder_disparity > disparity_limits(state, disparity, p).occluder
+
+
+def disparity_in_window(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> float:
+    """The disparity that most of the target window has, cells."""
+    expected = state.occluder_disparity if state.occluded else state.disparity
+    in_window = state._replace(disparity=expected, temporal_window=state.window)
+    return estimate(k, in_window, cues, p).peaks[-1]

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: MIT
+"""A controller that keeps a tracked target in the middle of the image, after Okada, Shirai and Miura (1996),
+section 6: tracks become commands for a pan-tilt head.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.camera.numbers import finite, positive
+from tricue.camera.rig import Intrinsics
+from tricue.track.base import validation
+from tricue.track.base.track import Status, Track
+
+Angles = tuple[float, float]  # pan, tilt
+
+
+class PanTiltCommand(NamedTuple):
+    """What the head is told, as speeds or as angles; pan is positive to the right, tilt upwards."""
+
+    pan_speed: float
+    """Radians per second."""
+    tilt_speed: float
+    pan: float
+    """Radians: the angle that this speed reaches by the next frame."""
+    tilt: float
+
+
+class PanTilt:
+    """Turns a camera on a pan-tilt head so that the target stays in the middle of its image.
+
+    The command is proportional to the target's angle from the optical axis, plus the target's own angular
+    velocity, so that a target that walks on steadily isn't followed late. While the target is OCCLUDED, or
+    TRACKED with a score of 0, the camera moves on as the target last did; while it is LOST, it stands still.
+
+        camera_head = tricue.PanTilt(camera)
+        track = tracker.update(frame)
+        command = camera_head.command(track, pan, tilt, timestamp=frame.timestamp)
+        motors.drive(command.pan_speed, command.tilt_speed)
+
+    The axes are taken to meet in the camera's center: pan about the vertical, then tilt. The target is at the
+    box's center by ``intrinsics``; without them at the track's ``position``.
+
+    gain: 1/s; an error of 1 rad makes a speed of so many rad/s. Above about 1 / (2 latency) the head swings.
+    velocity_gain: how much of the target's velocity is fed forward, 0 to 1. velocity_time: seconds over which
+    that velocity is averaged. latency: seconds from a frame to when its command moves the head, over which
+    both are extrapolated. dead_band: radians of the error on each axis that nothing is done about. max_speed:
+    rad/s. max_acceleration: rad/s²; a tracker by flow needs image motion that changes slowly. pan_limits,
+    tilt_limits: radians. rate: frames/s where there are no timestamps.
+
+    TypeError and ValueError name the argument that is wrong.
+    """
+
+    def __init__(
+        self,
+        intrinsics: Intrinsics | None = None,
+        *,
+        gain: float = 4.0,
+        velocity_gain: float = 1.0,
+        velocity_time: float = 0.3,
+        latency: float = 0.0,
+        dead_band: float = 0.0,
+        max_speed: float = 2.0,
+        max_acceleration: float = 2.0,
+        pan_limits: Angles = (-math.pi, math.pi),
+        tilt_limits: Angles = (-math.pi / 2, math.pi / 2),
+        rate: float = 15.0,
+    ) -> None:
+        self.intrinsics = validation.intrinsics(intrinsics)
+        self.gain = positive(gain, "gain", "1/s")
+        self.velocity_gain = _at_least_zero(velocity_gain, "velocity_gain", "a share")
+        self.velocity_time = _at_least_zero(velocity_time, "velocity_time", "seconds")
+        self.latency = _at_least_zero(latency, "latency", "seconds")
+        self.dead_band = _at_least_zero(dead_band, "dead_band", "radians")
+        self.max_speed = positive(max_speed, "max_speed", "rad/s")
+        self.max_acceleration = positive(max_acceleration, "max_acceleration", "rad/s²")
+        self.limits = _limits(pan_limits, "pan_limits"), _limits(tilt_limits, "tilt_limits")
+        self.rate = positive(rate, "rate", "frames/s")
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget the target and the last command."""
+        self._target: np.ndarray | None = None  # pan, tilt of its direction
+        self._velocity = np.zeros(2)  # of that direction, rad/s
+        self._seen: float | None = None  # when
+        self._now: float | None = None
+        self._last = PanTiltCommand(0.0, 0.0, 0.0, 0.0)
+
+    def command(
+        self,
+        track: Track,
+        pan: float | None = None,
+        tilt: float | None = None,
+        *,
+        timestamp: float | None = None,
+    ) -> PanTiltCommand:
+        """The command after a frame with this track.
+
+        pan, tilt: the head's angles when the frame was taken, radians; without them the last command counts
+        as done. timestamp: of the frame, seconds. ValueError for a track without a position where there are
+        no intrinsics.
+        """
+        interval = validation.elapsed(self._now, timestamp, self.rate)
+        self._now = (self._now or 0.0) + interval if timestamp is None else timestamp
+        given = (self._last.pan if pan is None else pan), (self._last.tilt if tilt is None else tilt)
+        angles = np.array([finite(given[0], "pan", "radians"), finite(given[1], "tilt", "radians")])
+        if track.status is Status.LOST:
+            self._target, self._velocity = None, np.zeros(2)
+            speeds = np.zeros(2)
+        elif track.status is Status.OCCLUDED or not track.score:
+            speeds = self.velocity_gain * self._velocity
+        else:
+            self._measure(self._direction(track, angles))
+            speeds = self._speeds(angles)
+        return self._limited(speeds, angles, interval)
+
+    def _direction(self, track: Track, angles: np.ndarray) -> np.ndarray:
+        """Pan and tilt at which the target would be in the middle of the image."""
+        x, y, z = self._ray(track)
+        pan, tilt = angles
+        up_z, down = z * math.cos(tilt) + y * math.sin(tilt), y * math.cos(tilt) - z * math.sin(tilt)
+        aside, ahead = x * math.cos(pan) + up_z * math.sin(pan), up_z * math.cos(pan) - x * math.sin(pan)
+        return np.array([math.atan2(aside, ahead), math.atan2(-down, math.hypot(aside, ahead))])
+
+    def _ray(self, track: Track) -> tuple[float, float, float]:
+        """Towards the target, in the camera's frame: right, down, forward."""
+        camera = self.intrinsics
+        if camera is not None:
+            x, y = track.box.center
+            return (x - 0.5 - camera.cx) / camera.fx, (y - 0.5 - camera.cy) / camera.fy, 1.0
+        if track.position is None:
+            raise ValueError("track: expected a position, as there are no intrinsics, got None")
+        x, y, z = track.position.tolist()
+        return x, y, z
+
+    def _measure(self, direction: np.ndarray) -> None:
+        """Take the target's direction, and average its velocity over ``velocity_time``."""
+        assert self._now is not None
+        if self._target is not None and self._seen is not None:
+            seconds = max(self._now - self._seen, validation.MIN_FRAME_INTERVAL)
+            weight = 1 - math.exp(-seconds / self.velocity_time) if self.velocity_time else 1.0
+            self._velocity += weight * (_wrapped(direction - self._target) / seconds - self._velocity)
+        self._target, self._seen = direction, self._now
+
+    def _speeds(self, angles: np.ndarray) -> np.ndarray:
+        """Feed-forward plus proportional, at the time when the command moves the head."""
+        assert self._target is not None
+        velocity = self.velocity_gain * self._velocity
+        moving = np.array([self._last.pan_speed, self._last.tilt_speed])
+        error = _wrapped(self._target - angles) + self.latency * (velocity - moving)
+        outside = np.sign(error) * np.maximum(np.abs(error) - self.dead_band, 0.0)
+        return np.asarray(velocity + self.gain * outside)
+
+    def _limited(self, speeds: np.ndarray, angles: np.ndarray, interval: float) -> PanTiltCommand:
+        """The command for these speeds, within the limits of speed and of angles."""
+        low, high = np.transpose(self.limits)
+        before, change = np.array(self._last[:2]), self.max_acceleration * interval
+        smooth = np.clip(speeds, before - change, before + change).clip(-self.max_speed, self.max_speed)
+        reached = np.clip(angles + smooth * interval, low, high)
+        allowed = np.clip((reached - angles) / interval, -self.max_speed, self.max_speed)
+        self._last = PanTiltCommand(*allowed.tolist(), *reached.tolist())
+        return self._last
+
+
+def _wrapped(angle: np.ndarray) -> np.ndarray:
+    """Angles in [-pi, pi)."""
+    return np.asarray((angle + math.pi) % (2 * math.pi) - math.pi)
+
+
+def _at_least_zero(value: float, name: str, unit: str) -> float:
+    if finite(value, name, unit) < 0:
+        raise ValueError(f"{name}: expected {unit}, 0 or more, got {value!r}")
+    return float(value)
+
+
+def _limits(value: Angles, name: str) -> Angles:
+    low, high = (finite(each, name, "radians") for each in value)
+    if not low < high:
+        raise ValueError(f"{name}: expected a lower limit and a higher one, radians, got {value!r}")
+    return low, high

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: MIT
+"""``tricue calibrate``: what it writes is what trackers read, and bad input is named and leaves no file."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tricue import ColorParticleTracker, StereoHeadTracker
+from tricue.cli import main
+from tricue.scenes import StereoScene, static_head
+
+ColorParams, HeadParams = ColorParticleTracker.Params, StereoHeadTracker.Params
+SKIN, HAIR, REST = (110, 140, 190), (20, 25, 30), (200, 90, 40)
+SIZE = (24, 32)
+
+
+def write_masks(folder: Path, color: tuple[int, int, int], count: int = 3) -> Path:
+    """Noisy images of ``color`` on the left half and another one on the right, with masks of the left."""
+    rng = np.random.default_rng(count)
+    mask = np.zeros(SIZE, np.uint8)
+    mask[:, :16] = 255
+    for name in ("image", "mask"):
+        (folder / name).mkdir(parents=True)
+    for index in range(count):
+        image = np.where(mask[..., None] > 0, color, REST) + rng.normal(0, 3, (*SIZE, 3))
+        cv2.imwrite(str(folder / "image" / f"{index}.png"), np.clip(image, 0, 255).astype(np.uint8))
+        cv2.imwrite(str(folder / "mask" / f"{index}.png"), mask)
+    return folder
+
+
+def write_pair(scene: StereoScene, folder: Path) -> Path:
+    """A recording with left/, right/, the first true box, and the rig."""
+    for index, frame in enumerate(scene.frames):
+        for side, image in (("left", frame.color), ("right", frame.right)):
+            (folder / side).mkdir(parents=True, exist_ok=True)
+            assert image is not None
+            cv2.imwrite(str(folder / side / f"{index:04}.png"), image)
+    camera = scene.rig.intrinsics
+    values = {name: getattr(camera, name) for name in ("fx", "fy", "cx", "cy", "width", "height")}
+    lines = [f"{name} = {value}" for name, value in {**values, "baseline": scene.rig.baseline}.items()]
+    (folder / "rig.toml").write_text("\n".join(lines))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def still() -> StereoScene:
+    """A head at rest at 1.2 m."""
+    return static_head(2, 24, distance=1.2)
+
+
+def failing(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    """The one line of an error."""
+    assert main(["calibrate", *arguments]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    line, rest = printed.err.split("\n", 1)
+    assert rest == ""
+    return line
+
+
+def test_skin_threshold_parts_skin_from_the_rest(tmp_path, capsys):
+    """The threshold parts the two colors of the images, and the tracker reads it; the others are kept."""
+    folder, out = write_masks(tmp_path / "skin", SKIN), tmp_path / "out" / "skin.toml"
+    (tmp_path / "given.toml").write_text("particles = 60\nskin_threshold = 0.9\n")
+    given = ["--params", str(tmp_path / "given.toml")]
+    assert main(["calibrate", "skin-threshold", str(folder), *given, "--output", str(out)]) == 0
+    assert "3 images, area under the ROC curve 1.000" in capsys.readouterr().out
+    params = ColorParams.from_toml(out)
+    assert params.particles == 60
+    rest = max(REST) - max(abs(a - b) for a, b in zip(REST, SKIN, strict=True))
+    assert rest / 255 - 0.06 < params.skin_threshold < max(SKIN) / 255
+
+
+def test_head_colors_have_a_mode_of_skin_and_one_of_hair(tmp_path, capsys):
+    """Masked skin and hair are in the model in the given shares, the pixels beside the masks are not; the
+    tracker searches for it.
+    """
+    places = {name: write_masks(tmp_path / name, color) for name, color in (("skin", SKIN), ("hair", HAIR))}
+    out = tmp_path / "head.toml"
+    samples = ["--skin", str(places["skin"]), "--hair", str(places["hair"])]
+    assert main(["calibrate", "head-colors", *samples, "--hair-weight", "0.3", "--output", str(out)]) == 0
+    assert "bins have a color" in capsys.readouterr().out
+    p = HeadParams.from_toml(out)
+    assert p.head_colors is not None
+
+    def level(color: tuple[int, int, int]) -> int:
+        return sum(color) * p.bins[2] // 766
+
+    weights = {level(SKIN): 0.0, level(HAIR): 0.0}
+    for index, weight in p.head_colors:
+        weights[index % p.bins[2]] += weight
+    assert weights[level(SKIN)] == pytest.approx(0.7, abs=1e-4)
+    assert weights[level(HAIR)] == pytest.approx(0.3, abs=1e-4)
+
+
+def test_samples_may_have_boxes(tmp_path):
+    """Boxes in a table do as well as masks, and frames without one don't count."""
+    masked, boxed = write_masks(tmp_path / "masked", SKIN), write_masks(tmp_path / "boxed", SKIN) / "image"
+    (boxed / "boxes.csv").write_text("frame,x,y,width,height\n0,0,0,16,24\n1,0,0,16,24\n2,0,0,16,24\n")
+    hair = write_masks(tmp_path / "hair", HAIR)
+    models = []
+    for skin in (masked, boxed):
+        out = tmp_path / "head.toml"
+        assert main(["calibrate", "head-colors", f"--skin={skin}", f"--hair={hair}", f"--output={out}"]) == 0
+        models.append(HeadParams.from_toml(out).head_colors)
+    assert models[0] == models[1]
+
+
+def test_stereo_noise_is_that_of_a_head_at_rest(still, tmp_path, capsys):
+    """Noise and drift of a head in steady light are small, its disparity is off by a fraction of a pixel, and
+    parameters that were measured before are kept.
+    """
+    folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "head.toml"
+    out.write_text("lost_after = 0.7\n")
+    box = ",".join(map(str, still.boxes[0]))
+    place = [str(folder), "--box", box, "--calibration", str(folder / "rig.toml"), "--distance", "1.2"]
+    assert main(["calibrate", "stereo-noise", *place, "--params", str(out), "--output", str(out)]) == 0
+    assert "a head measured in 23 of 23 stereo pairs" in capsys.readouterr().out
+    p = HeadParams.from_toml(out)
+    assert p.lost_after == 0.7
+    assert all(0.1 <= value < 4 for value in (*p.color_noise, *p.color_drift))
+    assert 0.001 <= p.intersection_noise < 0.1
+    assert p.disparity_noise < 3  # the surface is nearer than the center by the head's radius
+    text = out.read_text()
+    assert text.count("# measured: tricue calibrate") == 4
+
+
+@pytest.mark.parametrize(
+    ("break_it", "message"),
+    [
+        (lambda at: (at / "mask" / "1.png").unlink(), "1.png: expected a mask of the same name"),
+        (
+            lambda at: cv2.imwrite(str(at / "mask" / "1.png"), np.zeros((5, 5), np.uint8)),
+            "mask/1.png: expected a mask of 32x24 pixels, as 1.png has, got 5x5",
+        ),
+        (lambda at: (at / "image" / "1.png").write_text("x"), "image/1.png: expected an image"),
+        (lambda at: [path.unlink() for path in (at / "image").iterdir()], "image: expected images"),
+        (lambda at: (at / "mask").rename(at / "other"), "skin: expected the folders image and mask"),
+        (
+            lambda at: [cv2.imwrite(str(path), np.zeros(SIZE, np.uint8)) for path in (at / "mask").iterdir()],
+            "skin",
+        ),
+    ],
+)
+@pytest.mark.parametrize("what", ["skin-threshold", "head-colors"])
+def test_bad_samples_are_named_and_nothing_is_written(what, break_it, message, tmp_path, capsys):
+    """A missing, unreadable or other mask is named with its file, and there is no output, not even a part."""
+    folder = write_masks(tmp_path / "skin", SKIN)
+    break_it(folder)
+    out = tmp_path / "out" / "params.toml"
+    places = [str(folder)] if what == "skin-threshold" else ["--skin", str(folder), "--hair", str(folder)]
+    assert message in failing([what, *places, "--output", str(out)], capsys)
+    assert not out.parent.exists()
+
+
+def test_samples_without_masks_or_boxes_are_named(tmp_path, capsys):
+    """Images alone say nothing about where the color is."""
+    folder = write_masks(tmp_path / "skin", SKIN)
+    alone = str(folder / "image")
+    line = failing(
+        ["head-colors", "--skin", alone, "--hair", str(folder), "--output", str(tmp_path / "o.toml")], capsys
+    )
+    assert f"{alone}: expected masks, in the folders image and mask, or a table of boxes" in line
+
+
+def test_a_recording_without_a_head_is_named(still, tmp_path, capsys):
+    """A blank recording, too few frames, no box, and a distance without a rig are told by the name."""
+    folder, out = write_pair(still, tmp_path / "pair"), tmp_path / "o.toml"
+    ending = ["--output", str(out)]
+    calibrated = ["--calibration", str(folder / "rig.toml")]
+    box = ["--box", ",".join(map(str, still.boxes[0]))]
+    assert "pair: expected a box" in failing(["stereo-noise", str(folder), *calibrated, *ending], capsys)
+    same = failing(["stereo-noise", str(folder), *calibrated, "--output", str(folder / "rig.toml")], capsys)
+    assert "rig.toml: expected another file than --calibration" in same
+    for path in sorted(folder.glob("*/*.png"))[::-1]:
+        if int(path.stem) > 5:
+            path.unlink()
+    line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
+    assert "pair: frames: expected a head at rest, measured in 10 stereo pairs or more" in line
+    for path in folder.glob("*/*.png"):
+        cv2.imwrite(str(path), np.zeros((120, 160, 3), np.uint8))
+    line = failing(["stereo-noise", str(folder), *box, *calibrated, *ending], capsys)
+    assert "pair: box: expected a head with a disparity" in line
+    assert not out.exists()
+
+
+def test_a_broken_parameter_file_is_named(tmp_path, capsys):
+    """Parameters that the tracker doesn't have are refused before anything is measured."""
+    folder = write_masks(tmp_path / "skin", SKIN)
+    (tmp_path / "given.toml").write_text("hair = 0.5\n")
+    arguments = [
+        *("skin-threshold", str(folder)),
+        *("--params", str(tmp_path / "given.toml"), "--output", str(tmp_path / "o.toml")),
+    ]
+    assert "given.toml: hair: unknown parameter" in failing(arguments, capsys)

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""What Ctrl-C, kill and a closed terminal do to a command, in this process and in another."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tricue.cli.signals import ENDING, catch_signals, clean_exits
+
+
+@pytest.mark.parametrize("number", ENDING)
+def test_the_first_signal_asks_and_the_second_breaks_off(number: signal.Signals) -> None:
+    """The first one answers "stop?" with its number, another interrupts, and the old handlers return."""
+    before = [signal.getsignal(each) for each in ENDING]
+    with catch_signals() as stop:
+        assert stop() == 0
+        os.kill(os.getpid(), number)
+        assert stop() == number
+        with pytest.raises(KeyboardInterrupt):
+            os.kill(os.getpid(), signal.SIGINT)
+    assert [signal.getsignal(each) for each in ENDING] == before
+
+
+@pytest.mark.parametrize("number", ENDING[1:])
+def test_other_commands_leave_by_an_exception(number: signal.Signals) -> None:
+    """Elsewhere SIGTERM and SIGHUP raise SystemExit with a shell's code, so that ``with`` closes files."""
+    with pytest.raises(SystemExit) as stop, clean_exits():
+        os.kill(os.getpid(), number)
+    assert stop.value.code == 128 + number
+
+
+def test_an_ignored_signal_stays_ignored() -> None:
+    """Nohup ignores SIGHUP; the command goes on, and so does this test."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with catch_signals() as stop:
+            os.kill(os.getpid(), signal.SIGHUP)
+            assert stop() == 0
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+@pytest.fixture(scope="module")
+def video(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A bright square that wanders over noise, 64x48, 2,000 frames."""
+    path = tmp_path_factory.mktemp("video") / "long.avi"
+    noise = np.random.default_rng(0).integers(0, 256, (48, 64, 3), np.uint8)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 25.0, (64, 48))
+    for index in range(2000):
+        picture = noise.copy()
+        picture[16:32, 20 + index % 8 : 36 + index % 8] = (60, 120, 220)
+        writer.write(picture)
+    writer.release()
+    return path
+
+
+def track(video: Path, *arguments: str) -> list[str]:
+    """The words that track in the video in another process, so slowly that a signal comes in the middle."""
+    slow = ("--box", "20,16,16,16", "--kernels", "reference")
+    return [sys.executable, "-m", "tricue", "track", str(video), *slow, *arguments]
+
+
+@pytest.mark.parametrize("number", ENDING)
+def test_files_are_whole_after_a_signal(video: Path, tmp_path: Path, number: signal.Signals) -> None:
+    """A signal in the middle of a run exits with 128 and its number, and all files can be read."""
+    out = {name: tmp_path / f"out.{name}" for name in ("mp4", "csv", "json")}
+    files = ["--output", str(out["mp4"]), "--csv", str(out["csv"]), "--json", str(out["json"])]
+    with subprocess.Popen(track(video, *files), stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        deadline = time.monotonic() + 60
+        while not (out["csv"].exists() and out["csv"].stat().st_size) and process.poll() is None:
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        os.kill(process.pid, number)
+        printed, error = process.communicate(timeout=60)
+    assert process.returncode == 128 + number, error
+    assert b"until interrupted" in printed
+    rows = out["csv"].read_text().splitlines()[1:]
+    assert 0 < len(rows) < 2000
+    assert len(json.loads(out["json"].read_text())["tracks"]) == len(rows)
+    capture = cv2.VideoCapture(str(out["mp4"]))
+    assert sum(1 for _ in iter(lambda: capture.read()[0], False)) == len(rows)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""The options of the search for the target: the human filter, and the depth histogram in the signature."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tricue import DepthParticleTracker
+from tricue.kernels import load
+from tricue.track.depth_objects.foreground import Foreground
+from tricue.track.depth_particle.depth_model import DepthModel
+from tricue.track.depth_particle.search import find_target
+
+K = load("native")
+P = DepthParticleTracker.Params()
+SECONDS = 1 / 15
+
+
+@pytest.fixture(scope="module")
+def state(walkers):
+    """The state of a tracker that has started on a walker."""
+    scene = walkers[0]
+    tracker = DepthParticleTracker(intrinsics=scene.intrinsics)
+    tracker.init(scene.frames[0], scene.boxes[0])
+    return tracker._state
+
+
+def beside(state, by: float, size: tuple[float, float] | None = None) -> list[float]:
+    """The target's state, moved sideways, with its own or another width and height."""
+    x, *rest = state.motion.state.tolist()
+    return [x + by, *rest[:2], *(size or rest[2:])]
+
+
+def found(state, objects, fg=None, **choices):
+    """The state of the object that is the target; None where none is."""
+    p = replace(P, **choices)
+    fg = fg or Foreground(np.full(state.shape, np.nan, np.float32), state.camera, 1, (0, 0, 176, 144))
+    target = find_target(K, state, fg, objects, state.motion.predict(p, SECONDS, 0), SECONDS, p).target
+    return None if target is None else target.state.tolist()
+
+
+def test_the_human_filter_excludes_furniture(state, objects_of):
+    """What fills its box is no human candidate, be it where the target was and of its size: with the filter
+    the person beside it is the target, and nobody where there is no other.
+    """
+    cupboard, person = beside(state, 0.0), beside(state, 0.2)
+    objects = objects_of([cupboard, person])
+    objects = objects._replace(area=objects.area * [1.5, 1.0])
+    alone = type(objects)(*(each[:1] for each in objects))
+    assert found(state, objects) == pytest.approx(cupboard)
+    assert found(state, objects, human_filter=True) == pytest.approx(person)
+    assert found(state, alone) == pytest.approx(cupboard)
+    assert found(state, alone, human_filter=True) is None
+
+
+def test_the_depth_histogram_tells_two_apart(state, objects_of):
+    """Of two objects of the same place and shape but for 2 cm, the farther one is the target where the depths
+    in its rectangle, and not those in the nearer one's, are like the target's.
+    """
+    flat, slanted = beside(state, -0.2), beside(state, 0.22)
+    objects = objects_of([flat, slanted])
+    depth = np.full(state.shape, np.nan, np.float32)
+    fg = Foreground(depth, state.camera, 1, (0, 0, 176, 144))
+    columns = state.camera[2] + state.camera[0] * (np.array([flat[0], slanted[0]]) / state.motion.state[2])
+    middle = int(columns.mean())
+    z = np.float32(state.motion.state[2])
+    depth[:, :middle] = z
+    depth[:, middle:] = z + np.linspace(-0.3, 0.3, 144, dtype=np.float32)[:, None]
+    target = DepthModel.empty(P).learn(K, fg, np.array(slanted), 1.0)
+    state = state._replace(model=target)
+    assert found(state, objects, fg) == pytest.approx(flat)
+    assert found(state, objects, fg, depth_signature=True) == pytest.approx(slanted)

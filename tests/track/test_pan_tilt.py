@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: MIT
+"""That the pan-tilt controller keeps a target in the middle of the image."""
+
+import math
+
+import numpy as np
+import pytest
+from tricue import Box, Intrinsics, PanTilt, Status, Track
+
+CAMERA = Intrinsics.from_fov(160, 120, 32.0)
+STEP = 1 / 15
+TRACKED, OCCLUDED, LOST = Status.TRACKED, Status.OCCLUDED, Status.LOST
+
+
+def track_at(x: float, y: float, status: Status = TRACKED, score: float = 1.0) -> Track:
+    """A track whose box has its center at (x, y) times the focal length beside the principal point."""
+    u, v = CAMERA.cx + 0.5 + x * CAMERA.fx, CAMERA.cy + 0.5 + y * CAMERA.fy
+    return Track(Box(u - 10, v - 20, 20, 40), score, status)
+
+
+def track_of(direction: np.ndarray, angles: np.ndarray) -> Track:
+    """The track of a target in a direction, seen by a head at these angles; both pan, tilt."""
+    pan, tilt = direction
+    ray = np.array([math.sin(pan) * math.cos(tilt), -math.sin(tilt), math.cos(pan) * math.cos(tilt)])
+    pan, tilt = angles
+    about_y = np.array([[math.cos(pan), 0, -math.sin(pan)], [0, 1, 0], [math.sin(pan), 0, math.cos(pan)]])
+    about_x = np.array([[1, 0, 0], [0, math.cos(tilt), math.sin(tilt)], [0, -math.sin(tilt), math.cos(tilt)]])
+    x, y, z = about_x @ about_y @ ray
+    return track_at(x / z, y / z)
+
+
+def follow(head: PanTilt, path: np.ndarray, latency: int = 0) -> np.ndarray:
+    """(M, 2) by which the camera looks beside a target on a path (M, 2) of pan and tilt; commands move the
+    head ``latency`` frames later.
+    """
+    angles, errors = np.zeros(2), []
+    waiting = [np.zeros(2)] * latency
+    for index, direction in enumerate(path):
+        errors.append(direction - angles)
+        command = head.command(track_of(direction, angles), *angles, timestamp=index * STEP)
+        waiting.append(np.array([command.pan_speed, command.tilt_speed]))
+        angles = angles + STEP * waiting.pop(0)
+    return np.array(errors)
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "pan", "tilt"), [(0.1, 0, 1, 0), (-0.1, 0, -1, 0), (0, 0.1, 0, -1), (0, -0.1, 0, 1)]
+)
+def test_it_turns_to_the_target(x, y, pan, tilt):
+    """A target to the right, left, below or above makes the head turn there, by gain times the angle."""
+    command = PanTilt(CAMERA, gain=2.0, max_acceleration=100).command(track_at(x, y), 0.0, 0.0)
+    speeds = np.array([command.pan_speed, command.tilt_speed])
+    np.testing.assert_allclose(speeds, 2 * math.atan(0.1) * np.array([pan, tilt]), atol=1e-12)
+    np.testing.assert_allclose([command.pan, command.tilt], STEP * speeds)
+
+
+@pytest.mark.parametrize("target", [(0.5, 0.2), (-0.8, -0.3)])
+def test_it_settles_on_a_target_that_stands(target):
+    """From both sides, also where pan and tilt are large and depend on one another."""
+    errors = follow(PanTilt(CAMERA), np.tile(target, (90, 1)))
+    assert np.abs(errors[-1]).max() < math.radians(0.05)
+
+
+def test_a_steady_target_is_not_followed_late():
+    """With its velocity fed forward, a target at 0.2 rad/s is looked at to within 0.1 degrees; without, the
+    head is late by velocity over gain.
+    """
+    path = np.stack([0.2 * STEP * np.arange(120), np.full(120, 0.1)], axis=1)
+    fed, alone = (follow(PanTilt(CAMERA, gain=2.0, velocity_gain=each), path) for each in (1.0, 0.0))
+    assert np.abs(fed[-15:, 0]).max() < math.radians(0.1)
+    np.testing.assert_allclose(alone[-15:, 0], 0.2 / 2.0, rtol=0.15)
+
+
+def test_latency_is_extrapolated():
+    """A head that moves two frames late swings about the target less where that is known."""
+    path = np.tile([0.3, 0.0], (60, 1))
+    known, unknown = (
+        np.abs(follow(PanTilt(CAMERA, gain=5.0, latency=each, max_acceleration=50), path, 2)[20:]).max()
+        for each in (2 * STEP, 0.0)
+    )
+    assert known < 0.5 * unknown
+
+
+def moving(head: PanTilt) -> float:
+    """Let the head follow a target at 0.2 rad/s for a while; its speed then."""
+    path = np.stack([0.2 * STEP * np.arange(60), np.zeros(60)], axis=1)
+    follow(head, path)
+    return 0.2
+
+
+@pytest.mark.parametrize("track", [track_at(0.2, 0.1, OCCLUDED), track_at(0.2, 0.1, score=0.0)])
+def test_it_moves_on_while_the_target_is_hidden(track):
+    """A predicted box isn't turned to; the head goes on as the target last did."""
+    head = PanTilt(CAMERA)
+    speed = moving(head)
+    for _ in range(5):
+        command = head.command(track, 0.0, 0.0)
+        assert command.pan_speed == pytest.approx(speed, rel=0.02)
+        assert command.tilt_speed == pytest.approx(0, abs=0.01)
+
+
+def test_it_stands_while_the_target_is_lost():
+    """The head slows down to a stop, and forgets how the target moved."""
+    head = PanTilt(CAMERA)
+    moving(head)
+    commands = [head.command(track_at(0.2, 0.1, LOST), 0.0, 0.0) for _ in range(5)]
+    assert commands[-1][:2] == (0.0, 0.0)
+    assert head.command(track_at(0.0, 0.0), 0.0, 0.0).pan_speed == 0.0
+    assert head.command(track_at(0.0, 0.0, OCCLUDED), 0.0, 0.0).pan_speed == 0.0
+
+
+def test_a_dead_band_leaves_small_errors():
+    """Errors within it make no command, larger ones what is beyond."""
+    head = PanTilt(CAMERA, dead_band=0.05, gain=1.0, max_acceleration=100)
+    assert head.command(track_at(0.04, -0.04), 0.0, 0.0)[:2] == (0.0, 0.0)
+    head.reset()
+    assert head.command(track_at(0.1, 0), 0.0, 0.0).pan_speed == pytest.approx(math.atan(0.1) - 0.05)
+
+
+def test_limits_hold():
+    """Speed, change of speed and angles stay within their limits."""
+    head = PanTilt(CAMERA, gain=50, max_speed=0.5, max_acceleration=3.0, pan_limits=(-0.1, 0.1))
+    commands, pan = [], 0.0
+    for _ in range(30):
+        commands.append(head.command(track_at(0.25, 0.0), pan, 0.0))
+        pan = commands[-1].pan
+    speeds = np.array([0.0, *(command.pan_speed for command in commands)])
+    assert speeds.max() == pytest.approx(0.5)
+    assert np.diff(speeds).max() <= 3.0 * STEP + 1e-12
+    assert max(command.pan for command in commands) == pytest.approx(0.1)
+    assert speeds[-1] == pytest.approx(0)
+
+
+def test_without_encoders_commands_count_as_done():
+    """Without the head's angles, they are those that were last commanded."""
+    head = PanTilt(CAMERA, gain=1.0)
+    first = head.command(track_at(0.1, 0.0))
+    assert head.command(track_at(0.1, 0.0)).pan > first.pan > 0
+
+
+def test_a_position_does_without_intrinsics():
+    """A track in meters needs no camera; one without a position does."""
+    ahead = Track(Box(0, 0, 5, 5), 1.0, TRACKED, np.array([0.2, 0.0, 2.0]))
+    command = PanTilt(gain=2.0, max_acceleration=100).command(ahead, 0.0, 0.0)
+    assert command.pan_speed == pytest.approx(2 * math.atan(0.1))
+    with pytest.raises(ValueError, match="track: expected a position"):
+        PanTilt().command(track_at(0, 0), 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "error"),
+    [
+        ({"gain": 0}, ValueError),
+        ({"latency": -1}, ValueError),
+        ({"max_speed": math.inf}, ValueError),
+        ({"dead_band": "small"}, TypeError),
+        ({"tilt_limits": (1, -1)}, ValueError),
+        ({"intrinsics": 5}, TypeError),
+    ],
+)
+def test_bad_arguments_are_named(wrong, error):
+    """The argument, and what was expected."""
+    with pytest.raises(error, match=f"{next(iter(wrong))}: expected"):
+        PanTilt(**wrong)
+
+
+def test_bad_angles_are_named():
+    """NaN is no angle."""
+    with pytest.raises(ValueError, match="pan: expected a finite number"):
+        PanTilt(CAMERA).command(track_at(0, 0), math.nan, 0.0)
