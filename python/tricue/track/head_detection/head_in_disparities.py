@@ -77,7 +77,7 @@ def find_head_in_disparities(k: Kernels, left: Image, right: Image, baseline: fl
         return None
     nearest = min(math.ceil(size[0] * NEAREST), MAX_DISPARITY)
     disparities = k.sad_disparity(
-        _reduced_gray(left, size), _reduced_gray(right, size), (0, 0, *size), False,
+        k.reduce_gray(left, step), k.reduce_gray(right, step), (0, 0, *size), False,
         0, nearest, WINDOW, UNIQUENESS, True, TOLERANCE,
     )  # fmt: skip
     found = max(_candidates(disparities, baseline), key=lambda each: each.score, default=None)
@@ -86,11 +86,6 @@ def find_head_in_disparities(k: Kernels, left: Image, right: Image, baseline: fl
     across, down = width / size[0], height / size[1]
     x, y, box_width, box_height = found.box
     return Box(x * across, y * down, box_width * across, box_height * down)
-
-
-def _reduced_gray(image: Image, size: tuple[int, int]) -> Image:
-    gray = image if image.ndim == 2 else cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    return cv2.resize(gray, size, interpolation=cv2.INTER_AREA).astype(np.uint8, copy=False)
 
 
 def _candidates(disparities: Map, baseline: float) -> list[_Candidate]:
