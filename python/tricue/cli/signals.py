@@ -11,9 +11,8 @@ from typing import Any
 ENDING = tuple(
     getattr(signal, name)
     for name in ("SIGINT", "SIGTERM", "SIGHUP")
-    if hasattr(signal, name)  # not all on Windows
+    if hasattr(signal, name)  # not on Windows
 )
-"""A signal that is ignored stays so: that is how nohup keeps a command alive."""
 
 
 @contextmanager
@@ -46,12 +45,19 @@ def catch_signals() -> Iterator[Callable[[], int]]:
 
 @contextmanager
 def _handled(numbers: tuple[signal.Signals, ...], handler: Any) -> Iterator[None]:
-    """The handler for these signals in the main thread, the only one that Python lets handle any."""
+    """The handler for these signals in the main thread, the only one that Python lets handle any.
+
+    A closed terminal that is ignored stays so: that is how nohup keeps a command alive.
+    """
     main = threading.current_thread() is threading.main_thread()
-    free = [number for number in numbers if main and signal.getsignal(number) is not signal.SIG_IGN]
-    before = {number: signal.signal(number, handler) for number in free}
+    chosen = [each for each in numbers if main and not _is_kept_alive(each)]
+    before = {number: signal.signal(number, handler) for number in chosen}
     try:
         yield
     finally:
         for number, former in before.items():
             signal.signal(number, former)
+
+
+def _is_kept_alive(number: signal.Signals) -> bool:
+    return number.name == "SIGHUP" and signal.getsignal(number) is signal.SIG_IGN

@@ -49,7 +49,10 @@ class OverlayWriter:
 
     def _check_whole(self) -> None:
         """OSError where frames are missing from the file: OpenCV doesn't tell a full disk."""
-        capture = cv2.VideoCapture(str(self.path))
+        ffmpeg = cv2.videoio_registry.hasBackend(
+            cv2.CAP_FFMPEG
+        )  # OpenCV's own reader of AVI writes to stderr
+        capture = cv2.VideoCapture(str(self.path), cv2.CAP_FFMPEG if ffmpeg else cv2.CAP_ANY)
         found = int(capture.get(cv2.CAP_PROP_FRAME_COUNT)) if capture.isOpened() else 0
         capture.release()
         if found < self._written:

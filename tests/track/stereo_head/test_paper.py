@@ -20,7 +20,8 @@ def shifted_pair(disparity: int, brighter: int = 0) -> PreparedPair:
     wide = np.random.default_rng(3).integers(0, 200, (80, 140, 3), dtype=np.uint8)
     left, right = wide[:, 10:130], wide[:, 10 + disparity : 130 + disparity].copy()
     right[36:40] = wide[36:40, 9 + disparity : 129 + disparity]
-    return PreparedPair.of(np.ascontiguousarray(left), right + np.uint8(brighter), None, PAPER)
+    k = kernel_sets.load("native")
+    return PreparedPair.of(k, np.ascontiguousarray(left), right + np.uint8(brighter), None, PAPER)
 
 
 def brute_force(pair: PreparedPair, limits: tuple[int, int]) -> np.ndarray:

@@ -19,7 +19,7 @@ PRINTED = {name: value for name, value in PAPER.items() if value != getattr(Para
 """What the paper's form changes."""
 UNSEEN = {
     *("color_noise", "color_drift", "intersection_noise"),
-    *("min_intersection_to_learn", "learning_gate", "max_deviations"),
+    *("min_intersection_to_learn", "learning_gate", "max_deviations", "search"),
 }
 """What doesn't show in this scene unless other choices are the paper's, too."""
 
