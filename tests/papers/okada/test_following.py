@@ -65,8 +65,8 @@ def test_a_head_that_stands_still_stands_still():
 
 def test_models_are_the_default_and_the_paper():
     """As printed is the paper's parameters and nothing else."""
-    default, printed = EXPERIMENT.models.values()
-    assert default.keywords == {}
+    default, printed, fused = EXPERIMENT.models.values()
+    assert default.keywords == fused.keywords == {}
     assert printed.keywords == {"params": FlowDepthTracker.Params.paper()}
 
 
