@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Run the commands of docs/experiments.md and replace the table below each with what it prints.
 
+Of several commands above one table the last one counts.
+
 python tools/experiment_tables.py [--jobs N] [NAME ...]      all experiments, or those of these names
 """
 
@@ -33,17 +35,23 @@ def measure(arguments: str, jobs: int) -> str:
 
 
 def renewed(text: str, names: list[str], jobs: int) -> Iterator[str]:
-    """The page's text after each experiment; a table belongs to the command before it."""
-    for number, command in enumerate(COMMAND.finditer(text)):
+    """The page's text after each experiment."""
+    for command in commands(text):
         if names and command["name"] not in names:
             continue
         table = measure(command["arguments"], jobs)
-        before = list(COMMAND.finditer(text))[number].end()  # tables before it may have got longer
-        found = TABLE.search(text, before)
-        if found is None:
-            raise SystemExit(f"{PAGE.name}: expected a table after tricue reproduce {command['arguments']}")
-        text = text[: found.start()] + table + text[found.end() :]
+        old = TABLE.search(text, text.index(command.group()))
+        if old is None:
+            raise SystemExit(f"{PAGE.name}: expected a table after {command.group()}")
+        text = text[: old.start()] + table + text[old.end() :]
         yield text
+
+
+def commands(text: str) -> list["re.Match[str]"]:
+    """The last command before each table."""
+    found = list(COMMAND.finditer(text))
+    ends = [*(each.start() for each in found[1:]), len(text)]
+    return [each for each, end in zip(found, ends, strict=True) if TABLE.search(text, each.end(), end)]
 
 
 def main() -> None:

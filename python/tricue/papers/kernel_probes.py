@@ -16,11 +16,14 @@ from tricue.track.base.track import Track
 from tricue.track.base.tracker import TrackerBase
 
 KERNEL_MODULES = {
+    "cell_colors": "search",
+    "coherent_cells": "search",
     "color_bins": "search",
     "ellipse_search": "search",
     "ellipse_histogram": "search",
     "histogram_mean": "search",
     "shift_histogram": "search",
+    "reduce_gray": "disparity",
     "sad_disparity": "disparity",
     "back_project": "filter",
     "kalman_predict": "filter",

@@ -80,6 +80,7 @@ EXPERIMENTS: dict[str, Experiment[PanTiltScene, FollowCurve]] = {
         models={
             "default": partial(tricue.create, "flow-depth"),
             "as printed": partial(tricue.create, "flow-depth", params=tricue.FlowDepthTracker.Params.paper()),
+            "fused": partial(tricue.create, "fused"),
         },
         scenes={
             "walks": pan_tilt_scene,

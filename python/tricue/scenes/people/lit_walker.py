@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass
 from typing import Literal, NamedTuple, get_args
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -36,6 +35,7 @@ RATE = 15.0  # frames per second
 RAYS = 3  # per pixel along each axis; the middle one goes through the pixel's center
 NEAREST, FARTHEST = 2.4, 4.4  # meters, of the walker
 HALF_WIDTH, WALL_HEIGHT = 4.0, 4.5  # meters, of the hall; the ceiling is above the image
+BGR_TO_GRAY = np.array([0.114, 0.587, 0.299])
 CLUTTER = 10  # boards behind the walker
 MIN_BEHIND = 0.7  # meters, of those behind the walker's farthest place
 DARKEST, BRIGHTEST = 1e-4, 100.0  # light, at the end of dusk, and of a sunrise
@@ -222,7 +222,7 @@ def _clutter(floor: float, wall: float, rng: np.random.Generator) -> list[Textur
 
 def _reflectance(picture: Picture) -> Array:
     """(H, W) of the surfaces of a picture, in near infrared."""
-    gray = cv2.cvtColor(np.clip(picture, 0, 255), cv2.COLOR_BGR2GRAY).astype(np.float64) / 255
+    gray = np.clip(picture, 0, 255).astype(np.float64) @ BGR_TO_GRAY / 255
     return np.asarray(DARK_REFLECTANCE + REFLECTANCE_RANGE * gray)
 
 
