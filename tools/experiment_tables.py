@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Run the commands of docs/experiments.md and replace the table below each with what it prints.
+"""Run the commands of docs/experiments.md and replace the tables below each with what it prints.
 
 Of several commands above one table the last one counts.
 
@@ -21,17 +21,17 @@ COMMAND = re.compile(r"^tricue reproduce (?P<arguments>(?P<name>\S+).*)$", re.MU
 TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
 
 
-def measure(arguments: str, jobs: int) -> str:
-    """The table that the command prints."""
+def measure(arguments: str, jobs: int) -> list[str]:
+    """The tables that the command prints."""
     words = shlex.split(arguments, comments=True)
     command = [sys.executable, "-m", "tricue", "reproduce", *words, "--jobs", str(jobs)]
     printed = subprocess.run(
         [*command, "--output", str(RESULTS)], check=True, stdout=subprocess.PIPE, text=True, cwd=ROOT
     ).stdout
-    found = TABLE.search(printed)
-    if found is None:
+    found = TABLE.findall(printed)
+    if not found:
         raise SystemExit(f"tricue reproduce {arguments}: expected a table, got\n{printed}")
-    return found.group()
+    return list(found)
 
 
 def renewed(text: str, names: list[str], jobs: int) -> Iterator[str]:
@@ -39,11 +39,13 @@ def renewed(text: str, names: list[str], jobs: int) -> Iterator[str]:
     for command in commands(text):
         if names and command["name"] not in names:
             continue
-        table = measure(command["arguments"], jobs)
-        old = TABLE.search(text, text.index(command.group()))
-        if old is None:
-            raise SystemExit(f"{PAGE.name}: expected a table after {command.group()}")
-        text = text[: old.start()] + table + text[old.end() :]
+        place = text.index(command.group())
+        for table in measure(command["arguments"], jobs):
+            old = TABLE.search(text, place)
+            if old is None:
+                raise SystemExit(f"{PAGE.name}: expected a table after {command.group()}")
+            text = text[: old.start()] + table + text[old.end() :]
+            place = old.start() + len(table)
         yield text
 
 
