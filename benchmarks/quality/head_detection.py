@@ -10,6 +10,7 @@ box is a false start.
 """
 
 import argparse
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter
@@ -43,7 +44,7 @@ class Answer(NamedTuple):
     milliseconds: float
 
 
-def main() -> None:
+def main() -> int:
     """Print the table."""
     command = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     command.add_argument("--seeds", type=int, default=5, help="scenes of each kind, from 100 on")
@@ -59,6 +60,7 @@ def main() -> None:
         times = np.median([each.milliseconds for each in of_source])
         rows.append([source, str(len(of_source)), rate, f"{np.mean(false):.1%}", f"{times:.0f}"])
     print(markdown(["pairs", "frames", "found", "false", "ms a frame"], rows))
+    return 0
 
 
 def _answer(source: str, frame: Frame, baseline: float, true: Box | None) -> Answer:
@@ -105,4 +107,4 @@ def _pair(left: Path, right: Path) -> Frame:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -26,7 +26,7 @@ def light_and_range(figure: Any, curves: Sequence[LitCurve], scenes: Mapping[str
     In the frames: the truth is dashed, the boxes of seed 0 are solid. Lines over time are means over the
     seeds, bands the quartiles.
     """
-    colors = dict(zip(models_of(curves), MODEL_COLORS, strict=True))
+    colors = dict(zip(models_of(curves), MODEL_COLORS, strict=False))
     figure.set_size_inches(13, 10.5)
     top, bottom = figure.subfigures(2, 1, height_ratios=[6.4, 3.6])
     color_row, depth_row, range_row = top.subplots(3, FRAMES_SHOWN)
