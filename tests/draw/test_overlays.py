@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT
 import math
-from pathlib import Path
-from typing import Any
 
 import cv2
 import numpy as np
@@ -11,7 +9,6 @@ from tricue import Box, Status, Track
 from tricue.draw.canvas import STATUS_COLORS
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.overlays import depth_overlay, overlay
-from tricue.draw.video import OverlayWriter
 
 BLACK = np.zeros((480, 640, 3), np.uint8)
 
@@ -155,58 +152,3 @@ def test_the_position_is_written() -> None:
             assert changed[:, 0].max() < 80
         texts.append(drawn)
     assert not np.array_equal(*texts)
-
-
-def _write_seven(writer: OverlayWriter, picture: NDArray[np.uint8]) -> None:
-    with writer:
-        for _ in range(7):
-            writer.write(picture)
-        raise KeyboardInterrupt
-
-
-@pytest.mark.parametrize(("name", "width"), [("o.mp4", 64), ("o.avi", 64), ("new/o.MP4", 65)])
-def test_videos_are_whole(tmp_path: Path, name: str, width: int) -> None:
-    """It proves that what was written can be read again, every frame of it, after an interruption too."""
-    picture = np.full((48, width, 3), 90, np.uint8)
-    writer = OverlayWriter(tmp_path / name, 25.0)
-    with pytest.raises(KeyboardInterrupt):
-        _write_seven(writer, picture)
-    capture = cv2.VideoCapture(str(writer.path))
-    frames = []
-    while (answer := capture.read())[0]:
-        frames.append(answer[1])
-    assert len(frames) == 7
-    assert np.mean(frames) == pytest.approx(90, abs=4)
-
-
-def test_a_missing_codec_falls_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It proves that without mp4v an MJPG .avi of the same name is written, and no empty .mp4 stays."""
-    real = cv2.VideoWriter
-
-    class WithoutMp4:
-        fourcc = staticmethod(real.fourcc)
-
-        def __new__(cls, name: str, *rest: Any) -> Any:
-            return real() if name.endswith(".mp4") else real(name, *rest)
-
-    monkeypatch.setattr(cv2, "VideoWriter", WithoutMp4)
-    with OverlayWriter(tmp_path / "o.mp4", 25.0) as writer:
-        writer.write(np.zeros((48, 64, 3), np.uint8))
-    assert writer.path == tmp_path / "o.avi"
-    assert [path.name for path in tmp_path.iterdir()] == ["o.avi"]
-
-
-def test_an_unused_writer_leaves_nothing(tmp_path: Path) -> None:
-    """It proves that a writer that got no picture leaves no empty file behind."""
-    with OverlayWriter(tmp_path / "o.mp4", 25.0):
-        pass
-    assert not list(tmp_path.iterdir())
-
-
-def test_bad_names_are_refused(tmp_path: Path) -> None:
-    """It proves that an unknown kind of file, or a place that can't be written, is an error at once."""
-    with pytest.raises(ValueError, match=r"o\.gif: expected a video file's name that ends in \.mp4 or \.avi"):
-        OverlayWriter(tmp_path / "o.gif", 25.0)
-    (tmp_path / "o.mp4").mkdir()
-    with pytest.raises(OSError, match="directory"):
-        OverlayWriter(tmp_path / "o.mp4", 25.0)

@@ -1,75 +1,97 @@
 # SPDX-License-Identifier: MIT
-"""Video files of drawn images."""
+"""Video files of drawn images, which browsers and players show."""
 
 import os
 from pathlib import Path
+from types import TracebackType
 
 import cv2
+import numpy as np
 
 from tricue.draw.canvas import Image
+from tricue.draw.video_encoders import Encoder, OpenCVEncoder, PyAVEncoder
+
+SUFFIXES = (".mp4", ".mkv", ".webm", ".avi")
 
 
 class OverlayWriter:
-    """Writes images to a video file, .mp4 (mp4v) or .avi (MJPG); use it in ``with``.
+    """Writes images to a video file; use it in ``with``.
 
-    Where OpenCV can't encode mp4v, a .avi of the same name is written instead; ``path`` is the file written.
-    The file is complete when ``with`` is left, also by an exception. The first image sets the size.
-    fps: frames per second. ValueError for another suffix, OSError where the file can't be written.
+    .mp4 and .mkv are H.264, .webm is VP9, by PyAV (``tricue[video]``). Without PyAV a .webm of the same name
+    is written, VP8 by OpenCV, and ``note`` says so. .avi is MJPG, by OpenCV. ``path`` is the file written.
+    The file is complete when ``with`` is left, also by an exception; of a process that is killed it has what
+    was written until a second or so before. The first image sets the size; odd ones get one more row or
+    column. fps: frames per second. ValueError for another suffix, OSError where the file can't be written.
     """
 
     def __init__(self, path: str | os.PathLike[str], fps: float) -> None:
-        self.path, self.fps = Path(path), fps
-        self._writer: cv2.VideoWriter | None = None
+        self.path, self.fps, self.note = Path(path), fps, ""
+        self._encoder: Encoder | None = None
         self._written = 0
-        if self.path.suffix.lower() not in (".mp4", ".avi"):
-            raise ValueError(f"{path}: expected a video file's name that ends in .mp4 or .avi")
+        suffix = self.path.suffix.lower()
+        if suffix not in SUFFIXES:
+            raise ValueError(f"{path}: expected a video file's name that ends in {', '.join(SUFFIXES)}")
+        self._by_pyav = suffix != ".avi" and PyAVEncoder.available()
+        if suffix in (".mp4", ".mkv") and not self._by_pyav:
+            self.note = "VP8, as H.264 needs PyAV: pip install 'tricue[video]'"
+            self.path = self.path.with_suffix(".webm")
         self.path.parent.mkdir(parents=True, exist_ok=True)
         self.path.open("wb").close()  # OpenCV doesn't say why it can't write
 
     def __enter__(self) -> "OverlayWriter":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
+    ) -> None:
         self.close()
+
+    @property
+    def about(self) -> str:
+        """The file's name, and the note if there is one."""
+        return f"{self.path} ({self.note})" if self.note else str(self.path)
 
     def write(self, picture: Image) -> None:
         """Append a BGR image (H, W, 3), of the first one's size."""
-        if self._writer is None:
-            self._writer = self._open(picture.shape[1], picture.shape[0])
-        self._writer.write(picture)
+        height, width = picture.shape[:2]
+        if height % 2 or width % 2:  # colors are stored for 2x2 pixels
+            picture = np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
+        if self._encoder is None:
+            kind = PyAVEncoder if self._by_pyav else OpenCVEncoder
+            self._encoder = kind(self.path, self.fps, (picture.shape[1], picture.shape[0]))
+        self._encoder.write(picture)
         self._written += 1
 
     def close(self) -> None:
         """Finish the file; without any image it is removed."""
-        if self._writer is not None:
-            self._writer.release()
+        encoder, self._encoder = self._encoder, None
+        if encoder is not None:
+            encoder.close()
             self._check_whole()
         elif self.path.exists() and self.path.stat().st_size == 0:
             self.path.unlink()
 
     def _check_whole(self) -> None:
         """OSError where frames are missing from the file: OpenCV doesn't tell a full disk."""
-        ffmpeg = cv2.videoio_registry.hasBackend(
-            cv2.CAP_FFMPEG
-        )  # OpenCV's own reader of AVI writes to stderr
-        capture = cv2.VideoCapture(str(self.path), cv2.CAP_FFMPEG if ffmpeg else cv2.CAP_ANY)
-        found = int(capture.get(cv2.CAP_PROP_FRAME_COUNT)) if capture.isOpened() else 0
-        capture.release()
+        found = count_frames(self.path)
         if found < self._written:
             raise OSError(
-                f"{self.path}: only {max(found, 0)} of {self._written} frames were written; is the disk full?"
+                f"{self.path}: only {found} of {self._written} frames were written; is the disk full?"
             )
 
-    def _open(self, width: int, height: int) -> cv2.VideoWriter:
-        names = (
-            [self.path] if self.path.suffix.lower() == ".avi" else [self.path, self.path.with_suffix(".avi")]
-        )
-        for name in names:
-            code = cv2.VideoWriter.fourcc(*("MJPG" if name.suffix.lower() == ".avi" else "mp4v"))
-            writer = cv2.VideoWriter(str(name), code, self.fps, (width, height))
-            if writer.isOpened():
-                if name != self.path:
-                    self.path.unlink(missing_ok=True)
-                self.path = name
-                return writer
-        raise OSError(f"{self.path}: this OpenCV can write neither mp4v nor MJPG videos")
+
+def count_frames(path: Path) -> int:
+    """The frames that a video file says it has; of one that doesn't say, those that can be decoded."""
+    ffmpeg = cv2.videoio_registry.hasBackend(cv2.CAP_FFMPEG)  # OpenCV's own reader of AVI writes to stderr
+    capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG if ffmpeg else cv2.CAP_ANY)
+    try:
+        if not capture.isOpened():
+            return 0
+        count = int(capture.get(cv2.CAP_PROP_FRAME_COUNT))
+        if count <= 0:
+            count = 0
+            while capture.grab():
+                count += 1
+        return count
+    finally:
+        capture.release()

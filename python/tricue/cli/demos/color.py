@@ -48,7 +48,7 @@ def run(options: Namespace) -> int:
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
     print(f"{options.tracker}: a face over clutter while its brightness changes, seed {options.seed}\n")
-    print(f"{_table(results)}\n\nwrote {video.path}\nwrote {plot}")
+    print(f"{_table(results)}\n\nwrote {video.about}\nwrote {plot}")
     return 0
 
 

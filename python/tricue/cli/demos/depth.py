@@ -38,7 +38,7 @@ def run(options: Namespace) -> int:
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
     print(f"{options.tracker}: a person before a time-of-flight camera of 176x144, seed {options.seed}\n")
-    print(f"{_table(results)}\n\nwrote {video.path}\nwrote {plot}")
+    print(f"{_table(results)}\n\nwrote {video.about}\nwrote {plot}")
     return 0
 
 

@@ -49,7 +49,7 @@ def run(options: Namespace) -> int:
     print(
         f"{options.tracker}: a target through light, look-alikes, occlusion and more, seed {options.seed}\n"
     )
-    print(f"{_table(results)}\n\nwrote {video.path}\nwrote {plot}")
+    print(f"{_table(results)}\n\nwrote {video.about}\nwrote {plot}")
     return 0
 
 

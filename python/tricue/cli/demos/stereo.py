@@ -40,7 +40,7 @@ def run(options: Namespace) -> int:
     plot = options.output / f"{options.tracker}.png"
     figures.save(lambda figure, *_: _plot(figure, results), (), {}, plot)
     print(f"{options.tracker}: a head before a stereo pair of 160x120, seed {options.seed}\n")
-    print(f"{_table(results)}\n\nwrote {video.path}\nwrote {plot}")
+    print(f"{_table(results)}\n\nwrote {video.about}\nwrote {plot}")
     return 0
 
 

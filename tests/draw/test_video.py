@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from tricue.draw.video import OverlayWriter, count_frames
+from tricue.draw.video_encoders import OpenCVEncoder, PyAVEncoder
+
+KILLED = """
+import os, signal, sys
+import numpy as np
+from tricue.draw.video import OverlayWriter
+from tricue.draw.video_encoders import PyAVEncoder
+PyAVEncoder.available = staticmethod(lambda: sys.argv[2] == "pyav")
+writer = OverlayWriter(sys.argv[1], 10.0)
+noise = np.random.default_rng(0).integers(0, 256, (240, 320, 3), np.uint8)
+for i in range(200):
+    writer.write(np.roll(noise, i, 1))
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.fixture(params=["pyav", "opencv"])
+def encoder(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
+    """With and without PyAV."""
+    found: str = request.param
+    if found == "pyav":
+        pytest.importorskip("av")
+    monkeypatch.setattr(PyAVEncoder, "available", staticmethod(lambda: found == "pyav"))
+    return found
+
+
+def _write_seven(writer: OverlayWriter, picture: NDArray[np.uint8]) -> None:
+    with writer:
+        for _ in range(7):
+            writer.write(picture)
+        raise KeyboardInterrupt
+
+
+def decoded(path: Path) -> list[NDArray[np.uint8]]:
+    """All pictures of a video."""
+    capture = cv2.VideoCapture(str(path))
+    frames = []
+    while (answer := capture.read())[0]:
+        frames.append(answer[1])
+    return frames  # type: ignore[return-value]
+
+
+@pytest.mark.parametrize(
+    ("name", "width"), [("o.mp4", 64), ("o.avi", 64), ("new/o.MP4", 65), ("o.webm", 65), ("o.mkv", 64)]
+)
+def test_videos_are_whole(tmp_path: Path, name: str, width: int, encoder: str) -> None:
+    """It proves that what was written can be read again, every frame of it, after an interruption too."""
+    picture = np.full((47, width, 3), 90, np.uint8)
+    writer = OverlayWriter(tmp_path / name, 25.0)
+    with pytest.raises(KeyboardInterrupt):
+        _write_seven(writer, picture)
+    frames = decoded(writer.path)
+    assert len(frames) == count_frames(writer.path) == 7
+    assert frames[0].shape == (48, 2 * ((width + 1) // 2), 3)
+    assert np.mean(frames) == pytest.approx(90, abs=4)
+
+
+def test_an_mp4_is_h264(tmp_path: Path) -> None:
+    """It proves that browsers can play the default: H.264 in 4:2:0, at the rate asked for."""
+    av = pytest.importorskip("av")
+    with OverlayWriter(tmp_path / "o.mp4", 30000 / 1001) as writer:
+        writer.write(np.zeros((48, 64, 3), np.uint8))
+    with av.open(str(writer.path)) as file:
+        stream = file.streams.video[0]
+        assert (stream.codec_context.name, stream.codec_context.pix_fmt) == ("h264", "yuv420p")
+        assert float(stream.average_rate) == pytest.approx(30000 / 1001)
+    assert (writer.about, writer.note) == (str(tmp_path / "o.mp4"), "")
+
+
+def test_without_pyav_a_webm_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that what browsers can't play is not written, that this is told, and no empty .mp4 stays."""
+    monkeypatch.setattr(PyAVEncoder, "available", staticmethod(lambda: False))
+    with OverlayWriter(tmp_path / "o.mp4", 25.0) as writer:
+        writer.write(np.zeros((48, 64, 3), np.uint8))
+    assert writer.path == tmp_path / "o.webm"
+    assert [path.name for path in tmp_path.iterdir()] == ["o.webm"]
+    assert writer.path.read_bytes()[:4] == b"\x1a\x45\xdf\xa3"  # EBML, of which WebM is made
+    assert writer.about.endswith("o.webm (VP8, as H.264 needs PyAV: pip install 'tricue[video]')")
+    assert capfd.readouterr().err == ""
+
+
+def test_a_missing_codec_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an OpenCV without the encoder is an error that says what to install."""
+    monkeypatch.setattr(cv2.VideoWriter, "isOpened", lambda _: False)
+    with pytest.raises(OSError, match=r"o\.avi: this OpenCV can't write it; PyAV can: pip install"):
+        OpenCVEncoder(tmp_path / "o.avi", 25.0, (64, 48))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ["o.mp4", "o.mkv", "o.webm"])
+def test_what_was_written_before_a_kill_plays(tmp_path: Path, name: str, encoder: str) -> None:
+    """It proves that of 20 seconds at least 15 can be played after kill -9."""
+    path = tmp_path / name
+    done = subprocess.run([sys.executable, "-c", KILLED, str(path), encoder], check=False)
+    assert done.returncode == -signal.SIGKILL
+    assert len(decoded(path if encoder == "pyav" else path.with_suffix(".webm"))) >= 150
+
+
+def _write_noise(encoder: PyAVEncoder, count: int) -> None:
+    for picture in np.random.default_rng(0).integers(0, 256, (count, 48, 64, 3), np.uint8):
+        encoder.write(picture)
+
+
+def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
+    """It proves that an error of PyAV's file is an OSError with the file's name."""
+    pytest.importorskip("av")
+    path = tmp_path / "o.mp4"
+    path.symlink_to("/dev/full")
+    encoder = PyAVEncoder(path, 5.0, (64, 48))
+    with pytest.raises(OSError, match=r"No space left on device: .*o\.mp4"):
+        _write_noise(encoder, 100)
+
+
+def test_an_unused_writer_leaves_nothing(tmp_path: Path) -> None:
+    """It proves that a writer that got no picture leaves no empty file behind."""
+    with OverlayWriter(tmp_path / "o.mp4", 25.0):
+        pass
+    assert not list(tmp_path.iterdir())
+
+
+def test_bad_names_are_refused(tmp_path: Path) -> None:
+    """It proves that an unknown kind of file, or a place that can't be written, is an error at once."""
+    with pytest.raises(ValueError, match=r"o\.gif: expected a video file's name that ends in \.mp4, \.mkv"):
+        OverlayWriter(tmp_path / "o.gif", 25.0)
+    (tmp_path / "o.mp4").mkdir()
+    (tmp_path / "o.webm").mkdir()
+    with pytest.raises(OSError, match="directory"):
+        OverlayWriter(tmp_path / "o.mp4", 25.0)
