@@ -12,7 +12,7 @@ VOT := build/vot
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test setup bench lint format stubs kernel-docs experiments sanitize levels vot clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments sanitize levels vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -58,8 +58,13 @@ sanitize: $(VENV)/dev
 	    $(PIP) install --quiet --no-build-isolation --no-deps --target $(SANITIZED) .
 	TRICUE_KERNELS=native PYTHONPATH=$(SANITIZED) ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 \
 	    LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libstdc++.so)" \
-	    $(BIN)/python -m pytest --capture=sys $(PARALLEL) tests/camera tests/cues tests/fuse \
+	    $(BIN)/python -m pytest --capture=sys $(PARALLEL) tests/camera tests/cues tests/fuse tests/fuzz \
 	    tests/track/test_bad_input.py tests/track/*/test_bad_input.py tests/track/*/test_kernels.py
+
+# More cases of the property tests than the tests try: kernels beside guard pages, public calls, damaged files, command lines.
+CASES ?= 3000
+fuzz: $(VENV)/dev
+	TRICUE_FUZZ=$(CASES) $(BIN)/python -m pytest -q $(PARALLEL) tests/fuzz
 
 # The tests of native kernels on builds for each level of x86-64 (simd.hpp): all must return the same bits. A processor without a level
 # runs the highest that it has.

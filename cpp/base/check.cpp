@@ -44,6 +44,11 @@ void require_share(double share) {
     if (!(share >= 0.0 && share < 1.0)) refuse("share", "a number in [0, 1)", share);
 }
 
+void require_count(int count, int least, int most, const char* name) {
+    if (count < least || count > most)
+        refuse(name, std::to_string(least) + " to " + std::to_string(most), count);
+}
+
 void require_size(VectorRef values, Eigen::Index size, const char* name) {
     if (values.size() != size)
         refuse(name, "shape (" + std::to_string(size) + ",)", "(" + std::to_string(values.size()) + ",)");

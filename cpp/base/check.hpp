@@ -7,8 +7,11 @@
 
 namespace tricue {
 
+constexpr int kMaxImageSide = 16384;  ///< of an image that a kernel makes, pixels
+
 /// Each throws std::invalid_argument that names the argument, what was expected and what was given.
 void require_share(double share);
+void require_count(int count, int least, int most, const char* name);
 void require_size(VectorRef values, Eigen::Index size, const char* name);
 void require_shape(StatesRef values, Eigen::Index rows, Eigen::Index cols, const char* name);
 void require_finite(VectorRef values, const char* name);

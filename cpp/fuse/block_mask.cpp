@@ -10,8 +10,8 @@
 namespace tricue {
 
 Labels block_mask(StatesRef blocks, int height, int width) {
-    if (height < 0) refuse("height", "at least 0", height);
-    if (width < 0) refuse("width", "at least 0", width);
+    require_count(height, 0, kMaxImageSide, "height");
+    require_count(width, 0, kMaxImageSide, "width");
     require_shape(blocks, blocks.rows(), 4, "blocks");
     Labels mask = Labels::Zero(height, width);
     for (Eigen::Index i = 0; i < blocks.rows(); ++i) {

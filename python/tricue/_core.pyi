@@ -135,13 +135,13 @@ def block_mask(
     Args:
         blocks: float64 (N, 4): x0, y0, x1, y1, pixels, finite, as in block_counts; they may overlap,
             and reach over the edge
-        height, width: of the mask, pixels, at least 0
+        height, width: of the mask, pixels, 0 to 16384
 
     Returns:
         uint8 (height, width): 1 in the pixels of any block, else 0
 
     Raises:
-        ValueError: on blocks of another shape, corners that are not finite, or a negative size
+        ValueError: on blocks of another shape, corners that are not finite, or sizes out of range
 
     Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7.
     """
@@ -487,8 +487,8 @@ def depth_components(
         labels: uint8 (H, W), 0 where there is no object
         depth: float32 (H, W), meters
         near, far: range of the histograms, meters, 0 <= near < far, finite
-        levels: levels of a histogram, at least 0, which is none
-        bins: equal parts of a box, across and down, in which pixels are counted, at least 1
+        levels: levels of a histogram, 0, which is none, to 4096
+        bins: equal parts of a box, across and down, in which pixels are counted, 1 to 4096
         min_area: smallest area, pixels, at least 1; smaller regions are 0 in the image
         image: whether the image of regions is wanted: it takes a fifth of the time
 
@@ -709,8 +709,8 @@ def depth_posterior(
         depth: float32 (H, W), meters; may be empty
         x0, y0: top left corner of the grid, pixels, finite
         step: width of a square, pixels, finite, above 0
-        rows: rows of the grid, at least 1
-        columns: columns of the grid, at least 1
+        rows: rows of the grid, 1 to 4096
+        columns: columns of the grid, 1 to 4096
         expected: the target's expected depth, meters, finite, above 0
         sigma: its standard deviation, meters, finite, above 0
         near_margin: how much nearer something before the target is, meters, finite, at least 0
@@ -844,7 +844,7 @@ def fill_gaps(
         gap: meters, finite, at least 0
         slope: 1 / meter, finite, at least 0: noise of stereo and of structured light grows with z²
         ragged: small gaps per measured pixel, in [0, 1]
-        passes: at least 0
+        passes: 0 to 1000
 
     Returns:
         float32 (H, W), meters; NaN where nothing was measured and nothing filled
@@ -1875,8 +1875,8 @@ def sample_windows(
         image: uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
         windows: float64 (N, 4): left, top, width, height, pixels, a pixel's edges being at whole
             numbers; finite, sizes above 0
-        rows: of the grid, at least 1
-        columns: of the grid, at least 1
+        rows: of the grid, 1 to 16384
+        columns: of the grid, 1 to 16384
 
     Returns:
         uint8 (N, rows, columns, 3) BGR, of a gray image (N, rows, columns); in C++ one array of bytes
@@ -2128,7 +2128,7 @@ def support_pixels(
         depth: float32 (H, W), meters; may be empty
         x0, y0: top left corner of the grid, pixels, finite
         step: width of a square, pixels, finite, above 0
-        side: squares on a side of the grid, at least 2
+        side: squares on a side of the grid, 2 to 4096
         width, height: of the box, squares, finite, above 0
         z: depth of the target, meters, finite, above 0
         camera: float64 (4,): fx, fy, cx, cy of the depth image, pixels, fx and fy above 0

@@ -98,8 +98,8 @@ BAD_VALUES: list[tuple[Floats, int, int, str]] = [
     (np.array([[0, 0, 1, np.nan]]), 4, 5, "blocks: expected finite corners, got nan"),
     (np.array([[0, -np.inf, 1, 1]]), 4, 5, "blocks: expected finite corners, got -inf"),
     (np.array([[0, -np.inf, 1, 1]]), 0, 0, "blocks: expected finite corners, got -inf"),
-    (ONE, -1, 5, "height: expected at least 0, got -1"),
-    (ONE, 4, -2, "width: expected at least 0, got -2"),
+    (ONE, -1, 5, "height: expected 0 to 16384, got -1"),
+    (ONE, 4, -2, "width: expected 0 to 16384, got -2"),
 ]
 
 

@@ -193,8 +193,8 @@ void require_arguments(const ImageView& image, StatesRef windows, int rows, int 
     for (Eigen::Index i = 0; i < windows.rows(); ++i)
         for (const double size : {windows(i, 2), windows(i, 3)})
             if (!(size > 0.0)) refuse("windows", "widths and heights above 0", size);
-    if (rows < 1) refuse("rows", "at least 1", rows);
-    if (columns < 1) refuse("columns", "at least 1", columns);
+    require_count(rows, 1, kMaxImageSide, "rows");
+    require_count(columns, 1, kMaxImageSide, "columns");
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ using WindowBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
 ///
 /// @param image uint8 (H, W, 3) BGR or (H, W) gray, at least one pixel
 /// @param windows float64 (N, 4): left, top, width, height, pixels, a pixel's edges being at whole numbers; finite, sizes above 0
-/// @param rows of the grid, at least 1
-/// @param columns of the grid, at least 1
+/// @param rows of the grid, 1 to 16384
+/// @param columns of the grid, 1 to 16384
 /// @returns uint8 (N, rows, columns, 3) BGR, of a gray image (N, rows, columns); in C++ one array of bytes in this order
 /// @throws std::invalid_argument on other shapes, an image without pixels, or numbers out of range
 /// Source: ours; bilinear readings that cover the sample, as mipmaps and OpenCV's INTER_AREA have.

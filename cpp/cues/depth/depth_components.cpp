@@ -20,6 +20,7 @@ using Counts = std::vector<std::int32_t>;
 
 /// Neighbors in a row are mostly of one level: they count in different tables, so that they don't wait for each other.
 constexpr std::size_t kLanes = 4;
+constexpr int kMaxSignature = 4096;
 
 /// Levels of a row's pixels, `levels` where nothing was measured, and their depths, 0 there.
 TRICUE_MULTIVERSION
@@ -216,8 +217,8 @@ void require_arguments(const ImageView& labels, const DepthView& depth, const Si
         refuse("near", "a finite number, not negative", signature.near);
     if (!(signature.far > signature.near && std::isfinite(signature.far)))
         refuse("far", "a finite number above near", signature.far);
-    if (signature.levels < 0) refuse("levels", "at least 0", signature.levels);
-    if (signature.bins < 1) refuse("bins", "at least 1", signature.bins);
+    require_count(signature.levels, 0, kMaxSignature, "levels");
+    require_count(signature.bins, 1, kMaxSignature, "bins");
     if (min_area < 1) refuse("min_area", "at least 1", min_area);
 }
 

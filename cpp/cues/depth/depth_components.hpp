@@ -12,8 +12,8 @@ namespace tricue {
 /// What describes a region: a histogram of its depths, and how its pixels are spread over its box.
 struct Signature {
     double near, far;  ///< range of the histograms, meters, 0 <= near < far, finite
-    int levels;        ///< levels of a histogram, at least 0, which is none
-    int bins;          ///< equal parts of a box, across and down, in which pixels are counted, at least 1
+    int levels;        ///< levels of a histogram, 0, which is none, to 4096
+    int bins;          ///< equal parts of a box, across and down, in which pixels are counted, 1 to 4096
 };
 
 /// Which component has a pixel, from 1; 0 if none.

@@ -12,8 +12,8 @@ namespace tricue {
 struct SampleGrid {
     double x, y;  ///< its top left corner, pixels, finite
     double step;  ///< width of a square, pixels, finite, above 0
-    int rows;     ///< rows of the grid, at least 1
-    int columns;  ///< columns of the grid, at least 1
+    int rows;     ///< rows of the grid, 1 to 4096
+    int columns;  ///< columns of the grid, 1 to 4096
 };
 
 /// The depth that a target should have.

@@ -18,6 +18,7 @@ namespace {
 
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
+constexpr int kMaxPasses = 1000;
 
 TRICUE_MULTIVERSION
 void copy_row(const float* __restrict depth, int n, float missing, float* __restrict copy) {
@@ -122,7 +123,7 @@ Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged
     require_step(gap, "gap");
     require_step(slope, "slope");
     if (!(ragged >= 0.0 && ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", ragged);
-    if (passes < 0) refuse("passes", "at least 0", passes);
+    require_count(passes, 0, kMaxPasses, "passes");
     if (passes == 0 || !is_ragged(depth, ragged)) return copy_measured(depth);
     PaddedDepth image(depth);
     for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged / 2)); ++pass)

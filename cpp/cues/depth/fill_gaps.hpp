@@ -20,7 +20,7 @@ namespace tricue {
 /// @param gap meters, finite, at least 0
 /// @param slope 1 / meter, finite, at least 0: noise of stereo and of structured light grows with z²
 /// @param ragged small gaps per measured pixel, in [0, 1]
-/// @param passes at least 0
+/// @param passes 0 to 1000
 /// @returns float32 (H, W), meters; NaN where nothing was measured and nothing filled
 /// @throws std::invalid_argument on parameters out of range
 /// Source: ours.

@@ -29,7 +29,7 @@ struct SupportedTarget {
 /// @param depth float32 (H, W), meters; may be empty
 /// @param x0, y0 top left corner of the grid, pixels, finite
 /// @param step width of a square, pixels, finite, above 0
-/// @param side squares on a side of the grid, at least 2
+/// @param side squares on a side of the grid, 2 to 4096
 /// @param width, height of the box, squares, finite, above 0
 /// @param z depth of the target, meters, finite, above 0
 /// @param camera float64 (4,): fx, fy, cx, cy of the depth image, pixels, fx and fy above 0

@@ -136,8 +136,8 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"windows": np.full((2, 4), np.nan)}, "windows: expected finite numbers, got nan"),
     ({"windows": np.array([[0, 0, 1, -2.0]])}, "windows: expected widths and heights above 0, got -2"),
     ({"windows": np.array([[0, 0, 0.0, 2]])}, "windows: expected widths and heights above 0, got 0"),
-    ({"rows": 0}, "rows: expected at least 1, got 0"),
-    ({"columns": -1}, "columns: expected at least 1, got -1"),
+    ({"rows": 0}, "rows: expected 1 to 16384, got 0"),
+    ({"columns": -1}, "columns: expected 1 to 16384, got -1"),
 ]
 
 

@@ -233,8 +233,8 @@ BAD_VALUES: list[tuple[str, Any, str]] = [
     ("near", np.nan, "near: expected a finite number, not negative, got nan"),
     ("far", 0.5, "far: expected a finite number above near, got 0.5"),
     ("far", np.inf, "far: expected a finite number above near, got inf"),
-    ("levels", -1, "levels: expected at least 0, got -1"),
-    ("bins", -2, "bins: expected at least 1, got -2"),
+    ("levels", -1, "levels: expected 0 to 4096, got -1"),
+    ("bins", -2, "bins: expected 1 to 4096, got -2"),
     ("min_area", 0, "min_area: expected at least 1, got 0"),
 ]
 

@@ -181,7 +181,7 @@ def test_all_holes_are_gaps(kernels: Kernels, hole: float) -> None:
         ((0.0, 0.0, -0.5, 1), "ragged: expected a share from 0 to 1, got -0.5"),
         ((0.0, 0.0, 1.5, 1), "ragged: expected a share from 0 to 1, got 1.5"),
         ((0.0, 0.0, np.nan, 1), "ragged: expected a share from 0 to 1, got nan"),
-        ((0.0, 0.0, 0.0, -1), "passes: expected at least 0, got -1"),
+        ((0.0, 0.0, 0.0, -1), "passes: expected 0 to 1000, got -1"),
     ],
 )
 def test_refuses_other_numbers(

@@ -146,7 +146,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"x0": np.nan}, "x0: expected a finite number, got nan"),
     ({"y0": np.inf}, "y0: expected a finite number, got inf"),
     ({"step": 0.0}, "step: expected a finite number above 0, got 0"),
-    ({"side": 1}, "side: expected at least 2, got 1"),
+    ({"side": 1}, "side: expected 2 to 4096, got 1"),
     ({"width": 0.0}, "width: expected a finite number above 0, got 0"),
     ({"height": np.inf}, "height: expected a finite number above 0, got inf"),
     ({"z": -1.0}, "z: expected a finite number above 0, got -1"),

@@ -7,7 +7,6 @@
 #include "cues/depth/detail/sample_pixels.hpp"
 
 namespace tricue {
-
 Floats read_grid(const DepthView& depth, const SampleGrid& grid) {
     const SamplePixels across = find_sample_pixels(grid.x, grid.step, grid.columns, depth.cols),
                        down = find_sample_pixels(grid.y, grid.step, grid.rows, depth.rows);
@@ -24,8 +23,8 @@ void require_grid(const SampleGrid& grid) {
     if (!std::isfinite(grid.x)) refuse("x0", "a finite number", grid.x);
     if (!std::isfinite(grid.y)) refuse("y0", "a finite number", grid.y);
     if (!(grid.step > 0.0 && std::isfinite(grid.step))) refuse("step", "a finite number above 0", grid.step);
-    if (grid.rows < 1) refuse("rows", "at least 1", grid.rows);
-    if (grid.columns < 1) refuse("columns", "at least 1", grid.columns);
+    require_count(grid.rows, 1, kMaxGridSide, "rows");
+    require_count(grid.columns, 1, kMaxGridSide, "columns");
 }
 
 }  // namespace tricue

@@ -10,6 +10,8 @@ namespace tricue {
 /// Depths of the pixels under the centers of a grid's squares, 0 outside the image.
 Floats read_grid(const DepthView& depth, const SampleGrid& grid);
 
+constexpr int kMaxGridSide = 4096;
+
 /// @throws std::invalid_argument unless the grid's numbers are in their ranges
 void require_grid(const SampleGrid& grid);
 

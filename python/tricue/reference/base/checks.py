@@ -8,11 +8,20 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+MAX_IMAGE_SIDE = 16384  # of an image that a kernel makes, pixels
+MAX_GRID_SIDE = 4096  # of a grid of depths
+
 
 def refuse(name: str, expected: str, got: object) -> NoReturn:
     """Raise a ValueError that names the argument, what was expected and what came."""
     text = f"{got:g}" if isinstance(got, float) else str(got)
     raise ValueError(f"{name}: expected {expected}, got {text}")
+
+
+def require_count(name: str, count: int, least: int, most: int) -> None:
+    """Refuse a number of rows, levels or passes out of range."""
+    if not least <= count <= most:
+        refuse(name, f"{least} to {most}", count)
 
 
 def require_shape(name: str, values: Floats, shape: tuple[int, ...]) -> None:

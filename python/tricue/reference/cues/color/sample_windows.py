@@ -4,7 +4,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse, require_finite, require_shape
+from tricue.reference.base.checks import (
+    MAX_IMAGE_SIDE,
+    refuse,
+    require_count,
+    require_finite,
+    require_shape,
+)
 
 UNIT = 64  # parts of a pixel that places are rounded to: sums of integers have the same bits in any order
 MAX_READINGS = 4  # of a sample along each axis; beyond that it skips pixels, so that its cost is bounded
@@ -56,5 +62,4 @@ def _require_arguments(
     if not (sizes > 0).all():
         refuse("windows", "widths and heights above 0", float(sizes[sizes <= 0][0]))
     for name, count in (("rows", rows), ("columns", columns)):
-        if count < 1:
-            refuse(name, "at least 1", count)
+        require_count(name, count, 1, MAX_IMAGE_SIDE)

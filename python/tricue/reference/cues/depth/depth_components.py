@@ -6,13 +6,15 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
+from tricue.reference.base.checks import refuse, require_count
 from tricue.reference.base.depth_pixels import has_depth
 
 Labels = NDArray[np.uint8]
 Depth = NDArray[np.float32]
 Pixels = NDArray[np.intp]
 Shares = NDArray[np.float32]
+
+MAX_SIGNATURE = 4096
 
 
 def depth_components(
@@ -27,9 +29,10 @@ def depth_components(
 ) -> tuple[NDArray[np.float64], Shares, Shares, Shares, NDArray[np.int32]]:
     """Labels the regions by flood fill, and counts the pixels of each."""
     _require(labels, depth, near, far)
-    for name, value, least in (("levels", levels, 0), ("bins", bins, 1), ("min_area", min_area, 1)):
-        if value < least:
-            refuse(name, f"at least {least}", value)
+    require_count("levels", levels, 0, MAX_SIGNATURE)
+    require_count("bins", bins, 1, MAX_SIGNATURE)
+    if min_area < 1:
+        refuse("min_area", "at least 1", min_area)
     found = [pixels for pixels in _regions(labels) if len(pixels) >= min_area]
     found.sort(key=len, reverse=True)  # stable
 

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
+from tricue.reference.base.checks import MAX_GRID_SIDE, refuse, require_count
 
 Depth = NDArray[np.float32]
 CLUTTER = 0.1  # the likelihood of any depth where the target isn't; the target's is 1 at the expected one
@@ -50,8 +50,7 @@ def _require_arguments(
         if not np.isfinite(number):
             refuse(name, "a finite number", float(number))
     for name, count in (("rows", rows), ("columns", columns)):
-        if count < 1:
-            refuse(name, "at least 1", count)
+        require_count(name, count, 1, MAX_GRID_SIDE)
     for name, number in (("step", step), ("expected", expected), ("sigma", sigma)):
         if not 0 < number < np.inf:
             refuse(name, "a finite number above 0", float(number))

@@ -4,10 +4,11 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
+from tricue.reference.base.checks import refuse, require_count
 from tricue.reference.base.depth_pixels import has_depth
 
 NEIGHBORS = [(y, x) for y in (0, 1, 2) for x in (0, 1, 2) if (y, x) != (1, 1)]
+MAX_PASSES = 1000
 SMALL = 3  # pixels
 VOTES = 2  # neighbors on the nearest surface, at least
 
@@ -21,8 +22,7 @@ def fill_gaps(
             refuse(name, "a finite number, not negative", float(value))
     if not 0 <= ragged <= 1:
         refuse("ragged", "a share from 0 to 1", float(ragged))
-    if passes < 0:
-        refuse("passes", "at least 0", passes)
+    require_count("passes", passes, 0, MAX_PASSES)
     image = np.where(has_depth(depth), depth, np.float32(np.nan))
     for number in range(passes):
         measured = np.isfinite(image)

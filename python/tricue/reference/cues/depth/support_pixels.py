@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.base.checks import MAX_GRID_SIDE, refuse, require_count, require_shape
 from tricue.reference.base.depth_pixels import has_depth, require_camera
 from tricue.reference.cues.depth.floor_plane import floor_plane
 
@@ -96,8 +96,7 @@ def _require_arguments(
     for name, number in (("x0", x0), ("y0", y0)):
         if not np.isfinite(number):
             refuse(name, "a finite number", float(number))
-    if side < 2:
-        refuse("side", "at least 2", side)
+    require_count("side", side, 2, MAX_GRID_SIDE)
     positive = (("step", step), ("width", width), ("height", height), ("z", z), ("tolerance", tolerance))
     for name, number in positive:
         if not 0 < number < np.inf:

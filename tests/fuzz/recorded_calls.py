@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Valid calls of the kernels, as the trackers make them: what the fuzzer starts from."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from typing import Any, get_args
+
+import numpy as np
+import tricue
+from tricue import _core
+from tricue.scenes import head, overtaking, walker
+from tricue.scenes.stress.scene import stress_scene
+from tricue.track.base.registry import tracker_class
+from tricue.track.color_particle.params import ObservationName
+
+KEPT = 4  # calls of each kernel
+FRAMES = 6
+Call = tuple[tuple[Any, ...], dict[str, Any]]
+Calls = dict[str, list[Call]]
+
+
+class Recorder:
+    """The native kernels, which keep the arguments of the first calls and of some later ones."""
+
+    def __init__(self, calls: Calls) -> None:
+        self._calls = calls
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        kernel = getattr(_core, name)
+
+        def call(*arguments: Any, **keywords: Any) -> Any:
+            kept = self._calls[name]
+            if len(kept) < KEPT:
+                kept.append((arguments, keywords))
+            return kernel(*arguments, **keywords)
+
+        return call
+
+
+def kernel_names() -> list[str]:
+    """All kernels that the extension exports."""
+    return [name for name in dir(_core) if not name.startswith("_") and callable(getattr(_core, name))]
+
+
+def record_calls() -> Calls:
+    """Arguments of every kernel, as trackers call it in small scenes, by default and in the papers' forms."""
+    calls: Calls = defaultdict(list)
+    for name, scene, camera, variants in _runs():
+        known = {} if camera is None else {camera: getattr(scene, camera)}
+        for parameters in variants:
+            tracker: Any = tricue.create(name, **known, **parameters)
+            tracker._k = Recorder(calls)
+            frames = [*scene.frames[:FRAMES], *_blank(scene.frames[0], 12), scene.frames[FRAMES - 1]]
+            tracker.init(frames[0], scene.boxes[0])
+            for frame in frames[1:]:
+                tracker.update(frame)
+    image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
+    Recorder(calls).skin_boundary(image, image[0, 0])  # of an experiment alone
+    return dict(calls)
+
+
+def _runs() -> Iterator[tuple[str, Any, str | None, list[dict[str, Any]]]]:
+    """A tracker, its scene, the scene's camera that it gets, and parameters to run with."""
+    models: list[dict[str, Any]] = [{"observation": name} for name in get_args(ObservationName)]
+    models += [{"color_weight": 0.0}, _printed("color-particle")]
+    yield "color-particle", stress_scene("fast", 0), None, models
+    walking = walker(0, FRAMES, "tof")
+    yield "depth-particle", walking, "intrinsics", [{}, _printed("depth-particle")]
+    yield "stereo-head", head(0, FRAMES), "rig", [{}, _printed("stereo-head")]
+    people = [{}, _printed("flow-depth"), {"vergence": 2.0}]
+    yield "flow-depth", overtaking(0, FRAMES), "rig", people
+    for channels, camera in (("rgbd", "intrinsics"), ("stereo", "rig"), ("depth", "intrinsics")):
+        yield "fused", stress_scene("fast", 0, channels=channels), camera, [{}]
+
+
+def _printed(name: str) -> dict[str, Any]:
+    """The parameters of a tracker's paper."""
+    return {"params": tracker_class(name).Params.paper()}
+
+
+def _blank(frame: tricue.Frame, count: int) -> list[tricue.Frame]:
+    """Frames in which the target is missed, so that it is looked for."""
+    images = {
+        channel: np.zeros_like(image)
+        for channel in ("color", "right")
+        if (image := getattr(frame, channel)) is not None
+    }
+    if frame.depth is not None:
+        images["depth"] = np.full_like(frame.depth, 2.0)
+    return [tricue.Frame(**images) for _ in range(count)]

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""Every exported kernel, with valid arguments of which some were changed, beside pages that nobody may touch.
+
+A kernel returns, or raises ValueError or TypeError. A crash ends the tests; the case is then in a file of
+their temporary folder.
+``make fuzz`` tries more cases.
+"""
+
+import os
+import time
+from typing import Any
+
+import numpy as np
+import pytest
+from tricue import _core
+
+from tests.fuzz.mutations import guard, mutate
+from tests.fuzz.recorded_calls import Calls, kernel_names, record_calls
+
+CASES = int(os.environ.get("TRICUE_FUZZ", "50"))
+SECONDS = 20.0  # of one call
+ALLOWED = (ValueError, TypeError)
+
+
+@pytest.fixture(scope="module")
+def calls() -> Calls:
+    """Valid arguments of each kernel."""
+    return record_calls()
+
+
+def test_every_kernel_is_recorded(calls: Calls) -> None:
+    """It proves that no kernel is left out below."""
+    assert set(calls) == set(kernel_names())
+
+
+@pytest.mark.parametrize("name", kernel_names())
+def test_a_kernel_answers_or_refuses(
+    name: str, calls: Calls, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """It proves that no arguments make a kernel touch what isn't its own, hang, or fail in another way."""
+    kernel = getattr(_core, name)
+    current = tmp_path_factory.getbasetemp() / f"{name}.case"
+    refused = 0
+    for case in range(CASES):
+        random = np.random.default_rng([case, *name.encode()])
+        arguments, keywords = changed(calls[name][case % len(calls[name])], random)
+        current.write_text(str(case))
+        before = time.perf_counter()
+        try:
+            kernel(*arguments, **keywords)
+        except ALLOWED as error:
+            refused += bool(str(error))
+        seconds = time.perf_counter() - before
+        assert seconds < SECONDS, f"{name}, case {case}: {seconds:.0f} s"
+    assert 0 < refused < CASES
+
+
+def changed(call: tuple[tuple[Any, ...], dict[str, Any]], random: np.random.Generator) -> Any:
+    """The arguments of a call of which one is changed, or two or three."""
+    arguments, keywords = list(call[0]), dict(call[1])
+    places: list[Any] = [*range(len(arguments)), *keywords]
+    for _ in range(int(random.choice([1, 1, 1, 2, 3]))):
+        place = places[int(random.integers(len(places)))]
+        held: Any = arguments if isinstance(place, int) else keywords
+        held[place] = mutate(held[place], random)
+    return (
+        tuple(guard(each, random) for each in arguments),
+        {name: guard(each, random) for name, each in keywords.items()},
+    )
