@@ -17,8 +17,8 @@ NO_POSITION = (-1, -1, -1)
 class MotOutput:
     """MOTChallenge's text: frame, id, left, top, width, height, confidence, x, y, z in a line per target.
 
-    Frames, ids and pixels count from 1. x, y, z are meters in the world, in the camera's frame where it has no
-    pose, and -1 where nothing was measured. A target that is LOST has no line.
+    Frames, ids and pixels count from 1. x, y, z are meters in the world, in the camera's frame where that has
+    no pose, and -1 where nothing was measured. A target that is LOST has no line.
     """
 
     def __init__(self, path: Path) -> None:

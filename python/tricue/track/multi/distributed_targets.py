@@ -15,9 +15,9 @@ from tricue.track.multi.targets import Targets
 class DistributedTargets:
     """As ``Targets``, a part of them in this process, the others in workers.
 
-    Workers start with the first target. A new one goes where there are fewest. WorkerEndedError where a worker
-    was killed: its targets are gone from :attr:`ids`, the others stay, and another worker starts with the next
-    new target.
+    Workers start with the first target. A new one goes where there are fewest. WorkerEndedError where a
+    worker was killed: its targets are gone from :attr:`ids`, the others stay, and another worker starts with
+    the next new target.
     """
 
     def __init__(self, processes: int) -> None:
