@@ -46,6 +46,8 @@ class DistributedTargets:
     def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
         """Follow all targets into a frame. After an error, :meth:`undo` takes it back where it succeeded."""
         asked = [each for each in self._workers if each.ids]
+        for worker in asked:
+            worker.wake()
         layout = self._memory.write(frame) if asked else None
         for worker in asked:
             assert layout is not None

@@ -15,6 +15,7 @@ from tricue.camera.shared_frame import SharedFrame
 from tricue.errors import WorkerEndedError
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
+from tricue.track.multi.messages import WAKE, from_plain, receive, send
 
 PATIENCE = 5.0  # seconds that a worker gets to end by itself
 
@@ -66,14 +67,17 @@ class RemoteTargets:
         self._ask("remove", target)
         self.ids.remove(target)
 
+    def wake(self) -> None:
+        """Say that an update is about to start: while this process writes the frame, the other wakes up."""
+        self._send(WAKE)
+
     def start_update(self, number: int, layout: Layout) -> None:
         """Have all targets followed into the frame in the memory; :meth:`finish_update` gives the tracks."""
         self._send("update", number, layout)
 
     def finish_update(self, frame: SharedFrame) -> dict[int, Track]:
         """The tracks; the frame, which is the same, gets the messages."""
-        tracks: dict[int, Track] = self._receive_seen(frame)
-        return tracks
+        return from_plain(self._receive_seen(frame))
 
     def undo(self, number: int) -> None:
         """Take an update back, whether it is running, done, or was never begun."""
@@ -95,7 +99,7 @@ class RemoteTargets:
             )
         self._number += 1
         try:
-            self._connection.send((self._number, method, arguments))
+            send(self._connection, (self._number, method, arguments))
         except OSError:
             raise self._end() from None
 
@@ -104,7 +108,7 @@ class RemoteTargets:
         number, succeeded, value = 0, False, None
         try:
             while number != self._number:
-                number, succeeded, value = self._connection.recv()
+                number, succeeded, value = receive(self._connection)
         except (EOFError, OSError, UnpicklingError):
             raise self._end() from None
         if not succeeded:

@@ -10,7 +10,10 @@ from typing import Any
 from tricue.camera.box import BoxLike
 from tricue.track.base.track import Track, Tracker
 from tricue.track.multi.frame_memory import FrameMemory, Layout
+from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain
 from tricue.track.multi.targets import Targets
+
+MAX_POLLS = 1000  # some milliseconds
 
 
 class Worker:
@@ -29,10 +32,10 @@ class Worker:
         frame = self._memory.read(layout)
         return self._targets.add(target, tracker, frame, box), frame.messages
 
-    def update(self, number: int, layout: Layout) -> tuple[dict[int, Track], list[str]]:
+    def update(self, number: int, layout: Layout) -> tuple[PlainTracks, list[str]]:
         """The tracks of all targets, and what was warned of."""
         frame = self._memory.read(layout)
-        return self._targets.update(number, frame), frame.messages
+        return to_plain(self._targets.update(number, frame)), frame.messages
 
 
 def run(connection_file: int, memory_file: int) -> None:
@@ -46,8 +49,18 @@ def run(connection_file: int, memory_file: int) -> None:
     connection, worker = Connection(connection_file), Worker(FrameMemory(memory_file))
     with suppress(EOFError, OSError):
         while True:
-            request, method, arguments = connection.recv()
-            connection.send((request, *_answer(worker, method, arguments)))
+            request, method, arguments = receive(connection)
+            if method == WAKE:
+                _stay_awake(connection)
+            else:
+                send(connection, (request, *_answer(worker, method, arguments)))
+
+
+def _stay_awake(connection: Connection) -> None:
+    """Wait without sleep for a message that comes once a frame is copied; to wake up would take as long."""
+    polls = 0
+    while polls < MAX_POLLS and not connection.poll():
+        polls += 1
 
 
 def _answer(worker: Worker, method: str, arguments: tuple[Any, ...]) -> tuple[bool, Any]:
