@@ -32,12 +32,28 @@ def is_running(process: int) -> bool:
         return False
 
 
+def open_files() -> int:
+    """How many this process has."""
+    return sum(1 for _ in Path("/proc/self/fd").iterdir())
+
+
 def ends(process: int) -> bool:
     """Whether it ends in time."""
     end = time.monotonic() + PATIENCE
     while is_running(process) and time.monotonic() < end:
         time.sleep(0.02)
     return not is_running(process)
+
+
+def test_no_file_stays_open(started):
+    """Neither a closed object's, nor one's that nobody closed."""
+    before = open_files()
+    with started(FUSED, workers=3):
+        assert open_files() > before
+    several = started(FUSED[:2], workers=2)
+    del several
+    gc.collect()
+    assert open_files() == before
 
 
 def test_one_worker_is_this_process(started):

@@ -3,6 +3,7 @@
 
 import mmap
 import os
+import weakref
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -43,6 +44,7 @@ class FrameMemory:
 
     def __init__(self, file: int | None = None) -> None:
         self.file = os.memfd_create("tricue-frame") if file is None else file
+        self.close = weakref.finalize(self, os.close, self.file)  # what is mapped stays
         self._map: mmap.mmap | None = None
 
     def write(self, frame: SharedFrame) -> Layout:
@@ -59,10 +61,6 @@ class FrameMemory:
         views = self._views(layout, mmap.ACCESS_READ)
         images = {name: view for (name, *_), view in zip(layout.images, views, strict=True)}
         return SharedFrame(**images, **layout.others)
-
-    def close(self) -> None:
-        """Close the file; what reads the memory still may."""
-        os.close(self.file)
 
     def _views(self, layout: Layout, access: int) -> list[np.ndarray[Any, Any]]:
         if self._map is None or len(self._map) < layout.size:
