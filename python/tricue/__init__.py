@@ -19,6 +19,7 @@ from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.track.base.opencv import as_opencv
 from tricue.track.base.registry import create, tracker_class
 from tricue.track.base.track import Status, Track
+from tricue.track.multi.tracker import MultiTracker
 from tricue.track.pan_tilt import PanTilt
 
 former_names.install()
@@ -40,6 +41,7 @@ __all__ = [
     "Frame",
     "FusedTracker",
     "Intrinsics",
+    "MultiTracker",
     "PanTilt",
     "Pose",
     "Status",

@@ -32,6 +32,10 @@ class NoDepthInBoxError(BoxError):
     """Nothing in the box has a depth, or a disparity, in the range that the tracker uses."""
 
 
+class WorkerEndedError(RuntimeError):
+    """A worker process of a MultiTracker was killed; its targets are gone."""
+
+
 def one_line(error: BaseException) -> str:
     """The message of an error, in one line."""
     if isinstance(error, OSError) and error.strerror:

@@ -6,7 +6,6 @@ camera gave it fits best after another shift and scale than none. Edges match as
 direction: each is a complex number with twice the direction's angle, and the match is their correlation.
 """
 
-import warnings
 from typing import NamedTuple
 
 import cv2
@@ -14,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
+from tricue.camera.shared_frame import messages_of, warn_of_frame
 
 Plane = NDArray[np.float32]
 
@@ -124,7 +124,7 @@ def warn_of_depth(frame: Frame, stacklevel: int = 2) -> DepthCheck:
     assert frame.depth is not None
     check = check_depth(frame.color, frame.depth)
     if check.problem:
-        warnings.warn(f"depth: {check.problem}", UserWarning, stacklevel=stacklevel + 1)
+        warn_of_frame(messages_of(frame), f"depth: {check.problem}", stacklevel + 1)
     return check
 
 

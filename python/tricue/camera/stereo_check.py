@@ -5,7 +5,6 @@ Corners of the left image are tracked into the right one and back by pyramidal L
 (Bouguet, 2000). In a rectified pair they stay in their row, and none moves to the right.
 """
 
-import warnings
 from typing import NamedTuple
 
 import cv2
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
+from tricue.camera.shared_frame import messages_of, warn_of_frame
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def warn_of_stereo(frame: Frame, stacklevel: int = 2) -> StereoCheck:
     assert frame.right is not None
     check = check_stereo(frame.color, frame.right)
     if check.problem:
-        warnings.warn(f"right: {check.problem}", UserWarning, stacklevel=stacklevel + 1)
+        warn_of_frame(messages_of(frame), f"right: {check.problem}", stacklevel + 1)
     return check
 
 

@@ -3,7 +3,7 @@
 
 import csv
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
@@ -18,6 +18,7 @@ from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
 from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.stereo import stereo_overlay
+from tricue.draw.targets import targets_overlay
 from tricue.draw.video import OverlayWriter
 from tricue.track.base.track import Track
 
@@ -34,7 +35,8 @@ WORLD_COLUMNS = tuple(f"world_{name}" for name in ("X_m", "Y_m", "Z_m", *COVARIA
 class Step(NamedTuple):
     """One tracked frame: its number from 0, the frame, its track, and the tracking time in seconds.
 
-    particles, objects, mask, blocks: the tracker's own, where it has them.
+    particles, objects, mask, blocks: the tracker's own, where it has them. tracks: of several targets, by
+    their ids; ``track`` is then the first. None for one target.
     """
 
     number: int
@@ -45,6 +47,12 @@ class Step(NamedTuple):
     objects: Any = None
     mask: Any = None
     blocks: Any = None
+    tracks: Mapping[int, Track] | None = None
+
+    @property
+    def targets(self) -> Mapping[int, Track]:
+        """The tracks by their targets' ids; a single target has the id 1."""
+        return {1: self.track} if self.tracks is None else self.tracks
 
 
 class Output(AbstractContextManager[Any], Protocol):
@@ -56,20 +64,29 @@ class Output(AbstractContextManager[Any], Protocol):
     def write(self, step: Step) -> None: ...
 
 
-def row(step: Step, world: bool = False) -> list[Any]:
-    """The values of COLUMNS, None if absent; six decimals, for covariances six digits.
+def columns(world: bool = False, several: bool = False) -> tuple[str, ...]:
+    """The columns of a table. world: with those of WORLD_COLUMNS. several: with the target's id."""
+    frame, *others = COLUMNS + WORLD_COLUMNS * world
+    return (frame, *(["id"] * several), *others)
 
-    world: also those of WORLD_COLUMNS.
-    """
-    track = step.track
+
+def rows(step: Step, world: bool = False, several: bool = False) -> Iterator[list[Any]]:
+    """The values of :func:`columns` for each target, None if absent; six decimals, covariances six digits."""
+    for target, track in step.targets.items():
+        frame, *others = _row(step, track)
+        values = [frame, *([target] * several), *others]
+        if world:
+            values += [*_point(track.world_position), *_triangle(track.world_covariance)]
+        yield values
+
+
+def _row(step: Step, track: Track) -> list[Any]:
+    """The values of COLUMNS."""
     meters, covariance = _point(track.position), _triangle(track.covariance)
     numbers = [step.frame.timestamp, track.score, *track.box]
     time, *others = [None if number is None else round(float(number), 6) for number in numbers]
     depth = None if track.depth is None else round(track.depth, 6)
-    values = [step.number, time, str(track.status), *others, *meters, *covariance, depth]
-    if not world:
-        return values
-    return [*values, *_point(track.world_position), *_triangle(track.world_covariance)]
+    return [step.number, time, str(track.status), *others, *meters, *covariance, depth]
 
 
 def _point(position: NDArray[np.float64] | None) -> list[float | None]:
@@ -83,60 +100,64 @@ def _triangle(covariance: NDArray[np.float64] | None) -> list[float | None]:
 
 
 class CsvOutput:
-    """A header of COLUMNS and a line per frame; absent values are empty. world: WORLD_COLUMNS, too."""
+    """A header and a line per frame and target; absent values are empty. world, several: see ``columns``."""
 
-    def __init__(self, path: Path, world: bool = False) -> None:
+    def __init__(self, path: Path, world: bool = False, several: bool = False) -> None:
         self.path = path
-        self._world = world
-        self._file = _create(path)
+        self._world, self._several = world, several
+        self._file = create_file(path)
         self._writer = csv.writer(self._file, lineterminator="\n")
-        with _naming(path):
-            self._writer.writerow(COLUMNS + WORLD_COLUMNS * world)
+        with naming(path):
+            self._writer.writerow(columns(world, several))
 
     def write(self, step: Step) -> None:
-        with _naming(self.path):
-            self._writer.writerow(row(step, self._world))
+        with naming(self.path):
+            self._writer.writerows(rows(step, self._world, self._several))
 
     def __enter__(self) -> "CsvOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
     def __exit__(self, *_: object) -> None:
-        with _naming(self.path):
+        with naming(self.path):
             self._file.close()
 
 
 class JsonOutput:
-    """One object: the entries of ``about``, and "tracks", a list of objects with COLUMNS as keys.
+    """One object: the entries of ``about``, and "tracks", a list of objects with the columns as keys.
 
-    world: WORLD_COLUMNS, too.
+    world, several: see ``columns``.
     """
 
-    def __init__(self, path: Path, about: dict[str, Any], world: bool = False) -> None:
+    def __init__(self, path: Path, about: dict[str, Any], world: bool = False, several: bool = False) -> None:
         self.path = path
-        self._world = world
+        self._world, self._several = world, several
         head = json.dumps(about, indent=1, allow_nan=False)
-        self._file = _create(path)
-        with _naming(path):
+        self._file = create_file(path)
+        with naming(path):
             self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
     def write(self, step: Step) -> None:
-        values = dict(zip(COLUMNS + WORLD_COLUMNS * self._world, row(step, self._world), strict=True))
-        with _naming(self.path):
-            self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
-        self._separator = ",\n"
+        names = columns(self._world, self._several)
+        for row in rows(step, self._world, self._several):
+            values = dict(zip(names, row, strict=True))
+            with naming(self.path):
+                self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+            self._separator = ",\n"
 
     def __enter__(self) -> "JsonOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
         return self
 
     def __exit__(self, *_: object) -> None:
-        with _naming(self.path):
+        with naming(self.path):
             self._file.write("\n ]\n}\n")
             self._file.close()
 
 
 class VideoOutput:
     """The overlay video, drawn on depth if the tracker segments depth or there is no color.
+
+    Several targets are drawn on the color, or on the depth without it.
 
     rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
     tracker has one.
@@ -157,12 +178,10 @@ class VideoOutput:
 
     def _picture(self, step: Step, note: str) -> Image:
         color, depth = step.frame.color, step.frame.depth
+        if step.tracks is not None:
+            return targets_overlay(self._image(step.frame), step.tracks, note=note)
         if step.mask is not None:
-            image = color
-            if image is None:
-                assert depth is not None  # a frame has one of the two
-                image = depth_picture(depth, *self._smoothed_range(depth))
-            return flow_depth_overlay(image, step.track, step.mask, step.blocks, note=note)
+            return flow_depth_overlay(self._image(step.frame), step.track, step.mask, step.blocks, note=note)
         if depth is not None and (color is None or step.objects is not None):
             near, far = self._smoothed_range(depth)
             return depth_overlay(
@@ -178,6 +197,13 @@ class VideoOutput:
             return stereo_overlay(step.frame, step.track, self._rig, note=note)
         assert color is not None  # a frame has one of the two
         return overlay(color, step.track, particles=step.particles, note=note)
+
+    def _image(self, frame: Frame) -> NDArray[np.uint8]:
+        """The color, or a picture of the depth without it."""
+        if frame.color is not None:
+            return frame.color
+        assert frame.depth is not None  # a frame has one of the two
+        return depth_picture(frame.depth, *self._smoothed_range(frame.depth))
 
     def _smoothed_range(self, depth: NDArray[np.float32]) -> tuple[float, float]:
         """The displayed depth range, meters; it follows the frames' range slowly to avoid flicker."""
@@ -195,7 +221,7 @@ class VideoOutput:
 
 
 @contextmanager
-def _naming(path: Path) -> Iterator[None]:
+def naming(path: Path) -> Iterator[None]:
     """Name the file in an error of writing, such as that of a full disk; Python names only what it opens."""
     try:
         yield
@@ -205,6 +231,7 @@ def _naming(path: Path) -> Iterator[None]:
         raise OSError(error.errno, error.strerror, str(path)) from None
 
 
-def _create(path: Path) -> Any:
+def create_file(path: Path) -> Any:
+    """A new text file, and its folder where there is none."""
     path.parent.mkdir(parents=True, exist_ok=True)
     return path.open("w", encoding="utf-8", newline="")

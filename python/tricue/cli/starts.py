@@ -46,7 +46,7 @@ def choose_start(
         )
     if options.detect == "face":
         return lambda frame: _face(frame, load(options.kernels), rig)
-    box = options.box or (None if options.detect else source.first_box)
+    box = options.box[0] if options.box else None if options.detect else source.first_box
     return None if box is None else lambda _: box
 
 

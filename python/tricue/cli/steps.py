@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Runs a tracker over a source frame by frame, and measures times."""
+"""Runs a tracker, or several, over a source frame by frame, and measures times."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -10,6 +10,7 @@ from tricue.camera.frame import Frame
 from tricue.cli.outputs import Step
 from tricue.errors import TargetNotFoundError
 from tricue.track.base.track import Status, Track, Tracker
+from tricue.track.multi.tracker import MultiTracker
 
 Start = Callable[[Frame], Box | None]
 """Gives the box to start on, or None; called for each frame until there is one."""
@@ -58,6 +59,25 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
         yield Step(
             index, frame, track, seconds, **{name: getattr(tracker, name) for name in tracker.traits.shows}
         )
+
+
+def steps_of_targets(
+    targets: MultiTracker, frames: Iterable[Frame], boxes: Sequence[Box], clock: RunClock
+) -> Iterator[Step]:
+    """Start a target on each box in the first frame, and track all."""
+    for index, frame in enumerate(_decoded(frames, clock)):
+        before = perf_counter()
+        tracks = targets.update(frame)
+        if not index:
+            for box in boxes:
+                targets.add(frame, box)
+            tracks = targets.tracks
+        seconds = perf_counter() - before
+        for track in tracks.values():
+            clock.statuses[track.status] += 1
+        if index:
+            clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
+        yield Step(index, frame, next(iter(tracks.values())), seconds, tracks=tracks)
 
 
 def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:

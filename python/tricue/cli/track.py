@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""``tricue track INPUT``: tracks a target through a video and writes its positions."""
+"""``tricue track INPUT``: tracks a target, or several, through a video and writes their positions."""
 
 import argparse
 import dataclasses
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from itertools import takewhile
@@ -13,9 +14,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import tricue
+from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.cli.arguments import add_common, angles, box, tracker_name
+from tricue.cli.arguments import add_common, angles, box, count, tracker_name
 from tricue.cli.calibrations import find_calibration
+from tricue.cli.exports import CocoOutput, MotOutput
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
@@ -27,11 +30,12 @@ from tricue.cli.starts import (
     depth_tracker,
     start_hint,
 )
-from tricue.cli.steps import RunClock, Start, steps
+from tricue.cli.steps import RunClock, Start, steps, steps_of_targets
 from tricue.data.open_source import Source, open_source
 from tricue.track.base.registry import names
-from tricue.track.base.settings import PAPER, make_tracker
+from tricue.track.base.settings import PAPER, make_tracker, read_settings
 from tricue.track.base.track import Status, Track, Tracker
+from tricue.track.multi.tracker import MultiTracker
 
 EXAMPLES = """\
 examples:
@@ -47,6 +51,7 @@ examples:
   tricue track pair/ --tracker flow-depth --box 60,30,25,74 --calibration stereo.yml --output overlay.mp4
   tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
   tricue track video.mp4 --tracker flow-depth --set cues=flow --box 60,30,25,74   without any depth
+  tricue track video.mp4 --box 60,30,25,74 --box 120,32,24,70 --workers 2 --mot tracks.txt   two targets
 """
 
 
@@ -63,7 +68,13 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "for depth without a box to start on",
     )
     start = command.add_mutually_exclusive_group()
-    start.add_argument("--box", type=box, metavar="X,Y,W,H", help="the box to start on, in pixels")
+    start.add_argument(
+        "--box",
+        type=box,
+        action="append",
+        metavar="X,Y,W,H",
+        help="the box to start on, in pixels; once for each target",
+    )
     start.add_argument(
         "--detect",
         choices=("face", "person"),
@@ -83,7 +94,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
     )
+    command.add_argument("--mot", type=Path, metavar="FILE", help="the tracks as MOTChallenge's text")
+    command.add_argument("--coco", type=Path, metavar="FILE", help="the tracks as COCO's JSON of a video")
     command.add_argument("--plot", type=Path, metavar="FILE", help="the path in meters from above, .png")
+    command.add_argument(
+        "--workers",
+        type=count,
+        default=1,
+        metavar="N",
+        help="processes that share the targets of several boxes, default %(default)s",
+    )
     command.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the tracker"
     )
@@ -130,28 +150,39 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
 
 
 class TrackRun(NamedTuple):
-    """The source, the tracker, how it starts, and the known intrinsics or stereo rig."""
+    """The source, the tracker, how it starts, and the known intrinsics or stereo rig.
+
+    targets, boxes: of several targets, for each of which there is such a tracker; None for one.
+    """
 
     source: Source
     tracker: Tracker
     intrinsics: Intrinsics | None
     start: Start | None
     rig: StereoRig | None = None
+    targets: MultiTracker | None = None
+    boxes: Sequence[Box] = ()
 
 
 def run(options: argparse.Namespace) -> int:
     """TrackRun the command and print the results; the exit code."""
     run, notes = _prepare(options)
-    clock, tracks = RunClock(), {}
+    clock = RunClock()
+    tracks: dict[int, dict[int, Track]] = {}
     with ExitStack() as files:
         outputs = [files.enter_context(output) for output in _outputs(options, run)]
         stop = files.enter_context(catch_signals())
         progress = files.enter_context(Progress(run.source.length))
         frames = takewhile(lambda _: not stop(), run.source)
-        for step in _with_start_hint(steps(run.tracker, frames, run.start, clock), run, clock):
+        if run.targets is None:
+            found = steps(run.tracker, frames, run.start, clock)
+        else:
+            found = steps_of_targets(files.enter_context(run.targets), frames, run.boxes, clock)
+        for step in _with_start_hint(found, run, clock):
             for output in outputs:
                 output.write(step)
-            tracks[step.number] = step.track
+            for target, track in step.targets.items():
+                tracks.setdefault(target, {})[step.number] = track
             progress(step.number + 1, clock.speeds)
         signal_number = stop()
     interrupted = signal_number != 0
@@ -160,7 +191,7 @@ def run(options: argparse.Namespace) -> int:
     _report(run.source, clock, tracks, interrupted)
     notes += [f"wrote {output.path}" for output in outputs]
     if options.plot:
-        notes.append(_plot(options.plot, run, tracks))
+        notes.append(_plot(options.plot, run, tracks.get(1, {})))
     for note in notes:
         print(note)
     return 128 + signal_number if interrupted else 0
@@ -181,9 +212,12 @@ def _check_different(outputs: Sequence[Path]) -> None:
 
 def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     """Open the source and make the tracker; notes for the user."""
+    several = options.box is not None and len(options.box) > 1
     if options.plot:
         from tricue.draw.paths import check_format
 
+        if several:
+            raise ValueError(f"--plot: expected one --box, got {len(options.box)}")
         check_format(options.plot)
     source = open_source(
         options.input,
@@ -194,7 +228,8 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     )
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None
-    outputs = [path for path in (options.output, options.csv, options.json, options.plot) if path]
+    files = options.output, options.csv, options.json, options.mot, options.coco, options.plot
+    outputs = [path for path in files if path]
     for place in (Path(options.input), right, options.calibration, options.params):
         _check_not_input(place, outputs)
     _check_different(outputs)
@@ -211,7 +246,15 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics
     run = TrackRun(source, tracker, known, choose_start(options, source, tracker, rig), rig)
+    if several:
+        run = run._replace(targets=_targets(options, found.keywords), boxes=options.box)
     return run, [*source.notes, *([found.note] if found.note else [])]
+
+
+def _targets(options: argparse.Namespace, camera: Mapping[str, Any]) -> MultiTracker:
+    parameters = read_settings(options.tracker, options.paper or options.params, options.set)
+    shared = {"workers": options.workers, "seed": options.seed, "kernels": options.kernels}
+    return MultiTracker(options.tracker, **shared, **camera, **parameters)
 
 
 def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
@@ -219,10 +262,15 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     if options.output:
         yield VideoOutput(options.output, run.source.fps, run.rig)
     world = run.intrinsics is not None and run.intrinsics.pose is not None
+    several = run.targets is not None
     if options.csv:
-        yield CsvOutput(options.csv, world)
+        yield CsvOutput(options.csv, world, several)
     if options.json:
-        yield JsonOutput(options.json, _about(options, run), world)
+        yield JsonOutput(options.json, _about(options, run), world, several)
+    if options.mot:
+        yield MotOutput(options.mot)
+    if options.coco:
+        yield CocoOutput(options.coco, Path(run.source.name).name, run.source.fps)
 
 
 def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> Iterator[Step]:
@@ -273,14 +321,27 @@ def _plain(value: Any) -> Any:
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _report(source: Source, clock: RunClock, tracks: Mapping[int, Track], interrupted: bool) -> None:
-    counts = ", ".join(f"{clock.statuses[status]} {status}" for status in Status)
-    print(f"{source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}, {counts}")
+def _report(
+    source: Source, clock: RunClock, tracks: Mapping[int, Mapping[int, Track]], interrupted: bool
+) -> None:
+    frames = f"{source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}"
+    if len(tracks) > 1:
+        print(frames)
+        for target, found in tracks.items():
+            print(f"target {target}: {_counts(Counter(track.status for track in found.values()))}")
+        print(clock.speeds)
+        return
+    print(f"{frames}, {_counts(clock.statuses)}")
     print(clock.speeds)
-    if first := min(tracks, default=0):
+    found = tracks.get(1, {})
+    if first := min(found, default=0):
         print(f"started in frame {first}")
     if source.truth is not None and np.isfinite(source.truth[1:]).any():
-        print(_score(source.truth, tracks, clock.decoded))
+        print(_score(source.truth, found, clock.decoded))
+
+
+def _counts(statuses: Mapping[Status, int]) -> str:
+    return ", ".join(f"{statuses[status]} {status}" for status in Status)
 
 
 def _score(truth: Any, tracks: Mapping[int, Track], frames: int) -> str:

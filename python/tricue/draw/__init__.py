@@ -7,10 +7,12 @@ from tricue.draw.masks import block_picture, flow_depth_overlay
 from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.paths import draw_path, path_from_above, save_path
 from tricue.draw.stereo import stereo_overlay
+from tricue.draw.targets import TARGET_COLORS, targets_overlay
 from tricue.draw.video import OverlayWriter
 
 __all__ = [
     "STATUS_COLORS",
+    "TARGET_COLORS",
     "OverlayWriter",
     "block_picture",
     "depth_overlay",
@@ -22,4 +24,5 @@ __all__ = [
     "path_from_above",
     "save_path",
     "stereo_overlay",
+    "targets_overlay",
 ]

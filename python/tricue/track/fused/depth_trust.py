@@ -4,13 +4,13 @@
 Such depth is left out, and told of once; the target is then followed by color.
 """
 
-import warnings
 import zlib
 from typing import NamedTuple
 
 import cv2
 import numpy as np
 
+from tricue.camera.shared_frame import warn_of_frame
 from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.depth_sources import DepthImageSource
 from tricue.track.fused.frame_observation import FrameObservation
@@ -81,7 +81,7 @@ class DepthTrust(NamedTuple):
         self, frame: FrameObservation, kind: str, message: str
     ) -> tuple["DepthTrust", FrameObservation]:
         if kind not in self.told:
-            warnings.warn(f"frame.depth: {message}", UserWarning, stacklevel=4)
+            warn_of_frame(frame.messages, f"frame.depth: {message}", stacklevel=4)
         return self._replace(told=self.told | {kind}), frame._replace(depth=None, depth_source=None)
 
 

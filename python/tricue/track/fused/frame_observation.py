@@ -8,6 +8,7 @@ import numpy as np
 
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.shared_frame import messages_of, once
 from tricue.kernels import Kernels
 from tricue.track.base import validation
 from tricue.track.fused.arrays import Image, Plane
@@ -19,7 +20,7 @@ class FrameObservation(NamedTuple):
     """A checked frame.
 
     color: (H, W, 3) BGR. depth: (H, W) meters. camera: of the color, left or depth image.
-    depth_source: None without depth. timestamp: seconds.
+    depth_source: None without depth. timestamp: seconds. messages: as :func:`messages_of` the frame.
     """
 
     shape: tuple[int, int]
@@ -28,6 +29,7 @@ class FrameObservation(NamedTuple):
     depth_source: DepthSource | None
     camera: Intrinsics
     timestamp: float | None
+    messages: list[str] | None = None
 
     def for_target(self, k: Kernels, expected: ExpectedDepth | None) -> TargetObservation:
         """What the experts read of the frame, given the target's expected depth.
@@ -54,22 +56,36 @@ def observe_frame(
     for depth of another size than color.
     """
     given = as_frame(frame)
-    image: Any = given.depth if given.color is None else given.color
-    name = "depth" if given.color is None else "color"
-    size = image.shape[:2]
+    size = _picture(given)[1].shape[:2]
     if shape is not None and size != shape:
-        hint = "init starts again on another size"
+        name, hint = _picture(given)[0], "init starts again on another size"
         raise ValueError(f"frame.{name}: expected the first frame's size {shape}, got {size}; {hint}")
-    if given.depth is not None:
-        validation.check_depth_size(given.depth, size)
+    return once(given, _observe, k, cameras, with_depth)
+
+
+def _observe(
+    frame: Frame, k: Kernels, cameras: tuple[StereoRig | None, Intrinsics | None], with_depth: bool
+) -> FrameObservation:
+    """What doesn't depend on the target."""
+    name, image = _picture(frame)
+    size = image.shape[:2]
+    if frame.depth is not None:
+        validation.check_depth_size(frame.depth, size)
     for known in (cameras[0].intrinsics if cameras[0] else None, cameras[1]):
         if known is not None and (known.height, known.width) != size:
             expected = f"the camera's size, {known.width}x{known.height}"
             raise ValueError(f"frame.{name}: expected {expected}, got {size[1]}x{size[0]}")
     rig, camera = _rig_and_camera(*cameras, size)
-    depth_source = _depth_source(k, given, rig) if with_depth or given.color is None else None
-    color = None if given.color is None else _bgr(given.color)
-    return FrameObservation(size, color, given.depth, depth_source, camera, given.timestamp)
+    color = None if frame.color is None else _bgr(frame.color)
+    depth_source = _depth_source(k, frame, color, rig) if with_depth or color is None else None
+    return FrameObservation(
+        size, color, frame.depth, depth_source, camera, frame.timestamp, messages_of(frame)
+    )
+
+
+def _picture(frame: Frame) -> tuple[str, Any]:
+    """The image in whose pixels boxes are, and its name."""
+    return ("depth", frame.depth) if frame.color is None else ("color", frame.color)
 
 
 @lru_cache(maxsize=8)
@@ -82,11 +98,11 @@ def _rig_and_camera(
     return rig, rig.intrinsics
 
 
-def _depth_source(k: Kernels, frame: Frame, rig: StereoRig) -> DepthSource | None:
+def _depth_source(k: Kernels, frame: Frame, color: Image | None, rig: StereoRig) -> DepthSource | None:
     if frame.depth is not None:
         return DepthImageSource(frame.depth)
-    if frame.right is not None and frame.color is not None:
-        return StereoSource(k, _bgr(frame.color), _bgr(frame.right), rig)
+    if frame.right is not None and color is not None:
+        return StereoSource(k, color, _bgr(frame.right), rig)
     return None
 
 

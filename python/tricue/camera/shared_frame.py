@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""A frame that several trackers look at: what all compute of it alike is computed once, and told once."""
+
+import warnings
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
+
+from tricue.camera.frame import Frame
+
+T = TypeVar("T")
+_ATTRIBUTES = ("color", "depth", "right", "timestamp", "pose")
+
+
+class SharedFrame(Frame):
+    """A frame with what was computed of it, and with the warnings about it in place of their being shown.
+
+    messages: what trackers warn of, each text once.
+    """
+
+    __slots__ = ("_computed", "messages")
+    _computed: dict[Hashable, Any]
+    messages: list[str]
+
+    def __init__(self, **channels: Any) -> None:
+        """channels: the attributes of a checked :class:`Frame`, which are taken as they are."""
+        for name in _ATTRIBUTES:
+            object.__setattr__(self, name, channels.get(name))
+        object.__setattr__(self, "_computed", {})
+        object.__setattr__(self, "messages", [])
+
+    @classmethod
+    def of(cls, frame: Frame) -> "SharedFrame":
+        """A frame's channels, without a copy."""
+        return cls(**{name: getattr(frame, name) for name in _ATTRIBUTES})
+
+
+def once(frame: Frame, function: Callable[..., T], *arguments: Any) -> T:
+    """``function(frame, *arguments)``, of a shared frame computed once for the same, hashable arguments.
+
+    The result must not hold the frame itself, which would keep its images after their time.
+    """
+    if not isinstance(frame, SharedFrame):
+        return function(frame, *arguments)
+    key = (function, *arguments)
+    if key not in frame._computed:
+        frame._computed[key] = function(frame, *arguments)
+    found: T = frame._computed[key]
+    return found
+
+
+def messages_of(frame: Frame) -> list[str] | None:
+    """Where warnings about the frame are collected; None where they are shown at once."""
+    return frame.messages if isinstance(frame, SharedFrame) else None
+
+
+def warn_of_frame(messages: list[str] | None, message: str, stacklevel: int) -> None:
+    """Collect a warning (UserWarning) about a frame, or show it.
+
+    messages: as :func:`messages_of`. stacklevel: as in warnings.warn, counted from the caller.
+    """
+    if messages is None:
+        warnings.warn(message, UserWarning, stacklevel=stacklevel + 1)
+    elif message not in messages:
+        messages.append(message)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Targets that several processes share."""
+
+from contextlib import suppress
+
+from tricue.camera.box import BoxLike
+from tricue.camera.shared_frame import SharedFrame
+from tricue.errors import WorkerEndedError
+from tricue.track.base.track import Track, Tracker
+from tricue.track.multi.frame_memory import FrameMemory
+from tricue.track.multi.remote_targets import RemoteTargets
+from tricue.track.multi.targets import Targets
+
+
+class DistributedTargets:
+    """As ``Targets``, a part of them in this process, the others in workers.
+
+    Workers start with the first target. A new one goes where there are fewest. WorkerEndedError where a
+    worker was killed: its targets are gone from :attr:`ids`, the others stay, and another worker starts with
+    the next new target.
+    """
+
+    def __init__(self, processes: int) -> None:
+        self._processes = processes
+        self._memory = FrameMemory()
+        self._here = Targets()
+        self._workers: list[RemoteTargets] = []
+
+    @property
+    def ids(self) -> set[int]:
+        """Of the targets."""
+        return set[int]().union(*(each.ids for each in self._parts))
+
+    def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
+        """Start a tracker; it is kept if that succeeds."""
+        return self._emptiest().add(target, tracker, frame, box)
+
+    def put(self, target: int, tracker: Tracker) -> None:
+        """Go on with a tracker that has started elsewhere."""
+        self._emptiest().put(target, tracker)
+
+    def remove(self, target: int) -> None:
+        """Follow a target no longer."""
+        next(each for each in self._parts if target in each.ids).remove(target)
+
+    def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
+        """Follow all targets into a frame. After an error, :meth:`undo` takes it back where it succeeded."""
+        asked = [each for each in self._workers if each.ids]
+        for worker in asked:
+            worker.wake()
+        layout = self._memory.write(frame) if asked else None
+        for worker in asked:
+            assert layout is not None
+            worker.start_update(number, layout)
+        tracks = self._here.update(number, frame)
+        for worker in asked:
+            tracks |= worker.finish_update(frame)
+        return tracks
+
+    def undo(self, number: int) -> None:
+        """Take an update back, if it was the last one."""
+        self._here.undo(number)
+        for worker in self._workers:
+            with suppress(WorkerEndedError):  # whose targets then are gone
+                if not worker.ended:
+                    worker.undo(number)
+
+    def copies(self) -> dict[int, Tracker]:
+        """Copies of the trackers."""
+        found = self._here.copies()
+        for worker in self._workers:
+            found |= worker.copies() if worker.ids else {}
+        return found
+
+    def close(self) -> None:
+        """Follow none of them any longer, and end the workers."""
+        self._here.close()
+        for worker in self._workers:
+            worker.close()
+        self._workers = []
+
+    @property
+    def _parts(self) -> "list[Targets | RemoteTargets]":
+        return [self._here, *self._workers]
+
+    def _emptiest(self) -> Targets | RemoteTargets:
+        self._workers = [each for each in self._workers if not each.ended]
+        while len(self._workers) < self._processes - 1:
+            self._workers.append(RemoteTargets(self._memory))
+        return min(self._parts, key=lambda each: len(each.ids))

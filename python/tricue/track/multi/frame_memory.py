@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""A frame in memory that processes share: one writes its images, the others see them without a copy."""
+
+import mmap
+import os
+import weakref
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from tricue.camera.shared_frame import SharedFrame
+
+IMAGES = ("color", "depth", "right")
+ALIGNMENT = 64  # bytes, of an image's first pixel
+
+
+class Layout(NamedTuple):
+    """Where a frame's images are in the memory.
+
+    images: name, type, shape, and first byte of each. size: bytes of all. others: what isn't an image.
+    """
+
+    images: tuple[tuple[str, str, tuple[int, ...], int], ...]
+    size: int
+    others: dict[str, Any]
+
+    @classmethod
+    def of(cls, frame: SharedFrame) -> "Layout":
+        """One image after the other."""
+        images, end = [], 0
+        for name in IMAGES:
+            image = getattr(frame, name)
+            if image is not None:
+                images.append((name, image.dtype.str, image.shape, end))
+                end += -(-image.nbytes // ALIGNMENT) * ALIGNMENT
+        return cls(tuple(images), end, {"timestamp": frame.timestamp, "pose": frame.pose})
+
+
+class FrameMemory:
+    """Memory without a name, which is gone with the last process that has it open; it grows with the frames.
+
+    file: its descriptor, which another process has inherited; None for new memory.
+    """
+
+    def __init__(self, file: int | None = None) -> None:
+        self.file = os.memfd_create("tricue-frame") if file is None else file
+        self.close = weakref.finalize(self, os.close, self.file)  # what is mapped stays
+        self._map: mmap.mmap | None = None
+
+    def write(self, frame: SharedFrame) -> Layout:
+        """Copy a frame into the memory, in the place of the one before."""
+        layout = Layout.of(frame)
+        if os.fstat(self.file).st_size < layout.size:
+            os.ftruncate(self.file, layout.size)
+        for (name, *_), place in zip(layout.images, self._views(layout, mmap.ACCESS_WRITE), strict=True):
+            np.copyto(place, getattr(frame, name))
+        return layout
+
+    def read(self, layout: Layout) -> SharedFrame:
+        """The frame that is in the memory until the next is written; its images can't be changed."""
+        views = self._views(layout, mmap.ACCESS_READ)
+        images = {name: view for (name, *_), view in zip(layout.images, views, strict=True)}
+        return SharedFrame(**images, **layout.others)
+
+    def _views(self, layout: Layout, access: int) -> list[np.ndarray[Any, Any]]:
+        if self._map is None or len(self._map) < layout.size:
+            self._map = mmap.mmap(self.file, layout.size, access=access)
+        buffer = self._map
+        return [np.ndarray(shape, kind, buffer, first) for _, kind, shape, first in layout.images]

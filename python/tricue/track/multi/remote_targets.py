@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""Targets that another process follows."""
+
+import os
+import socket
+import subprocess
+import sys
+import weakref
+from multiprocessing.connection import Connection
+from pickle import UnpicklingError
+from typing import Any
+
+from tricue.camera.box import BoxLike
+from tricue.camera.shared_frame import SharedFrame
+from tricue.errors import WorkerEndedError
+from tricue.track.base.track import Track, Tracker
+from tricue.track.multi.frame_memory import FrameMemory, Layout
+from tricue.track.multi.messages import WAKE, from_plain, receive, send
+
+PATIENCE = 5.0  # seconds that a worker gets to end by itself
+
+
+class RemoteTargets:
+    """As ``Targets``, in a process of their own, which ends with this object and with this process.
+
+    memory: through which it sees the frames. It runs a module, not the script of this process, which so needs
+    no guard against being run again.
+    """
+
+    def __init__(self, memory: FrameMemory) -> None:
+        self.ids: set[int] = set()
+        self.ended = False
+        self._memory = memory
+        self._number = 0  # of the last request
+        self._owner = os.getpid()
+        mine, theirs = socket.socketpair()
+        with theirs:
+            files = theirs.fileno(), memory.file
+            code = (
+                f"import sys; sys.path[:] = {sys.path}; from tricue.track.multi.worker import run; run{files}"
+            )
+            command = [sys.executable, "-c", code]
+            self._process = subprocess.Popen(command, stdin=subprocess.DEVNULL, pass_fds=files)
+        self._connection = Connection(mine.detach())
+        self.close = weakref.finalize(self, _end, self._connection, self._process, self._owner)
+
+    def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
+        """Start a tracker; it is kept if that succeeds."""
+        try:
+            self._send("add", target, tracker, self._memory.write(frame), box)
+            track: Track = self._receive_seen(frame)
+        except WorkerEndedError:
+            raise
+        except BaseException:  # the worker may have succeeded all the same
+            self._ask("remove", target)
+            raise
+        self.ids.add(target)
+        return track
+
+    def put(self, target: int, tracker: Tracker) -> None:
+        """Go on with a tracker that has started elsewhere."""
+        self._ask("put", target, tracker)
+        self.ids.add(target)
+
+    def remove(self, target: int) -> None:
+        """Follow a target no longer."""
+        self._ask("remove", target)
+        self.ids.remove(target)
+
+    def wake(self) -> None:
+        """Say that an update is about to start: while this process writes the frame, the other wakes up."""
+        self._send(WAKE)
+
+    def start_update(self, number: int, layout: Layout) -> None:
+        """Have all targets followed into the frame in the memory; :meth:`finish_update` gives the tracks."""
+        self._send("update", number, layout)
+
+    def finish_update(self, frame: SharedFrame) -> dict[int, Track]:
+        """The tracks; the frame, which is the same, gets the messages."""
+        return from_plain(self._receive_seen(frame))
+
+    def undo(self, number: int) -> None:
+        """Take an update back, whether it is running, done, or was never begun."""
+        self._ask("undo", number)
+
+    def copies(self) -> dict[int, Tracker]:
+        """Copies of the trackers."""
+        found: dict[int, Tracker] = self._ask("copies")
+        return found
+
+    def _ask(self, method: str, *arguments: Any) -> Any:
+        self._send(method, *arguments)
+        return self._receive()
+
+    def _send(self, method: str, *arguments: Any) -> None:
+        if os.getpid() != self._owner:
+            raise RuntimeError(
+                "workers: expected a call in the process that made them; a copy starts its own"
+            )
+        self._number += 1
+        try:
+            send(self._connection, (self._number, method, arguments))
+        except OSError:
+            raise self._end() from None
+
+    def _receive(self) -> Any:
+        """The answer to the last request; those to earlier ones nobody waited for, as after Ctrl-C."""
+        number, succeeded, value = 0, False, None
+        try:
+            while number != self._number:
+                number, succeeded, value = receive(self._connection)
+        except (EOFError, OSError, UnpicklingError):
+            raise self._end() from None
+        if not succeeded:
+            assert isinstance(value, Exception)
+            raise value
+        return value
+
+    def _receive_seen(self, frame: SharedFrame) -> Any:
+        """The same, where it comes with messages about the frame."""
+        value, messages = self._receive()
+        frame.messages.extend(each for each in messages if each not in frame.messages)
+        return value
+
+    def _end(self) -> WorkerEndedError:
+        """End the worker, where that isn't what happened; the error that says so."""
+        self.ended, self.ids = True, set()
+        self.close()
+        code = self._process.returncode
+        how = f"by signal {-code}" if code < 0 else f"with exit code {code}"
+        return WorkerEndedError(f"a worker process ended {how}")
+
+
+def _end(connection: Connection, process: "subprocess.Popen[bytes]", owner: int) -> None:
+    """End a worker, which does so by itself once its connection is closed."""
+    connection.close()
+    if os.getpid() != owner:
+        return
+    try:
+        process.wait(PATIENCE)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: MIT
+"""The targets that one process follows."""
+
+import copy
+from typing import Any
+
+from tricue.camera.box import BoxLike
+from tricue.camera.shared_frame import SharedFrame
+from tricue.track.base.track import Track, Tracker
+
+
+class Targets:
+    """Trackers by the ids of their targets."""
+
+    def __init__(self) -> None:
+        self._trackers: dict[int, Tracker] = {}
+        self._before: tuple[int, dict[int, dict[str, Any]]] = 0, {}  # an update, and what trackers held
+
+    @property
+    def ids(self) -> set[int]:
+        """Of the targets."""
+        return set(self._trackers)
+
+    def add(self, target: int, tracker: Tracker, frame: SharedFrame, box: BoxLike | None) -> Track:
+        """Start a tracker; it is kept if that succeeds."""
+        track = tracker.init(frame, box)
+        self._trackers[target] = tracker
+        return track
+
+    def put(self, target: int, tracker: Tracker) -> None:
+        """Go on with a tracker that has started elsewhere."""
+        self._trackers[target] = tracker
+
+    def remove(self, target: int) -> None:
+        """Follow a target no longer, if it is one of these."""
+        self._trackers.pop(target, None)
+
+    def update(self, number: int, frame: SharedFrame) -> dict[int, Track]:
+        """Follow all targets into a frame. After an error none has seen it.
+
+        number: of the update, by which :meth:`undo` knows it.
+        """
+        self._before = number, {target: vars(tracker).copy() for target, tracker in self._trackers.items()}
+        try:
+            return {target: tracker.update(frame) for target, tracker in self._trackers.items()}
+        except BaseException:
+            self.undo(number)
+            raise
+
+    def undo(self, number: int) -> None:
+        """Take an update back, if it was the last one: a tracker replaces its state, and changes none."""
+        last, before = self._before
+        for target, values in before.items() if last == number else ():
+            vars(self._trackers[target]).update(values)
+
+    def copies(self) -> dict[int, Tracker]:
+        """Copies of the trackers."""
+        return {target: copy.copy(tracker) for target, tracker in self._trackers.items()}
+
+    def close(self) -> None:
+        """Follow none of them any longer."""
+        self._trackers, self._before = {}, (0, {})

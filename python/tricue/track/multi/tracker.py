@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+"""Several targets at once: a tracker for each, one call per frame."""
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from tricue import kernels as kernel_sets
+from tricue.camera.box import BoxLike
+from tricue.camera.frame import FrameLike, as_frame
+from tricue.camera.numbers import positive_whole
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.camera.shared_frame import SharedFrame
+from tricue.errors import WorkerEndedError
+from tricue.track.base import validation
+from tricue.track.base.registry import create, traits
+from tricue.track.base.track import Status, Track, Tracker
+from tricue.track.multi.targets import Targets
+
+if TYPE_CHECKING:
+    from tricue.track.multi.distributed_targets import DistributedTargets
+
+
+class MultiTracker:
+    """Follows several targets, each by a tracker of its own, with one call per frame.
+
+        people = tricue.MultiTracker()
+        ids = [people.add(frame, box) for box in boxes]
+        for id, track in people.update(next_frame).items():
+            print(id, track.status, track.box)
+
+    tracker: the kind for targets that ask for no other, a name as :func:`tricue.create` takes it.
+    workers: the processes that share the targets, this one among them. Tracks are the same whatever their
+        number. They see the frames in shared memory. There are no threads: the trackers' loops are Python, so
+        that two threads are about as fast as one.
+    on_lost: called with id and track when a target becomes LOST, after all were updated.
+    rig, intrinsics: the camera, for all trackers that take one.
+    seed, kernels: for all targets, as of every tracker. parameters: of the default kind.
+
+    It is copied and pickled with all of its targets, as a tracker is (``on_lost`` then has to be a function
+    that can be pickled). With workers, use it in ``with``, or call :meth:`close`; they also end with the
+    object and with this process. ValueError or TypeError for arguments that don't fit.
+    """
+
+    def __init__(
+        self,
+        tracker: str = "fused",
+        *,
+        workers: int = 1,
+        on_lost: Callable[[int, Track], object] | None = None,
+        rig: StereoRig | None = None,
+        intrinsics: Intrinsics | None = None,
+        seed: int = 0,
+        kernels: kernel_sets.Name = "native",
+        **parameters: Any,
+    ) -> None:
+        self.tracker, self.on_lost = tracker, on_lost
+        self.workers = positive_whole(workers, "workers", "processes")
+        self.rig, self.intrinsics = validation.cameras(rig, intrinsics)
+        self.seed, self.kernels = seed, kernels
+        self._parameters = parameters
+        self._create(tracker, parameters)  # tells of wrong arguments now
+        self._tracks: dict[int, Track] = {}
+        self._last_id = 0
+        self._updates = 0
+        self._told: frozenset[str] = frozenset()  # what was warned of
+        self._targets = _targets(self.workers)
+
+    @property
+    def ids(self) -> tuple[int, ...]:
+        """The targets' ids, in the order in which they were added."""
+        return tuple(self._tracks)
+
+    @property
+    def tracks(self) -> dict[int, Track]:
+        """The newest track of each target by its id; of one that was just added its first."""
+        return dict(self._tracks)
+
+    def add(
+        self, frame: FrameLike, box: BoxLike | None = None, tracker: str | None = None, **parameters: Any
+    ) -> int:
+        """Follow one more target, which is at ``box`` in ``frame``; its id.
+
+        Ids count from 1 and are not used again. tracker: another kind than the default. parameters: of its
+        tracker; where it is of the default kind, beside the constructor's. Without ``box`` a tracker that
+        can looks for a target. ValueError as of the tracker's ``init``.
+        """
+        if tracker is None or tracker == self.tracker:
+            tracker, parameters = self.tracker, self._parameters | parameters
+        made = self._create(tracker, parameters)
+        shared = SharedFrame.of(as_frame(frame))
+        target = self._last_id + 1
+        with self._reporting_losses():
+            track = self._targets.add(target, made, shared, box)
+        self._last_id, self._tracks[target] = target, track
+        self._warn(shared)
+        return target
+
+    def remove(self, id: int) -> None:  # noqa: A002
+        """Follow a target no longer. ValueError for an id that isn't among :attr:`ids`."""
+        if id not in self._tracks:
+            raise ValueError(f"id: expected one of {', '.join(map(str, self.ids)) or 'no ids'}, got {id!r}")
+        with self._reporting_losses():
+            self._targets.remove(id)
+        del self._tracks[id]
+
+    def update(self, frame: FrameLike) -> dict[int, Track]:
+        """Follow all targets into the next frame; their tracks by their ids.
+
+        What trackers compute of the whole frame alike is computed once, and its warnings are given once. An
+        error of one target is raised, and leaves all of them as they were. Where a worker process was killed,
+        a RuntimeError tells which targets went with it; the others go on with the next frame.
+        """
+        shared = SharedFrame.of(as_frame(frame))
+        self._updates += 1
+        with self._reporting_losses():
+            try:
+                found = self._targets.update(self._updates, shared)
+                self._warn(shared)
+            except BaseException:
+                self._targets.undo(self._updates)
+                raise
+        before, self._tracks = self._tracks, {target: found[target] for target in self._tracks}
+        lost = [target for target, track in self._tracks.items() if _has_become_lost(before[target], track)]
+        found = self.tracks
+        if self.on_lost is not None:
+            for target in lost:
+                self.on_lost(target, found[target])
+        return found
+
+    def close(self) -> None:
+        """Follow no target any longer, and end the workers."""
+        self._targets.close()
+        self._tracks = {}
+
+    def __enter__(self) -> "MultiTracker":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __getstate__(self) -> dict[str, Any]:
+        with self._reporting_losses():
+            trackers = self._targets.copies()
+        return vars(self) | {"_tracks": self.tracks, "_targets": trackers}
+
+    def __setstate__(self, values: dict[str, Any]) -> None:
+        vars(self).update(values)
+        self._targets = _targets(self.workers)
+        for target, tracker in sorted(values["_targets"].items()):
+            self._targets.put(target, tracker)
+
+    def _create(self, kind: str, parameters: dict[str, Any]) -> Tracker:
+        """A tracker with the camera that it takes, if any."""
+        takes = traits(kind).camera
+        camera: dict[str, StereoRig | Intrinsics | None] = {}
+        if self.rig is not None and "rig" in takes:
+            camera["rig"] = self.rig
+        elif "intrinsics" in takes:
+            camera["intrinsics"] = self.rig.intrinsics if self.rig is not None else self.intrinsics
+        return create(kind, **{"seed": self.seed, "kernels": self.kernels, **camera, **parameters})
+
+    @contextmanager
+    def _reporting_losses(self) -> Iterator[None]:
+        """Where a worker has ended, forget its targets, and raise the error that tells of them."""
+        try:
+            yield
+        except WorkerEndedError as error:
+            left = self._targets.ids
+            lost = ", ".join(str(target) for target in self._tracks if target not in left)
+            self._tracks = {target: track for target, track in self._tracks.items() if target in left}
+            text = f"{error}; its targets {lost or '(none)'} are gone, the others are as they were"
+            raise WorkerEndedError(text) from None
+
+    def _warn(self, frame: SharedFrame) -> None:
+        """Show what the trackers warn of, once, at the line that called the caller."""
+        for message in frame.messages:
+            if message not in self._told:
+                self._told |= {message}
+                warnings.warn(message, UserWarning, stacklevel=3)
+
+
+def _targets(workers: int) -> "Targets | DistributedTargets":
+    if workers == 1:
+        return Targets()
+    from tricue.track.multi.distributed_targets import DistributedTargets  # and all that processes need
+
+    return DistributedTargets(workers)
+
+
+def _has_become_lost(before: Track, track: Track) -> bool:
+    return track.status is Status.LOST and before.status is not Status.LOST

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""A process that follows targets: the other end of ``RemoteTargets``."""
+
+import pickle
+import signal
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from typing import Any
+
+from tricue.camera.box import BoxLike
+from tricue.track.base.track import Track, Tracker
+from tricue.track.multi.frame_memory import FrameMemory, Layout
+from tricue.track.multi.messages import WAKE, PlainTracks, receive, send, to_plain
+from tricue.track.multi.targets import Targets
+
+MAX_POLLS = 1000  # some milliseconds
+
+
+class Worker:
+    """Answers requests, each named like its method."""
+
+    def __init__(self, memory: FrameMemory) -> None:
+        self._memory = memory
+        self._targets = Targets()
+        self.put, self.remove = self._targets.put, self._targets.remove
+        self.undo, self.copies = self._targets.undo, self._targets.copies
+
+    def add(
+        self, target: int, tracker: Tracker, layout: Layout, box: BoxLike | None
+    ) -> tuple[Track, list[str]]:
+        """The first track, and what was warned of."""
+        frame = self._memory.read(layout)
+        return self._targets.add(target, tracker, frame, box), frame.messages
+
+    def update(self, number: int, layout: Layout) -> tuple[PlainTracks, list[str]]:
+        """The tracks of all targets, and what was warned of."""
+        frame = self._memory.read(layout)
+        return to_plain(self._targets.update(number, frame)), frame.messages
+
+
+def run(connection_file: int, memory_file: int) -> None:
+    """Answer requests until the other end is closed, as it is when its process ends.
+
+    A request is its number, a method, and arguments; its answer the number, whether that succeeded, and what
+    came of it, an error where it didn't.
+    """
+    for number in signal.SIGINT, signal.SIGHUP:  # a terminal's, which are for the process that asks
+        signal.signal(number, signal.SIG_IGN)
+    connection, worker = Connection(connection_file), Worker(FrameMemory(memory_file))
+    with suppress(EOFError, OSError):
+        while True:
+            request, method, arguments = receive(connection)
+            if method == WAKE:
+                _stay_awake(connection)
+            else:
+                send(connection, (request, *_answer(worker, method, arguments)))
+
+
+def _stay_awake(connection: Connection) -> None:
+    """Wait without sleep for a message that comes once a frame is copied; to wake up would take as long."""
+    polls = 0
+    while polls < MAX_POLLS and not connection.poll():
+        polls += 1
+
+
+def _answer(worker: Worker, method: str, arguments: tuple[Any, ...]) -> tuple[bool, Any]:
+    try:
+        return True, getattr(worker, method)(*arguments)
+    except Exception as error:
+        return False, _portable(error)
+
+
+def _portable(error: Exception) -> Exception:
+    """The error, or a RuntimeError with its text where it can't be pickled, as some third party's."""
+    try:
+        pickle.loads(pickle.dumps(error))
+    except Exception:
+        return RuntimeError(f"{type(error).__name__}: {error}")
+    return error

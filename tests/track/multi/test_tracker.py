@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: MIT
+"""Several targets are followed as each would be alone, however many processes share them."""
+
+import copy
+import pickle
+import warnings
+from typing import Any
+
+import numpy as np
+import pytest
+from tricue import Frame, MultiTracker, Status, StereoRig, create
+from tricue.camera.rig import Intrinsics
+from tricue.errors import BoxError, MissingChannelError
+from tricue.kernels import load
+from tricue.scenes import overtaking
+from tricue.track.fused import frame_observation
+
+KINDS = ("fused", "color-particle", "fused", "color-particle")
+FUSED = ("fused",) * 4
+each_workers = pytest.mark.parametrize("workers", [1, 2, 3])
+
+
+def on(several: MultiTracker, frames: Any) -> list[Any]:
+    """The tracks of the frames that come next."""
+    return [several.update(frame) for frame in frames]
+
+
+@each_workers
+def test_each_target_is_followed_as_alone(workers, things, alone, started):
+    """Tracks are those of trackers that know nothing of each other, bit for bit, whatever the workers."""
+    with started(KINDS, workers=workers) as several:
+        assert on(several, things.frames[1:]) == alone(KINDS)
+
+
+@each_workers
+def test_kinds_get_the_camera_that_they_take(workers, rendered):
+    """With a rig, trackers of a stereo pair get it, one of depth its left camera, one of color none."""
+    scene = rendered(overtaking, 0, 8)
+    rig, box = scene.rig, scene.boxes[0]
+    kinds = {
+        "fused": {"rig": rig},
+        "flow-depth": {"rig": rig},
+        "stereo-head": {"rig": rig, "far": 20.0},
+        "color-particle": {},
+        "depth-particle": {"intrinsics": rig.intrinsics},
+    }
+    depth = Frame(depth=np.full(scene.frames[0].color.shape[:2], 4.0, np.float32)).depth
+    depth[20:100, 60:90] = 2.0
+    frames = [Frame(frame.color, depth, frame.right) for frame in scene.frames]
+    single = {kind: create(kind, **camera) for kind, camera in kinds.items()}
+    with MultiTracker(workers=workers, rig=rig) as several:
+        for kind, tracker in single.items():
+            parameters = {name: value for name, value in kinds[kind].items() if name == "far"}
+            number = several.add(frames[0], box, kind, **parameters)
+            assert several.tracks[number] == tracker.init(frames[0], box)
+        for frame in frames[1:]:
+            expected = [tracker.update(frame) for tracker in single.values()]
+            assert list(several.update(frame).values()) == expected
+
+
+def test_parameters_are_of_the_default_kind(things):
+    """Those of the constructor hold for it, those of add beside and before them; seed for all."""
+    frames, (box, *_) = things.frames, things.boxes
+    several = MultiTracker("color-particle", particles=50, skin_threshold=0.5, seed=3)
+    several.add(frames[0], box, particles=60)
+    several.add(frames[0], box, "fused", learn_every=1)
+    several.add(frames[0], box)
+    several.add(frames[0], box, "color-particle", seed=4)
+    single = [
+        create("color-particle", particles=60, skin_threshold=0.5, seed=3),
+        create("fused", learn_every=1),
+        create("color-particle", particles=50, skin_threshold=0.5, seed=3),
+        create("color-particle", particles=50, skin_threshold=0.5, seed=4),
+    ]
+    for tracker in single:
+        tracker.init(frames[0], box)
+    for frame in frames[1:4]:
+        assert list(several.update(frame).values()) == [tracker.update(frame) for tracker in single]
+
+
+def test_ids_are_not_used_again(things, started):
+    """They count from 1; one that was removed, or whose target didn't start, is no other target's."""
+    several = started(FUSED[:3])
+    assert several.ids == (1, 2, 3)
+    several.remove(2)
+    assert (several.ids, list(several.update(things.frames[1]))) == ((1, 3), [1, 3])
+    with pytest.raises(BoxError):
+        several.add(things.frames[1], (900, 900, 10, 10))
+    assert several.add(things.frames[1], things.boxes[1]) == 4
+    several.remove(4)
+    assert several.add(things.frames[1], things.boxes[1]) == 5
+    assert several.ids == tuple(several.tracks) == (1, 3, 5)
+    with pytest.raises(ValueError, match="id: expected one of 1, 3, 5, got 2"):
+        several.remove(2)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_removed_target_changes_no_other(workers, things, alone, started):
+    """The others are followed as if it had gone on."""
+    with started(KINDS, workers=workers) as several:
+        found = on(several, things.frames[1:4])
+        several.remove(2)
+        several.remove(3)
+        found += on(several, things.frames[4:])
+    expected = alone(KINDS)
+    assert found[:3] == expected[:3]
+    assert found[3:] == [{number: tracks[number] for number in (1, 4)} for tracks in expected[3:]]
+
+
+def test_without_targets_there_are_no_tracks(things):
+    """An update then gives none, and says what is wrong with a frame all the same."""
+    several = MultiTracker()
+    assert several.update(things.frames[0]) == {}
+    with pytest.raises(TypeError, match="frame: expected a BGR image"):
+        several.update(None)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("keywords", "error"),
+    [
+        ({"tracker": "fussed"}, "name: expected one of 'color-particle'"),
+        ({"workers": 0}, "workers: expected"),
+        ({"workers": 1.5}, "workers: expected a whole number"),
+        ({"learn_evry": 1}, "learn_evry: unknown parameter of FusedParams; did you mean learn_every"),
+        ({"rig": "a.toml"}, "rig: expected tricue.StereoRig, got str"),
+    ],
+)
+def test_wrong_arguments_are_told_at_once(keywords, error):
+    """Before any target is added."""
+    with pytest.raises((TypeError, ValueError), match=error):
+        MultiTracker(**keywords)
+
+
+def test_rig_and_intrinsics_are_one_camera():
+    """Both are an error, as of a tracker."""
+    camera = Intrinsics.from_fov(64, 48, 60)
+    with pytest.raises(TypeError, match="intrinsics: expected without rig"):
+        MultiTracker(rig=StereoRig(camera, 0.1), intrinsics=camera)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_lost_target_is_told_once(workers, things):
+    """on_lost is called when it becomes LOST, after the update, and once more when it is lost again."""
+    told: list[tuple[int, Status, Status]] = []
+    several = MultiTracker(workers=workers)
+    several.on_lost = lambda number, track: told.append((number, track.status, several.tracks[number].status))
+    black = Frame(np.zeros_like(things.frames[0].color))
+    with several:
+        for box in things.boxes[:2]:
+            several.add(things.frames[0], box)
+        on(several, things.frames[1:3])
+        assert told == []
+        on(several, 6 * [black])
+        assert told == [(1, Status.LOST, Status.LOST), (2, Status.LOST, Status.LOST)]
+        on(several, 4 * [things.frames[2]])
+        assert {track.status for track in several.tracks.values()} == {Status.TRACKED}
+        on(several, 6 * [black])
+        assert [number for number, *_ in told] == [1, 2, 1, 2]
+
+
+def test_on_lost_may_remove_targets(things):
+    """So a loop can drop a target where it is lost."""
+    several = MultiTracker()
+    several.on_lost = lambda number, _: several.remove(number)
+    for box in things.boxes[:2]:
+        several.add(things.frames[0], box)
+    on(several, 6 * [Frame(np.zeros_like(things.frames[0].color))])
+    assert several.ids == ()
+
+
+@each_workers
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_an_error_of_one_target_leaves_all(workers, place, things, alone):
+    """Wherever the target is that a frame is wrong for, the others haven't seen that frame either."""
+    depth = np.full(things.frames[0].color.shape[:2], 4.0, np.float32)
+    depth[20:80, 100:130] = 2.0
+    kinds = ["fused", "color-particle"]
+    kinds.insert(place, "depth-particle")
+    both = [Frame(frame.color, depth) for frame in things.frames]
+    with MultiTracker(workers=workers) as several, MultiTracker() as expected:
+        for kind, box in zip(kinds, things.boxes, strict=False):
+            start = (100, 20, 30, 60) if kind == "depth-particle" else box
+            several.add(both[0], start, kind)
+            expected.add(both[0], start, kind)
+        for frame in both[1:]:
+            with pytest.raises(MissingChannelError, match="expected the channel depth") as error:
+                several.update(Frame(frame.color))
+            assert error.value.channel == "depth"
+            assert several.update(frame) == expected.update(frame)
+
+
+class Interrupting:
+    """Kernels of which each raises KeyboardInterrupt."""
+
+    def __getattr__(self, name: str) -> Any:
+        raise KeyboardInterrupt
+
+
+def test_ctrl_c_leaves_all(things, alone, started):
+    """It comes while this process's own target is followed; those of the worker go back with it."""
+    with started(KINDS, workers=2) as several:
+        assert on(several, things.frames[1:3]) == alone(KINDS)[:2]
+        tracker = several._targets._here._trackers[1]
+        tracker._k = Interrupting()
+        with pytest.raises(KeyboardInterrupt):
+            several.update(things.frames[5])
+        tracker._k = load("native")
+        assert on(several, things.frames[3:]) == alone(KINDS)[2:]
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize(
+    "copied",
+    [copy.copy, copy.deepcopy, lambda several: pickle.loads(pickle.dumps(several))],
+    ids=["copy", "deepcopy", "pickle"],
+)
+def test_copies_are_independent(workers, copied, things, alone, started):
+    """A copy goes on by itself, with the same ids, also to a new target; its original notices nothing."""
+    expected = alone(KINDS)
+    with started(KINDS, workers=workers) as several:
+        assert on(several, things.frames[1:4]) == expected[:3]
+        with copied(several) as other:
+            assert on(other, things.frames[4:]) == expected[3:]
+            other.remove(1)
+            assert other.add(things.frames[0], things.boxes[0]) == 5
+        assert on(several, things.frames[4:]) == expected[3:]
+        assert several.ids == (1, 2, 3, 4)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_warning_is_given_once(workers, things):
+    """Depth in millimeters is told of once for all targets, at the caller's line, and not again later."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        millimeters = Frame(things.frames[0].color, np.full((160, 240), 2000, np.float32))
+    with MultiTracker(workers=workers) as several:
+        for box in things.boxes:
+            several.add(things.frames[0], box)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            on(several, 3 * [millimeters])
+        assert [str(each.message)[:28] for each in told] == ["frame.depth: expected meters"]
+        assert told[0].filename == __file__
+
+
+def test_a_warning_as_an_error_leaves_all(things, alone, started):
+    """With warnings turned into errors the update fails as a whole."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        millimeters = Frame(things.frames[0].color, np.full((160, 240), 2000, np.float32))
+    several = started(FUSED)
+    with pytest.raises(UserWarning, match="expected meters"):
+        several.update(millimeters)
+    assert on(several, things.frames[1:]) == alone(FUSED)
+
+
+def test_what_is_alike_is_computed_once(things, started, monkeypatch):
+    """Gray becomes BGR once a frame, not once a target; a tracker of another camera sees another frame."""
+    gray = [Frame(np.ascontiguousarray(frame.color[..., 1])) for frame in things.frames]
+    calls = []
+    bgr = frame_observation._bgr
+    monkeypatch.setattr(frame_observation, "_bgr", lambda image: calls.append(image) or bgr(image))
+    several = started(FUSED)
+    for frame in gray[1:4]:
+        several.update(frame)
+    assert len(calls) == 3 + len(FUSED)  # those are of the starts
+    several.add(gray[0], things.boxes[0], intrinsics=Intrinsics.from_fov(240, 160, 50))
+    calls.clear()
+    several.update(gray[4])
+    assert len(calls) == 2

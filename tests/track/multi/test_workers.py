@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: MIT
+"""Worker processes: what starts and what ends them, and what happens where one is killed."""
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+import time
+import weakref
+from pathlib import Path
+
+import pytest
+from tricue import MultiTracker
+from tricue.errors import WorkerEndedError
+from tricue.track.multi.worker import _portable
+
+FUSED = ("fused",) * 4
+PATIENCE = 20.0  # seconds
+
+
+def process_of(several: MultiTracker) -> int:
+    """The worker's."""
+    return several._targets._workers[0]._process.pid
+
+
+def is_running(process: int) -> bool:
+    """Whether it is there, and no mere entry of an ended one."""
+    try:
+        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def open_files() -> int:
+    """How many this process has."""
+    return sum(1 for _ in Path("/proc/self/fd").iterdir())
+
+
+def ends(process: int) -> bool:
+    """Whether it ends in time."""
+    end = time.monotonic() + PATIENCE
+    while is_running(process) and time.monotonic() < end:
+        time.sleep(0.02)
+    return not is_running(process)
+
+
+def test_no_file_stays_open(started):
+    """Neither a closed object's, nor one's that nobody closed."""
+    before = open_files()
+    with started(FUSED, workers=3):
+        assert open_files() > before
+    several = started(FUSED[:2], workers=2)
+    del several
+    gc.collect()
+    assert open_files() == before
+
+
+def test_one_worker_is_this_process(started):
+    """Without workers nothing is started."""
+    assert not hasattr(started(FUSED)._targets, "_workers")
+
+
+def test_workers_share_the_targets(started):
+    """Each process has as many as the others, or one more."""
+    with started(FUSED, workers=3) as several:
+        targets = several._targets
+        assert [len(each.ids) for each in targets._parts] == [2, 1, 1]
+        assert len({process_of(several), os.getpid(), targets._workers[1]._process.pid}) == 3
+
+
+def test_closing_ends_them(started, things):
+    """``with`` and close end the workers; a target can be added afterwards."""
+    with started(FUSED, workers=2) as several:
+        process = process_of(several)
+        assert is_running(process)
+    assert ends(process)
+    assert (several.ids, several.update(things.frames[1])) == ((), {})
+    assert several.add(things.frames[1], things.boxes[0]) == 5
+    several.close()
+    several.close()
+
+
+def test_they_end_with_the_object(started):
+    """One that nobody closed takes its workers with it."""
+    several = started(FUSED, workers=2)
+    process, gone = process_of(several), weakref.ref(several)
+    del several
+    gc.collect()
+    assert gone() is None
+    assert ends(process)
+
+
+SCRIPT = """
+import sys, time
+import numpy as np
+import tricue
+frame = np.random.default_rng(0).integers(0, 256, (120, 160, 3), np.uint8)
+several = tricue.MultiTracker(workers=2)
+for x in (20, 60, 100):
+    several.add(frame, (x, 30, 24, 32))
+tracks = several.update(frame)
+print(several._targets._workers[0]._process.pid, *(track.status for track in tracks.values()), flush=True)
+"""
+
+
+def test_a_script_needs_no_guard(tmp_path):
+    """A script without ``if __name__ == "__main__"`` runs once, and its workers are gone when it is."""
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT)
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
+    process, *statuses = done.stdout.split()
+    assert statuses == ["tracked"] * 3
+    assert done.stderr == ""
+    assert ends(int(process))
+
+
+def test_they_end_when_the_process_is_killed(tmp_path):
+    """Also where it couldn't say good-bye."""
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT + "time.sleep(60)\n")
+    with subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        process = int(parent.stdout.readline().split()[0])
+        assert is_running(process)
+        parent.kill()
+    assert ends(process)
+
+
+def test_ctrl_c_of_a_terminal_is_not_for_them(started, things, alone):
+    """A signal that the terminal sends to all its processes doesn't end them."""
+    with started(FUSED, workers=2) as several:
+        for number in signal.SIGINT, signal.SIGHUP:
+            os.kill(process_of(several), number)
+        assert [several.update(frame) for frame in things.frames[1:]] == alone(FUSED)
+
+
+def test_a_killed_worker_is_one_clear_error(started, things, alone):
+    """It names its targets; the others go on with that frame, and a new one gets a new worker."""
+    expected = alone(FUSED)
+    with started(FUSED, workers=2) as several:
+        assert several.update(things.frames[1]) == expected[0]
+        killed = process_of(several)
+        os.kill(killed, signal.SIGKILL)
+        assert ends(killed)
+        message = (
+            r"a worker process ended by signal 9; its targets 2, 4 are gone, the others are as they were"
+        )
+        with pytest.raises(WorkerEndedError, match=message):
+            several.update(things.frames[2])
+        assert several.ids == (1, 3)
+        assert several.update(things.frames[2]) == {number: expected[1][number] for number in (1, 3)}
+        assert several.add(things.frames[0], things.boxes[1]) == 5
+        assert process_of(several) != killed
+        assert list(several.update(things.frames[3])) == [1, 3, 5]
+
+
+def test_a_worker_that_is_killed_during_an_update(started, things, alone):
+    """The target of this process, which had gone on, goes back."""
+    expected = alone(FUSED)
+    with started(FUSED, workers=2) as several:
+        worker = several._targets._workers[0]
+        os.kill(process_of(several), signal.SIGSTOP)  # it doesn't answer
+        finish = worker.finish_update
+
+        def finish_later(frame):
+            os.kill(process_of(several), signal.SIGKILL)
+            return finish(frame)
+
+        worker.finish_update = finish_later
+        with pytest.raises(WorkerEndedError, match="its targets 2, 4 are gone"):
+            several.update(things.frames[5])
+        assert several.update(things.frames[1]) == {number: expected[0][number] for number in (1, 3)}
+
+
+def test_a_fork_is_told_to_copy(started, things):
+    """A process that was forked can't talk to the workers, and says so in place of disturbing them."""
+    with started(FUSED, workers=2) as several:
+        child = os.fork()
+        if child == 0:
+            try:
+                several.update(things.frames[1])
+            except RuntimeError as error:
+                os._exit(7 if "process that made them" in str(error) else 1)
+            os._exit(2)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+        assert list(several.update(things.frames[1])) == [1, 2, 3, 4]
+
+
+class Odd(Exception):  # noqa: N818 (a third party's)
+    def __init__(self, a: int, b: int) -> None:
+        super().__init__(f"{a} and {b}")
+
+
+def test_errors_that_can_not_be_pickled_are_told():
+    """A third party's may need more to be made again than it says."""
+    error = _portable(Odd(1, 2))
+    assert type(error) is RuntimeError
+    assert str(error) == "Odd: 1 and 2"
+    assert str(_portable(ValueError("x"))) == "x"

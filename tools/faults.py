@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: MIT
+"""What ``tricue track`` does when something goes wrong, tried: ``python tools/faults.py`` writes docs/reliability.md.
+
+Each fault happens to a process of its own in a temporary folder; its exit code, its last message, and what is left
+of its files are what the page's table says. ``--check`` runs all and fails where a line differs.
+"""
+
+import csv
+import functools
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from tricue.draw.video import OverlayWriter
+
+PAGE = Path(__file__).parents[1] / "docs" / "reliability.md"
+FRAMES, SIZE = 150, (320, 240)
+LONG = 1000  # frames, so that a signal comes in the middle
+SECONDS = 120.0
+TRACK = [sys.executable, "-m", "tricue", "track"]
+START = ["--box", "60,60,60,60"]
+
+
+class Result(NamedTuple):
+    """Exit code, negative for the signal that ended the process; the last message; what is left."""
+
+    code: int
+    message: str
+    kept: str
+
+
+class Fault(NamedTuple):
+    """A line of the table."""
+
+    name: str
+    happen: Callable[[Path], Result]
+
+
+def square(index: int) -> np.ndarray:
+    """A textured square that wanders over noise, BGR."""
+    random = np.random.default_rng(0)
+    picture = random.integers(0, 90, (SIZE[1], SIZE[0], 3), np.uint8)
+    texture = random.integers(90, 255, (60, 60, 3), np.uint8)
+    left = 60 + int(30 * np.sin(index / 10))
+    picture[60:120, left : left + 60] = texture
+    return picture
+
+
+@functools.cache
+def encoded(suffix: str, frames: int) -> bytes:
+    """The bytes of a video of the square."""
+    with tempfile.TemporaryDirectory() as folder, OverlayWriter(f"{folder}/v{suffix}", 30.0) as writer:
+        for index in range(frames):
+            writer.write(square(index))
+        writer.close()
+        return writer.path.read_bytes()
+
+
+def write_video(path: Path, frames: int = FRAMES) -> Path:
+    """A video of the square."""
+    path.write_bytes(encoded(path.suffix, frames))
+    return path
+
+
+def write_images(folder: Path, frames: int = 20) -> Path:
+    """A folder of images of the square."""
+    folder.mkdir()
+    for index in range(frames):
+        cv2.imwrite(str(folder / f"{index:04d}.png"), square(index))
+    return folder
+
+
+def outputs(folder: Path) -> list[str]:
+    """Options for all outputs into a folder."""
+    files = {"--csv": "o.csv", "--json": "o.json", "--output": "o.mp4"}
+    return [word for option, name in files.items() for word in (option, str(folder / name))]
+
+
+def run(words: list[str], folder: Path, limit: str = "") -> Result:
+    """Run a command to its end; ``limit`` is what ulimit gets."""
+    command = ["sh", "-c", f'ulimit {limit}; exec "$@"', "sh", *words] if limit else words
+    done = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS, check=False, cwd=folder)
+    return Result(done.returncode, last_line(done.stderr or done.stdout, folder), left_in(folder))
+
+
+def interrupt(words: list[str], folder: Path, number: signal.Signals) -> Result:
+    """Send a signal once the video has some bytes."""
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
+    deadline = time.monotonic() + SECONDS
+    while process.poll() is None and time.monotonic() < deadline and written(folder) < 20:
+        time.sleep(0.02)
+    process.send_signal(number)
+    out, error = process.communicate(timeout=SECONDS)
+    return Result(process.returncode, last_line(error or out, folder), left_in(folder))
+
+
+def written(folder: Path) -> int:
+    """Bytes of the video so far, in units of 4 KB."""
+    videos = [*folder.glob("o.mp4"), *folder.glob("o.webm")]
+    return sum(video.stat().st_size for video in videos) // 4096
+
+
+def last_line(text: str, folder: Path) -> str:
+    """The last line without the folder's name."""
+    lines = [line for line in text.strip().splitlines() if not line.startswith("wrote ")]
+    return lines[-1].replace(f"{folder}/", "").replace("|", "/") if lines else ""
+
+
+def left_in(folder: Path) -> str:
+    """What can be read of the outputs."""
+    found = []
+    for path in sorted(folder.glob("o.*")):
+        found.append(f"{path.suffix[1:]}: {READERS[path.suffix](path)}")
+    return ", ".join(found) or "nothing written"
+
+
+def _csv_rows(path: Path) -> str:
+    with path.open(newline="") as file:
+        rows = list(csv.reader(file))
+    return f"{max(len(rows) - 1, 0)} rows"
+
+
+def _json_tracks(path: Path) -> str:
+    try:
+        return f"{len(json.loads(path.read_text())['tracks'])} tracks"
+    except ValueError:
+        return "cut off"
+
+
+def _video_frames(path: Path) -> str:
+    if not path.stat().st_size:
+        return "empty"
+    capture = cv2.VideoCapture(str(path))
+    count = 0
+    while capture.grab():
+        count += 1
+    return f"{count} frames" if count else "no frame"
+
+
+READERS: dict[str, Callable[[Path], str]] = {
+    ".csv": _csv_rows,
+    ".json": _json_tracks,
+    ".mp4": _video_frames,
+    ".webm": _video_frames,
+}
+
+
+def interrupted(number: signal.Signals) -> Callable[[Path], Result]:
+    """A signal in the middle of a run."""
+
+    def happen(folder: Path) -> Result:
+        video = write_video(folder / "in.mp4", LONG)
+        return interrupt([*TRACK, str(video), *START, *outputs(folder)], folder, number)
+
+    return happen
+
+
+def full_disk(folder: Path) -> Result:
+    """No file may grow beyond 20 blocks of 512 bytes."""
+    video = write_video(folder / "in.mp4")
+    return run([*TRACK, str(video), *START, *outputs(folder)], folder, "-f 20")
+
+
+def unwritable(folder: Path) -> Result:
+    """An output in a folder that is a file."""
+    video = write_video(folder / "in.mp4")
+    (folder / "file").touch()
+    return run([*TRACK, str(video), *START, "--csv", str(folder / "file" / "o.csv")], folder)
+
+
+def vanishing(folder: Path) -> Result:
+    """The folder of the outputs is removed in the middle of the run."""
+    video, out = write_video(folder / "in.mp4", LONG), folder / "out"
+    out.mkdir()
+    words = [*TRACK, str(video), *START, "--csv", str(out / "o.csv"), "--output", str(out / "o.mp4")]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + SECONDS
+    while process.poll() is None and time.monotonic() < deadline and written(out) < 2:
+        time.sleep(0.02)
+    for path in out.iterdir():
+        path.unlink()
+    out.rmdir()
+    printed, error = process.communicate(timeout=SECONDS)
+    return Result(process.returncode, last_line(error or printed, folder), left_in(folder))
+
+
+def closed_pipe(folder: Path) -> Result:
+    """Whoever reads the CSV from stdout stops reading."""
+    video = write_video(folder / "in.mp4")
+    words = [*TRACK, str(video), *START, "--csv", "/dev/stdout"]
+    process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
+    assert process.stdout
+    process.stdout.readline()
+    process.stdout.close()
+    assert process.stderr
+    error = process.stderr.read()
+    return Result(process.wait(timeout=SECONDS), last_line(error, folder), left_in(folder))
+
+
+def truncated(folder: Path) -> Result:
+    """The second half of the input is missing."""
+    video = write_video(folder / "in.mkv")
+    video.write_bytes(video.read_bytes()[: video.stat().st_size // 2])
+    return run([*TRACK, str(video), *START, *outputs(folder)], folder)
+
+
+def corrupt_frame(folder: Path) -> Result:
+    """One of the images is no image."""
+    images = write_images(folder / "in")
+    (images / "0010.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(100))
+    return run([*TRACK, str(images), *START, *outputs(folder)], folder)
+
+
+def other_size(folder: Path) -> Result:
+    """From the middle on images have another size."""
+    images = write_images(folder / "in")
+    for index in range(10, 20):
+        cv2.imwrite(str(images / f"{index:04d}.png"), cv2.resize(square(index), (200, 160)))
+    return run([*TRACK, str(images), *START, *outputs(folder)], folder)
+
+
+def jumping_clock(folder: Path) -> Result:
+    """Time stamps go back by an hour, stand still, and jump on by a day: a track a frame, none NaN."""
+    code = (
+        "import numpy as np, tricue\n"
+        "from tools.faults import square\n"
+        "tracker = tricue.FusedTracker()\n"
+        "times = [0, .03, .06, -3600, -3600, -3599.97, 86400, 86400.03]\n"
+        "tracks = [tracker.init(tricue.Frame(square(0), timestamp=0), (60, 60, 60, 60))]\n"
+        "tracks += [tracker.update(tricue.Frame(square(i), timestamp=t)) for i, t in enumerate(times[1:], 1)]\n"
+        "assert np.isfinite([track.box for track in tracks]).all()\n"
+        "print(f'{sum(str(t.status) == \"tracked\" for t in tracks)} of {len(tracks)} frames tracked')\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(PAGE.parents[1]), *sys.path[1:]])}
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment
+    )
+    return Result(done.returncode, last_line(done.stderr or done.stdout, folder), "-")
+
+
+def killed_worker(folder: Path) -> Result:
+    """One of two processes of ``tricue evaluate`` gets kill -9 in its first run."""
+    tracker = folder / "fragile.py"
+    tracker.write_text(
+        "import os, pathlib, signal\n"
+        "import tricue\n"
+        "class Fragile(tricue.ColorParticleTracker):\n"
+        "    def update(self, frame):\n"
+        "        if not pathlib.Path('killed').exists():\n"
+        "            pathlib.Path('killed').touch()\n"
+        "            os.kill(os.getpid(), signal.SIGKILL)\n"
+        "        return super().update(frame)\n"
+    )
+    for name in ("one", "two", "three"):
+        (folder / "set" / name).mkdir(parents=True)
+        write_images(folder / "set" / name / "img")
+        (folder / "set" / name / "groundtruth_rect.txt").write_text("61,61,60,60\n" * 20)
+    words = [
+        sys.executable,
+        "-m",
+        "tricue",
+        "evaluate",
+        "set",
+        "--trackers",
+        "fragile:Fragile",
+        "--jobs",
+        "2",
+    ]
+    done = subprocess.run(
+        [*words, "--output", "results", "--no-restarts"],
+        capture_output=True,
+        text=True,
+        timeout=SECONDS,
+        check=False,
+        cwd=folder,
+    )
+    runs = len(list((folder / "results").rglob("*.json")))
+    return Result(done.returncode, last_line(done.stderr or done.stdout, folder), f"{runs} runs of 3")
+
+
+FAULTS = [
+    Fault("full disk", full_disk),
+    Fault("output that can't be written", unwritable),
+    Fault("output folder removed while it runs", vanishing),
+    Fault("Ctrl-C (SIGINT)", interrupted(signal.SIGINT)),
+    Fault("SIGTERM", interrupted(signal.SIGTERM)),
+    Fault("closed terminal (SIGHUP)", interrupted(signal.SIGHUP)),
+    Fault("kill -9", interrupted(signal.SIGKILL)),
+    Fault("closed pipe", closed_pipe),
+    Fault("killed worker of an evaluation", killed_worker),
+    Fault("truncated video", truncated),
+    Fault("corrupt image in a folder", corrupt_frame),
+    Fault("frames that change their size", other_size),
+    Fault("clock that jumps", jumping_clock),
+]
+
+
+def main() -> int:
+    """Try all faults, and write or check the page."""
+    for fault in FAULTS:
+        with tempfile.TemporaryDirectory() as folder:
+            print(fault.name, fault.happen(Path(folder)))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
