@@ -8,22 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.cli.outputs import Step, create_file, naming
+from tricue.cli.outputs import Step
+from tricue.cli.text_file import TextFile
 from tricue.track.base.track import Status, Track
 
 NO_POSITION = (-1, -1, -1)
 
 
-class MotOutput:
+class MotOutput(TextFile):
     """MOTChallenge's text: frame, id, left, top, width, height, confidence, x, y, z in a line per target.
 
     Frames, ids and pixels count from 1. x, y, z are meters in the world, in the camera's frame where that has
     no pose, and -1 where nothing was measured. A target that is LOST has no line.
     """
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._file = create_file(path)
 
     def write(self, step: Step) -> None:
         for target, track in step.targets.items():
@@ -32,18 +29,10 @@ class MotOutput:
             x, y, width, height = track.box
             numbers = [x + 1, y + 1, width, height, track.score, *_place(track)]
             values = [str(step.number + 1), str(target), *(f"{number:.6g}" for number in numbers)]
-            with naming(self.path):
-                self._file.write(",".join(values) + "\n")
-
-    def __enter__(self) -> "MotOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        with naming(self.path):
-            self._file.close()
+            self.put(",".join(values) + "\n")
 
 
-class CocoOutput:
+class CocoOutput(TextFile):
     """COCO's JSON with what TAO and CocoVID add: videos, tracks, and in each annotation its track.
 
     Images have the names that ``ffmpeg -i VIDEO %06d.jpg`` gives, ids from 1, and frame_index and frame_id
@@ -52,11 +41,10 @@ class CocoOutput:
     """
 
     def __init__(self, path: Path, video: str, fps: float) -> None:
-        self.path = path
+        super().__init__(path)
         self._video: dict[str, Any] = {"id": 1, "name": video, "fps": fps}
         self._images: list[dict[str, Any]] = []
         self._annotations: list[dict[str, Any]] = []
-        self._file = create_file(path)
 
     def write(self, step: Step) -> None:
         image = step.frame.depth if step.frame.color is None else step.frame.color
@@ -86,10 +74,7 @@ class CocoOutput:
             "occluded": track.status is Status.OCCLUDED,
         }
 
-    def __enter__(self) -> "CocoOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
-        return self
-
-    def __exit__(self, *_: object) -> None:
+    def finish(self) -> None:
         targets = sorted({each["track_id"] for each in self._annotations})
         content = {
             "info": {"description": "tracks by tricue"},
@@ -100,10 +85,7 @@ class CocoOutput:
             "annotations": self._annotations,
             "categories": [{"id": 1, "name": "target", "supercategory": "target"}],
         }
-        with naming(self.path):
-            json.dump(content, self._file, allow_nan=False)
-            self._file.write("\n")
-            self._file.close()
+        self.put(json.dumps(content, allow_nan=False) + "\n")
 
 
 def _place(track: Track) -> "NDArray[np.float64] | tuple[int, int, int]":

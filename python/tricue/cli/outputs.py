@@ -2,9 +2,10 @@
 """Outputs of a run, written frame by frame: CSV, JSON, overlay video. A file is complete once closed."""
 
 import csv
+import io
 import json
-from collections.abc import Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol
 
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
+from tricue.cli.text_file import TextFile
 from tricue.draw.canvas import Image
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
@@ -61,6 +63,9 @@ class Output(AbstractContextManager[Any], Protocol):
     @property
     def path(self) -> Path: ...
 
+    @property
+    def about(self) -> str: ...
+
     def write(self, step: Step) -> None: ...
 
 
@@ -99,59 +104,45 @@ def _triangle(covariance: NDArray[np.float64] | None) -> list[float | None]:
     return [float(f"{value:.6g}") for value in covariance[np.triu_indices(3)]]
 
 
-class CsvOutput:
+class CsvOutput(TextFile):
     """A header and a line per frame and target; absent values are empty. world, several: see ``columns``."""
 
     def __init__(self, path: Path, world: bool = False, several: bool = False) -> None:
-        self.path = path
+        super().__init__(path)
         self._world, self._several = world, several
-        self._file = create_file(path)
-        self._writer = csv.writer(self._file, lineterminator="\n")
-        with naming(path):
-            self._writer.writerow(columns(world, several))
+        self._put_rows([columns(world, several)])
 
     def write(self, step: Step) -> None:
-        with naming(self.path):
-            self._writer.writerows(rows(step, self._world, self._several))
+        self._put_rows(rows(step, self._world, self._several))
 
-    def __enter__(self) -> "CsvOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        with naming(self.path):
-            self._file.close()
+    def _put_rows(self, lines: Iterable[Iterable[Any]]) -> None:
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(lines)
+        self.put(text.getvalue())
 
 
-class JsonOutput:
+class JsonOutput(TextFile):
     """One object: the entries of ``about``, and "tracks", a list of objects with the columns as keys.
 
     world, several: see ``columns``.
     """
 
     def __init__(self, path: Path, about: dict[str, Any], world: bool = False, several: bool = False) -> None:
-        self.path = path
+        super().__init__(path)
         self._world, self._several = world, several
         head = json.dumps(about, indent=1, allow_nan=False)
-        self._file = create_file(path)
-        with naming(path):
-            self._file.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        self.put(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
     def write(self, step: Step) -> None:
         names = columns(self._world, self._several)
         for row in rows(step, self._world, self._several):
             values = dict(zip(names, row, strict=True))
-            with naming(self.path):
-                self._file.write(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+            self.put(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
             self._separator = ",\n"
 
-    def __enter__(self) -> "JsonOutput":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        with naming(self.path):
-            self._file.write("\n ]\n}\n")
-            self._file.close()
+    def finish(self) -> None:
+        self.put("\n ]\n}\n")
 
 
 class VideoOutput:
@@ -171,6 +162,11 @@ class VideoOutput:
     @property
     def path(self) -> Path:
         return self._writer.path
+
+    @property
+    def about(self) -> str:
+        """The file's name, and what is to be said of it."""
+        return self._writer.about
 
     def write(self, step: Step) -> None:
         speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
@@ -218,20 +214,3 @@ class VideoOutput:
 
     def __exit__(self, *_: object) -> None:
         self._writer.close()
-
-
-@contextmanager
-def naming(path: Path) -> Iterator[None]:
-    """Name the file in an error of writing, such as that of a full disk; Python names only what it opens."""
-    try:
-        yield
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        raise OSError(error.errno, error.strerror, str(path)) from None
-
-
-def create_file(path: Path) -> Any:
-    """A new text file, and its folder where there is none."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    return path.open("w", encoding="utf-8", newline="")

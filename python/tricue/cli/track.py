@@ -89,7 +89,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     _add_stereo(command)
     _add_depth(command)
-    command.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
+    command.add_argument(
+        "--output", type=Path, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
+    )
     command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
     command.add_argument(
         "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
@@ -189,7 +191,7 @@ def run(options: argparse.Namespace) -> int:
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
     _report(run.source, clock, tracks, interrupted)
-    notes += [f"wrote {output.path}" for output in outputs]
+    notes += [f"wrote {output.about}" for output in outputs]
     if options.plot:
         notes.append(_plot(options.plot, run, tracks.get(1, {})))
     for note in notes:

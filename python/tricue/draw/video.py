@@ -73,6 +73,8 @@ class OverlayWriter:
 
     def _check_whole(self) -> None:
         """OSError where frames are missing from the file: OpenCV doesn't tell a full disk."""
+        if not self.path.exists():
+            raise OSError(f"{self.path}: was removed while it was written")
         found = count_frames(self.path)
         if found < self._written:
             raise OSError(
