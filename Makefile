@@ -25,7 +25,7 @@ setup: $(VENV)/dev
 bench: $(VENV)/dev
 	$(BIN)/python -m pytest benchmarks --benchmark-group-by=group --benchmark-columns=min,median,rounds \
 	    --benchmark-json=build/benchmarks.json
-	$(BIN)/python benchmarks/report.py build/benchmarks.json
+	$(BIN)/python -m benchmarks.report build/benchmarks.json
 
 lint: $(VENV)/dev
 	$(BIN)/ruff check

@@ -4,9 +4,9 @@
 python -m benchmarks.endurance [--updates 1000000] [--trackers NAME...]
 python -m benchmarks.endurance --large
 
-Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in a process of its own. The
-memory is printed after each power of ten and at the end; it is to stay. --large: one initialization and
-some updates on 7680x4320 pixels, and the most memory that they took beside the frames.
+Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in a process of its own.
+The memory is printed after each power of ten and at the end; it is to stay. --large: one initialization and some
+updates on 7680x4320 pixels, and the most memory that they took beside the frames.
 """
 
 import argparse
@@ -64,15 +64,15 @@ def endure(case: Case, updates: int) -> Iterator[str]:
 
 def measure_large(case: Case) -> Iterator[str]:
     """Start and update on one large frame; its line of the table."""
-    frame = embedded(case.frames[0], LARGE)
-    images = [image for image in (frame.color, frame.depth, frame.right) if image is not None]
+    frames = [embedded(frame, LARGE) for frame in case.frames[:2]]
+    images = [image for image in (frames[0].color, frames[0].depth, frames[0].right) if image is not None]
     tracker = case.make(LARGE)
     forget_peak()
     before = resident_megabytes()
-    tracker.init(frame, case.box(0, LARGE))
+    tracker.init(frames[0], case.box(0, LARGE))
     start = time.perf_counter()
-    for _ in range(LARGE_UPDATES):
-        track = tracker.update(frame)
+    for i in range(1, LARGE_UPDATES + 1):
+        track = tracker.update(frames[i % 2])
     milliseconds = 1e3 * (time.perf_counter() - start) / LARGE_UPDATES
     megabytes = sum(image.nbytes for image in images) / 1e6
     cells = f"{megabytes:.0f} | {peak_megabytes() - before:.0f} | {milliseconds:.1f}"
