@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""A frame and samples of typical size, made before any clock starts; OpenCV on one thread; the machine's limits
-beside the times.
+"""A frame and samples of typical size, made before any clock starts; OpenCV on one thread; the machine's
+limits beside the times.
 """
 
 from collections.abc import Iterator

@@ -5,8 +5,8 @@ python -m benchmarks.endurance [--updates 1000000] [--trackers NAME...]
 python -m benchmarks.endurance --large
 
 Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in a process of its own.
-The memory is printed after each power of ten and at the end; it is to stay. --large: one initialization and some
-updates on 7680x4320 pixels, and the most memory that they took beside the frames.
+The memory is printed after each power of ten and at the end; it is to stay. --large: an initialization and
+some updates on 7680x4320 pixels, and the most memory that each took beside the frames.
 """
 
 import argparse
@@ -27,8 +27,8 @@ HEAD = """\
 | tracker | updates | resident MB | seconds | status |
 | --- | --- | --- | --- | --- |"""
 LARGE_HEAD = """\
-| tracker | frame, MB | most memory beside it, MB | ms per update | status |
-| --- | --- | --- | --- | --- |"""
+| tracker | frame, MB | init, MB more | updates, MB more | ms per update | status |
+| --- | --- | --- | --- | --- | --- |"""
 
 
 def resident_megabytes() -> float:
@@ -64,18 +64,20 @@ def endure(case: Case, updates: int) -> Iterator[str]:
 
 def measure_large(case: Case) -> Iterator[str]:
     """Start and update on one large frame; its line of the table."""
-    frames = [embedded(frame, LARGE) for frame in case.frames[:2]]
+    frames = [embedded(frame, LARGE, index) for index, frame in enumerate(case.frames[:2])]
     images = [image for image in (frames[0].color, frames[0].depth, frames[0].right) if image is not None]
     tracker = case.make(LARGE)
     forget_peak()
     before = resident_megabytes()
     tracker.init(frames[0], case.box(0, LARGE))
+    first = peak_megabytes()
+    forget_peak()
     start = time.perf_counter()
     for i in range(1, LARGE_UPDATES + 1):
         track = tracker.update(frames[i % 2])
     milliseconds = 1e3 * (time.perf_counter() - start) / LARGE_UPDATES
     megabytes = sum(image.nbytes for image in images) / 1e6
-    cells = f"{megabytes:.0f} | {peak_megabytes() - before:.0f} | {milliseconds:.1f}"
+    cells = f"{megabytes:.0f} | {first - before:.0f} | {peak_megabytes() - before:.0f} | {milliseconds:.1f}"
     yield f"| {case.name} | {cells} | {track.status.name} |"
 
 

@@ -75,7 +75,7 @@ class Case:
 
     def at(self, size: Size) -> list[Frame]:
         """The frames in the middle of larger ones."""
-        return [embedded(frame, size) for frame in self.frames]
+        return [embedded(frame, size, index) for index, frame in enumerate(self.frames)]
 
 
 def margins(small: Size, size: Size) -> tuple[int, int]:
@@ -102,14 +102,18 @@ def surround(size: Size, channel: str) -> NDArray[Any]:
     return np.tile(tile, times)[: size[1], : size[0]]
 
 
-def embedded(frame: Frame, size: Size) -> Frame:
-    """A frame of the size with the small one in its middle."""
+def embedded(frame: Frame, size: Size, index: int) -> Frame:
+    """A frame of the size with the small one in its middle. Depths around it are others in each, as a sensor's
+    are: the fused tracker looks closely at those that stay the same.
+    """
     channels = {}
     for channel in ("color", "depth", "right"):
         image = getattr(frame, channel)
         if image is not None:
             whole = surround(size, channel).copy()
             whole = whole if image.ndim == whole.ndim else whole[..., 0].copy()
+            if channel == "depth":
+                whole += np.float32(0.001 * index)
             height, width = image.shape[:2]
             left, top = margins((width, height), size)
             whole[top : top + height, left : left + width] = image

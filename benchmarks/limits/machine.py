@@ -55,7 +55,7 @@ def best_rate(probes: ctypes.CDLL, kind: str, *arguments: ctypes.c_size_t) -> fl
 
 
 def bandwidth(size: float, limits: Limits) -> float:
-    """Bytes per second of data of this size. No memory is faster than a smaller one, whatever was measured."""
+    """Bytes per second of data of this size: no larger memory is faster, whatever was measured."""
     rates = np.maximum.accumulate(np.asarray(limits["bytes"])[::-1])[::-1]
     return float(np.interp(math.log(size), np.log(SIZES), rates))
 
