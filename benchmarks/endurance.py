@@ -4,9 +4,9 @@
 python -m benchmarks.endurance [--updates 1000000] [--trackers NAME...]
 python -m benchmarks.endurance --large
 
-Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in a process of its own.
-The memory is printed after each power of ten and at the end; it is to stay. --large: an initialization and
-some updates on 7680x4320 pixels, and the most memory that each took beside the frames.
+Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in a process of its
+own. The memory is printed after each power of ten and at the end; it is to stay. --large: a start and some
+updates on 7680x4320 pixels, and the most memory that each took beside the frames.
 """
 
 import argparse

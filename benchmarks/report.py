@@ -252,7 +252,8 @@ def share_of_limit(name: str, work: dict[str, Any], machine: limits.Limits, seco
         raise SystemExit(f"report: {name} does {work} in {seconds:.2g} s; this machine needs {least:.2g} s")
     if share < ENOUGH and "why" not in work:
         raise SystemExit(f"report: {name} is at {share:.0%} of the limit by {kind}; say why")
-    return f"{share:.0%}, {kind} | {work['why'] if share < ENOUGH else ''}"
+    shown = f"{share:.0%}" if share >= 0.01 else f"{share:.1%}"
+    return f"{shown}, {kind} | {work['why'] if share < ENOUGH else ''}"
 
 
 def tracker_rows(scene: Scene) -> Iterator[str]:
