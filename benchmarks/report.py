@@ -165,7 +165,7 @@ def document(rows: dict[str, str], clock: str) -> str:
             STEREO.format(frames=STEREO_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(stereo_rows()),
             WALKERS.format(frames=WALK_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(walker_rows()),
             SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())) + "\n",
-            frame_size.section(ROUNDS),
+            frame_size.section(ROUNDS).rstrip(),
             PAIRS.format(rounds=PAIR_ROUNDS) + "\n".join(pair_rows()) + "\n",
         ]
     return "\n".join(parts)
