@@ -31,12 +31,12 @@ lint: $(VENV)/dev
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/clang-format --dry-run -Werror $$(find cpp python -name '*.[ch]pp')
+	$(BIN)/clang-format --dry-run -Werror $$(find cpp python benchmarks -name '*.[ch]pp')
 
 format: $(VENV)/dev
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
-	$(BIN)/clang-format -i $$(find cpp python -name '*.[ch]pp')
+	$(BIN)/clang-format -i $$(find cpp python benchmarks -name '*.[ch]pp')
 
 stubs: $(VENV)/dev
 	$(BIN)/python tools/stubs.py

@@ -124,7 +124,8 @@ def embedded(frame: Frame, size: Size, index: int) -> Frame:
 def cases(frames: int = FRAMES) -> Iterator[Case]:
     """Every tracker, by every kind of frames that it takes."""
     face = face_over_clutter(0, frames)
-    halves = tuple(Frame(cv2.resize(each.color, SMALL, interpolation=cv2.INTER_AREA)) for each in face.frames)
+    colors = [np.asarray(each.color) for each in face.frames]
+    halves = tuple(Frame(cv2.resize(each, SMALL, interpolation=cv2.INTER_AREA)) for each in colors)
     half_boxes = np.array(face.boxes) / 2
     yield Case("color-particle", "color-particle", halves, half_boxes, SMALL)
     yield Case("fused, color", "fused", halves, half_boxes, SMALL)
@@ -135,7 +136,9 @@ def cases(frames: int = FRAMES) -> Iterator[Case]:
     person = walker(0, frames, "rgbd")
     lens = person.intrinsics
     quarter = Intrinsics(lens.fx / 4, lens.fy / 4, (lens.cx - 1.5) / 4, (lens.cy - 1.5) / 4, *SMALL)
-    thin = tuple(Frame(depth=each.depth[1::4, 1::4], timestamp=each.timestamp) for each in person.frames)
+    thin = tuple(
+        Frame(depth=np.asarray(each.depth)[1::4, 1::4], timestamp=each.timestamp) for each in person.frames
+    )
     yield Case("depth-particle", "depth-particle", thin, np.array(person.boxes) / 4, SMALL, quarter)
     for tracker, scene in (("stereo-head", head), ("flow-depth", overtaking)):
         found = scene(0, frames, "640x480")
