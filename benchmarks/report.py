@@ -60,8 +60,7 @@ HEAD = """\
 Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and are noisy: the ratios of
 one run are what counts.
 
-{machine}
-"""
+{machine}"""
 KERNELS = """
 ## Kernels
 

@@ -13,10 +13,17 @@ namespace {
 
 constexpr int kRuns = 60;
 constexpr int kRegisters = 12;  // independent results, more than any latency needs
-using Bytes [[gnu::vector_size(64)]] = std::uint8_t;
-using Words [[gnu::vector_size(64)]] = std::uint64_t;
-using Floats [[gnu::vector_size(64)]] = float;
-using Doubles [[gnu::vector_size(64)]] = double;
+#if defined(__AVX512F__)
+constexpr int kWidth = 64;  // bytes of a register
+#elif defined(__AVX__)
+constexpr int kWidth = 32;
+#else
+constexpr int kWidth = 16;
+#endif
+using Bytes [[gnu::vector_size(kWidth)]] = std::uint8_t;
+using Words [[gnu::vector_size(kWidth)]] = std::uint64_t;
+using Floats [[gnu::vector_size(kWidth)]] = float;
+using Doubles [[gnu::vector_size(kWidth)]] = double;
 
 volatile std::uint64_t sink;
 
@@ -71,10 +78,10 @@ extern "C" {
 
 /// Bytes that are read, or read and written, of data of this size: the faster of both.
 double bytes_per_second(std::size_t size) {
-    const std::size_t words = std::max<std::size_t>(size / sizeof(Words) / 16 * 16, 16);
+    const std::size_t words = std::max<std::size_t>(size / kWidth / 16 * 16, 16);
     std::vector<Words> data(words, Words{}), other(words / 2, Words{});
     const auto passes = static_cast<int>(std::max<std::size_t>(1, (1 << 21) / size));
-    const double read = rate(double(words) * sizeof(Words) * passes, [&] {
+    const double read = rate(double(words) * kWidth * passes, [&] {
         Words totals[8] = {};
         for (int pass = 0; pass < passes; ++pass) {
             for (std::size_t i = 0; i < words; i += 8)
@@ -87,7 +94,7 @@ double bytes_per_second(std::size_t size) {
         keep(total);
     });
     const std::size_t half = words / 2;
-    const double copy = rate(2.0 * double(half) * sizeof(Words) * passes, [&] {
+    const double copy = rate(2.0 * double(half) * kWidth * passes, [&] {
         for (int pass = 0; pass < passes; ++pass) {
             for (std::size_t i = 0; i < half; i += 8)
 #pragma GCC unroll 8
@@ -104,7 +111,7 @@ double ops8_per_second() {
     Bytes one = Bytes{} + 1, two = Bytes{} + 2;
     hide(one);
     hide(two);
-    return vector_rate<Bytes>(2.0 * sizeof(Bytes), 4000, [&](Bytes& x) { x = (x + one) ^ two; });
+    return vector_rate<Bytes>(2.0 * kWidth, 4000, [&](Bytes& x) { x = (x + one) ^ two; });
 }
 
 /// Floating-point operations of 32 bits: a fused multiply-add is two.
@@ -112,7 +119,7 @@ double flops32_per_second() {
     Floats factor = Floats{} + 0.999f, summand = Floats{} + 0.5f;
     hide(factor);
     hide(summand);
-    return vector_rate<Floats>(2.0 * 16, 4000, [&](Floats& x) { x = x * factor + summand; });
+    return vector_rate<Floats>(2.0 * kWidth / 4, 4000, [&](Floats& x) { x = x * factor + summand; });
 }
 
 /// The same of 64 bits.
@@ -120,21 +127,21 @@ double flops64_per_second() {
     Doubles factor = Doubles{} + 0.999, summand = Doubles{} + 0.5;
     hide(factor);
     hide(summand);
-    return vector_rate<Doubles>(2.0 * 8, 4000, [&](Doubles& x) { x = x * factor + summand; });
+    return vector_rate<Doubles>(2.0 * kWidth / 8, 4000, [&](Doubles& x) { x = x * factor + summand; });
 }
 
 /// Divisions of 32 bits; square roots take as long or longer.
 double divs32_per_second() {
     Floats dividend = Floats{} + 3.0f;
     hide(dividend);
-    return vector_rate<Floats>(16, 1000, [&](Floats& x) { x = dividend / (x + 1.0f); });
+    return vector_rate<Floats>(kWidth / 4, 1000, [&](Floats& x) { x = dividend / (x + 1.0f); });
 }
 
 /// The same of 64 bits.
 double divs64_per_second() {
     Doubles dividend = Doubles{} + 3.0;
     hide(dividend);
-    return vector_rate<Doubles>(8, 1000, [&](Doubles& x) { x = dividend / (x + 1.0); });
+    return vector_rate<Doubles>(kWidth / 8, 1000, [&](Doubles& x) { x = dividend / (x + 1.0); });
 }
 
 /// Numbers read at any places of a table of 16 KB, one by one: gathers are no faster where they are done so inside.
