@@ -25,18 +25,18 @@ setup: $(VENV)/dev
 bench: $(VENV)/dev
 	$(BIN)/python -m pytest benchmarks --benchmark-group-by=group --benchmark-columns=min,median,rounds \
 	    --benchmark-json=build/benchmarks.json
-	$(BIN)/python benchmarks/report.py build/benchmarks.json
+	$(BIN)/python -m benchmarks.report build/benchmarks.json
 
 lint: $(VENV)/dev
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/clang-format --dry-run -Werror $$(find cpp python -name '*.[ch]pp')
+	$(BIN)/clang-format --dry-run -Werror $$(find cpp python benchmarks -name '*.[ch]pp')
 
 format: $(VENV)/dev
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
-	$(BIN)/clang-format -i $$(find cpp python -name '*.[ch]pp')
+	$(BIN)/clang-format -i $$(find cpp python benchmarks -name '*.[ch]pp')
 
 stubs: $(VENV)/dev
 	$(BIN)/python tools/stubs.py

@@ -1,12 +1,40 @@
 # SPDX-License-Identifier: MIT
-"""A frame and samples of typical size, made before any clock starts; OpenCV on one thread."""
+"""A frame and samples of typical size, made before any clock starts; OpenCV on one thread; the machine's
+limits beside the times.
+"""
 
 from collections.abc import Iterator
+from typing import Any
 
 import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from tricue import _core
+
+from benchmarks.limits import machine
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Name the marker of a kernel's benchmark that declares its work."""
+    config.addinivalue_line("markers", "work(why=None, **amounts): what a kernel does, by limits/machine.py")
+
+
+def pytest_benchmark_update_json(output_json: dict[str, Any]) -> None:
+    """Measure the machine's limits in the run that the kernels' times are of."""
+    output_json["limits"] = machine.measure()
+
+
+@pytest.fixture(autouse=True)
+def declared_work(request: pytest.FixtureRequest) -> None:
+    """Put a benchmark's work beside its times; a native kernel's must be declared."""
+    if "benchmark" not in request.fixturenames:
+        return
+    benchmark, work = request.getfixturevalue("benchmark"), request.node.get_closest_marker("work")
+    if work:
+        benchmark.extra_info["work"] = work.kwargs
+    elif (benchmark.group or "").partition(",")[0] in dir(_core) and str(benchmark.param).endswith("native"):
+        pytest.fail("the benchmark of a kernel declares its work: @pytest.mark.work, limits/machine.py")
 
 
 @pytest.fixture(autouse=True)

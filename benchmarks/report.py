@@ -2,7 +2,8 @@
 """Writes docs/benchmarks.md (``make bench``) from pytest-benchmark's JSON file; measures the trackers itself.
 
 ``--kernels`` puts the rows of the kernels that were measured into the page and leaves all else, for a run of some of
-the benchmarks: ``pytest benchmarks/fuse/bench_resample.py --benchmark-json=FILE``, then ``report.py --kernels FILE``.
+the benchmarks: ``pytest benchmarks/fuse/bench_resample.py --benchmark-json=FILE``, then ``python -m benchmarks.report
+--kernels FILE``.
 """
 
 import argparse
@@ -38,6 +39,9 @@ from tricue.scenes import (
     walker,
 )
 
+from benchmarks import frame_size
+from benchmarks.limits import machine as limits
+
 ROUNDS = 12
 PAIR_ROUNDS = 30
 DEPTH_FRAMES, FEW = 60, 8  # in depth; of what takes over 50 ms a frame
@@ -56,8 +60,7 @@ HEAD = """\
 Written by `make bench`; don't edit. One thread, frames decoded before the clock starts. Machines differ and are noisy: the ratios of
 one run are what counts.
 
-{machine}
-"""
+{machine}"""
 KERNELS = """
 ## Kernels
 
@@ -65,11 +68,17 @@ Every kernel that the extension exports; the minimum of many rounds, in µs. Whe
 251 samples, or a frame of 320x240. The baseline is OpenCV's function for the same job, or the short cv2 and NumPy script that one
 would write. Every result is checked against the twin's. Where a native kernel is less than 20 times as fast as its twin, the twin is a
 few vectorized NumPy expressions, or a call's own cost of half a microsecond is most of the native time.
-{later}
-| kernel | native | reference | baseline | reference / native | baseline / native |
-| --- | --- | --- | --- | --- | --- |
+
+The limit is what this machine can do at most: the least time that it needs for the bytes or the operations that the inputs demand, by
+probes in the same run (`benchmarks/limits/machine.py` has the kinds of work). Where a kernel is below a tenth of it, the last column
+says what keeps it there.
+{run}
+| kernel | native | reference | baseline | reference / native | baseline / native | share of the limit | below a tenth, as |
+| --- | --- | --- | --- | --- | --- | --- | --- |
 """
+ALL = "All rows are of one run, by {clock}, on {machine}"
 LATER = "The rows of {names} are of a later run than the others, by {clock}, on {machine}"
+ENOUGH = 0.1  # of the limit
 CLOCKS = {"perf_counter": "the wall clock", "process_time": "the process's own time"}
 """By pytest-benchmark's timers; the second is for a machine that is busy."""
 TRACKERS = """
@@ -138,25 +147,24 @@ def main() -> None:
     options = parser.parse_args()
     report = json.loads(options.json.read_text())
     rows = kernel_rows(report)
-    if options.kernels:
-        OUT.write_text(with_rows(OUT.read_text(), rows, CLOCKS[report["benchmarks"][0]["options"]["timer"]]))
-    else:
-        OUT.write_text(document(rows))
+    clock = CLOCKS[report["benchmarks"][0]["options"]["timer"]]
+    OUT.write_text(with_rows(OUT.read_text(), rows, clock) if options.kernels else document(rows, clock))
 
 
-def document(rows: dict[str, str]) -> str:
+def document(rows: dict[str, str], clock: str) -> str:
     """The whole page, with the trackers measured now."""
     if missing := EXPORTED - kernels_of(rows):
         raise SystemExit(f"report: no benchmark of {', '.join(sorted(missing))} was run")
     with one_thread():
         parts = [
             HEAD.format(machine=machine()),
-            KERNELS.format(later="") + table(rows),
+            KERNELS.format(run=run_of(rows, clock)) + table(rows),
             TRACKERS.format(rounds=ROUNDS) + "\n".join(tracker_rows(scene())),
             DEPTH.format(frames=DEPTH_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(depth_rows()),
             STEREO.format(frames=STEREO_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(stereo_rows()),
             WALKERS.format(frames=WALK_FRAMES, rounds=ROUNDS, few=FEW) + "\n".join(walker_rows()),
-            SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())),
+            SIZES.format(rounds=ROUNDS) + "\n".join(size_rows(scene())) + "\n",
+            frame_size.section(ROUNDS).rstrip(),
             PAIRS.format(rounds=PAIR_ROUNDS) + "\n".join(pair_rows()) + "\n",
         ]
     return "\n".join(parts)
@@ -174,13 +182,16 @@ def with_rows(page: str, rows: dict[str, str], clock: str) -> str:
         if re.match(r"\| [a-z]\w+[^|]*\| \d", row) and kernel_of(row.split("|")[1].strip()) in EXPORTED
     }
     kept = {name: row for name, row in kept.items() if kernel_of(name) not in kernels_of(rows)}
-    later = LATER.format(clock=clock, machine=machine(), names=", ".join(sorted(kernels_of(rows))))
-    return page[:start] + KERNELS.format(later=wrapped(later)) + table(kept | rows) + "\n" + page[end:]
+    return page[:start] + KERNELS.format(run=run_of(rows, clock)) + table(kept | rows) + "\n" + page[end:]
 
 
-def wrapped(text: str) -> str:
-    """A paragraph in lines that fit, with an empty one before."""
-    return "\n" + textwrap.fill(" ".join(text.split()), 130) + "\n"
+def run_of(rows: dict[str, str], clock: str) -> str:
+    """The paragraph that tells of these rows' run."""
+    names = kernels_of(rows)
+    text = (ALL if names >= EXPORTED else LATER).format(
+        clock=clock, machine=machine(), names=", ".join(sorted(names))
+    )
+    return "\n" + textwrap.fill(text, 130) + "\n"
 
 
 def table(rows: dict[str, str]) -> str:
@@ -216,17 +227,32 @@ def machine() -> str:
 def kernel_rows(report: dict[str, Any]) -> dict[str, str]:
     """A row a group of a kernel's benchmarks, by the group's name."""
     groups: dict[str, dict[str, float]] = {}
+    shares: dict[str, str] = {}
     for each in report["benchmarks"]:
-        column = SIDES.get(str(each["param"]).rpartition("-")[2])
-        if kernel_of(each["group"]) in EXPORTED and column:
-            groups.setdefault(each["group"], {})[column] = each["stats"]["min"] * 1e6
-    return {name: row_of(name, **times) for name, times in groups.items()}
+        name, column = each["group"], SIDES.get(str(each["param"]).rpartition("-")[2])
+        if kernel_of(name) in EXPORTED and column:
+            seconds = groups.setdefault(name, {})[column] = each["stats"]["min"]
+            if column == "native":
+                shares[name] = share_of_limit(name, each["extra_info"]["work"], report["limits"], seconds)
+    return {name: f"{row_of(name, **times)} {shares[name]} |" for name, times in groups.items()}
 
 
 def row_of(name: str, native: float, reference: float, baseline: float) -> str:
-    """A kernel's times and what they are of the native one."""
-    ratios = f"{reference / native:.1f} | {baseline / native:.1f}"
-    return f"| {name} | {native:.1f} | {reference:.0f} | {baseline:.0f} | {ratios} |"
+    """A kernel's times and what they are of the native one, from seconds."""
+    times = f"{1e6 * native:.1f} | {1e6 * reference:.0f} | {1e6 * baseline:.0f}"
+    return f"| {name} | {times} | {reference / native:.1f} | {baseline / native:.1f} |"
+
+
+def share_of_limit(name: str, work: dict[str, Any], machine: limits.Limits, seconds: float) -> str:
+    """How near a kernel comes to the limit, and why not nearer. Ends the program where that can't be so."""
+    least, kind = limits.least_time({key: work[key] for key in work if key != "why"}, machine)
+    share = least / seconds
+    if share > 1:
+        raise SystemExit(f"report: {name} does {work} in {seconds:.2g} s; this machine needs {least:.2g} s")
+    if share < ENOUGH and "why" not in work:
+        raise SystemExit(f"report: {name} is at {share:.0%} of the limit by {kind}; say why")
+    shown = f"{share:.0%}" if share >= 0.01 else f"{share:.1%}"
+    return f"{shown}, {kind} | {work['why'] if share < ENOUGH else ''}"
 
 
 def tracker_rows(scene: Scene) -> Iterator[str]:

@@ -32,6 +32,7 @@ IMPLEMENTATIONS = {"native": _core.back_project, "reference": reference.back_pro
 
 
 @pytest.mark.benchmark(group="back_project")
+@pytest.mark.work(flops64=60 * 500, divs64=500, why="matrices of 3x3, point by point")
 @pytest.mark.parametrize("back_project", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_back_project(benchmark: Any, back_project: Callable[..., tuple[Floats, Floats]]) -> None:
     """All see the same points, as sure of them."""

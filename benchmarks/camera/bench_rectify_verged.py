@@ -36,8 +36,22 @@ IMPLEMENTATIONS = {
 @pytest.mark.parametrize(
     "color",
     [
-        pytest.param(False, marks=pytest.mark.benchmark(group="rectify_verged, gray")),
-        pytest.param(True, marks=pytest.mark.benchmark(group="rectify_verged, BGR")),
+        pytest.param(
+            False,
+            marks=[
+                pytest.mark.benchmark(group="rectify_verged, gray"),
+                pytest.mark.work(lookups=2 * 640 * 480, ops8=36 * 640 * 480),
+            ],
+        ),
+        pytest.param(
+            True,
+            marks=[
+                pytest.mark.benchmark(group="rectify_verged, BGR"),
+                pytest.mark.work(
+                    lookups=2 * 640 * 480, ops8=108 * 640 * 480, why="three numbers a pixel, one by one"
+                ),
+            ],
+        ),
     ],
     ids=["gray", "BGR"],
 )

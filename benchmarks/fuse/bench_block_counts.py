@@ -47,6 +47,7 @@ def check(benchmark: Any, block_counts: Callable[..., Any], target: Any, size: i
 
 
 @pytest.mark.benchmark(group="block_counts, 200 of 6x6")
+@pytest.mark.work(bytes=5 * 200 * 6 * 6, flops64=200 * 6 * 6, why="4 pixels at a time")
 @pytest.mark.parametrize("block_counts", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_counts(benchmark: Any, block_counts: Callable[..., Any], small: Any) -> None:
     """In the paper's frame."""
@@ -54,6 +55,7 @@ def bench_block_counts(benchmark: Any, block_counts: Callable[..., Any], small: 
 
 
 @pytest.mark.benchmark(group="block_counts, 200 of 24x24")
+@pytest.mark.work(bytes=5 * 200 * 24 * 24, flops64=200 * 24 * 24, why="4 pixels at a time")
 @pytest.mark.parametrize("block_counts", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_counts_of_many(benchmark: Any, block_counts: Callable[..., Any], large: Any) -> None:
     """In a usual frame."""

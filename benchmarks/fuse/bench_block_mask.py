@@ -36,6 +36,7 @@ def check(benchmark: Any, block_mask: Callable[..., Mask], size: int) -> None:
 
 
 @pytest.mark.benchmark(group="block_mask, 100 of 6x6")
+@pytest.mark.work(bytes=60 * 100, why="rows of 6 bytes")
 @pytest.mark.parametrize("block_mask", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_mask(benchmark: Any, block_mask: Callable[..., Mask]) -> None:
     """Of a target in the paper's frame: 60x100 pixels round it."""
@@ -43,6 +44,7 @@ def bench_block_mask(benchmark: Any, block_mask: Callable[..., Mask]) -> None:
 
 
 @pytest.mark.benchmark(group="block_mask, 100 of 24x24")
+@pytest.mark.work(bytes=240 * 280, why="rows of 24 bytes")
 @pytest.mark.parametrize("block_mask", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_mask_of_many(benchmark: Any, block_mask: Callable[..., Mask]) -> None:
     """Of a target in a usual frame."""

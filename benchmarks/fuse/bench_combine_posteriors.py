@@ -21,6 +21,7 @@ def script(first: Plane, second: Plane) -> Plane:
 
 
 @pytest.mark.benchmark(group="combine_posteriors, 64x64")
+@pytest.mark.work(bytes=3 * 4 * 64 * 64, divs32=64 * 64)
 @pytest.mark.parametrize(
     "combine",
     [_core.combine_posteriors, reference.combine_posteriors, script],

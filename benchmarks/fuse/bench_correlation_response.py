@@ -49,6 +49,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="correlation_response, 2 filters, 19 x 32x32")
+@pytest.mark.work(flops32=21 * 25_600 + 2 * 19 * 8 * 32 * 17)
 @pytest.mark.parametrize("respond", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_correlation_response(benchmark: Any, respond: Callable[..., Floats]) -> None:
     """All answer the same."""

@@ -54,6 +54,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="correlation_train, 19 x 32x32")
+@pytest.mark.work(flops32=19 * 25_600 + 19 * 17 * 32 * 17)
 @pytest.mark.parametrize("train", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_correlation_train(benchmark: Any, train: Callable[..., Filter]) -> None:
     """All learn the same."""

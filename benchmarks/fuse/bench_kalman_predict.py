@@ -33,6 +33,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="kalman_predict")
+@pytest.mark.work(flops64=2 * 2 * 7**3, why="the call, and matrices of 7x7")
 @pytest.mark.parametrize("predict", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_kalman_predict(benchmark: Any, predict: Callable[..., tuple[Floats, Floats]]) -> None:
     """All predict the same."""

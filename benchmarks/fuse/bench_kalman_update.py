@@ -31,6 +31,7 @@ IMPLEMENTATIONS = {"native": _core.kalman_update, "reference": reference.kalman_
 
 
 @pytest.mark.benchmark(group="kalman_update")
+@pytest.mark.work(flops64=5 * 2 * 7**3, why="the call, and matrices of 7x7")
 @pytest.mark.parametrize("update", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_kalman_update(benchmark: Any, update: Callable[..., tuple[Floats, ...]]) -> None:
     """All correct the same."""

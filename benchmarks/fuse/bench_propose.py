@@ -47,6 +47,7 @@ IMPLEMENTATIONS = {"native": _core.propose, "reference": reference.propose, "bas
 
 
 @pytest.mark.benchmark(group="propose")
+@pytest.mark.work(flops64=4 * 100 * 4, why="the call takes a third")
 @pytest.mark.parametrize("propose", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_propose(benchmark: Any, propose: Callable[..., Floats]) -> None:
     """All draw the same particles."""

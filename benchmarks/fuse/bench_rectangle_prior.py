@@ -39,6 +39,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="rectangle_prior")
+@pytest.mark.work(flops64=100 * (2 * 20 + 20), why="logarithms, one by one")
 @pytest.mark.parametrize("rectangle_prior", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_rectangle_prior(benchmark: Any, rectangle_prior: Callable[..., Floats]) -> None:
     """All know the same, to the rounding of seven squares."""

@@ -78,6 +78,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="regularized_filter, 19 x 32x32")
+@pytest.mark.work(flops32=5 * 19 * 25_600 + 2 * 19 * 30 * 32 * 17)
 @pytest.mark.parametrize("learn", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_regularized_filter(benchmark: Any, learn: Callable[..., Complexes]) -> None:
     """All learn the same."""

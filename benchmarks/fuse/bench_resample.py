@@ -26,6 +26,7 @@ IMPLEMENTATIONS = {"native": _core.resample, "reference": reference.resample, "b
 
 
 @pytest.mark.benchmark(group="resample")
+@pytest.mark.work(in_turn=100, why="the call takes half")
 @pytest.mark.parametrize("resample", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_resample(benchmark: Any, resample: Callable[..., NDArray[np.int64]]) -> None:
     """All choose the same particles."""

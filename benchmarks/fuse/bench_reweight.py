@@ -51,6 +51,7 @@ IMPLEMENTATIONS = {"native": _core.reweight, "reference": reference.reweight, "b
 
 
 @pytest.mark.benchmark(group="reweight")
+@pytest.mark.work(flops64=100 * (3 * 20 + 30), divs64=100 * 4, why="exp and log, one by one")
 @pytest.mark.parametrize("reweight", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_reweight(benchmark: Any, reweight: Callable[..., tuple[Floats, float]]) -> None:
     """All give the same weights and evidence."""

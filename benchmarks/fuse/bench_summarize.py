@@ -27,6 +27,7 @@ IMPLEMENTATIONS = {"native": _core.summarize, "reference": reference.summarize, 
 
 
 @pytest.mark.benchmark(group="summarize")
+@pytest.mark.work(flops64=100 * 42, why="the call takes a third")
 @pytest.mark.parametrize("summarize", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_summarize(benchmark: Any, summarize: Callable[..., tuple[Floats, Floats, float]]) -> None:
     """All give the same moments."""

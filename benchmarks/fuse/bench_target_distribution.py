@@ -67,6 +67,7 @@ def check(benchmark: Any, target_distribution: Callable[..., Any], expected: flo
 
 
 @pytest.mark.benchmark(group="target_distribution")
+@pytest.mark.work(flops64=64 * 6 * 4, why="the call, and bins searched one by one")
 @pytest.mark.parametrize("target_distribution", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_distribution(benchmark: Any, target_distribution: Callable[..., Any]) -> None:
     """Of the highest of three bumps."""
@@ -74,6 +75,7 @@ def bench_target_distribution(benchmark: Any, target_distribution: Callable[...,
 
 
 @pytest.mark.benchmark(group="target_distribution, expected")
+@pytest.mark.work(flops64=64 * (6 * 4 + 20), why="the call, and bins searched one by one")
 @pytest.mark.parametrize("target_distribution", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_distribution_expected(benchmark: Any, target_distribution: Callable[..., Any]) -> None:
     """Of a lower one that is expected."""

@@ -60,6 +60,7 @@ def check(benchmark: Any, target_pixels: Callable[..., Any], target: Any) -> Non
 
 
 @pytest.mark.benchmark(group="target_pixels, 160x120")
+@pytest.mark.work(lookups=3 * 60 * 75, bytes=3 * 4 * 60 * 75 + 5 * 160 * 120)
 @pytest.mark.parametrize("target_pixels", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_pixels(benchmark: Any, target_pixels: Callable[..., Any], small: Any) -> None:
     """Of a target in the paper's frame."""
@@ -67,6 +68,7 @@ def bench_target_pixels(benchmark: Any, target_pixels: Callable[..., Any], small
 
 
 @pytest.mark.benchmark(group="target_pixels, 640x480")
+@pytest.mark.work(lookups=3 * 240 * 300, bytes=3 * 4 * 240 * 300 + 5 * 640 * 480)
 @pytest.mark.parametrize("target_pixels", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_target_pixels_of_many(benchmark: Any, target_pixels: Callable[..., Any], large: Any) -> None:
     """Of a target in a usual frame."""

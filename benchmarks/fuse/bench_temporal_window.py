@@ -58,6 +58,7 @@ def check(benchmark: Any, temporal_window: Callable[..., Any], target: Any) -> N
 
 
 @pytest.mark.benchmark(group="temporal_window, 160x120")
+@pytest.mark.work(ops8=12 * 160 * 120, bytes=2 * 160 * 120, why="runs are joined one by one")
 @pytest.mark.parametrize("temporal_window", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_temporal_window(benchmark: Any, temporal_window: Callable[..., Any], small: Any) -> None:
     """In the paper's frame."""
@@ -65,6 +66,7 @@ def bench_temporal_window(benchmark: Any, temporal_window: Callable[..., Any], s
 
 
 @pytest.mark.benchmark(group="temporal_window, 640x480")
+@pytest.mark.work(ops8=12 * 640 * 480, bytes=2 * 640 * 480, why="runs are joined one by one")
 @pytest.mark.parametrize("temporal_window", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_temporal_window_of_many(benchmark: Any, temporal_window: Callable[..., Any], large: Any) -> None:
     """In a usual frame."""

@@ -49,6 +49,7 @@ def check(benchmark: Any, histogram: Histogram, target: Any) -> None:
 
 
 @pytest.mark.benchmark(group="weighted_histogram, 3 of 160x120")
+@pytest.mark.work(counts=3 * 40 * 60 // 2, why="sums in one order")
 @pytest.mark.parametrize("histogram", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_weighted_histogram(benchmark: Any, histogram: Histogram, small: Any) -> None:
     """Of a target in the paper's frame."""
@@ -56,6 +57,7 @@ def bench_weighted_histogram(benchmark: Any, histogram: Histogram, small: Any) -
 
 
 @pytest.mark.benchmark(group="weighted_histogram, 3 of 640x480")
+@pytest.mark.work(counts=3 * 160 * 240 // 2, why="sums in one order")
 @pytest.mark.parametrize("histogram", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_weighted_histogram_of_many(benchmark: Any, histogram: Histogram, large: Any) -> None:
     """Of a target in a usual frame."""

@@ -26,6 +26,7 @@ def script(histograms: NDArray[np.float32], model: NDArray[np.float32], groups: 
 
 
 @pytest.mark.benchmark(group="bhattacharyya")
+@pytest.mark.work(bytes=4 * 100 * 48, divs64=100 * 48)
 @pytest.mark.parametrize(
     "bhattacharyya",
     [_core.bhattacharyya, reference.bhattacharyya, script],

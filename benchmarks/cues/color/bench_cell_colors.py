@@ -21,6 +21,7 @@ def baseline(image: Image, step: int) -> tuple[Image, NDArray[np.float64]]:
 
 
 @pytest.mark.benchmark(group="cell_colors, 640x480")
+@pytest.mark.work(bytes=120 * 640 * 3 + 160 * 120 * 3, why="3 of 12 bytes at a time")
 @pytest.mark.parametrize(
     "cell_colors",
     [_core.cell_colors, reference.cell_colors, baseline],

@@ -26,6 +26,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="color_bins")
+@pytest.mark.work(flops32=9 * 60 * 56, ops8=60 * 56 * 4 * 15, why="pixels of 3 bytes are taken apart")
 @pytest.mark.parametrize(
     "color_bins",
     [_core.color_bins, reference.color_bins, script],

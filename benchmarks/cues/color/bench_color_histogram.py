@@ -25,6 +25,7 @@ def script(samples: Image, bins: int) -> NDArray[np.float32]:
 
 
 @pytest.mark.benchmark(group="color_histogram")
+@pytest.mark.work(counts=100 * 3 * 251)
 @pytest.mark.parametrize(
     "color_histogram",
     [_core.color_histogram, reference.color_histogram, script],

@@ -21,6 +21,7 @@ def script(samples: Image, table: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 @pytest.mark.benchmark(group="color_lookup")
+@pytest.mark.work(lookups=100 * 251)
 @pytest.mark.parametrize(
     "color_lookup",
     [_core.color_lookup, reference.color_lookup, script],

@@ -20,6 +20,7 @@ def script(samples: Image) -> NDArray[np.float64]:
 
 
 @pytest.mark.benchmark(group="color_ranks")
+@pytest.mark.work(counts=100 * 3 * 251, lookups=100 * 3 * 251)
 @pytest.mark.parametrize(
     "color_ranks", [_core.color_ranks, reference.color_ranks, script], ids=["native", "reference", "baseline"]
 )

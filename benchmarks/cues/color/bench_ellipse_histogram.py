@@ -28,6 +28,7 @@ def script(bins: Bins, ellipses: Floats, size: int, margin: float) -> tuple[Floa
 
 
 @pytest.mark.benchmark(group="ellipse_histogram")
+@pytest.mark.work(counts=1600, bytes=2 * 4 * 4096, why="rows of 30 pixels")
 @pytest.mark.parametrize(
     "ellipse_histogram",
     [_core.ellipse_histogram, reference.ellipse_histogram, script],

@@ -46,6 +46,7 @@ def script(bins: Bins, ellipse: Floats, grid: Grid, model: Floats, margin: float
 
 
 @pytest.mark.benchmark(group="ellipse_search")
+@pytest.mark.work(counts=1600 + 63 * 2 * (36 + 50))
 @pytest.mark.parametrize(
     "ellipse_search",
     [_core.ellipse_search, full, reference.ellipse_search, script],

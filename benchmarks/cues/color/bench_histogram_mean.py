@@ -24,6 +24,7 @@ def script(histogram: Floats, bins: tuple[int, int, int], chroma: int) -> Floats
 
 
 @pytest.mark.benchmark(group="histogram_mean")
+@pytest.mark.work(bytes=8 * 4096, flops64=3 * 4096, why="sums in one order")
 @pytest.mark.parametrize(
     "histogram_mean",
     [_core.histogram_mean, reference.histogram_mean, script],

@@ -59,6 +59,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="hog_color_cells, 64x64")
+@pytest.mark.work(flops32=84 * 64 * 64, divs32=2 * 64 * 64, why="planes are read 2 by 2")
 @pytest.mark.parametrize("cells_of", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_hog_color_cells(benchmark: Any, cells_of: Callable[..., Planes], frame: Image) -> None:
     """All agree to float32's rounding."""

@@ -24,6 +24,7 @@ def script(samples: Image, bins: int) -> NDArray[np.float32]:
 
 
 @pytest.mark.benchmark(group="joint_histogram")
+@pytest.mark.work(counts=100 * 251, bytes=100 * 4 * 4096)
 @pytest.mark.parametrize(
     "joint_histogram",
     [_core.joint_histogram, reference.joint_histogram, script],

@@ -29,6 +29,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="learn_contrast")
+@pytest.mark.work(bytes=5 * 4 * 4096, divs32=4096, counts=2 * 600, why="a cube for 600 counts")
 @pytest.mark.parametrize(
     "learn_contrast",
     [_core.learn_contrast, reference.learn_contrast, script],

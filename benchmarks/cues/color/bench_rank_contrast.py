@@ -42,6 +42,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="rank_contrast")
+@pytest.mark.work(counts=100 * 3 * 96, lookups=2 * 100 * (96 + 40))
 @pytest.mark.parametrize(
     "rank_contrast",
     [_core.rank_contrast, reference.rank_contrast, script],

@@ -29,6 +29,7 @@ def script(samples: Image, models: Maps) -> Maps:
 
 
 @pytest.mark.benchmark(group="rank_distance")
+@pytest.mark.work(counts=100 * 3 * 251)
 @pytest.mark.parametrize(
     "rank_distance",
     [_core.rank_distance, reference.rank_distance, script],

@@ -31,6 +31,7 @@ def script(samples: Image, sections: int) -> NDArray[np.float32]:
 
 
 @pytest.mark.benchmark(group="rank_sections")
+@pytest.mark.work(counts=100 * 3 * 251, why="sections are searched level by level")
 @pytest.mark.parametrize(
     "rank_sections",
     [_core.rank_sections, reference.rank_sections, script],

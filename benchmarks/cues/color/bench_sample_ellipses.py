@@ -23,6 +23,7 @@ def script(image: Image, ellipses: Floats, pattern: Floats) -> Image:
 
 
 @pytest.mark.benchmark(group="sample_ellipses")
+@pytest.mark.work(lookups=100 * 144)
 @pytest.mark.parametrize(
     "sample_ellipses",
     [_core.sample_ellipses, reference.sample_ellipses, script],

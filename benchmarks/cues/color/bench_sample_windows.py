@@ -33,8 +33,24 @@ IMPLEMENTATIONS = {"native": _core.sample_windows, "reference": reference.sample
 @pytest.mark.parametrize(
     ("windows", "side"),
     [
-        pytest.param(ONE, 64, marks=pytest.mark.benchmark(group="sample_windows, one of 150 px to 64x64")),
-        pytest.param(SCALES, 12, marks=pytest.mark.benchmark(group="sample_windows, 11 of 75 px to 12x12")),
+        pytest.param(
+            ONE,
+            64,
+            marks=[
+                pytest.mark.benchmark(group="sample_windows, one of 150 px to 64x64"),
+                pytest.mark.work(flops32=64 * 64 * 3 * 12, ops8=4 * 64 * 6 * 450, why="3 of 8 lanes"),
+            ],
+        ),
+        pytest.param(
+            SCALES,
+            12,
+            marks=[
+                pytest.mark.benchmark(group="sample_windows, 11 of 75 px to 12x12"),
+                pytest.mark.work(
+                    flops32=11 * 12 * 12 * 4 * 12, ops8=4 * 11 * 12 * 8 * 225, why="3 of 8 lanes"
+                ),
+            ],
+        ),
     ],
     ids=["one", "scales"],
 )

@@ -22,6 +22,7 @@ def script(sections: NDArray[np.float32], model: NDArray[np.float32]) -> NDArray
 
 
 @pytest.mark.benchmark(group="section_distance")
+@pytest.mark.work(flops64=3 * 300 * 16, why="sums in one order")
 @pytest.mark.parametrize(
     "section_distance",
     [_core.section_distance, reference.section_distance, script],

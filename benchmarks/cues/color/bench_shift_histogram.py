@@ -25,6 +25,7 @@ def script(histogram: Floats, bins: tuple[int, int, int], chroma: int, mean: Flo
 
 
 @pytest.mark.benchmark(group="shift_histogram")
+@pytest.mark.work(flops64=3 * 4 * 4096, why="most bins are empty, and passed over one by one")
 @pytest.mark.parametrize(
     "shift_histogram",
     [_core.shift_histogram, reference.shift_histogram, script],

@@ -29,6 +29,7 @@ def script(image: Image, color: Image, threshold: float, min_area: int) -> NDArr
 
 
 @pytest.mark.benchmark(group="skin_blobs")
+@pytest.mark.work(bytes=3 * 320 * 240, ops8=16 * 320 * 240, why="runs are joined one by one")
 @pytest.mark.parametrize(
     "skin_blobs", [_core.skin_blobs, reference.skin_blobs, script], ids=["native", "reference", "baseline"]
 )

@@ -23,6 +23,7 @@ def script(image: Image, color: Image) -> NDArray[np.int16]:
 
 
 @pytest.mark.benchmark(group="skin_boundary")
+@pytest.mark.work(bytes=5 * 320 * 240, ops8=16 * 320 * 240)
 @pytest.mark.parametrize(
     "skin_boundary",
     [_core.skin_boundary, reference.skin_boundary, script],

@@ -27,6 +27,7 @@ def script(samples: Image, mean: NDArray[np.float64], precision: NDArray[np.floa
 
 
 @pytest.mark.benchmark(group="skin_gaussian")
+@pytest.mark.work(flops32=40 * 100 * 251)
 @pytest.mark.parametrize(
     "skin_gaussian",
     [_core.skin_gaussian, reference.skin_gaussian, script],

@@ -31,6 +31,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="skin_moments")
+@pytest.mark.work(ops8=24 * 130 * 143, why="pixels of 3 bytes are taken apart")
 @pytest.mark.parametrize(
     "skin_moments",
     [_core.skin_moments, reference.skin_moments, script],

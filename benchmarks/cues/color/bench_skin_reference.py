@@ -24,6 +24,7 @@ def script(patch: Image) -> Image:
 
 
 @pytest.mark.benchmark(group="skin_reference")
+@pytest.mark.work(counts=40 * 50, bytes=4 * 32768, why="three passes over the pixels, one by one")
 @pytest.mark.parametrize(
     "skin_reference",
     [_core.skin_reference, reference.skin_reference, script],

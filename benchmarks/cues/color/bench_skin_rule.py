@@ -23,6 +23,7 @@ def script(samples: Image) -> NDArray[np.float32]:
 
 
 @pytest.mark.benchmark(group="skin_rule")
+@pytest.mark.work(bytes=7 * 100 * 251, ops8=10 * 100 * 251)
 @pytest.mark.parametrize(
     "skin_rule", [_core.skin_rule, reference.skin_rule, script], ids=["native", "reference", "baseline"]
 )

@@ -25,6 +25,7 @@ def script(depth: Depth, camera: Floats, plane: Floats, near: float, far: float,
 
 
 @pytest.mark.benchmark(group="above_floor")
+@pytest.mark.work(bytes=8 * 176 * 144, flops32=8 * 176 * 144)
 @pytest.mark.parametrize(
     "above_floor", [_core.above_floor, reference.above_floor, script], ids=["native", "reference", "baseline"]
 )

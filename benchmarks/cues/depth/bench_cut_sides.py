@@ -49,6 +49,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="cut_sides")
+@pytest.mark.work(lookups=8 * 4 * 12, why="the call, and places one by one")
 @pytest.mark.parametrize(
     "cut_sides", [_core.cut_sides, reference.cut_sides, script], ids=["native", "reference", "baseline"]
 )

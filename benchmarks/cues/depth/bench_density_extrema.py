@@ -24,6 +24,7 @@ def script(density: Floats, prominence: float) -> tuple[Any, Any]:
 
 
 @pytest.mark.benchmark(group="density_extrema")
+@pytest.mark.work(flops64=2 * 256, why="levels are searched one by one")
 @pytest.mark.parametrize(
     "density_extrema",
     [_core.density_extrema, reference.density_extrema, script],

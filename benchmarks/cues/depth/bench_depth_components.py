@@ -53,6 +53,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="depth_components")
+@pytest.mark.work(bytes=9 * 176 * 144, counts=176 * 144 * 2 // 3, why="runs are joined one by one")
 @pytest.mark.parametrize(
     "depth_components",
     [_core.depth_components, reference.depth_components, script],

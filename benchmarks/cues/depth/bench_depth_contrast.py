@@ -63,6 +63,7 @@ def middles(grid: tuple[int, int]) -> tuple[Floats, Floats]:
 
 
 @pytest.mark.benchmark(group="depth_contrast")
+@pytest.mark.work(lookups=100 * (140 + 48), counts=100 * 100)
 @pytest.mark.parametrize(
     "depth_contrast",
     [_core.depth_contrast, reference.depth_contrast, script],

@@ -23,6 +23,7 @@ def script(histogram: Floats, bandwidth: float) -> Floats:
 
 
 @pytest.mark.benchmark(group="depth_density")
+@pytest.mark.work(flops64=2 * 33 * 256, why="the Gaussian's weights and the mirrored ends")
 @pytest.mark.parametrize(
     "depth_density",
     [_core.depth_density, reference.depth_density, script],

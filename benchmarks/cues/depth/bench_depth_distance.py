@@ -35,6 +35,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="depth_distance")
+@pytest.mark.work(lookups=100 * 192, counts=100 * 150)
 @pytest.mark.parametrize(
     "depth_distance",
     [_core.depth_distance, reference.depth_distance, script],

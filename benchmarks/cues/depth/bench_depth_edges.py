@@ -22,6 +22,7 @@ def script(depth: Depth, gap: float, slope: float) -> NDArray[np.uint8]:
 
 
 @pytest.mark.benchmark(group="depth_edges")
+@pytest.mark.work(bytes=5 * 176 * 144, flops32=8 * 176 * 144, why="rows of 176")
 @pytest.mark.parametrize(
     "depth_edges", [_core.depth_edges, reference.depth_edges, script], ids=["native", "reference", "baseline"]
 )

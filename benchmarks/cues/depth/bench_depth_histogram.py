@@ -21,6 +21,7 @@ def script(depth: Depth, mask: Mask, near: float, far: float, levels: int) -> De
 
 
 @pytest.mark.benchmark(group="depth_histogram")
+@pytest.mark.work(counts=176 * 144 * 7 // 10)
 @pytest.mark.parametrize(
     "depth_histogram",
     [_core.depth_histogram, reference.depth_histogram, script],

@@ -20,6 +20,7 @@ def script(depth: Depth, z: float, reach: float) -> Any:
 
 
 @pytest.mark.benchmark(group="depth_picture, 176x144")
+@pytest.mark.work(bytes=5 * 176 * 144, flops32=5 * 176 * 144, why="conversion to bytes")
 @pytest.mark.parametrize(
     "draw",
     [_core.depth_picture, reference.depth_picture, script],

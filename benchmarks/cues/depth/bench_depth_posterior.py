@@ -37,6 +37,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="depth_posterior, 64x64")
+@pytest.mark.work(flops32=30 * 64 * 64, lookups=64 * 64, why="the samples, one by one")
 @pytest.mark.parametrize(
     "judge",
     [_core.depth_posterior, reference.depth_posterior, script],

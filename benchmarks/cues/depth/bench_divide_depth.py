@@ -23,6 +23,7 @@ def script(depth: Depth, mask: Mask, dividers: NDArray[np.float64]) -> Mask:
 
 
 @pytest.mark.benchmark(group="divide_depth")
+@pytest.mark.work(bytes=6 * 176 * 144, flops32=7 * 176 * 144, why="a pass for each divider")
 @pytest.mark.parametrize(
     "divide_depth",
     [_core.divide_depth, reference.divide_depth, script],

@@ -42,6 +42,7 @@ def script(depth: Depth, gap: float, slope: float, ragged: float, passes: int) -
 
 
 @pytest.mark.benchmark(group="fill_gaps")
+@pytest.mark.work(flops32=40 * 176 * 144, why="passes, until few gaps are left")
 @pytest.mark.parametrize(
     "fill_gaps", [_core.fill_gaps, reference.fill_gaps, script], ids=["native", "reference", "baseline"]
 )

@@ -49,6 +49,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="floor_plane")
+@pytest.mark.work(flops32=38 * 88 * 72, flops64=3 * 20 * 88 * 72 // 4, why="three fits, sums in one order")
 @pytest.mark.parametrize(
     "floor_plane", [_core.floor_plane, reference.floor_plane, script], ids=["native", "reference", "baseline"]
 )

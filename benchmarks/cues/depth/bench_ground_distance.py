@@ -27,6 +27,7 @@ def script(depth: Depth, camera: Floats, up: Floats, near: float, far: float) ->
 
 
 @pytest.mark.benchmark(group="ground_distance, 176x144")
+@pytest.mark.work(bytes=8 * 176 * 144, flops32=4 * 176 * 144)
 @pytest.mark.parametrize(
     "measure",
     [_core.ground_distance, reference.ground_distance, script],

@@ -34,6 +34,7 @@ def script(depth: Depth, boxes: Floats, samples: int, expected: float, offset: f
 
 
 @pytest.mark.benchmark(group="median_depths, 6 boxes")
+@pytest.mark.work(lookups=6 * 1800, counts=6 * 1800, why="each median, bin by bin")
 @pytest.mark.parametrize(
     "measure",
     [_core.median_depths, reference.median_depths, script],

@@ -28,6 +28,7 @@ def script(depth: Depth, camera: Floats, plane: Floats, tolerance: float, step: 
 
 
 @pytest.mark.benchmark(group="plane_support")
+@pytest.mark.work(flops32=9 * 88 * 72, why="every other pixel")
 @pytest.mark.parametrize(
     "plane_support",
     [_core.plane_support, reference.plane_support, script],

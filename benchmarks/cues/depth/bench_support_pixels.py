@@ -57,6 +57,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="support_pixels, 64x64")
+@pytest.mark.work(lookups=64 * 64, flops32=6 * 64 * 64 + 36 * 32 * 32, why="three fits, sums in one order")
 @pytest.mark.parametrize(
     "find", [_core.support_pixels, reference.support_pixels, script], ids=["native", "reference", "baseline"]
 )

@@ -62,6 +62,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="gradient_flow, 160x120")
+@pytest.mark.work(flops32=290 * 160 * 120)
 @pytest.mark.parametrize("flow", IMPLEMENTATIONS.values(), ids=list(IMPLEMENTATIONS))
 def bench_gradient_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
     """Half of the pixels that the kernel keeps all find within 0.2 px, and the first three alike."""

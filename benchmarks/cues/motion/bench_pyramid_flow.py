@@ -43,6 +43,7 @@ IMPLEMENTATIONS = {
 
 
 @pytest.mark.benchmark(group="pyramid_flow, 160x120")
+@pytest.mark.work(flops32=250 * 160 * 120 * 21 // 16)
 @pytest.mark.parametrize("flow", IMPLEMENTATIONS.values(), ids=list(IMPLEMENTATIONS))
 def bench_pyramid_flow(benchmark: Any, frames: tuple[Image, Image], flow: Callable[..., Flow]) -> None:
     """Half of the pixels are found within 0.2 px by all, and the kernels agree."""

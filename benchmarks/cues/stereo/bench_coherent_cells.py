@@ -24,6 +24,7 @@ def baseline(disparities: Plane, expected: float, tolerance: float, window: int)
 
 
 @pytest.mark.benchmark(group="coherent_cells, 60x56")
+@pytest.mark.work(flops32=3 * 60 * 56, ops8=2 * 6 * 60 * 56, why="a running sum along each row")
 @pytest.mark.parametrize(
     "coherent_cells",
     [_core.coherent_cells, reference.coherent_cells, baseline],

@@ -96,6 +96,7 @@ def check(benchmark: Any, measure: Measure, height: int) -> None:
 
 
 @pytest.mark.benchmark(group="gradient_disparity, 160x120")
+@pytest.mark.work(flops32=130 * 160 * 120 * 21 // 16)
 @pytest.mark.parametrize("measure", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_gradient_disparity(benchmark: Any, measure: Measure) -> None:
     """All find the same."""
@@ -103,6 +104,7 @@ def bench_gradient_disparity(benchmark: Any, measure: Measure) -> None:
 
 
 @pytest.mark.benchmark(group="gradient_disparity, 640x480")
+@pytest.mark.work(flops32=130 * 640 * 480 * 21 // 16)
 @pytest.mark.parametrize("measure", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_gradient_disparity_large(benchmark: Any, measure: Measure) -> None:
     """All find the same."""

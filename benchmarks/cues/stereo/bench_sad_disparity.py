@@ -64,6 +64,7 @@ def check(benchmark: Any, match: Matcher) -> None:
 
 
 @pytest.mark.benchmark(group="sad_disparity, 160x120")
+@pytest.mark.work(ops8=20 * 145 * 120 * 16)
 @pytest.mark.parametrize(
     "match", [*map(whole, IMPLEMENTATIONS.values()), baseline(WHOLE)], ids=[*IMPLEMENTATIONS, "baseline"]
 )
@@ -73,6 +74,7 @@ def bench_sad_disparity(benchmark: Any, match: Matcher) -> None:
 
 
 @pytest.mark.benchmark(group="sad_disparity, head of 30x36")
+@pytest.mark.work(ops8=20 * 30 * 36 * 9 * 3 // 4, why="rows of 30 pixels")
 @pytest.mark.parametrize(
     "match", [*map(head, IMPLEMENTATIONS.values()), baseline(HEAD)], ids=[*IMPLEMENTATIONS, "baseline"]
 )
