@@ -172,29 +172,6 @@ def box_contrast(
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
     """
 
-def cell_colors(
-    image: numpy.typing.NDArray[numpy.uint8], step: int
-) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]:
-    """
-    Every step-th pixel of an image, from step // 2 on, and their mean.
-
-    Args:
-        image: uint8 (H, W, 3) BGR
-        step: pixels from one sample to the next, 1 to 1024
-
-    Returns:
-        colors: uint8 (ceil((H - step // 2) / step), the same of W, 3): the color of each cell's middle
-            pixel, BGR
-        mean: float64 (3,) blue, green and red: a measure of the light while the scene stays the same; 0
-            of an empty image
-
-    Raises:
-        ValueError: on a step out of range
-
-    Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries'
-    adaptation to the light.
-    """
-
 def coherent_cells(
     disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
 ) -> numpy.typing.NDArray[numpy.uint8]:
@@ -758,12 +735,14 @@ def ellipse_histogram(
     ellipses: numpy.typing.NDArray[numpy.float64],
     size: int,
     margin: float,
+    mask: numpy.typing.NDArray[numpy.uint8] | None = None,
 ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """
     Histograms of the bins inside each ellipse, and in the ring around it, over all pixels of each.
 
     A pixel is inside where its center (column + 0.5, row + 0.5) is. The ring is the ellipse scaled by
-    `margin`, without the ellipse. Pixels outside the image, and those without a bin, count nowhere.
+    `margin`, without the ellipse. Pixels outside the image, those without a bin and those that the mask
+    leaves out count nowhere.
 
     Args:
         bins: uint16 (H, W), as color_bins gives them, may be empty; 65535 is no bin
@@ -771,6 +750,7 @@ def ellipse_histogram(
             bins, finite, axes above 0
         size: bins of a histogram, 1 to 65535
         margin: 1 (no ring) to 16; times the semi-axes at most 4096 pixels
+        mask: uint8 (H, W), not 0 where a pixel counts; None for all
 
     Returns:
         inside: int32 (N, size): pixels of each bin inside the ellipse
@@ -1104,6 +1084,24 @@ def hog_color_cells(
 
     Source: Dalal, Triggs 2005, section 6; Felzenszwalb, Girshick, McAllester, Ramanan 2010, section 6.
     Cells of 2 x 2 pixels, eight bins by the ratio of the sides, the 102 levels and the colors are ours.
+    """
+
+def image_mean(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The mean color of every step-th pixel of an image, from step // 2 on: a measure of the light while
+    the scene stays the same.
+
+    Args:
+        image: uint8 (H, W, 3) BGR
+        step: pixels from one sample to the next, 1 to 1024
+
+    Returns:
+        float64 (3,): blue, green and red; 0 where there is no sample
+
+    Raises:
+        ValueError: on a step out of range
+
+    Source: ours, for von Kries' adaptation to the light.
     """
 
 def joint_histogram(
@@ -2348,9 +2346,6 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
-    def cell_colors(
-        self, image: numpy.typing.NDArray[numpy.uint8], step: int
-    ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]: ...
     def coherent_cells(
         self, disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
@@ -2477,6 +2472,7 @@ class Kernels(Protocol):
         ellipses: numpy.typing.NDArray[numpy.float64],
         size: int,
         margin: float,
+        mask: numpy.typing.NDArray[numpy.uint8] | None = None,
     ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
     def ellipse_search(
         self,
@@ -2540,6 +2536,9 @@ class Kernels(Protocol):
     def hog_color_cells(
         self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def image_mean(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...

@@ -111,14 +111,6 @@ Region covered_area(const EllipseShape& shape, const CenterPixel& place, const S
                         grid);
 }
 
-void require_mask(const ImageView& mask, const BinsView& bins) {
-    const auto shape = [](int rows, int cols) {
-        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-    };
-    if (mask.data != nullptr && (mask.rows != bins.rows || mask.cols != bins.cols))
-        refuse("mask", "shape " + shape(bins.rows, bins.cols), shape(mask.rows, mask.cols));
-}
-
 /// The largest power of two that fits 31 bits when multiplied by the number of pixels of a shape.
 std::int32_t find_unit(const EllipseShape& shape) {
     std::int32_t unit = 1;

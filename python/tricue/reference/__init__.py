@@ -9,7 +9,7 @@ from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.camera.reduce_gray import reduce_gray
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.box_contrast import box_contrast
-from tricue.reference.cues.color.cell_colors import cell_colors
+from tricue.reference.cues.color.image_mean import image_mean
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -83,7 +83,7 @@ __all__ = [
     "block_counts",
     "block_mask",
     "box_contrast",
-    "cell_colors",
+    "image_mean",
     "coherent_cells",
     "color_bins",
     "color_histogram",

@@ -42,7 +42,7 @@ def search_local(
         region.bins, region.to_cells(ellipse, step), grid, histogram, p.ring, region.coherent
     )
     scores = score_matches(measured, p)
-    row, column = divmod(int(np.argmax(scores)), grid[1])
+    row, column = divmod(int(scores.argmax()), grid[1])
     x, y, minor, major = ellipse
     best = (x + step * (column - across), y + step * (row - down), minor, major)
     intersection, _, coherence, _ = measured[row, column].tolist()
@@ -54,6 +54,6 @@ def score_matches(measured: Floats, p: StereoHeadParams) -> Floats:
 
     The four are the intersections of ellipse and ring with the model, and the coherent shares of both.
     """
-    color, ring_color, coherent, ring_coherent = np.moveaxis(measured, -1, 0)
+    color, ring_color, coherent, ring_coherent = (measured[..., i] for i in range(4))
     depth = coherent - p.depth_ring * ring_coherent
     return np.asarray(color - p.ring_weight * ring_color + p.depth_weight * depth)
