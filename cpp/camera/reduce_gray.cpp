@@ -12,11 +12,14 @@
 namespace tricue {
 namespace {
 
+/// The weights are 128 of `high` and one of `low`: both sums fit 16 bits, of which a register holds twice as many as of 32.
 TRICUE_MULTIVERSION
 void turn_gray(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, std::uint8_t* __restrict gray) {
     for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
-        const int b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
-        gray[x] = static_cast<std::uint8_t>((3735 * b + 19235 * g + 9798 * r + (1 << 14)) >> 15);
+        const std::uint16_t b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
+        const auto high = static_cast<std::uint16_t>(29 * b + 150 * g + 76 * r);
+        const auto low = static_cast<std::uint16_t>(23 * b + 35 * g + 70 * r);
+        gray[x] = static_cast<std::uint8_t>(static_cast<std::uint16_t>(high + (low >> 7) + 128) >> 8);
     });
 }
 

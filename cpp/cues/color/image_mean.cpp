@@ -18,10 +18,18 @@ constexpr int kMaxDenseStep = 8;    ///< up to which it is faster to add all pix
 constexpr int kBlock = 32;          ///< pixels that are added side by side, at least
 constexpr int kMaxAdditions = 257;  ///< of bytes, that fit 16 bits
 
-TRICUE_MULTIVERSION
-void add_blocks(const std::uint8_t* __restrict bytes, int blocks, int size, std::uint16_t* __restrict sums) {
+/// kSize is the size, or 0 for any: sums of a known size stay in registers.
+template <int kSize>
+TRICUE_INLINE void add(const std::uint8_t* __restrict bytes, int blocks, int any_size,
+                       std::uint16_t* __restrict sums) {
+    const int size = kSize > 0 ? kSize : any_size;
     for (int i = 0; i < blocks; ++i, bytes += size)
         for (int k = 0; k < size; ++k) sums[k] = static_cast<std::uint16_t>(sums[k] + bytes[k]);
+}
+
+TRICUE_MULTIVERSION
+void add_blocks(const std::uint8_t* bytes, int blocks, int size, std::uint16_t* sums) {
+    size == 3 * kBlock ? add<3 * kBlock>(bytes, blocks, size, sums) : add<0>(bytes, blocks, size, sums);
 }
 
 /// Sums of samples, by sums of all pixels in blocks, of which only those of samples are looked at.

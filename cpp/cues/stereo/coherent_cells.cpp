@@ -34,15 +34,15 @@ void slide_down(const std::int16_t* __restrict more, const std::int16_t* __restr
         for (Eigen::Index j = 0; j < n; ++j) columns[j] = static_cast<std::int16_t>(columns[j] - less[j]);
 }
 
-/// A row of the mask; `columns` has `half` zeros before and after its n sums.
+/// A row of the mask; `columns` has `half` zeros before and after its n sums, `sums` has room for n.
 TRICUE_MULTIVERSION
 void decide(const std::int16_t* __restrict columns, const std::int16_t* __restrict votes, Eigen::Index n,
-            int window, std::uint8_t* __restrict mask) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-        int sum = 0;
-        for (int k = 0; k < window; ++k) sum += columns[j + k];
-        mask[j] = static_cast<std::uint8_t>((votes[j] > 0) | ((votes[j] == 0) & (sum > 0)));
-    }
+            int window, std::int16_t* __restrict sums, std::uint8_t* __restrict mask) {
+    for (Eigen::Index j = 0; j < n; ++j) sums[j] = columns[j];
+    for (int k = 1; k < window; ++k)
+        for (Eigen::Index j = 0; j < n; ++j) sums[j] = static_cast<std::int16_t>(sums[j] + columns[j + k]);
+    for (Eigen::Index j = 0; j < n; ++j)
+        mask[j] = static_cast<std::uint8_t>((votes[j] > 0) | ((votes[j] == 0) & (sums[j] > 0)));
 }
 
 }  // namespace
@@ -59,13 +59,13 @@ CellMask coherent_cells(FloatsRef disparities, float expected, float tolerance, 
         vote(disparities.data() + i * disparities.outerStride(), cols, expected, tolerance, row(i));
 
     CellMask mask(rows, cols);
-    std::vector<std::int16_t> columns(static_cast<std::size_t>(cols + 2 * half), 0);
+    std::vector<std::int16_t> columns(static_cast<std::size_t>(cols + 2 * half), 0), sums(columns);
     for (Eigen::Index y = 0; y < std::min(half, rows); ++y)
         slide_down(row(y), nullptr, cols, columns.data() + half);
     for (Eigen::Index i = 0; i < rows; ++i) {
         slide_down(i + half < rows ? row(i + half) : nullptr, i > half ? row(i - half - 1) : nullptr, cols,
                    columns.data() + half);
-        decide(columns.data(), row(i), cols, window, mask.data() + i * cols);
+        decide(columns.data(), row(i), cols, window, sums.data(), mask.data() + i * cols);
     }
     return mask;
 }
