@@ -43,8 +43,16 @@ def case(seed: int = 0, count: int = 200, **changes: Any) -> dict[str, Any]:
 
 def one(state: int, core: bool = True, **changes: Any) -> dict[str, Any]:
     """A single block inside the image without votes, in which nothing is measured."""
-    numbers = {name: np.zeros(1, np.int64) for name in case() if name not in ("disparities", "min_share", "frames")}
-    start = {**case(), **numbers, "states": np.array([state]), "core": np.array([core]), "mean": np.array([np.nan])}
+    numbers = {
+        name: np.zeros(1, np.int64) for name in case() if name not in ("disparities", "min_share", "frames")
+    }
+    start = {
+        **case(),
+        **numbers,
+        "states": np.array([state]),
+        "core": np.array([core]),
+        "mean": np.array([np.nan]),
+    }
     arrays = {name: np.array([value]) for name, value in changes.items()}
     return {**start, "cells": np.array([CELLS]), **arrays}
 

@@ -55,7 +55,9 @@ def test_a_mask_takes_pixels_out(kernels: Kernels) -> None:
     mask = np.random.default_rng(1).integers(0, 3, bins.shape, np.uint8)
     without = np.where(mask != 0, bins, np.uint16(NO_BIN))
     expected = kernels.ellipse_histogram(without, ellipses, SIZE, 1.4)
-    for ours, theirs in zip(kernels.ellipse_histogram(bins, ellipses, SIZE, 1.4, mask), expected, strict=True):
+    for ours, theirs in zip(
+        kernels.ellipse_histogram(bins, ellipses, SIZE, 1.4, mask), expected, strict=True
+    ):
         assert_array_equal(ours, theirs)
     with pytest.raises(ValueError, match="mask: expected shape"):
         kernels.ellipse_histogram(bins, ellipses, SIZE, 1.4, mask[1:])

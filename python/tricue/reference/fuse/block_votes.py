@@ -39,7 +39,10 @@ def block_votes(
     for state in states:
         if state not in (OTHER, TARGET, OCCLUDED):
             refuse("states", "0, 1 or 2", state)
-    (target_disparity, tolerance, occluder), (to_add, to_remove, to_release, max_unproven) = disparities, frames
+    (target_disparity, tolerance, occluder), (to_add, to_remove, to_release, max_unproven) = (
+        disparities,
+        frames,
+    )
     inside = cells > 0
     has_mean = (measured >= MIN_MEASURED_SHARE * cells) & inside
     found = (targets >= min_share * cells) & inside

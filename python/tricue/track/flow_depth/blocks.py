@@ -119,7 +119,9 @@ class Blocks(NamedTuple):
     def rectangles(self) -> Floats:
         """(N, 4) x0, y0, x1, y1, cells."""
         rectangles = self.corners * self.size
-        points = rectangles.view(np.complex128)  # x + iy: to add one number is faster than to add rows of four
+        points = rectangles.view(
+            np.complex128
+        )  # x + iy: to add one number is faster than to add rows of four
         points += complex(*self.anchor.tolist())
         return rectangles
 

@@ -71,20 +71,20 @@ class PreparedPair(NamedTuple):
 
         Only what it compares is turned gray.
         """
-        side, window = (self.step, p.window) if cells else (1, self.pixel_window(p))
+        side = self.step if cells else 1
+        window = p.window if cells else self.pixel_window(p)
         height, width = self.left.shape[:2]
         (x0, y0, x1, y1), (first, last) = region, limits
         margin = window // 2 + 1  # of the window, and of the prefilter
         left, right = _clip(x0 - max(last, 0) - margin, x1 - min(first, 0) + margin, width // side)
         top, bottom = _clip(y0 - margin, y1 + margin, height // side)
         rows, columns = slice(top * side, bottom * side), slice(left * side, right * side)
-        compared = [
-            image[rows, columns] if side == 1 and image.ndim == 2 else k.reduce_gray(image[rows, columns], side)
-            for image in (self.left, self.right)
-        ]
-        shifted = (x0 - left, y0 - top, x1 - left, y1 - top)
+        gray, other = k.reduce_gray(self.left[rows, columns], side), self.right[rows, columns]
+        if side > 1 or other.ndim == 3:
+            other = k.reduce_gray(other, side)
+        here = (x0 - left, y0 - top, x1 - left, y1 - top)
         return k.sad_disparity(
-            *compared, shifted, ellipse, first, last, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
+            gray, other, here, ellipse, first, last, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
         )
 
     def pixel_window(self, p: StereoHeadParams) -> int:

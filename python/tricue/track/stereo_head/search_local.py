@@ -54,6 +54,10 @@ def score_matches(measured: Floats, p: StereoHeadParams) -> Floats:
 
     The four are the intersections of ellipse and ring with the model, and the coherent shares of both.
     """
-    color, ring_color, coherent, ring_coherent = (measured[..., i] for i in range(4))
-    depth = coherent - p.depth_ring * ring_coherent
-    return np.asarray(color - p.ring_weight * ring_color + p.depth_weight * depth)
+    depth = p.depth_ring * measured[..., 3]
+    np.subtract(measured[..., 2], depth, depth)
+    depth *= p.depth_weight
+    scores: Floats = p.ring_weight * measured[..., 1]
+    np.subtract(measured[..., 0], scores, scores)
+    scores += depth
+    return scores
