@@ -28,9 +28,8 @@ def script(*arguments: Any) -> tuple[list[Any], ...]:
     """The baseline: one block after the other, in Python's numbers."""
     *numbers, (target, tolerance, occluder), least, (add, remove, release, unproven) = arguments
     rows = []
-    for state, votes, against, core, trusted, idle, cells, pixels, measured, mean, same in zip(
-        *(each.tolist() for each in numbers), strict=True
-    ):
+    for block in zip(*(each.tolist() for each in numbers), strict=True):
+        state, votes, against, core, trusted, idle, cells, pixels, measured, mean, same = block
         found, close = (cells > 0 and count >= least * cells for count in (pixels, same))
         known = cells > 0 and measured >= 0.2 * cells
         hidden = known and mean > occluder and not found

@@ -101,7 +101,7 @@ def test_another_disparity_ends_a_target(kernels: Kernels) -> None:
 
 
 def test_depth_alone_keeps_a_core_block_for_a_while(kernels: Kernels) -> None:
-    """Of the target's disparity a core block lives 20 frames without target pixels; only it is voted in so."""
+    """At the target's disparity a core block lives 20 frames without target pixels; only it is voted in."""
     same = {"measured": CELLS, "mean": 12.0, "similar": CELLS}
     states = after_frames(kernels, one(TARGET, **same), 21)
     assert states == [TARGET] * 19 + [OTHER] * 2

@@ -151,3 +151,14 @@ __all__ = [
     "temporal_window",
     "weighted_histogram",
 ]
+
+
+def _add_contracts() -> None:
+    """Append the native kernels' contracts, without the line of their signature, to the twins' docstrings."""
+    for name in __all__:
+        _, _, contract = (getattr(_core, name).__doc__ or "").partition("\n\n")
+        twin = globals()[name]
+        twin.__doc__ = f"{twin.__doc__ or ''}\n\n{contract}"
+
+
+_add_contracts()

@@ -145,8 +145,8 @@ class Blocks(NamedTuple):
     def occluded_share(self, observed: BlockObservation, limits: DisparityLimits) -> float:
         """The share of the target's blocks inside the image that something nearer hides."""
         mine = (self.states != NOT_TARGET_BLOCK) & (observed.cells > 0)
-        hidden = np.count_nonzero(mine & observed.is_nearer(limits))
-        return hidden / max(np.count_nonzero(mine), 1)
+        hidden = int(np.count_nonzero(mine & observed.is_nearer(limits)))
+        return hidden / max(int(np.count_nonzero(mine)), 1)
 
     def voted(
         self, k: Kernels, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams

@@ -68,8 +68,8 @@ def _learn_unoccluded(
 ) -> FlowDepthState:
     """The outline and the running means, learned where few blocks are occluded."""
     states = state.blocks.states
-    mine = np.count_nonzero(states != NOT_TARGET_BLOCK)
-    occluded = np.count_nonzero(states == OCCLUDED_BLOCK) / max(mine, 1)
+    mine = int(np.count_nonzero(states != NOT_TARGET_BLOCK))
+    occluded = int(np.count_nonzero(states == OCCLUDED_BLOCK)) / max(mine, 1)
     if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
         mask = mask_blocks(k, state, cues, states == TARGET_BLOCK)
         mask &= verdict.pixels | mask_disparity(state, cues, state.disparity, p)

@@ -67,4 +67,5 @@ def _count(
     """(L,) cells of each bin in an ellipse, of those that a mask marks, if any."""
     cells = region.to_cells(ellipse, step)[None]
     inside, _ = k.ellipse_histogram(region.bins, cells, math.prod(p.bins), 1.0, mask)
-    return inside[0]
+    counts: NDArray[np.int32] = inside[0]
+    return counts

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A stereo pair prepared for the search: its light, and its color bins and disparities where they are needed."""
+"""A stereo pair prepared for the search: its light; its color bins and disparities where they are needed."""
 
 from typing import NamedTuple
 

@@ -13,4 +13,4 @@ def image_mean(image: NDArray[np.uint8], step: int) -> NDArray[np.float64]:
         refuse("step", "1 to 1024", step)
     colors = image[step // 2 :: step, step // 2 :: step]
     count = colors.shape[0] * colors.shape[1]
-    return colors.sum(axis=(0, 1), dtype=np.int64) * (1 / count if count else 0.0)
+    return np.asarray(colors.sum(axis=(0, 1), dtype=np.int64) * (1 / count if count else 0.0))
