@@ -14,7 +14,13 @@ from tricue import _core, reference
 Floats = NDArray[np.float64]
 
 
-def script(mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floats) -> tuple[Any, ...]:
+def script(
+    mask: NDArray[np.uint8],
+    disparity: NDArray[np.float32],
+    blocks: Floats,
+    expected: float,
+    tolerance: float,
+) -> tuple[Any, ...]:
     """The baseline: integral images of the part with blocks, whose corners are whole numbers here."""
     corners = blocks.astype(int)
     left, top = corners[:, :2].min(axis=0)
@@ -26,7 +32,10 @@ def script(mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floa
     totals = [cv2.integral(image) for image in images]
     sums = [total[y1, x1] - total[y1, x0] - total[y0, x1] + total[y0, x0] for total in totals]
     mean = np.divide(sums[2], sums[1], out=np.full(len(blocks), np.nan), where=sums[1] > 0)
-    return (x1 - x0) * (y1 - y0), sums[0], sums[1], mean
+    near = np.abs(disparity[part] - np.float32(expected)) < np.float32(tolerance)
+    total = cv2.integral(near.astype(np.uint8))
+    similar = total[y1, x1] - total[y1, x0] - total[y0, x1] + total[y0, x0]
+    return (x1 - x0) * (y1 - y0), sums[0], sums[1], mean, similar
 
 
 IMPLEMENTATIONS = {"native": _core.block_counts, "reference": reference.block_counts, "baseline": script}
@@ -38,10 +47,10 @@ def check(benchmark: Any, block_counts: Callable[..., Any], target: Any, size: i
     x0, y0 = target.window[0] - size, 0
     low = np.column_stack([x.ravel() + x0, y.ravel() + y0])
     blocks = np.column_stack([low, low + size]).astype(float)
-    found = benchmark(block_counts, target.mask, target.planes[2], blocks)
-    expected = reference.block_counts(target.mask, target.planes[2], blocks)
+    found = benchmark(block_counts, target.mask, target.planes[2], blocks, 8.0, 1.0)
+    expected = reference.block_counts(target.mask, target.planes[2], blocks, 8.0, 1.0)
     assert expected[1].max() > size
-    for ours, theirs in zip(found[:3], expected[:3], strict=True):
+    for ours, theirs in zip((*found[:3], found[4]), (*expected[:3], expected[4]), strict=True):
         assert_array_equal(ours, theirs)
     assert_allclose(found[3], expected[3], rtol=1e-9)
 

@@ -29,11 +29,12 @@ struct Pixels {
     const std::uint8_t* mask;
     std::ptrdiff_t mask_stride;
     int rows;
+    float expected, tolerance;
 };
 
 struct Totals {
     double sum = 0.0;
-    std::int64_t readings = 0, targets = 0;
+    std::int64_t readings = 0, targets = 0, similar = 0;
 };
 
 /// 0xff in the first bytes of four, 0 in others, for any byte order.
@@ -57,7 +58,7 @@ TRICUE_INLINE std::uint32_t count_set(const std::uint8_t* mask, std::uint32_t sk
 /// Adds four columns side by side, down the rows, without the first `skipped` of them.
 TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals& totals) {
     Doubles4 sums = {};
-    Ints4 readings = {};
+    Ints4 readings = {}, similar = {};
     const Ints4 counted = skipped <= Ints4{0, 1, 2, 3};
     const std::uint32_t skipped_bytes = first_bytes(skipped);
     const float* disparity = pixels.disparity + x;
@@ -67,6 +68,8 @@ TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals&
         load(disparity, values);
         const Ints4 finite = (values >= -kMaxFloat) & (values <= kMaxFloat) & counted;
         readings -= finite;
+        const Floats4 off = values - pixels.expected;
+        similar -= (off < pixels.tolerance) & (off > -pixels.tolerance) & finite;
         Ints4 bits;
         load(&values, bits);
         bits &= finite;
@@ -80,6 +83,7 @@ TRICUE_INLINE void add_columns(const Pixels& pixels, int x, int skipped, Totals&
     }
     totals.sum += sum(sums);
     totals.readings += readings[0] + readings[1] + readings[2] + readings[3];
+    totals.similar += similar[0] + similar[1] + similar[2] + similar[3];
 }
 
 /// One by one, where there are fewer than four.
@@ -89,6 +93,7 @@ inline void add_column(const Pixels& pixels, int x, Totals& totals) {
         const bool finite = std::abs(value) <= kMaxFloat;
         totals.sum += static_cast<double>(finite ? value : 0.0f);
         totals.readings += finite;
+        totals.similar += finite && std::abs(value - pixels.expected) < pixels.tolerance;
         totals.targets += pixels.mask[y * pixels.mask_stride + x] != 0;
     }
 }
@@ -106,7 +111,8 @@ void add_block(const Pixels& pixels, int cols, Totals& totals) {
 
 }  // namespace
 
-BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, StatesRef blocks) {
+BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, StatesRef blocks, float expected,
+                         float tolerance) {
     const auto shape = [](int rows, int cols) {
         return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
     };
@@ -114,7 +120,7 @@ BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, Stat
         refuse("mask", "shape " + shape(disparity.rows, disparity.cols), shape(mask.rows, mask.cols));
     require_shape(blocks, blocks.rows(), 4, "blocks");
     const Eigen::Index count = blocks.rows();
-    BlockCounts counts{Indices(count), Indices(count), Indices(count), Vector(count)};
+    BlockCounts counts{Indices(count), Indices(count), Indices(count), Vector(count), Indices(count)};
     for (Eigen::Index i = 0; i < count; ++i) {
         const auto block = blocks.row(i);
         const Region part = rectangle_pixels({block[0], block[1], block[2], block[3]}, disparity.rows,
@@ -123,12 +129,13 @@ BlockCounts block_counts(const ImageView& mask, const PlaneView& disparity, Stat
         Totals totals;
         if (rows > 0 && cols > 0)
             add_block({disparity.row(part.y0) + part.x0, disparity.stride, mask.row(part.y0) + part.x0,
-                       mask.stride, rows},
+                       mask.stride, rows, expected, tolerance},
                       cols, totals);
         const auto readings = static_cast<double>(totals.readings);
         counts.pixels[i] = std::int64_t{rows} * cols;
         counts.targets[i] = totals.targets;
         counts.readings[i] = totals.readings;
+        counts.similar[i] = totals.similar;
         counts.mean[i] = readings > 0.0 ? totals.sum / readings : std::numeric_limits<double>::quiet_NaN();
     }
     return counts;

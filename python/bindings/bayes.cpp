@@ -7,6 +7,7 @@
 #include "arrays.hpp"
 #include "fuse/block_counts.hpp"
 #include "fuse/block_mask.hpp"
+#include "fuse/block_votes.hpp"
 #include "fuse/combine_posteriors.hpp"
 #include "fuse/target_distribution.hpp"
 #include "fuse/target_pixels.hpp"
@@ -108,14 +109,52 @@ std::tuple<Box, std::int64_t, Bytes> temporal_window_arrays(const Bytes& mask, i
     return {Box{box.x0, box.y0, box.x1, box.y1}, window.count, give(std::move(window.mask))};
 }
 
-std::tuple<Array<std::int64_t>, Array<std::int64_t>, Array<std::int64_t>, Array<double>> block_counts_arrays(
-    const Bytes& mask, const Array<float>& disparity, const Array<double>& blocks) {
+using Counts = Array<std::int64_t>;
+
+std::tuple<Counts, Counts, Counts, Array<double>, Counts> block_counts_arrays(const Bytes& mask,
+                                                                              const Array<float>& disparity,
+                                                                              const Array<double>& blocks,
+                                                                              double expected,
+                                                                              double tolerance) {
     const auto set = mask_view(mask, "mask");
     const auto readings = plane(disparity, "disparity");
     const auto each = states(blocks, "blocks");
-    auto seen = unlocked(pixels(readings), [&] { return block_counts(set, readings, each); });
+    auto seen = unlocked(pixels(readings), [&] {
+        return block_counts(set, readings, each, static_cast<float>(expected), static_cast<float>(tolerance));
+    });
     return {give(std::move(seen.pixels)), give(std::move(seen.targets)), give(std::move(seen.readings)),
-            give(std::move(seen.mean))};
+            give(std::move(seen.mean)), give(std::move(seen.similar))};
+}
+
+template <typename Scalar>
+Eigen::Map<const Eigen::Array<Scalar, Eigen::Dynamic, 1>> list(const Array<Scalar>& numbers, const char* name,
+                                                               const char* expected) {
+    const auto array = require<Scalar>(numbers, name, 1, expected);
+    return {contiguous<Scalar>(array, name), array.shape(0)};
+}
+
+std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arrays(
+    const Counts& states, const Counts& votes, const Counts& against, const Array<bool>& core,
+    const Counts& trusted, const Counts& unproven, const Counts& cells, const Counts& targets,
+    const Counts& measured, const Array<double>& mean, const Counts& similar,
+    const std::tuple<double, double, double>& disparities, double min_share,
+    const std::tuple<std::int64_t, std::int64_t, std::int64_t, std::int64_t>& frames) {
+    const auto counts = [](const Counts& numbers, const char* name) {
+        return list<std::int64_t>(numbers, name, "int64 (N,)");
+    };
+    const BlockVotes blocks{counts(states, "states"),   counts(votes, "votes"),
+                            counts(against, "against"), list<bool>(core, "core", "bool (N,)"),
+                            counts(trusted, "trusted"), counts(unproven, "unproven")};
+    const BlockObservations seen{counts(cells, "cells"), counts(targets, "targets"),
+                                 counts(measured, "measured"), vector(mean, "mean"),
+                                 counts(similar, "similar")};
+    const auto [target, tolerance, occluder] = disparities;
+    const auto [to_add, to_remove, to_release, max_unproven] = frames;
+    const VoteRules rules{target, tolerance, occluder,   min_share,
+                          to_add, to_remove, to_release, max_unproven};
+    auto after = unlocked(blocks.states.size(), [&] { return block_votes(blocks, seen, rules); });
+    return {give(std::move(after.states)), give(std::move(after.votes)),   give(std::move(after.against)),
+            give(std::move(after.core)),   give(std::move(after.trusted)), give(std::move(after.unproven))};
 }
 
 Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
@@ -127,7 +166,12 @@ Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
 
 void define_bayes(py::module_& m) {
     m.def("block_counts", block_counts_arrays, py::arg("mask"), py::arg("disparity"), py::arg("blocks"),
+          py::arg("expected") = std::numeric_limits<double>::quiet_NaN(), py::arg("tolerance") = 0.0,
           docs::block_counts);
+    m.def("block_votes", block_votes_arrays, py::arg("states"), py::arg("votes"), py::arg("against"),
+          py::arg("core"), py::arg("trusted"), py::arg("unproven"), py::arg("cells"), py::arg("targets"),
+          py::arg("measured"), py::arg("mean"), py::arg("similar"), py::arg("disparities"),
+          py::arg("min_share"), py::arg("frames"), docs::block_votes);
     m.def("block_mask", block_mask_array, py::arg("blocks"), py::arg("height"), py::arg("width"),
           docs::block_mask);
     m.def("combine_posteriors", combine_posteriors_arrays, py::arg("first"), py::arg("second"),

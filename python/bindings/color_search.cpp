@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "arrays.hpp"
-#include "cues/color/cell_colors.hpp"
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
 #include "cues/color/histogram_mean.hpp"
+#include "cues/color/image_mean.hpp"
 #include "cues/color/shift_histogram.hpp"
 #include "kernel_docs.hpp"
 
@@ -24,14 +24,10 @@ ColorSpace color_space(const Triple& bins, int chroma) {
     return {{first, second, third}, chroma};
 }
 
-std::tuple<Array<std::uint8_t>, Array<double>> cell_colors_arrays(const Array<std::uint8_t>& image,
-                                                                  int step) {
+Array<double> image_mean_array(const Array<std::uint8_t>& image, int step) {
     const auto view = color_image(image, "image");
-    auto cells = unlocked(std::ptrdiff_t{view.rows} * view.cols / std::max(step, 1),
-                          [&] { return cell_colors(view, step); });
-    const std::vector<py::ssize_t> shape{cells.colors.rows(), cells.colors.cols() / 3, 3};
-    const py::array_t<double> mean(3, cells.mean.data());
-    return {give(std::move(cells.colors), shape), mean};
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols / std::max(step, 1),
+                         [&] { return image_mean(view, step); }));
 }
 
 std::array<double, 3> channel_gains(const Array<double>& gains) {
@@ -63,12 +59,19 @@ BinsView bins_image(const Array<std::uint16_t>& bins) {
             static_cast<int>(array.shape(1))};
 }
 
+/// Without a mask a view without data.
+ImageView marks_or_none(const std::optional<Array<std::uint8_t>>& mask, const BinsView& bins) {
+    return mask ? mask_image(*mask, "mask") : ImageView{nullptr, bins.rows, bins.cols, 1, 0};
+}
+
 std::tuple<Array<std::int32_t>, Array<std::int32_t>> ellipse_histogram_arrays(
-    const Array<std::uint16_t>& bins, const Array<double>& ellipses, int size, double margin) {
+    const Array<std::uint16_t>& bins, const Array<double>& ellipses, int size, double margin,
+    const std::optional<Array<std::uint8_t>>& mask) {
     const auto view = bins_image(bins);
+    const auto marks = marks_or_none(mask, view);
     const auto each = states(ellipses, "ellipses");
     auto counts = unlocked(std::ptrdiff_t{view.rows} * view.cols * each.rows(),
-                           [&] { return ellipse_histogram(view, each, size, margin); });
+                           [&] { return ellipse_histogram(view, each, size, margin, marks); });
     return {give(std::move(counts.inside)), give(std::move(counts.around))};
 }
 
@@ -80,7 +83,7 @@ Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Arra
     const auto [rows, cols, step] = grid;
     const SearchGrid places{rows, cols, step};
     const SearchModel target{vector(model, "model"), margin};
-    const auto marks = mask ? mask_image(*mask, "mask") : ImageView{nullptr, view.rows, view.cols, 1, 0};
+    const auto marks = marks_or_none(mask, view);
     auto found = unlocked(std::ptrdiff_t{view.rows} * view.cols,
                           [&] { return ellipse_search(view, numbers, places, target, marks); });
     return give(std::move(found), {rows, cols, 4});
@@ -105,9 +108,9 @@ Array<double> shift_histogram_arrays(const Array<double>& histogram, const Tripl
 void define_color_search(py::module_& m) {
     m.def("color_bins", color_bins_arrays, py::arg("image"), py::arg("region"), py::arg("bins"),
           py::arg("chroma"), py::arg("step"), py::arg("gains") = py::none(), docs::color_bins);
-    m.def("cell_colors", cell_colors_arrays, py::arg("image"), py::arg("step"), docs::cell_colors);
+    m.def("image_mean", image_mean_array, py::arg("image"), py::arg("step"), docs::image_mean);
     m.def("ellipse_histogram", ellipse_histogram_arrays, py::arg("bins"), py::arg("ellipses"),
-          py::arg("size"), py::arg("margin"), docs::ellipse_histogram);
+          py::arg("size"), py::arg("margin"), py::arg("mask") = py::none(), docs::ellipse_histogram);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
     m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),

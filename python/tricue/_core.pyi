@@ -99,11 +99,14 @@ def block_counts(
     mask: numpy.typing.NDArray[numpy.uint8],
     disparity: numpy.typing.NDArray[numpy.float32],
     blocks: numpy.typing.NDArray[numpy.float64],
+    expected: float = ...,
+    tolerance: float = 0.0,
 ) -> tuple[
     numpy.typing.NDArray[numpy.int64],
     numpy.typing.NDArray[numpy.int64],
     numpy.typing.NDArray[numpy.int64],
     numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.int64],
 ]:
     """
     What is seen in the blocks of the target window, by which their states change.
@@ -113,12 +116,15 @@ def block_counts(
         disparity: float32 (H, W), pixels, NaN where there is none
         blocks: float64 (N, 4): x0, y0, x1, y1, pixels, finite; a block has the pixels whose centers lie
             in it, the first pixel being [0, 1) x [0, 1)
+        expected: a disparity, pixels; NaN for none
+        tolerance: by which a similar one differs less from it, pixels
 
     Returns:
         pixels: int64 (N,): pixels of each block that are in the image
         targets: int64 (N,): those set in the mask
         readings: int64 (N,): those with a finite disparity
         mean: float64 (N,): mean of these disparities, pixels; NaN without any
+        similar: int64 (N,): those nearer than the tolerance to the expected one
 
     Raises:
         ValueError: on a mask of another shape, blocks of another shape, or corners that are not finite
@@ -146,6 +152,73 @@ def block_mask(
     Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7.
     """
 
+def block_votes(
+    states: numpy.typing.NDArray[numpy.int64],
+    votes: numpy.typing.NDArray[numpy.int64],
+    against: numpy.typing.NDArray[numpy.int64],
+    core: numpy.typing.NDArray[numpy.bool],
+    trusted: numpy.typing.NDArray[numpy.int64],
+    unproven: numpy.typing.NDArray[numpy.int64],
+    cells: numpy.typing.NDArray[numpy.int64],
+    targets: numpy.typing.NDArray[numpy.int64],
+    measured: numpy.typing.NDArray[numpy.int64],
+    mean: numpy.typing.NDArray[numpy.float64],
+    similar: numpy.typing.NDArray[numpy.int64],
+    disparities: tuple[float, float, float],
+    min_share: float,
+    frames: tuple[int, int, int, int],
+) -> tuple[
+    numpy.typing.NDArray[numpy.int64],
+    numpy.typing.NDArray[numpy.int64],
+    numpy.typing.NDArray[numpy.int64],
+    numpy.typing.NDArray[numpy.bool],
+    numpy.typing.NDArray[numpy.int64],
+    numpy.typing.NDArray[numpy.int64],
+]:
+    """
+    The blocks of the target window after the votes of a frame.
+
+    A block with target pixels, or a core block at the target's disparity, has a vote; after as many as
+    are needed it is the target's. A core block is kept by the disparity alone for a limited time, as
+    the floor around the feet has it, too. One at another disparity without target pixels has a vote
+    against it, but not if hardly any disparities are measured: cloth and cardboard without texture have
+    none. A block whose mean disparity is an occluder's, without target pixels, is occluded; it is the
+    target's again at a similar disparity, and released where it shows what is behind the target for
+    long.
+
+    Args:
+        states: int64 (N,): 0, 1 or 2
+        votes: int64 (N,)
+        against: int64 (N,)
+        core: bool (N,)
+        trusted: int64 (N,)
+        unproven: int64 (N,)
+        cells: int64 (N,): pixels of each block inside the image
+        targets: int64 (N,): those of the target
+        measured: int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
+        mean: float64 (N,): their mean disparity
+        similar: int64 (N,): those at the target's disparity
+        disparities: (target, tolerance, occluder): a mean is similar within the tolerance of the
+            target's disparity, and an occluder's above the third
+        min_share: of a block's pixels, for a vote
+        frames: (to add, to remove, to release, unproven): votes that make a block the target's, that
+            end this, and that release an occluded block; frames for which disparity alone keeps a block
+
+    Returns:
+        states: int64 (N,): 0 not the target's, 1 the target's, 2 occluded
+        votes: int64 (N,): frames for a block to become the target's
+        against: int64 (N,): frames for it to leave its state
+        core: bool (N,): blocks that the target's disparity alone keeps
+        trusted: int64 (N,): frames for which a block counts in the model after it had target pixels
+        unproven: int64 (N,): frames with the target's disparity since it had target pixels
+
+    Raises:
+        ValueError: on sizes that differ, and states other than 0 to 2
+
+    Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are
+    ours.
+    """
+
 def box_contrast(
     plane: numpy.typing.NDArray[numpy.float32], width: float, height: float, outer: float, around: float
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -170,29 +243,6 @@ def box_contrast(
         ValueError: on a plane with an odd side or without pixels, or numbers out of range
 
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
-    """
-
-def cell_colors(
-    image: numpy.typing.NDArray[numpy.uint8], step: int
-) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]:
-    """
-    Every step-th pixel of an image, from step // 2 on, and their mean.
-
-    Args:
-        image: uint8 (H, W, 3) BGR
-        step: pixels from one sample to the next, 1 to 1024
-
-    Returns:
-        colors: uint8 (ceil((H - step // 2) / step), the same of W, 3): the color of each cell's middle
-            pixel, BGR
-        mean: float64 (3,) blue, green and red: a measure of the light while the scene stays the same; 0
-            of an empty image
-
-    Raises:
-        ValueError: on a step out of range
-
-    Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries'
-    adaptation to the light.
     """
 
 def coherent_cells(
@@ -758,12 +808,14 @@ def ellipse_histogram(
     ellipses: numpy.typing.NDArray[numpy.float64],
     size: int,
     margin: float,
+    mask: numpy.typing.NDArray[numpy.uint8] | None = None,
 ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """
     Histograms of the bins inside each ellipse, and in the ring around it, over all pixels of each.
 
     A pixel is inside where its center (column + 0.5, row + 0.5) is. The ring is the ellipse scaled by
-    `margin`, without the ellipse. Pixels outside the image, and those without a bin, count nowhere.
+    `margin`, without the ellipse. Pixels outside the image, those without a bin and those that the mask
+    leaves out count nowhere.
 
     Args:
         bins: uint16 (H, W), as color_bins gives them, may be empty; 65535 is no bin
@@ -771,6 +823,7 @@ def ellipse_histogram(
             bins, finite, axes above 0
         size: bins of a histogram, 1 to 65535
         margin: 1 (no ring) to 16; times the semi-axes at most 4096 pixels
+        mask: uint8 (H, W), not 0 where a pixel counts; None for all
 
     Returns:
         inside: int32 (N, size): pixels of each bin inside the ellipse
@@ -1104,6 +1157,24 @@ def hog_color_cells(
 
     Source: Dalal, Triggs 2005, section 6; Felzenszwalb, Girshick, McAllester, Ramanan 2010, section 6.
     Cells of 2 x 2 pixels, eight bins by the ratio of the sides, the 102 levels and the colors are ours.
+    """
+
+def image_mean(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The mean color of every step-th pixel of an image, from step // 2 on: a measure of the light while
+    the scene stays the same.
+
+    Args:
+        image: uint8 (H, W, 3) BGR
+        step: pixels from one sample to the next, 1 to 1024
+
+    Returns:
+        float64 (3,): blue, green and red; 0 where there is no sample
+
+    Raises:
+        ValueError: on a step out of range
+
+    Source: ours, for von Kries' adaptation to the light.
     """
 
 def joint_histogram(
@@ -2331,15 +2402,42 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         disparity: numpy.typing.NDArray[numpy.float32],
         blocks: numpy.typing.NDArray[numpy.float64],
+        expected: float = ...,
+        tolerance: float = 0.0,
     ) -> tuple[
         numpy.typing.NDArray[numpy.int64],
         numpy.typing.NDArray[numpy.int64],
         numpy.typing.NDArray[numpy.int64],
         numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.int64],
     ]: ...
     def block_mask(
         self, blocks: numpy.typing.NDArray[numpy.float64], height: int, width: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def block_votes(
+        self,
+        states: numpy.typing.NDArray[numpy.int64],
+        votes: numpy.typing.NDArray[numpy.int64],
+        against: numpy.typing.NDArray[numpy.int64],
+        core: numpy.typing.NDArray[numpy.bool],
+        trusted: numpy.typing.NDArray[numpy.int64],
+        unproven: numpy.typing.NDArray[numpy.int64],
+        cells: numpy.typing.NDArray[numpy.int64],
+        targets: numpy.typing.NDArray[numpy.int64],
+        measured: numpy.typing.NDArray[numpy.int64],
+        mean: numpy.typing.NDArray[numpy.float64],
+        similar: numpy.typing.NDArray[numpy.int64],
+        disparities: tuple[float, float, float],
+        min_share: float,
+        frames: tuple[int, int, int, int],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.bool],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+    ]: ...
     def box_contrast(
         self,
         plane: numpy.typing.NDArray[numpy.float32],
@@ -2348,9 +2446,6 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
-    def cell_colors(
-        self, image: numpy.typing.NDArray[numpy.uint8], step: int
-    ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]: ...
     def coherent_cells(
         self, disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
@@ -2477,6 +2572,7 @@ class Kernels(Protocol):
         ellipses: numpy.typing.NDArray[numpy.float64],
         size: int,
         margin: float,
+        mask: numpy.typing.NDArray[numpy.uint8] | None = None,
     ) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
     def ellipse_search(
         self,
@@ -2540,6 +2636,9 @@ class Kernels(Protocol):
     def hog_color_cells(
         self, patch: numpy.typing.NDArray[numpy.uint8], taper: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def image_mean(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def joint_histogram(
         self, samples: numpy.typing.NDArray[numpy.uint8], bins: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...

@@ -38,8 +38,8 @@ def grid(x: float, y: float, size: float, rows: int, columns: int) -> Floats:
 
 def assert_same(mask: Mask, disparity: Plane, blocks: Floats) -> None:
     """Counts exactly; a mean of n numbers below 30, summed in any order, to n roundings of such."""
-    ours, theirs = (k.block_counts(mask, disparity, blocks) for k in (_core, reference))
-    for one, other in zip(ours[:3], theirs[:3], strict=True):
+    ours, theirs = (k.block_counts(mask, disparity, blocks, 4.1, 1.7) for k in (_core, reference))
+    for one, other in zip((*ours[:3], ours[4]), (*theirs[:3], theirs[4]), strict=True):
         assert_array_equal(one, other, strict=True)
     assert_allclose(ours[3], theirs[3], rtol=0, atol=30 * max(mask.size, 1) * EPS, strict=True)
 
@@ -71,7 +71,7 @@ def test_agrees_with_opencv(kernels: Kernels) -> None:
     mask, disparity = seen((60, 80))
     read = np.isfinite(disparity).astype(np.uint8)
     blocks = grid(2, 3, 7, 8, 11)
-    pixels, targets, readings, mean = kernels.block_counts(mask, disparity, blocks)
+    pixels, targets, readings, mean, _ = kernels.block_counts(mask, disparity, blocks)
     for i, (x0, y0, x1, y1) in enumerate(blocks.astype(int)):
         part = np.s_[y0 : min(y1, 60), x0 : min(x1, 80)]
         assert pixels[i] == mask[part].size
@@ -89,7 +89,7 @@ def test_agrees_with_integral_images(kernels: Kernels) -> None:
     for image in (mask > 0, np.isfinite(disparity), filled):
         total = cv2.integral(image.astype(np.float64))
         sums.append((total[6:, 6:] - total[6:, :-6] - total[:-6, 6:] + total[:-6, :-6]).ravel())
-    pixels, targets, readings, mean = kernels.block_counts(mask, disparity, blocks)
+    pixels, targets, readings, mean, _ = kernels.block_counts(mask, disparity, blocks)
     assert_array_equal(pixels, 36)
     assert_array_equal(targets, sums[0])
     assert_array_equal(readings, sums[1])
@@ -103,11 +103,23 @@ def test_example_by_hand(kernels: Kernels) -> None:
     blocks = np.array(
         [[0, 0, 3, 2], [0.5, 0, 1.5, 9], [0.6, 0, 1.6, 2], [1, 0, 9, 1], [-5, -5, 0, 0], [2, 1, 0, 0]]
     )
-    pixels, targets, readings, mean = kernels.block_counts(mask, disparity, blocks)
+    pixels, targets, readings, mean, _ = kernels.block_counts(mask, disparity, blocks)
     assert_array_equal(pixels, [6, 2, 2, 2, 0, 0])
     assert_array_equal(targets, [3, 1, 0, 1, 0, 0])
     assert_array_equal(readings, [4, 2, 1, 1, 0, 0])
     assert_array_equal(mean, [1.75, -1.5, 2, 2, np.nan, np.nan])
+
+
+def test_similar_disparities_are_within_the_tolerance(kernels: Kernels) -> None:
+    """What is counted as similar is what a mask of |d - expected| < tolerance marks."""
+    mask, disparity = seen((60, 80))
+    blocks = grid(-2, 3, 7, 8, 11)
+    near = np.abs(disparity - np.float32(3.3)) < np.float32(1.25)
+    _, targets, *_ = kernels.block_counts(near.astype(np.uint8), disparity, blocks)
+    *_, similar = kernels.block_counts(mask, disparity, blocks, 3.3, 1.25)
+    assert similar.sum() > 100
+    assert_array_equal(similar, targets)
+    assert not kernels.block_counts(mask, disparity, blocks)[4].any()
 
 
 @given(st.integers(0, 2**32), st.floats(1, 9), st.floats(-1, 1), st.floats(-1, 1))
@@ -126,7 +138,7 @@ def test_grid_counts_each_pixel_once(seed: int, size: float, x: float, y: float)
             )
         ]
     )
-    pixels, targets, readings, mean = _core.block_counts(mask, disparity, blocks)
+    pixels, targets, readings, mean, _ = _core.block_counts(mask, disparity, blocks)
     read = np.isfinite(disparity)
     assert pixels.sum() == mask.size
     assert targets.sum() == np.count_nonzero(mask)
@@ -149,7 +161,7 @@ def test_each_by_itself(kernels: Kernels) -> None:
 def test_constant_disparity(kernels: Kernels) -> None:
     """Of one disparity the mean is that one, however many pixels have it."""
     disparity = np.full((480, 640), 0.1, np.float32)
-    _, _, readings, mean = kernels.block_counts(
+    _, _, readings, mean, _ = kernels.block_counts(
         np.zeros((480, 640), np.uint8), disparity, np.array([[0.0, 0, 640, 480]])
     )
     assert readings[0] == 480 * 640
@@ -160,8 +172,8 @@ def test_constant_disparity(kernels: Kernels) -> None:
 def test_nothing_there(kernels: Kernels, shape: tuple[int, int]) -> None:
     """Without pixels all counts are 0 and means NaN; without blocks there are none."""
     mask, disparity = np.zeros(shape, np.uint8), np.full(shape, np.nan, np.float32)
-    *counts, mean = kernels.block_counts(mask, disparity, np.array([[0.0, 0, 9, 9]]))
-    assert [each[0] for each in counts] == [mask.size, 0, 0]
+    *counts, mean, similar = kernels.block_counts(mask, disparity, np.array([[0.0, 0, 9, 9]]))
+    assert [each[0] for each in (*counts, similar)] == [mask.size, 0, 0, 0]
     assert np.isnan(mean[0])
     for each in kernels.block_counts(mask, disparity, np.empty((0, 4))):
         assert each.shape == (0,)

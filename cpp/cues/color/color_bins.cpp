@@ -29,14 +29,25 @@ TRICUE_INLINE int find_bin(int level, const Axis& axis) {
     return static_cast<int>((static_cast<float>(level) * axis.bins + 0.5F) * axis.inverse);
 }
 
+/// Gains of blue, green and red.
+using Light = std::array<float, 3>;
+
+/// A level in another light, rounded half to even as OpenCV does: above 2^23 floats are whole.
+TRICUE_INLINE int relight(int level, float gain) {
+    constexpr float kWhole = 8388608.0F;
+    return static_cast<int>((std::min(static_cast<float>(level) * gain, 255.0F) + kWhole) - kWhole);
+}
+
 TRICUE_MULTIVERSION
 void bin_row(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, const ColorSpace& space,
-             std::uint16_t* __restrict bins) {
+             std::uint16_t* __restrict bins, const Light& light) {
     const Axis first(space, 0), second(space, 1), third(space, 2);
     const int chroma = space.chroma, last = 2 * space.chroma - 1;
     const int stride0 = space.bins[1] * space.bins[2], stride1 = space.bins[2];
+    const float blue = light[0], green = light[1], red = light[2];
     for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
-        const int b = pixels[3 * x], g = pixels[3 * x + 1], r = pixels[3 * x + 2];
+        const int b = relight(pixels[3 * x], blue), g = relight(pixels[3 * x + 1], green),
+                  r = relight(pixels[3 * x + 2], red);
         const int i = find_bin(std::min(std::max(b - g + chroma, 0), last), first);
         const int j = find_bin(std::min(std::max(g - r + chroma, 0), last), second);
         bins[x] = static_cast<std::uint16_t>(i * stride0 + j * stride1 + find_bin(b + g + r, third));
@@ -56,27 +67,20 @@ struct Span {
     }
 };
 
-/// What each level of each channel becomes in another light, as OpenCV rounds it.
-using Light = std::array<std::array<std::uint8_t, 256>, 3>;
-
 Light light_of(const std::array<double, 3>& gains) {
     Light light{};
     for (std::size_t c = 0; c < 3; ++c) {
         if (!(gains[c] >= 0.0 && std::isfinite(gains[c])))
             refuse("gains", "finite numbers, none negative", gains[c]);
-        const auto gain = static_cast<float>(gains[c]);
-        for (std::size_t level = 0; level < 256; ++level)
-            light[c][level] =
-                static_cast<std::uint8_t>(std::nearbyint(std::min(static_cast<float>(level) * gain, 255.0F)));
+        light[c] = static_cast<float>(gains[c]);
     }
     return light;
 }
 
-/// Copies every step-th pixel, in the light given.
-void subsample(const std::uint8_t* pixels, Eigen::Index n, int step, const Light* light,
-               std::uint8_t* packed) {
+/// Copies every step-th pixel.
+void subsample(const std::uint8_t* pixels, Eigen::Index n, int step, std::uint8_t* packed) {
     for (Eigen::Index k = 0; k < n; ++k, pixels += 3 * step, packed += 3)
-        for (std::size_t c = 0; c < 3; ++c) packed[c] = light ? (*light)[c][pixels[c]] : pixels[c];
+        for (std::size_t c = 0; c < 3; ++c) packed[c] = pixels[c];
 }
 
 std::int64_t require_side(std::int64_t begin, std::int64_t end) {
@@ -93,8 +97,8 @@ Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& 
     if (step < 1 || step > 1024) refuse("step", "1 to 1024", step);
     const auto width = require_side(region.x0, region.x1), height = require_side(region.y0, region.y1);
 
-    const Light light = gains ? light_of(*gains) : Light{};
-    const bool copied = step > 1 || gains;
+    const Light light = gains ? light_of(*gains) : Light{1.0F, 1.0F, 1.0F};
+    const bool copied = step > 1;
 
     Bins bins((height + step - 1) / step, (width + step - 1) / step);
     const Span rows(region.y0, bins.rows(), step, image.rows), cols(region.x0, bins.cols(), step, image.cols);
@@ -108,9 +112,9 @@ Bins color_bins(const ImageView& image, const Region& region, const ColorSpace& 
         }
         const auto y = region.y0 + step * i + step / 2, x = region.x0 + step * cols.begin + step / 2;
         const std::uint8_t* pixels = image.row(static_cast<int>(y)) + 3 * x;
-        if (copied) subsample(pixels, inside, step, gains ? &light : nullptr, packed.data());
+        if (copied) subsample(pixels, inside, step, packed.data());
         std::fill_n(out, cols.begin, kNoBin);
-        bin_row(copied ? packed.data() : pixels, inside, space, out + cols.begin);
+        bin_row(copied ? packed.data() : pixels, inside, space, out + cols.begin, light);
         std::fill(out + cols.end, out + bins.cols(), kNoBin);
     }
     return bins;

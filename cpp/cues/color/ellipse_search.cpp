@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -39,13 +40,81 @@ Sums intersect(const std::int32_t* __restrict inner, const std::int32_t* __restr
     return {first, second};
 }
 
+/// How many more pixels a mask marks under a shape after each of n steps to the right; `masked` is at the shape's center.
+TRICUE_MULTIVERSION
+void count_steps(const std::uint8_t* masked, const SlidingHistogram::Boundary& boundary, int n,
+                 std::int32_t* more) {
+    constexpr int kLanes = static_cast<int>(CompactBins::kMaskPadding);
+    const std::int32_t *leave = boundary.leave.data(), *enter = boundary.enter.data();
+    const std::size_t rows = boundary.leave.size();
+    for (int x = 0; x < n; x += kLanes) {
+        Pack<std::int16_t, kLanes> sum{}, in, out;
+        Pack<std::uint8_t, kLanes> bytes;
+        for (std::size_t k = 0; k < rows; ++k) {
+            load(masked + enter[k] + x, bytes);
+            convert(bytes, in);
+            load(masked + leave[k] + x, bytes);
+            convert(bytes, out);
+            sum += in - out;
+        }
+        for (int i = 0; i < std::min(kLanes, n - x); ++i) more[x + i] = sum[i];
+    }
+}
+
+/// The pixels that a mask marks under a shape, at all places of a row of the grid at once.
+class MaskedCounts {
+public:
+    /// @param start the offset of the pixel that the shape is relative to
+    /// @param steps to the right
+    MaskedCounts(const EllipseShape& shape, const SlidingHistogram& moves, const CompactBins& image,
+                 std::ptrdiff_t start, int steps)
+        : moves_(moves), image_(image), center_(start), counts_(static_cast<std::size_t>(steps) + 1) {
+        if (image_.masked.empty()) return;
+        const std::uint8_t* row = image.masked.data() + start + std::ptrdiff_t{shape.top} * image.cols;
+        for (const auto& run : shape.runs) {
+            first_ = std::accumulate(row + run.begin, row + run.end, first_);
+            row += image.cols;
+        }
+        count_row();
+    }
+
+    void move_down(int steps) {
+        if (image_.masked.empty()) return;
+        const auto& [leave, enter] = moves_.vertical();
+        for (; steps > 0; --steps, center_ += image_.cols) {
+            const std::uint8_t* masked = image_.masked.data() + center_;
+            for (std::size_t k = 0; k < leave.size(); ++k) first_ += masked[enter[k]] - masked[leave[k]];
+        }
+        count_row();
+    }
+
+    /// After so many steps to the right.
+    std::int32_t at(int steps) const { return counts_[static_cast<std::size_t>(steps)]; }
+
+private:
+    void count_row() {
+        counts_[0] = first_;
+        count_steps(image_.masked.data() + center_, moves_.horizontal(), static_cast<int>(counts_.size()) - 1,
+                    counts_.data() + 1);
+        std::partial_sum(counts_.begin(), counts_.end(), counts_.begin());
+    }
+
+    const SlidingHistogram& moves_;
+    const CompactBins& image_;
+    std::ptrdiff_t center_;
+    std::int32_t first_ = 0;
+    Counts counts_;
+};
+
 /// Equation (1) and the share of masked pixels, of the ellipse and of the ring.
 class Scorer {
 public:
     Scorer(const CompactBins& image, std::int32_t unit)
         : shares_(image.shares), unit_(unit), inside_(shares_.size()), around_(shares_.size()) {}
 
-    void score(const SlidingHistogram& inner, const SlidingHistogram& outer, double* out) {
+    /// @param marked_inside, marked_both masked pixels of the ellipse, and of ellipse and ring
+    void score(const SlidingHistogram& inner, const SlidingHistogram& outer, std::int32_t marked_inside,
+               std::int32_t marked_both, double* out) {
         update_targets(inner.visible(), pixels_inside_, inside_);
         update_targets(outer.visible() - inner.visible(), pixels_around_, around_);
         const Sums sums =
@@ -53,8 +122,8 @@ public:
         const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
         out[0] = share(sums.inside, static_cast<double>(pixels_inside_) * unit_);
         out[1] = share(sums.around, static_cast<double>(pixels_around_) * unit_);
-        out[2] = share(inner.masked_count(), pixels_inside_);
-        out[3] = share(outer.masked_count() - inner.masked_count(), pixels_around_);
+        out[2] = share(marked_inside, pixels_inside_);
+        out[3] = share(marked_both - marked_inside, pixels_around_);
     }
 
 private:
@@ -111,14 +180,6 @@ Region covered_area(const EllipseShape& shape, const CenterPixel& place, const S
                         grid);
 }
 
-void require_mask(const ImageView& mask, const BinsView& bins) {
-    const auto shape = [](int rows, int cols) {
-        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
-    };
-    if (mask.data != nullptr && (mask.rows != bins.rows || mask.cols != bins.cols))
-        refuse("mask", "shape " + shape(bins.rows, bins.cols), shape(mask.rows, mask.cols));
-}
-
 /// The largest power of two that fits 31 bits when multiplied by the number of pixels of a shape.
 std::int32_t find_unit(const EllipseShape& shape) {
     std::int32_t unit = 1;
@@ -165,8 +226,21 @@ States ellipse_search(const BinsView& bins, VectorRef ellipse, const SearchGrid&
     const std::int32_t unit = find_unit(larger);
     SlidingHistogram inner(shape, image, corner, unit), outer(larger, image, corner, unit);
     Scorer scorer(image, unit);
+    const int steps = (grid.cols - 1) * grid.step;
+    MaskedCounts marked(shape, inner, image, corner, steps),
+        marked_larger(larger, outer, image, corner, steps);
+    int last_row = 0;
     walk(
-        grid, [&](int row, int col) { scorer.score(inner, outer, found.row(row * grid.cols + col).data()); },
+        grid,
+        [&](int row, int col) {
+            if (row != last_row) {
+                marked.move_down(grid.step);
+                marked_larger.move_down(grid.step);
+                last_row = row;
+            }
+            scorer.score(inner, outer, marked.at(col * grid.step), marked_larger.at(col * grid.step),
+                         found.row(row * grid.cols + col).data());
+        },
         [&](void (SlidingHistogram::*move)()) {
             (inner.*move)();
             (outer.*move)();

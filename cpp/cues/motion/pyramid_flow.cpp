@@ -123,20 +123,57 @@ void measure(const QuadImage& before, const ImageView& now, double sigma, int po
     }
 }
 
+/// The first level's first.
+struct PyramidPlan {
+    std::vector<Region> areas;   ///< that are measured
+    std::vector<Region> warped;  ///< the pixels to which the flow may lead from there
+    std::vector<Region> stored;  ///< of coarser levels: with those that the next level and interpolation read
+};
+
+Region expanded(const Region& region, int reach, const ImageView& image) {
+    return Region{region.x0 - reach, region.y0 - reach, region.x1 + reach, region.y1 + reach}.clipped(image);
+}
+
+/// A guess is off by no more than twice what the coarser level is off, and its step.
+PyramidPlan plan_levels(const ImageView& frame, int levels, int margin, const Region& area) {
+    PyramidPlan plan;
+    std::vector<ImageView> sizes{{nullptr, frame.rows, frame.cols, 1, 0}};
+    plan.areas.push_back(area);
+    while (static_cast<int>(sizes.size()) < levels) {
+        const ImageView& finer = sizes.back();
+        const int rows = (finer.rows + 1) / 2, cols = (finer.cols + 1) / 2;
+        plan.areas.push_back(coarser_region(plan.areas.back(), rows, cols));
+        sizes.push_back({nullptr, rows, cols, 1, 0});
+    }
+    int guessed = 0;  // pixels that a guess may be away
+    plan.warped.resize(sizes.size());
+    plan.stored.resize(sizes.size());
+    for (std::size_t k = sizes.size(); k-- > 0;) {
+        plan.warped[k] = expanded(plan.areas[k], margin + guessed + 1, sizes[k]);  // one for rounding
+        Region& stored = plan.stored[k] = expanded(plan.warped[k], 1, sizes[k]);
+        if (k + 1 < sizes.size()) {
+            const Region source = finer_source(plan.stored[k + 1], sizes[k].rows, sizes[k].cols);
+            stored = {std::min(stored.x0, source.x0), std::min(stored.y0, source.y0),
+                      std::max(stored.x1, source.x1), std::max(stored.y1, source.y1)};
+        }
+        guessed = 2 * (guessed + static_cast<int>(kMaxStep));
+    }
+    return plan;
+}
+
 /// The guess at the first level, from the coarser ones.
 FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, double sigma,
-                       const FlowPyramid& pyramid, const Region& area) {
-    const auto before = coarser_levels(previous, pyramid.levels),
-               now = coarser_levels(current, pyramid.levels);
-    std::vector<Region> areas{area};
-    for (const auto& image : now) areas.push_back(coarser_region(areas.back(), image.rows, image.cols));
+                       const FlowPyramid& pyramid, const PyramidPlan& plan) {
+    const std::vector<Region>& areas = plan.areas;
+    const std::vector<Region> coarser(plan.stored.begin() + 1, plan.stored.end());
+    const auto before = coarser_levels(previous, coarser), now = coarser_levels(current, coarser);
     const float damping = rounding_noise(sigma);
     FlowGuess guess(areas.back());
     for (std::size_t i = now.size(); i > 0; --i) {
         const Eigen::Index rows = areas[i].y1 - areas[i].y0, cols = areas[i].x1 - areas[i].x0;
         FlowField flow{areas[i], Floats(rows, cols), Floats(rows, cols)};
-        measure(QuadImage(before[i - 1].view()), now[i - 1].view(), sigma, pyramid.pool, guess,
-                [&](int y, const NormalEquations& sums) {
+        measure(QuadImage(before[i - 1].view(), plan.warped[i]), now[i - 1].view(), sigma, pyramid.pool,
+                guess, [&](int y, const NormalEquations& sums) {
                     guess.row(y, &flow.u(y, 0), &flow.v(y, 0));
                     add_steps(sums, damping, static_cast<int>(cols), &flow.u(y, 0), &flow.v(y, 0));
                 });
@@ -161,8 +198,10 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
                         std::max(static_cast<float>(minima.contrast), kRoundingContrast),
                         static_cast<float>(pyramid.max_step)};
     const float damping = rounding_noise(sigma);
-    FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, area);
-    measure(QuadImage(previous), current, sigma, pyramid.pool, guess,
+    const int margin = GaussianTaps(sigma).radius + pyramid.pool;
+    const PyramidPlan plan = plan_levels(current, pyramid.levels, margin, area);
+    FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
+    measure(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
             [&](int y, const NormalEquations& sums) {
                 const FlowRow row = result.row(y);
                 guess.row(y, row.u, row.v);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {
@@ -13,9 +14,35 @@ namespace {
 constexpr int kMaxSide = 127;
 
 /// 1 for a cell at the expected disparity, -1 for one beside it, 0 for one without a disparity.
-std::int16_t vote(float disparity, float expected, float tolerance) {
-    const float off = std::abs(disparity - expected);
-    return static_cast<std::int16_t>(static_cast<int>(off <= tolerance) - static_cast<int>(off > tolerance));
+TRICUE_MULTIVERSION
+void vote(const float* __restrict disparities, Eigen::Index n, float expected, float tolerance,
+          std::int16_t* __restrict votes) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+        const float off = std::abs(disparities[j] - expected);
+        votes[j] =
+            static_cast<std::int16_t>(static_cast<int>(off <= tolerance) - static_cast<int>(off > tolerance));
+    }
+}
+
+/// The sums of the columns in the window of the next row: one row more and one less, nullptr for none.
+TRICUE_MULTIVERSION
+void slide_down(const std::int16_t* __restrict more, const std::int16_t* __restrict less, Eigen::Index n,
+                std::int16_t* __restrict columns) {
+    if (more)
+        for (Eigen::Index j = 0; j < n; ++j) columns[j] = static_cast<std::int16_t>(columns[j] + more[j]);
+    if (less)
+        for (Eigen::Index j = 0; j < n; ++j) columns[j] = static_cast<std::int16_t>(columns[j] - less[j]);
+}
+
+/// A row of the mask; `columns` has `half` zeros before and after its n sums, `sums` has room for n.
+TRICUE_MULTIVERSION
+void decide(const std::int16_t* __restrict columns, const std::int16_t* __restrict votes, Eigen::Index n,
+            int window, std::int16_t* __restrict sums, std::uint8_t* __restrict mask) {
+    for (Eigen::Index j = 0; j < n; ++j) sums[j] = columns[j];
+    for (int k = 1; k < window; ++k)
+        for (Eigen::Index j = 0; j < n; ++j) sums[j] = static_cast<std::int16_t>(sums[j] + columns[j + k]);
+    for (Eigen::Index j = 0; j < n; ++j)
+        mask[j] = static_cast<std::uint8_t>((votes[j] > 0) | ((votes[j] == 0) & (sums[j] > 0)));
 }
 
 }  // namespace
@@ -27,22 +54,18 @@ CellMask coherent_cells(FloatsRef disparities, float expected, float tolerance, 
         refuse("window", "an odd number from 1 to 127", window);
     const Eigen::Index rows = disparities.rows(), cols = disparities.cols(), half = window / 2;
     Eigen::Array<std::int16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> votes(rows, cols);
+    const auto row = [&](Eigen::Index i) { return votes.data() + i * cols; };
     for (Eigen::Index i = 0; i < rows; ++i)
-        for (Eigen::Index j = 0; j < cols; ++j) votes(i, j) = vote(disparities(i, j), expected, tolerance);
+        vote(disparities.data() + i * disparities.outerStride(), cols, expected, tolerance, row(i));
 
     CellMask mask(rows, cols);
-    Eigen::Array<int, 1, Eigen::Dynamic> column = Eigen::Array<int, 1, Eigen::Dynamic>::Zero(cols);
-    for (Eigen::Index y = 0; y < std::min(half, rows); ++y) column += votes.row(y).cast<int>();
+    std::vector<std::int16_t> columns(static_cast<std::size_t>(cols + 2 * half), 0), sums(columns);
+    for (Eigen::Index y = 0; y < std::min(half, rows); ++y)
+        slide_down(row(y), nullptr, cols, columns.data() + half);
     for (Eigen::Index i = 0; i < rows; ++i) {
-        if (i + half < rows) column += votes.row(i + half).cast<int>();
-        if (i > half) column -= votes.row(i - half - 1).cast<int>();
-        int sum = column.head(std::min(half, cols)).sum();
-        for (Eigen::Index j = 0; j < cols; ++j) {
-            if (j + half < cols) sum += column(j + half);
-            if (j > half) sum -= column(j - half - 1);
-            const int own = votes(i, j);
-            mask(i, j) = static_cast<std::uint8_t>(own > 0 || (own == 0 && sum > 0));
-        }
+        slide_down(i + half < rows ? row(i + half) : nullptr, i > half ? row(i - half - 1) : nullptr, cols,
+                   columns.data() + half);
+        decide(columns.data(), row(i), cols, window, sums.data(), mask.data() + i * cols);
     }
     return mask;
 }

@@ -16,7 +16,7 @@ from tricue.track.base.track import Track
 from tricue.track.base.tracker import TrackerBase
 
 KERNEL_MODULES = {
-    "cell_colors": "search",
+    "image_mean": "search",
     "coherent_cells": "search",
     "color_bins": "search",
     "ellipse_search": "search",

@@ -9,7 +9,6 @@ from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.camera.reduce_gray import reduce_gray
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.box_contrast import box_contrast
-from tricue.reference.cues.color.cell_colors import cell_colors
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
@@ -18,6 +17,7 @@ from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
 from tricue.reference.cues.color.histogram_mean import histogram_mean
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
+from tricue.reference.cues.color.image_mean import image_mean
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.rank_contrast import rank_contrast
@@ -60,6 +60,7 @@ from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
+from tricue.reference.fuse.block_votes import block_votes
 from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.correlation_train import correlation_train
@@ -82,8 +83,8 @@ __all__ = [
     "bhattacharyya",
     "block_counts",
     "block_mask",
+    "block_votes",
     "box_contrast",
-    "cell_colors",
     "coherent_cells",
     "color_bins",
     "color_histogram",
@@ -112,6 +113,7 @@ __all__ = [
     "ground_distance",
     "histogram_mean",
     "hog_color_cells",
+    "image_mean",
     "joint_histogram",
     "kalman_predict",
     "kalman_update",

@@ -49,6 +49,20 @@ def test_twin_counts_the_same(seed: int, height: int, width: int, margin: float)
         assert_array_equal(native, twin)
 
 
+def test_a_mask_takes_pixels_out(kernels: Kernels) -> None:
+    """What a mask leaves out counts as little as a pixel without a bin; another shape is refused."""
+    bins, ellipses = some_bins(0, (40, 60)), some_ellipses(0, 10)
+    mask = np.random.default_rng(1).integers(0, 3, bins.shape, np.uint8)
+    without = np.where(mask != 0, bins, np.uint16(NO_BIN))
+    expected = kernels.ellipse_histogram(without, ellipses, SIZE, 1.4)
+    for ours, theirs in zip(
+        kernels.ellipse_histogram(bins, ellipses, SIZE, 1.4, mask), expected, strict=True
+    ):
+        assert_array_equal(ours, theirs)
+    with pytest.raises(ValueError, match="mask: expected shape"):
+        kernels.ellipse_histogram(bins, ellipses, SIZE, 1.4, mask[1:])
+
+
 @pytest.mark.parametrize("seed", range(20))
 def test_agrees_with_the_equation_of_an_ellipse(kernels: Kernels, seed: int) -> None:
     """Inside are the pixels of (x - x0)² / a² + (y - y0)² / b² <= 1, around those up to margin²."""

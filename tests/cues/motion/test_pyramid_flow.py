@@ -116,6 +116,28 @@ def test_region_is_nearly_cut_out(kernels: Kernels, scene: Scene) -> None:
     assert kernels.pyramid_flow(*frames, 1, 3, 0.05, 0.5, (5, 9, 30, 9))[0].shape == (0, 25)
 
 
+@pytest.mark.parametrize("levels", [2, 3, 4])
+@pytest.mark.parametrize("corner", [(0, 0), (171, 138), (375, 300)])
+def test_what_is_far_away_changes_nothing(scene: Scene, levels: int, corner: tuple[int, int]) -> None:
+    """Beyond where the flow of all levels may lead, nothing is read: the flow is the same, bit for bit."""
+    x, y = corner
+    region = (x, y, x + 25, y + 20)
+    shape = (320, 400)
+    columns, rows = grid(shape)
+    previous, current = scene(columns, rows), scene(columns - 2.5, rows + 1.25)
+    expected = _core.pyramid_flow(previous, current, 0.8, levels, 0.05, 0.5, region, 2)
+    assert np.isfinite(expected[0]).mean() > 0.1
+    # 2 px a level, filters of radius 3 and windows of 2 at each, and what pyramids are smoothed by.
+    reach = 14 * 2 ** (levels - 1)
+    far = (abs(rows - y - 10) > reach + 10) | (abs(columns - x - 12) > reach + 13)
+    assert far.mean() > 0.3
+    noise = np.random.default_rng(0).integers(0, 256, shape, np.uint8)
+    replaced = [np.where(far, noise, each) for each in (previous, current)]
+    found = _core.pyramid_flow(*replaced, 0.8, levels, 0.05, 0.5, region, 2)
+    for ours, theirs in zip(found, expected, strict=True):
+        assert_array_equal(ours, theirs)
+
+
 def test_minima_and_steps_take_pixels_away_only(kernels: Kernels, scene: Scene) -> None:
     """Higher minima and shorter steps leave the flow that is kept as it is, and all of it reaches them."""
     frames = moved(scene, 2.3, -1.2)

@@ -527,6 +527,7 @@ def test_long_lost_is_sane():
         "target_pixels",
         "temporal_window",
         "block_counts",
+        "block_votes",
         "back_project",
     ],
 )

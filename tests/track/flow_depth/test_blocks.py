@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from tricue import FlowDepthTracker
+from tricue.kernels import load
 from tricue.track.flow_depth.blocks import (
     NOT_TARGET_BLOCK,
     OCCLUDED_BLOCK,
@@ -17,6 +18,7 @@ from tricue.track.flow_depth.blocks import (
 )
 
 P = FlowDepthTracker.Params()
+K = load("native")
 OURS, NEAREST, OCCLUDER, WALL = 12.0, 14.0, 20.0, 4.0  # disparities, cells
 LIMITS = DisparityLimits(target=OURS, tolerance=0.75, occluder=NEAREST)
 FULL = 40  # cells of a block
@@ -58,7 +60,7 @@ def states(start: Blocks, *frames: BlockObservation, p=P) -> list[int]:
     """The block's state after each frame."""
     after = []
     for frame in frames:
-        start = start.voted(frame, LIMITS, p)
+        start = start.voted(K, frame, LIMITS, p)
         after.append(int(start.states[0]))
     return after
 
@@ -221,14 +223,14 @@ def test_blocks_stay_trusted_for_a_while():
     """A block's measured count for so many frames after its last target pixels; while it is hidden the time
     stands still.
     """
-    start = block(TARGET_BLOCK).voted(GOOD, LIMITS, P)
+    start = block(TARGET_BLOCK).voted(K, GOOD, LIMITS, P)
     for expected in (TRUSTED_FRAMES - 1, TRUSTED_FRAMES - 2):
-        start = start.voted(AWAY, LIMITS, P)
+        start = start.voted(K, AWAY, LIMITS, P)
         assert start.trusted[0] == expected
     for frame in (BEHIND, BEHIND):
-        start = start.voted(frame, LIMITS, P)
+        start = start.voted(K, frame, LIMITS, P)
         assert start.trusted[0] == TRUSTED_FRAMES - 2
-    assert start.voted(GOOD, LIMITS, P).trusted[0] == TRUSTED_FRAMES
+    assert start.voted(K, GOOD, LIMITS, P).trusted[0] == TRUSTED_FRAMES
 
 
 def test_a_vote_changes_a_copy():
@@ -236,7 +238,7 @@ def test_a_vote_changes_a_copy():
     start = Blocks.of((10.0, 10.0, 30.0, 60.0), P)
     kept = [np.copy(field) for field in start]
     many = BlockObservation(*(np.repeat(field, len(start.states)) for field in BEHIND))
-    assert (start.voted(many, LIMITS, P).states == OCCLUDED_BLOCK).any()
+    assert (start.voted(K, many, LIMITS, P).states == OCCLUDED_BLOCK).any()
     for field, before in zip(start, kept, strict=True):
         np.testing.assert_array_equal(field, before)
 

@@ -26,7 +26,8 @@ def shifted_pair(disparity: int, brighter: int = 0) -> PreparedPair:
 
 def brute_force(pair: PreparedPair, limits: tuple[int, int]) -> np.ndarray:
     """(3) over the ellipse's pixels: the d of the least sum of absolute differences in a window."""
-    left, right = (image.astype(int) for image in pair.gray)
+    k = kernel_sets.load("native")
+    left, right = (k.reduce_gray(image, 1).astype(int) for image in (pair.left, pair.right))
     x, y, minor, major = ELLIPSE
     found = []
     for v in range(int(y - major), int(y + major)):

@@ -99,27 +99,48 @@ def test_black_and_white_have_finite_gains(level, kernels):
     [(160, 160, 1), (640, 160, 4), (320, 160, 2), (200, 160, 1), (100, 160, 1)],
 )
 def test_cells_are_squares_of_step_pixels(width, resolution, step):
-    """A cell has the color of the middle pixel of a square of step by step pixels, and its mean gray level.
-    About ``resolution`` cells lie in a row.
+    """A cell has the color of the middle pixel of a square of step by step pixels. About ``resolution`` cells
+    lie in a row.
     """
     image = picture(48, width)
     pair = PreparedPair.of(K, image, shifted(image, 3), None, Params(resolution=resolution))
     assert pair.step == step
-    np.testing.assert_array_equal(pair.colors, image[step // 2 :: step, step // 2 :: step])
-    gray = cv2.cvtColor(image, cv2.COLOR_BGR2GRAY)
-    np.testing.assert_array_equal(pair.gray[0], gray)
-    squares = gray.reshape(48 // step, step, width // step, step).mean(axis=(1, 3))
-    assert np.abs(pair.reduced[0] - squares).max() <= 0.5 + 1e-6
+    assert pair.shape == (48 // step, width // step)
+    middles = np.ascontiguousarray(image[step // 2 :: step, step // 2 :: step])
+    rows, columns = middles.shape[:2]
+    region = (0, 0, columns, rows)
+    expected = K.color_bins(middles, region, P.bins, P.max_chroma, 1)
+    np.testing.assert_array_equal(pair.bins(K, region, 1, P), expected)
+    np.testing.assert_allclose(pair.mean, middles.mean(axis=(0, 1)), rtol=1e-12)
 
 
-@pytest.mark.parametrize("shape", [(37, 501), (50, 333), (45, 642)], ids=str)
-def test_sizes_that_step_does_not_divide_are_whole(shape, kernels):
-    """Where the step leaves a rest, every cell of the reduced images still has a color."""
+@pytest.mark.parametrize("right", ["color", "gray"])
+@pytest.mark.parametrize("cells", [False, True])
+@pytest.mark.parametrize("ellipse", [False, True])
+@pytest.mark.parametrize("limits", [(2, 9), (-3, 2), (-9, -4), (30, 60), (900, 905)], ids=str)
+@pytest.mark.parametrize("shape", [(120, 160), (97, 322), (96, 641)], ids=str)
+def test_disparities_of_a_region_are_those_of_the_whole_images(shape, limits, ellipse, cells, right):
+    """What lies outside a region, its window and its candidates changes no disparity in it: they are those by
+    the whole images turned gray, also over the edges and outside of the images.
+    """
     image = picture(*shape)
-    pair = PreparedPair.of(K, image, image, None, P)
-    assert pair.step > 1
-    for color, small in zip(pair.colors.shape, pair.reduced[0].shape, strict=False):
-        assert small <= color <= small + 1
+    other = shifted(image, 4) if right == "color" else shifted(image, 4)[..., 1].copy()
+    pair = PreparedPair.of(K, image, other, None, P)
+    side = pair.step if cells else 1
+    whole = [K.reduce_gray(each, side) for each in (image, other)]
+    height, width = shape[0] // side, shape[1] // side
+    window = P.window if cells else pair.pixel_window(P)
+    for region in (
+        (9, 8, 33, 30),
+        (-9, -8, 20, 12),
+        (width - 20, height - 9, width + 4, height + 7),
+        (0, 0, width, height),
+        (width + 5, height + 5, width + 9, height + 12),
+        (-40, -30, -20, -10),
+    ):
+        found = pair.disparities(K, region, ellipse, limits, cells, P)
+        expected = K.sad_disparity(*whole, region, ellipse, *limits, window, P.uniqueness, P.prefilter)
+        np.testing.assert_array_equal(found, expected)
 
 
 def test_the_images_stay_as_they_were():

@@ -28,4 +28,12 @@ void require_bins(const BinsView& bins, std::ptrdiff_t size) {
         refuse("bins", "bins below " + std::to_string(size) + ", or 65535 for none", std::to_string(end - 1));
 }
 
+void require_mask(const ImageView& mask, const BinsView& bins) {
+    const auto shape = [](int rows, int cols) {
+        return "(" + std::to_string(rows) + ", " + std::to_string(cols) + ")";
+    };
+    if (mask.data != nullptr && (mask.rows != bins.rows || mask.cols != bins.cols))
+        refuse("mask", "shape " + shape(bins.rows, bins.cols), shape(mask.rows, mask.cols));
+}
+
 }  // namespace tricue

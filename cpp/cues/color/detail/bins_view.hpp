@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/image_view.hpp"
+
 namespace tricue {
 
 /// No bin: a pixel outside the image.
@@ -20,5 +22,8 @@ struct BinsView {
 
 /// Throws std::invalid_argument unless size is 1 to 65535 and every bin is below it or kNoBin.
 void require_bins(const BinsView& bins, std::ptrdiff_t size);
+
+/// Throws std::invalid_argument unless a mask has the shape of the bins, or no data: then there is none.
+void require_mask(const ImageView& mask, const BinsView& bins);
 
 }  // namespace tricue

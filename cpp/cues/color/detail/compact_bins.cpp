@@ -16,13 +16,19 @@ void initialize_indices(const double* __restrict model, std::size_t size, std::u
         indices[bin] = model[bin] > 0.0 ? kUnassigned : CompactBins::kUnmatched;
 }
 
+TRICUE_MULTIVERSION
+void mark(const std::uint8_t* __restrict mask, const std::uint16_t* __restrict bins, int n,
+          std::uint8_t* __restrict marks) {
+    for (int x = 0; x < n; ++x) marks[x] = (mask[x] != 0) & (bins[x] != kNoBin);
+}
+
 }  // namespace
 
 CompactBins::CompactBins(const BinsView& bins, VectorRef model, double total, const ImageView& mask,
                          const Region& area)
     : cols(area.x1 - area.x0),
       indices(static_cast<std::size_t>(cols) * static_cast<std::size_t>(area.y1 - area.y0), kOutside),
-      masked(mask.data == nullptr ? 0 : indices.size()),
+      masked(mask.data == nullptr ? 0 : indices.size() + kMaskPadding),
       shares(kUnmatched + kUnmatchedCount, 0.0) {
     const Region visible = area.clipped({nullptr, bins.rows, bins.cols, 1, 0});
     fill_indices(bins, model, total, area, visible);
@@ -55,8 +61,7 @@ void CompactBins::fill_masked(const BinsView& bins, const ImageView& mask, const
                               const Region& visible) {
     for (int y = visible.y0; y < visible.y1; ++y) {
         std::uint8_t* out = masked.data() + std::ptrdiff_t{y - area.y0} * cols - area.x0;
-        for (int x = visible.x0; x < visible.x1; ++x)
-            out[x] = (mask.row(y)[x] != 0) & (bins.row(y)[x] != kNoBin);
+        mark(mask.row(y) + visible.x0, bins.row(y) + visible.x0, visible.x1 - visible.x0, out + visible.x0);
     }
 }
 

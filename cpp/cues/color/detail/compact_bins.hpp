@@ -20,10 +20,13 @@ struct CompactBins {
         8;  ///< how many indices those bins share: neighbors then needn't wait for each other's count
     static constexpr std::size_t kPadding = 16;  ///< the number of indices is a multiple of this
 
+    static constexpr std::size_t kMaskPadding = 16;  ///< so that this many can be read from anywhere
+
     int cols;
     std::vector<std::uint16_t> indices;
-    std::vector<std::uint8_t> masked;  ///< 1 where the mask isn't 0; empty without a mask
-    std::vector<double> shares;        ///< the model's share of each index, 0 where it has none
+    /// 1 where the mask isn't 0, and kMaskPadding numbers more; empty without a mask
+    std::vector<std::uint8_t> masked;
+    std::vector<double> shares;  ///< the model's share of each index, 0 where it has none
 
     /// @param bins  all below model.size() or kNoBin
     /// @param model of sum `total`, none negative

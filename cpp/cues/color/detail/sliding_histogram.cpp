@@ -35,9 +35,6 @@ void SlidingHistogram::move_down() {
 void SlidingHistogram::add(std::ptrdiff_t begin, std::ptrdiff_t end) {
     const std::uint16_t* indices = image_.indices.data();
     for (auto at = begin; at < end; ++at) counts_[indices[at]] += unit_;
-    if (image_.masked.empty()) return;
-    const std::uint8_t* masked = image_.masked.data();
-    for (auto at = begin; at < end; ++at) masked_count_ += masked[at];
 }
 
 void SlidingHistogram::replace(const Offsets& leave, const Offsets& enter) {
@@ -48,9 +45,6 @@ void SlidingHistogram::replace(const Offsets& leave, const Offsets& enter) {
         counts[indices[leave[k]]] -= unit;
         counts[indices[enter[k]]] += unit;
     }
-    if (image_.masked.empty()) return;
-    const std::uint8_t* masked = image_.masked.data() + center_;
-    for (std::size_t k = 0; k < leave.size(); ++k) masked_count_ += masked[enter[k]] - masked[leave[k]];
 }
 
 /// Runs get shorter towards the top and the bottom, so the last run over a column, from above, is its lower end.

@@ -24,11 +24,9 @@ public:
     void move_down();
 
     const std::int32_t* counts() const { return counts_.data(); }  ///< units of each index
-    int masked_count() const { return masked_count_; }             ///< pixels inside the mask
     /// Pixels inside the image.
     int visible() const { return area_ - counts_[CompactBins::kOutside] / unit_; }
 
-private:
     using Offsets = std::vector<std::int32_t>;
 
     /// Offsets of the pixels that leave the shape in a step, and of those that enter it.
@@ -36,6 +34,10 @@ private:
         Offsets leave, enter;
     };
 
+    const Boundary& horizontal() const { return horizontal_; }  ///< of a step to the right
+    const Boundary& vertical() const { return vertical_; }      ///< of a step down
+
+private:
     void find_boundaries(const EllipseShape& shape);
     void add(std::ptrdiff_t begin, std::ptrdiff_t end);
     void replace(const Offsets& leave, const Offsets& enter);
@@ -43,7 +45,7 @@ private:
     const CompactBins& image_;
     std::ptrdiff_t center_;
     std::int32_t unit_;
-    int area_, masked_count_ = 0;
+    int area_;
     std::vector<std::int32_t> counts_;
     Boundary horizontal_, vertical_;
 };

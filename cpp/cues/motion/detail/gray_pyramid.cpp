@@ -34,11 +34,19 @@ void pack(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict l
                    std::uint32_t{lower[x]} << 16 | std::uint32_t{lower[x + 1]} << 24;
 }
 
+/// The pixels that quads are of, and the last column and row of the whole image.
+struct QuadPlace {
+    Region part;
+    int last_column, last_row;
+};
+
 TRICUE_MULTIVERSION
-void interpolate(const std::uint32_t* __restrict quads, int rows, int cols, int x0, int y,
+void interpolate(const std::uint32_t* __restrict quads, const QuadPlace& place, int x0, int y,
                  const float* __restrict u, const float* __restrict v, int n, float* __restrict out) {
-    const auto right = static_cast<float>(cols - 1), bottom = static_cast<float>(rows - 1);
+    const auto right = static_cast<float>(place.last_column), bottom = static_cast<float>(place.last_row);
     const auto row = static_cast<float>(y);
+    const int first_column = place.part.x0, first_row = place.part.y0, cols = place.part.x1 - first_column;
+    const int columns = cols - 1, rows = place.part.y1 - first_row - 1;
     for (int i = 0; i < n; ++i) {
         float x = static_cast<float>(x0 + i) - u[i], down = row - v[i];
         x = x > 0 ? x : 0;  // NaN becomes 0, too
@@ -47,7 +55,9 @@ void interpolate(const std::uint32_t* __restrict quads, int rows, int cols, int 
         down = down > bottom ? bottom : down;
         const int left = static_cast<int>(x), top = static_cast<int>(down);
         const float a = x - static_cast<float>(left), b = down - static_cast<float>(top);
-        const auto quad = static_cast<std::int32_t>(quads[top * cols + left]);
+        const int j = std::min(std::max(left - first_column, 0), columns);
+        const int k = std::min(std::max(top - first_row, 0), rows);
+        const auto quad = static_cast<std::int32_t>(quads[k * cols + j]);
         const auto p = static_cast<float>(quad & 255), q = static_cast<float>(quad >> 8 & 255);
         const auto r = static_cast<float>(quad >> 16 & 255), s = static_cast<float>(quad >> 24 & 255);
         const float upper = p + a * (q - p), lower = r + a * (s - r);
@@ -55,45 +65,58 @@ void interpolate(const std::uint32_t* __restrict quads, int rows, int cols, int 
     }
 }
 
-GrayImage downsampled(const ImageView& image) {
-    GrayImage half{(image.rows + 1) / 2, (image.cols + 1) / 2, {}};
-    half.pixels.resize(static_cast<std::size_t>(half.rows) * static_cast<std::size_t>(half.cols));
-    std::vector<std::uint16_t> smooth(static_cast<std::size_t>(image.cols) + 4);
+GrayImage downsampled(const ImageView& image, const Region& part) {
+    const int width = part.x1 - part.x0, height = part.y1 - part.y0;
+    GrayImage half{(image.rows + 1) / 2, (image.cols + 1) / 2, part, {}};
+    half.pixels.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(width));
+    const int first = 2 * part.x0 - 2;
+    const Region source = finer_source(part, image.rows, image.cols);
+    std::vector<std::uint16_t> smooth(2 * static_cast<std::size_t>(width) + 3);
+    const auto begin = smooth.begin() + (source.x0 - first), end = smooth.begin() + (source.x1 - first);
     std::array<const std::uint8_t*, 5> rows{};
-    for (int y = 0; y < half.rows; ++y) {
-        int at = 2 * y - 2;
-        for (auto& row : rows) row = image.row(std::clamp(at++, 0, image.rows - 1));
-        smooth_down(rows, image.cols, smooth.data() + 2);
-        std::fill_n(smooth.begin(), 2, smooth[2]);
-        std::fill_n(smooth.end() - 2, 2, smooth[smooth.size() - 3]);
-        smooth_across(smooth.data(), half.cols, half.pixels.data() + std::ptrdiff_t{y} * half.cols);
+    for (int y = 0; y < height; ++y) {
+        int at = 2 * (part.y0 + y) - 2;
+        for (auto& row : rows) row = image.row(std::clamp(at++, 0, image.rows - 1)) + source.x0;
+        smooth_down(rows, source.x1 - source.x0, &*begin);
+        std::fill(smooth.begin(), begin, *begin);
+        std::fill(end, smooth.end(), *(end - 1));
+        smooth_across(smooth.data(), width, half.pixels.data() + std::ptrdiff_t{y} * width);
     }
     return half;
 }
 
 }  // namespace
 
-std::vector<GrayImage> coarser_levels(const ImageView& image, int levels) {
-    std::vector<GrayImage> images{downsampled(image)};
-    while (static_cast<int>(images.size()) < levels - 1) images.push_back(downsampled(images.back().view()));
+Region finer_source(const Region& part, int rows, int cols) {
+    return {std::max(2 * part.x0 - 2, 0), std::max(2 * part.y0 - 2, 0), std::min(2 * part.x1 + 1, cols),
+            std::min(2 * part.y1 + 1, rows)};
+}
+
+std::vector<GrayImage> coarser_levels(const ImageView& image, const std::vector<Region>& parts) {
+    std::vector<GrayImage> images;
+    for (const Region& part : parts)
+        images.push_back(downsampled(images.empty() ? image : images.back().view(), part));
     return images;
 }
 
-QuadImage::QuadImage(const ImageView& image)
+QuadImage::QuadImage(const ImageView& image, const Region& part)
     : rows_(image.rows),
       cols_(image.cols),
-      quads_(static_cast<std::size_t>(image.rows) * static_cast<std::size_t>(image.cols)) {
+      part_(part),
+      quads_(static_cast<std::size_t>(part.y1 - part.y0) * static_cast<std::size_t>(part.x1 - part.x0)) {
     constexpr std::uint32_t kTwice = 0x0101;
-    for (int y = 0; y < rows_; ++y) {
+    const int width = part.x1 - part.x0;
+    const bool at_edge = part.x1 == cols_;
+    for (int y = part.y0; y < part.y1; ++y) {
         const std::uint8_t *upper = image.row(y), *lower = image.row(std::min(y + 1, rows_ - 1));
-        std::uint32_t* quads = quads_.data() + std::ptrdiff_t{y} * cols_;
-        pack(upper, lower, cols_ - 1, quads);
-        quads[cols_ - 1] = kTwice * upper[cols_ - 1] | (kTwice * lower[cols_ - 1]) << 16;
+        std::uint32_t* quads = quads_.data() + std::ptrdiff_t{y - part.y0} * width;
+        pack(upper + part.x0, lower + part.x0, at_edge ? width - 1 : width, quads);
+        if (at_edge) quads[width - 1] = kTwice * upper[cols_ - 1] | (kTwice * lower[cols_ - 1]) << 16;
     }
 }
 
 void QuadImage::warped_row(int y, int x0, const float* u, const float* v, int n, float* out) const {
-    interpolate(quads_.data(), rows_, cols_, x0, y, u, v, n, out);
+    interpolate(quads_.data(), {part_, cols_ - 1, rows_ - 1}, x0, y, u, v, n, out);
 }
 
 }  // namespace tricue

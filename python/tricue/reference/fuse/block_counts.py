@@ -12,20 +12,25 @@ Floats = NDArray[np.float64]
 
 
 def block_counts(
-    mask: NDArray[np.uint8], disparity: NDArray[np.float32], blocks: Floats
-) -> tuple[Counts, Counts, Counts, Floats]:
+    mask: NDArray[np.uint8],
+    disparity: NDArray[np.float32],
+    blocks: Floats,
+    expected: float = np.nan,
+    tolerance: float = 0.0,
+) -> tuple[Counts, Counts, Counts, Floats, Counts]:
     """Counts the pixels of one block at a time."""
     if mask.shape != disparity.shape:
         refuse("mask", f"shape {disparity.shape}", mask.shape)
     require_shape("blocks", blocks, (len(blocks), 4))
-    pixels, targets, readings = (np.zeros(len(blocks), np.int64) for _ in range(3))
+    pixels, targets, readings, similar = (np.zeros(len(blocks), np.int64) for _ in range(4))
     mean = np.full(len(blocks), np.nan)
     for i, (x0, y0, x1, y1) in enumerate(blocks):
         inside = rectangle_pixels((x0, y0, x1, y1), mask.shape, "blocks")
-        seen = disparity[inside].astype(np.float64)
+        seen = disparity[inside]
         seen_finite = seen[np.isfinite(seen)]
+        similar[i] = np.count_nonzero(np.abs(seen_finite - np.float32(expected)) < np.float32(tolerance))
         pixels[i], readings[i] = seen.size, seen_finite.size
         targets[i] = np.count_nonzero(mask[inside])
         if seen_finite.size:
-            mean[i] = seen_finite.mean()
-    return pixels, targets, readings, mean
+            mean[i] = seen_finite.astype(np.float64).mean()
+    return pixels, targets, readings, mean, similar

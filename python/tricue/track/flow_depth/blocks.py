@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from tricue.kernels import Kernels
 from tricue.track.flow_depth.params import FlowDepthParams
-from tricue.track.flow_depth.rectangles import Rectangle
+from tricue.track.flow_depth.rectangles import Rectangle, Region
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -112,12 +113,25 @@ class Blocks(NamedTuple):
 
     def moved(self, right: float, down: float) -> "Blocks":
         """The grid, moved."""
-        return self._replace(anchor=self.anchor + [right, down])
+        return self._replace(anchor=self.anchor + np.array([right, down]))
 
     @property
     def rectangles(self) -> Floats:
         """(N, 4) x0, y0, x1, y1, cells."""
-        return self.corners * self.size + np.tile(self.anchor, 2)
+        rectangles = self.corners * self.size
+        points = rectangles.view(
+            np.complex128
+        )  # x + iy: to add one number is faster than to add rows of four
+        points += complex(*self.anchor.tolist())
+        return rectangles
+
+    def rectangles_in(self, region: Region) -> Floats:
+        """(N, 4) the same from the corner of a region."""
+        x, y = region[:2]
+        rectangles = self.rectangles
+        points = rectangles.view(np.complex128)
+        points -= complex(x, y)
+        return rectangles
 
     @property
     def window(self) -> Rectangle | None:
@@ -131,12 +145,16 @@ class Blocks(NamedTuple):
     def occluded_share(self, observed: BlockObservation, limits: DisparityLimits) -> float:
         """The share of the target's blocks inside the image that something nearer hides."""
         mine = (self.states != NOT_TARGET_BLOCK) & (observed.cells > 0)
-        return float((mine & observed.is_nearer(limits)).sum() / max(mine.sum(), 1))
+        hidden = int(np.count_nonzero(mine & observed.is_nearer(limits)))
+        return hidden / max(int(np.count_nonzero(mine)), 1)
 
-    def voted(self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams) -> "Blocks":
+    def voted(
+        self, k: Kernels, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
+    ) -> "Blocks":
         """The blocks after the votes of a frame, figure 7."""
-        vote = self._voted_by_pixels if p.block_rules == "printed" else self._voted_by_pixels_and_depth
-        return vote(observed, limits, p)
+        if p.block_rules == "printed":
+            return self._voted_by_pixels(observed, limits, p)
+        return self._voted_by_pixels_and_depth(k, observed, limits, p)
 
     def _voted_by_pixels(
         self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
@@ -160,47 +178,20 @@ class Blocks(NamedTuple):
         )
 
     def _voted_by_pixels_and_depth(
-        self, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
+        self, k: Kernels, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams
     ) -> "Blocks":
-        """The adaptive rules.
-
-        A core block stays, and comes back, also by the target's disparity alone; for a limited time, as the
-        floor around the feet has it too. A block with hardly any disparities gets no vote against it: cloth
-        and cardboard without texture have none. An occluded block is the target's again only at a disparity
-        similar to the target's. One that shows what is behind the target for long isn't the target's any
-        more; figure 7 has no way out for it.
-        """
-        found = observed.has_share(observed.target_pixels, p.min_block_share)
-        same_depth = observed.has_share(observed.same_depth, p.min_block_share)
-        hidden = observed.is_nearer(limits) & ~found
-        similar = observed.is_similar(limits)
-        inside = observed.cells > 0
-        target, occluded = self.states == TARGET_BLOCK, self.states == OCCLUDED_BLOCK
-        without_pixels = np.where(found, 0, self.frames_without_pixels + (same_depth & ~hidden))
-        core = self.core & (without_pixels < p.max_frames_without_pixels)
-        votes = np.where(found | (same_depth & core), self.votes + 1, np.maximum(self.votes - inside, 0))
-        away = ~found & ~same_depth & ~hidden & observed.has_mean
-        against = np.where(
-            away & (target | (occluded & ~similar)),
-            self.votes_against + 1,
-            np.where(target & (found | same_depth), 0, self.votes_against),
+        """The adaptive rules, of which ``block_votes`` tells."""
+        states, votes, against, core, trusted, without_pixels = k.block_votes(
+            self.states,
+            self.votes,
+            self.votes_against,
+            self.core,
+            self.trusted,
+            self.frames_without_pixels,
+            *observed,
+            limits,
+            p.min_block_share,
+            (p.votes_to_add, p.votes_to_remove, p.votes_to_release, p.max_frames_without_pixels),
         )
-        states = self.states.copy()
-        states[(states == NOT_TARGET_BLOCK) & (votes >= p.votes_to_add)] = TARGET_BLOCK
-        states[target & hidden] = OCCLUDED_BLOCK
-        states[occluded & (against >= p.votes_to_release)] = NOT_TARGET_BLOCK
-        states[occluded & similar] = TARGET_BLOCK
-        removed = (against >= p.votes_to_remove) | (without_pixels >= p.max_frames_without_pixels)
-        states[target & removed] = NOT_TARGET_BLOCK
-        outside = states == NOT_TARGET_BLOCK
-        trusted = np.where(
-            found, TRUSTED_FRAMES, np.where(hidden, self.trusted, np.maximum(self.trusted - 1, 0))
-        )
-        return self._replace(
-            states=states,
-            votes=np.where(outside & (target | occluded), 0, np.minimum(votes, p.votes_to_add)),
-            votes_against=np.where(states == self.states, against, 0),
-            core=core,
-            trusted=trusted,
-            frames_without_pixels=without_pixels,
-        )
+        corners, anchor, size = self.corners, self.anchor, self.size
+        return Blocks(corners, anchor, size, states, votes, against, core, trusted, without_pixels)

@@ -9,14 +9,14 @@ from tricue.track.flow_depth.state import FlowDepthState
 from tricue.track.flow_depth.verify import Verdict, disparity_limits, estimate
 
 
-def is_occluded(state: FlowDepthState, verdict: Verdict, p: FlowDepthParams) -> bool:
+def is_occluded(k: Kernels, state: FlowDepthState, verdict: Verdict, p: FlowDepthParams) -> bool:
     """Whether the target is completely occluded in this frame.
 
     It is where its disparity has become much larger, and where it has too few pixels and an occluded block.
     """
     if verdict.disparity > disparity_limits(state, state.disparity, p).occluder:
         return True
-    blocks = state.blocks.voted(verdict.observed, verdict.limits, p)
+    blocks = state.blocks.voted(k, verdict.observed, verdict.limits, p)
     return not verdict.has_pixels(state, p.min_pixels) and bool((blocks.states == OCCLUDED_BLOCK).any())
 
 

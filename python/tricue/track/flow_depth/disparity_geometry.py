@@ -37,4 +37,4 @@ class DisparityGeometry(NamedTuple):
     @property
     def offset(self) -> float:
         """By which measured disparities are smaller than those of parallel cameras, pixels."""
-        return float(self.camera[0] * math.tan(self.angle))
+        return float(self.camera[0] * math.tan(self.angle)) if self.angle else 0.0

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What a frame with the target teaches: its velocity, disparity, blocks, outline and running means."""
 
+import numpy as np
+
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, TARGET_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
@@ -32,7 +34,7 @@ def learn(
     blocks = state.blocks
     if p.block_rules == "adaptive":
         blocks = blocks._replace(size=_estimate_size(state))
-    blocks = blocks.voted(verdict.observed, verdict.limits, p)
+    blocks = blocks.voted(k, verdict.observed, verdict.limits, p)
     state = state._replace(
         model=model,
         temporal_window=verdict.temporal_window,
@@ -66,7 +68,8 @@ def _learn_unoccluded(
 ) -> FlowDepthState:
     """The outline and the running means, learned where few blocks are occluded."""
     states = state.blocks.states
-    occluded = int((states == OCCLUDED_BLOCK).sum()) / max(int((states != NOT_TARGET_BLOCK).sum()), 1)
+    mine = int(np.count_nonzero(states != NOT_TARGET_BLOCK))
+    occluded = int(np.count_nonzero(states == OCCLUDED_BLOCK)) / max(mine, 1)
     if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
         mask = mask_blocks(k, state, cues, states == TARGET_BLOCK)
         mask &= verdict.pixels | mask_disparity(state, cues, state.disparity, p)

@@ -15,8 +15,7 @@ Mask = NDArray[np.uint8]
 
 def mask_blocks(k: Kernels, state: FlowDepthState, cues: Cues, chosen: Flags) -> Mask:
     """(h, w) 1 at the cells of the cues' region that lie in chosen blocks; chosen: (N,)."""
-    x, y = cues.region[:2]
-    return k.block_mask(state.blocks.rectangles[chosen] - [x, y, x, y], *cues.shape)
+    return k.block_mask(state.blocks.rectangles_in(cues.region)[chosen], *cues.shape)
 
 
 def mask_disparity(state: FlowDepthState, cues: Cues, disparity: float, p: FlowDepthParams) -> Mask:

@@ -10,6 +10,8 @@ from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.state import FlowDepthState
 
 Floats = NDArray[np.float64]
+
+IDENTITY = np.eye(3)
 MIN_POSITION_DISPARITY = 1e-3  # pixels, of parallel cameras
 
 
@@ -26,11 +28,10 @@ def locate(
     if not disparity > MIN_POSITION_DISPARITY:
         return None, None
     x, y = box.center
-    place_noise, disparity_noise = (
-        step * state.reduced.scale * each for each in (p.place_noise, p.disparity_noise)
-    )
+    scale = step * state.reduced.scale
+    place_noise, disparity_noise = scale * p.place_noise, scale * p.disparity_noise
     measured = np.array([[x - 0.5, y - 0.5, disparity]])
     variances = np.array([place_noise**2, place_noise**2, disparity_noise**2])
     points, covariances = k.back_project(measured, variances, state.geometry.camera, state.geometry.baseline)
     drift = (p.acceleration_noise * state.missed**2 / 2) ** 2
-    return points[0], covariances[0] + drift * np.eye(3)
+    return points[0], covariances[0] + drift * IDENTITY

@@ -141,7 +141,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         if found:
             return learn(k, state, cues, verdict, p)
         if not state.missed:
-            state = state._replace(blocks=state.blocks.voted(verdict.observed, verdict.limits, p))
+            state = state._replace(blocks=state.blocks.voted(k, verdict.observed, verdict.limits, p))
         return _coast(state._replace(occluded=verdict.occluded_share >= MIN_OCCLUDED_SHARE), seconds)
 
     def _follow_by_disparity(self, state: FlowDepthState, cues: Cues, seconds: float) -> FlowDepthState:
@@ -156,7 +156,7 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
                 disparity=disparity, occluder_disparity=math.nan, temporal_window=state.window
             )
         verdict = verify_by(k, state, cues, None, p)
-        if is_occluded(state, verdict, p):
+        if is_occluded(k, state, verdict, p):
             disparity = disparity_in_window(k, state._replace(occluded=False), cues, p)
             return _coast(state._replace(occluded=True, occluder_disparity=disparity), seconds)
         state = state._replace(pixels=verdict.pixels)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation, DisparityLimits
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.masks import disparity_tolerance, mask_blocks, mask_disparity
+from tricue.track.flow_depth.masks import disparity_tolerance, mask_blocks
 from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, grown, moved
@@ -151,10 +151,10 @@ def _observe_blocks(
     k: Kernels, state: FlowDepthState, cues: Cues, pixels: Mask, disparity: float, p: FlowDepthParams
 ) -> BlockObservation:
     """The measurements in the blocks, section 4.4; without disparities every cell counts as measured."""
-    x, y = cues.region[:2]
-    rectangles = state.blocks.rectangles - [x, y, x, y]
-    values = cues.disparities()
-    cells, targets, with_disparity, mean = k.block_counts(pixels, values, rectangles)
-    _, same_depth, _, _ = k.block_counts(mask_disparity(state, cues, disparity, p), values, rectangles)
+    rectangles = state.blocks.rectangles_in(cues.region)
+    tolerance = disparity_tolerance(state, disparity, p)
+    cells, targets, with_disparity, mean, same_depth = k.block_counts(
+        pixels, cues.disparities(), rectangles, disparity, tolerance
+    )
     measured = cells if cues.disparity is None else with_disparity
     return BlockObservation(cells, targets, measured, mean, same_depth)

@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import Ellipse
+from tricue.track.stereo_head.prepared_pair import Ellipse, Image
 from tricue.track.stereo_head.search_region import SearchRegion
 
 Floats = NDArray[np.float64]
 
-NO_BIN = np.uint16(65535)
 HAIR_CAP = 0.3  # of the head's height, from its top
 MIN_COHERENT_CELLS = 8  # with fewer at the head's depth, all of the ellipse count
 
@@ -26,13 +25,12 @@ def measure_histogram(
 
     With ``learn="coherent"`` only the cells at the head's depth count.
     """
-    bins = region.bins
-    if p.learn == "coherent":
-        bins = np.where(region.coherent, bins, NO_BIN)
-    counts = _count(k, bins, ellipse, region, step, p)
-    if counts.sum() < MIN_COHERENT_CELLS:
-        counts = _count(k, region.bins, ellipse, region, step, p)
-    return np.asarray(counts / max(counts.sum(), 1.0))
+    counts = _count(k, region, ellipse, step, region.coherent if p.learn == "coherent" else None, p)
+    total = int(counts.sum())
+    if total < MIN_COHERENT_CELLS:
+        counts = _count(k, region, ellipse, step, None, p)
+        total = int(counts.sum())
+    return counts / float(max(total, 1))
 
 
 def measure_first_histogram(
@@ -60,13 +58,14 @@ def _fill(weights: Sequence[tuple[int, float]], p: StereoHeadParams) -> Floats:
 
 def _count(
     k: Kernels,
-    bins: NDArray[np.uint16],
-    ellipse: Ellipse,
     region: SearchRegion,
+    ellipse: Ellipse,
     step: int,
+    mask: Image | None,
     p: StereoHeadParams,
-) -> Floats:
-    """(L,) cells of each bin in an ellipse."""
-    inside, _ = k.ellipse_histogram(bins, region.to_cells(ellipse, step)[None], math.prod(p.bins), 1.0)
-    counts: Floats = inside[0].astype(np.float64)
+) -> NDArray[np.int32]:
+    """(L,) cells of each bin in an ellipse, of those that a mask marks, if any."""
+    cells = region.to_cells(ellipse, step)[None]
+    inside, _ = k.ellipse_histogram(region.bins, cells, math.prod(p.bins), 1.0, mask)
+    counts: NDArray[np.int32] = inside[0]
     return counts

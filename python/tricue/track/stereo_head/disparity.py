@@ -9,12 +9,9 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, PreparedPair
+from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
-Disparities = NDArray[np.float32]
-
-MAX_MATCHING_WINDOW = 31  # pixels, side of the window
 MIN_MATCHED_PIXELS = 8  # of an ellipse
 MAX_CANDIDATE_DISPARITIES = 4000  # of one search
 
@@ -83,13 +80,11 @@ def _match(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
 ) -> tuple[Disparities, float]:
     """The disparities (N,) found in an ellipse without its margin, and how many pixels that ellipse has."""
-    window = min(p.window + 2 * (pair.step - 1), MAX_MATCHING_WINDOW)
+    window = pair.pixel_window(p)
     x, y, minor, major = ellipse
     minor, major = (max(half - p.ellipse_margin * window, half / 2) for half in (minor, major))
     region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))
-    disparities = k.sad_disparity(
-        *pair.gray, region, True, *limits, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
-    )
+    disparities = pair.disparities(k, region, True, limits, False, p)
     matched = disparities[np.isfinite(disparities)]
     if not p.subpixel:
         matched = np.ceil(matched - np.float32(0.5))  # of two equal costs the smaller disparity, as (3) found
@@ -100,8 +95,9 @@ def _near(
     matched: Disparities, disparity: float, pair: PreparedPair, p: StereoHeadParams
 ) -> NDArray[np.bool_]:
     """(N,) whether each matched disparity is within the tolerance of one disparity, pixels."""
-    tolerance = np.float32(p.disparity_tolerance * pair.step)
-    return np.asarray(np.abs(matched - np.float32(disparity)) <= tolerance)
+    off = matched - np.float32(disparity)
+    np.abs(off, off)
+    return np.asarray(off <= np.float32(p.disparity_tolerance * pair.step))
 
 
 def _median(values: Disparities) -> float:

@@ -58,14 +58,14 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
     limit = p.max_speed if p.motion == "constant" else p.acceleration_noise
     dynamics = _dynamics(len(state.mean), seconds, limit, p.color_drift)
     mean, covariance = k.kalman_predict(state.mean, state.covariance, *dynamics)
-    mean[2] = min(max(mean[2], p.near), p.far)
+    mean[2] = min(max(float(mean[2]), p.near), p.far)
     return HeadFilter(mean, covariance)
 
 
 def mahalanobis_distance(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
     """The distance of a measured position (3,) from the predicted one, in standard deviations."""
-    off = (measured - predicted.position).tolist()
-    xx, xy, xz, _, yy, yz, _, _, zz = (predicted.position_covariance + noise[:3, :3]).ravel().tolist()
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = (predicted.covariance[:3, :3] + noise[:3, :3]).tolist()
+    off = [here - there for here, there in zip(measured.tolist(), predicted.mean.tolist(), strict=False)]
     # The three steps of Cholesky written out: numpy.linalg takes longer than the whole correction.
     a = xx**0.5
     b, c = xy / a, xz / a
@@ -80,9 +80,15 @@ def mahalanobis_distance(predicted: HeadFilter, measured: Floats, noise: Floats)
 
 def correct(k: Kernels, predicted: HeadFilter, measured: Floats, noise: Floats) -> HeadFilter:
     """The correction (8) by a measurement (7,) and its covariance (7, 7)."""
-    selection = np.eye(MEASUREMENT_SIZE, len(predicted.mean))
+    selection = _selection(len(predicted.mean))
     mean, covariance, *_ = k.kalman_update(predicted.mean, predicted.covariance, measured, selection, noise)
     return HeadFilter(mean, covariance)
+
+
+@lru_cache(maxsize=2)
+def _selection(size: int) -> Floats:
+    """(7, size) of a state of that size what is measured."""
+    return np.eye(MEASUREMENT_SIZE, size)
 
 
 def coast(predicted: HeadFilter) -> HeadFilter:

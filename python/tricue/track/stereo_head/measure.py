@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The measurement of a head in a stereo pair: its best match, its disparity, its position and color."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -9,7 +10,6 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.color_model import measure_first_histogram, measure_histogram
 from tricue.track.stereo_head.disparity import EllipseDisparity, limits_around, measure_disparity
-from tricue.track.stereo_head.head_filter import MEASUREMENT_SIZE
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import EllipseMatch, search_local
@@ -36,7 +36,7 @@ class HeadMeasurement(NamedTuple):
 
     def values(self, color: Floats) -> Floats:
         """(7,) the measurement of (8), with the mean color (3,) of the updated model."""
-        return np.array([*self.position, *color, self.match.intersection])
+        return np.array([*self.position.tolist(), *color.tolist(), self.match.intersection])
 
     def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":
         """The same with a larger covariance of the position, where the score is below the running mean.
@@ -77,10 +77,14 @@ def measure(
     if depth is None:
         return None
     point, covariance = geometry.triangulate(k, *match.ellipse[:2], depth.disparity, pair.step, p)
-    if not p.near <= point[2] <= p.far:  # also of NaN, from a disparity of 0
+    if not p.near <= float(point[2]) <= p.far:  # also of NaN, from a disparity of 0
         return None
-    noise = np.zeros((MEASUREMENT_SIZE, MEASUREMENT_SIZE))
+    noise = _color_noise(p.color_noise, p.intersection_noise).copy()
     noise[:3, :3] = covariance
-    others = range(3, MEASUREMENT_SIZE)
-    noise[others, others] = [*(each**2 for each in p.color_noise), p.intersection_noise**2]
     return HeadMeasurement(match, depth, histogram, point, noise)
+
+
+@lru_cache(maxsize=16)
+def _color_noise(color: tuple[float, float, float], intersection: float) -> Floats:
+    """(7, 7) covariance of a measurement without that of the position."""
+    return np.diag([0.0, 0.0, 0.0, *(each**2 for each in color), intersection**2])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A stereo pair prepared for the search: subsampled colors, their gains, gray and reduced images."""
+"""A stereo pair prepared for the search: its light; its color bins and disparities where they are needed."""
 
 from typing import NamedTuple
 
@@ -14,24 +14,27 @@ Image = NDArray[np.uint8]
 Region = tuple[int, int, int, int]
 Ellipse = tuple[float, float, float, float]  # center x, y, semi-axes minor (along x), major; pixels
 
+Limits = tuple[int, int]  # lowest and highest disparity, both included
+Disparities = NDArray[np.float32]
+
+MAX_MATCHING_WINDOW = 31  # pixels, side of the window
 NO_LEFT_RIGHT_CHECK = -1  # the tolerance by which sad_disparity doesn't compare left with right
 
 
 class PreparedPair(NamedTuple):
-    """A rectified stereo pair, reduced to cells of ``step`` x ``step`` pixels, in which the head is searched.
+    """A rectified stereo pair, in whose cells of ``step`` x ``step`` pixels the head is searched.
 
-    colors: (h, w, 3) BGR of each cell's middle pixel.
-    mean: (3,) of the colors, a measure of the light while the scene stays the same.
+    Gray levels, cells and bins are computed where they are looked at, so the work grows with the head.
+
+    left, right: BGR (H, W, 3), the right one BGR or gray.
+    mean: (3,) color of the cells' middle pixels, a measure of the light while the scene stays the same.
     gains: (3,) that turn colors into those of the first frame's light (von Kries); None: not compensated.
-    gray: left and right, (H, W) each.
-    reduced: left and right, (h, w) each, the mean gray level of each cell.
     """
 
-    colors: Image
+    left: Image
+    right: Image
     mean: Floats
     gains: Floats | None
-    gray: tuple[Image, Image]
-    reduced: tuple[Image, Image]
     step: int
 
     @classmethod
@@ -44,17 +47,52 @@ class PreparedPair(NamedTuple):
         """
         height, width = left.shape[:2]
         step = max(1, min(round(width / p.resolution), height, width))
-        gray = k.reduce_gray(left, 1), right if right.ndim == 2 else k.reduce_gray(right, 1)
-        reduced = gray if step == 1 else (k.reduce_gray(gray[0], step), k.reduce_gray(gray[1], step))
-        colors, mean = k.cell_colors(left, step)
+        mean = k.image_mean(left, step)
         gains = None if first_mean is None else first_mean / np.maximum(mean, 1.0)
-        return cls(colors, mean, gains, gray, reduced, step)
+        return cls(left, right, mean, gains, step)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of cells."""
+        height, width = self.left.shape[:2]
+        return height // self.step, width // self.step
 
     def bins(self, k: Kernels, region: Region, stride: int, p: StereoHeadParams) -> NDArray[np.uint16]:
         """The ``color_bins`` of every stride-th cell of a region (x0, y0, x1, y1)."""
-        height, width = self.colors.shape[:2]
         x0, y0, x1, y1 = region
-        left, top = min(max(x0, 0), width), min(max(y0, 0), height)
-        colors = self.colors[top : max(y1, top), left : max(x1, left)]
-        shifted = (x0 - left, y0 - top, x1 - left, y1 - top)
-        return k.color_bins(colors, shifted, p.bins, p.max_chroma, stride, self.gains)
+        step = self.step
+        pixels = (step * x0, step * y0, step * x1, step * y1)
+        return k.color_bins(self.left, pixels, p.bins, p.max_chroma, step * stride, self.gains)
+
+    def disparities(
+        self, k: Kernels, region: Region, ellipse: bool, limits: Limits, cells: bool, p: StereoHeadParams
+    ) -> Disparities:
+        """The ``sad_disparity`` in a region of cells, or of pixels, or in the ellipse inscribed in it.
+
+        Only what it compares is turned gray.
+        """
+        side = self.step if cells else 1
+        window = p.window if cells else self.pixel_window(p)
+        height, width = self.left.shape[:2]
+        (x0, y0, x1, y1), (first, last) = region, limits
+        margin = window // 2 + 1  # of the window, and of the prefilter
+        left, right = _clip(x0 - max(last, 0) - margin, x1 - min(first, 0) + margin, width // side)
+        top, bottom = _clip(y0 - margin, y1 + margin, height // side)
+        rows, columns = slice(top * side, bottom * side), slice(left * side, right * side)
+        gray, other = k.reduce_gray(self.left[rows, columns], side), self.right[rows, columns]
+        if side > 1 or other.ndim == 3:
+            other = k.reduce_gray(other, side)
+        here = (x0 - left, y0 - top, x1 - left, y1 - top)
+        return k.sad_disparity(
+            gray, other, here, ellipse, first, last, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
+        )
+
+    def pixel_window(self, p: StereoHeadParams) -> int:
+        """The side of the window by which pixels are matched."""
+        return min(p.window + 2 * (self.step - 1), MAX_MATCHING_WINDOW)
+
+
+def _clip(begin: int, end: int, size: int) -> tuple[int, int]:
+    """The part of a range inside [0, size), of at least one: kernels refuse an empty image."""
+    first = min(max(begin, 0), size - 1)
+    return first, max(min(end, size), first + 1)

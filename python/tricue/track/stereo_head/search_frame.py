@@ -10,12 +10,11 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.disparity import limits_between
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, PreparedPair
+from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import score_matches
 from tricue.track.stereo_head.stereo_geometry import StereoGeometry
 
 Floats = NDArray[np.float64]
-Disparities = NDArray[np.float32]
 
 CELL_STRIDE = 3  # every third cell is searched, in both directions
 DISTANCE_RATIO = 0.85  # of one searched distance to the next farther one
@@ -96,18 +95,7 @@ def _match_cells(
     k: Kernels, pair: PreparedPair, geometry: StereoGeometry, head: LostHead, p: StereoHeadParams
 ) -> Disparities:
     """The disparity of every searched cell, in cells, within the range that the head can have."""
-    height, width = pair.reduced[0].shape
+    height, width = pair.shape
     first, last = limits_between(geometry, *head.distances(p), pair.step)
-    region = (0, 0, width, height)
-    disparities = k.sad_disparity(
-        *pair.reduced,
-        region,
-        False,
-        first - 1,
-        last + 1,
-        p.window,
-        p.uniqueness,
-        p.prefilter,
-        NO_LEFT_RIGHT_CHECK,
-    )
+    disparities = pair.disparities(k, (0, 0, width, height), False, (first - 1, last + 1), True, p)
     return disparities[CELL_STRIDE // 2 :: CELL_STRIDE, CELL_STRIDE // 2 :: CELL_STRIDE]

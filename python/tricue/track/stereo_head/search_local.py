@@ -42,7 +42,7 @@ def search_local(
         region.bins, region.to_cells(ellipse, step), grid, histogram, p.ring, region.coherent
     )
     scores = score_matches(measured, p)
-    row, column = divmod(int(np.argmax(scores)), grid[1])
+    row, column = divmod(int(scores.argmax()), grid[1])
     x, y, minor, major = ellipse
     best = (x + step * (column - across), y + step * (row - down), minor, major)
     intersection, _, coherence, _ = measured[row, column].tolist()
@@ -54,6 +54,10 @@ def score_matches(measured: Floats, p: StereoHeadParams) -> Floats:
 
     The four are the intersections of ellipse and ring with the model, and the coherent shares of both.
     """
-    color, ring_color, coherent, ring_coherent = np.moveaxis(measured, -1, 0)
-    depth = coherent - p.depth_ring * ring_coherent
-    return np.asarray(color - p.ring_weight * ring_color + p.depth_weight * depth)
+    depth = p.depth_ring * measured[..., 3]
+    np.subtract(measured[..., 2], depth, depth)
+    depth *= p.depth_weight
+    scores: Floats = p.ring_weight * measured[..., 1]
+    np.subtract(measured[..., 0], scores, scores)
+    scores += depth
+    return scores

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import NO_LEFT_RIGHT_CHECK, Ellipse, Image, PreparedPair
+from tricue.track.stereo_head.prepared_pair import Ellipse, Image, PreparedPair
 
 FILL_WINDOW = (
     7  # cells, side of the square by which gaps in the disparity are filled, as in hair of one color
@@ -38,18 +38,18 @@ def crop_region(
 ) -> SearchRegion:
     """The region that the search around an ellipse touches, for a head at about a disparity, pixels."""
     step, (across, down) = pair.step, p.search
-    x, y, minor, major = (each / step for each in ellipse)
+    x, y, minor, major = ellipse
+    x, y, minor, major = x / step, y / step, minor / step, major / step
     left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
     region = (left, top, right, bottom)
     bins = pair.bins(k, region, 1, p)
-    expected = min(disparity / step, float(pair.reduced[0].shape[1]))
-    first, last = round(expected) - p.disparities[0], round(expected) + p.disparities[1]
-    disparities = k.sad_disparity(
-        *pair.reduced, region, False, first, last, p.window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
-    )
+    height, width = pair.shape
+    expected = min(disparity / step, float(width))
+    limits = round(expected) - p.disparities[0], round(expected) + p.disparities[1]
+    disparities = pair.disparities(k, region, False, limits, True, p)
     coherent = k.coherent_cells(disparities, expected, p.disparity_tolerance, FILL_WINDOW)
-    height, width = pair.reduced[0].shape  # cells outside the image aren't the head's
-    coherent[: max(-top, 0)] = coherent[max(height - top, 0) :] = 0
-    coherent[:, : max(-left, 0)] = coherent[:, max(width - left, 0) :] = 0
+    if left < 0 or top < 0 or right > width or bottom > height:  # cells outside the image aren't the head's
+        coherent[: max(-top, 0)] = coherent[max(height - top, 0) :] = 0
+        coherent[:, : max(-left, 0)] = coherent[:, max(width - left, 0) :] = 0
     return SearchRegion(left, top, bins, coherent)

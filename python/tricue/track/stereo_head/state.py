@@ -33,9 +33,9 @@ class HeadState(NamedTuple):
 
     def model(self, p: StereoHeadParams) -> Floats:
         """(L,) the color model that is searched for: the first one mixed with the learned one."""
-        return (
-            p.first_frame_weight * self.first_histogram + (1 - p.first_frame_weight) * self.learned_histogram
-        )
+        model = (1 - p.first_frame_weight) * self.learned_histogram
+        model += p.first_frame_weight * self.first_histogram
+        return model
 
     def min_intersection_to_learn(self, p: StereoHeadParams) -> float:
         """The intersection (1) from which colors are learned."""

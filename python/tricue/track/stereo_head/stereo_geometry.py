@@ -41,9 +41,9 @@ class StereoGeometry(NamedTuple):
 
     def ellipse(self, position: Floats, size: tuple[float, float]) -> tuple[float, float, float, float]:
         """Center and semi-axes, pixels, of an upright ellipse of a size, meters, at a position (3,)."""
-        x, y, _ = self.project(position)
-        z = float(position[2])
-        return x, y, size[0] / 2 * float(self.rig[0]) / z, size[1] / 2 * float(self.rig[1]) / z
+        x, y, z = position.tolist()
+        fx, fy, cx, cy, _ = self.rig.tolist()
+        return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, size[0] / 2 * fx / z, size[1] / 2 * fy / z
 
     def size(self, minor: float, major: float, z: float) -> tuple[float, float]:
         """Width and height, meters, of an ellipse at a distance z, meters; semi-axes in pixels."""

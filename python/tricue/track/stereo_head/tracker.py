@@ -192,7 +192,9 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         unlike = match.intersection < state.min_intersection_to_learn(p)
         learned = state.learned_histogram
         if not unlike:
-            learned = learned + p.learning_rate * (measured.histogram - learned)  # (2)
+            change = measured.histogram - learned
+            change *= p.learning_rate
+            learned = learned + change  # (2)
         values = self._values(measured, learned)
         if predicted is None or not p.fuse:
             head = head_filter.initialize(values, measured.noise, p)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""The mean color of every fourth pixel of 640x480, in both directions: native, reference, cv2.mean."""
+
+from collections.abc import Callable
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+from tricue import _core, reference
+
+Image = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+
+
+def baseline(image: Image, step: int) -> Floats:
+    """cv2.mean of a copied slice."""
+    return np.array(cv2.mean(np.ascontiguousarray(image[step // 2 :: step, step // 2 :: step]))[:3])
+
+
+@pytest.mark.benchmark(group="image_mean, 640x480")
+@pytest.mark.parametrize(
+    "image_mean",
+    [_core.image_mean, reference.image_mean, baseline],
+    ids=["native", "reference", "baseline"],
+)
+def bench_image_mean(benchmark: Any, image_mean: Callable[..., Floats]) -> None:
+    """All give the same mean but for its last bit."""
+    image = np.random.default_rng(0).integers(0, 256, (480, 640, 3), np.uint8)
+    assert_allclose(benchmark(image_mean, image, 4), reference.image_mean(image, 4), rtol=1e-15)

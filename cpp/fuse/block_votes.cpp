@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/block_votes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/check.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr std::int64_t kOther = 0, kTarget = 1, kOccluded = 2, kTrustedFrames = 3;
+constexpr double kMinMeasuredShare =
+    0.2;  // of a block's pixels: with fewer disparities their mean doesn't count
+
+void require_arguments(const BlockVotes& blocks, const BlockObservations& seen) {
+    const Eigen::Index count = blocks.states.size();
+    const auto require = [count](Eigen::Index size, const char* name) {
+        if (size != count) refuse(name, std::to_string(count) + " numbers", std::to_string(size));
+    };
+    require(blocks.votes.size(), "votes");
+    require(blocks.against.size(), "against");
+    require(blocks.core.size(), "core");
+    require(blocks.trusted.size(), "trusted");
+    require(blocks.unproven.size(), "unproven");
+    require(seen.cells.size(), "cells");
+    require(seen.targets.size(), "targets");
+    require(seen.measured.size(), "measured");
+    require(seen.mean.size(), "mean");
+    require(seen.similar.size(), "similar");
+    for (const std::int64_t state : blocks.states)
+        if (state < kOther || state > kOccluded) refuse("states", "0, 1 or 2", std::to_string(state));
+}
+
+/// What the block has now.
+struct Observed {
+    bool inside, found, same_depth, has_mean, hidden, similar;
+
+    Observed(const BlockObservations& seen, Eigen::Index i, const VoteRules& rules)
+        : inside(seen.cells[i] > 0) {
+        const auto cells = static_cast<double>(seen.cells[i]);
+        const auto has_share = [&](std::int64_t count) {
+            return inside && static_cast<double>(count) >= rules.min_share * cells;
+        };
+        found = has_share(seen.targets[i]);
+        same_depth = has_share(seen.similar[i]);
+        has_mean = inside && static_cast<double>(seen.measured[i]) >= kMinMeasuredShare * cells;
+        hidden = has_mean && seen.mean[i] > rules.occluder && !found;
+        similar = has_mean && std::abs(seen.mean[i] - rules.target) <= rules.tolerance;
+    }
+};
+
+}  // namespace
+
+BlockVotes block_votes(BlockVotes blocks, const BlockObservations& seen, const VoteRules& rules) {
+    require_arguments(blocks, seen);
+    for (Eigen::Index i = 0; i < blocks.states.size(); ++i) {
+        const Observed now(seen, i, rules);
+        const std::int64_t before = blocks.states[i];
+        const bool target = before == kTarget, occluded = before == kOccluded;
+
+        std::int64_t& unproven = blocks.unproven[i];
+        unproven = now.found ? 0 : unproven + (now.same_depth && !now.hidden);
+        const bool kept = unproven < rules.max_unproven;
+        blocks.core[i] = blocks.core[i] && kept;
+
+        std::int64_t votes = blocks.votes[i], against = blocks.against[i];
+        if (now.found || (now.same_depth && blocks.core[i]))
+            ++votes;
+        else
+            votes = std::max(votes - now.inside, std::int64_t{0});
+        const bool away = !now.found && !now.same_depth && !now.hidden && now.has_mean;
+        if (away && (target || (occluded && !now.similar)))
+            ++against;
+        else if (target && (now.found || now.same_depth))
+            against = 0;
+
+        std::int64_t& state = blocks.states[i];
+        if (before == kOther && votes >= rules.to_add) state = kTarget;
+        if (target && now.hidden) state = kOccluded;
+        if (occluded && against >= rules.to_release) state = kOther;
+        if (occluded && now.similar) state = kTarget;
+        if (target && (against >= rules.to_remove || !kept)) state = kOther;
+
+        const bool left = state == kOther && before != kOther;
+        blocks.votes[i] = left ? 0 : std::min(votes, rules.to_add);
+        blocks.against[i] = state == before ? against : 0;
+        std::int64_t& trusted = blocks.trusted[i];
+        if (now.found)
+            trusted = kTrustedFrames;
+        else if (!now.hidden)
+            trusted = std::max(trusted - 1, std::int64_t{0});
+    }
+    return blocks;
+}
+
+}  // namespace tricue

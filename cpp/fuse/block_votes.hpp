@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "base/arrays.hpp"
+
+namespace tricue {
+
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+/// What N blocks are, and the votes that they have.
+struct BlockVotes {
+    Indices states;   ///< int64 (N,): 0 not the target's, 1 the target's, 2 occluded
+    Indices votes;    ///< int64 (N,): frames for a block to become the target's
+    Indices against;  ///< int64 (N,): frames for it to leave its state
+    Flags core;       ///< bool (N,): blocks that the target's disparity alone keeps
+    Indices trusted;  ///< int64 (N,): frames for which a block counts in the model after it had target pixels
+    Indices unproven;  ///< int64 (N,): frames with the target's disparity since it had target pixels
+};
+
+/// What a frame measures in N blocks.
+struct BlockObservations {
+    Indices cells, targets, measured;
+    Vector mean;
+    Indices similar;
+};
+
+/// What the mean disparity of a block is compared with, and how many votes decide.
+struct VoteRules {
+    double target, tolerance, occluder, min_share;
+    std::int64_t to_add, to_remove, to_release, max_unproven;
+};
+
+/// The blocks of the target window after the votes of a frame.
+///
+/// A block with target pixels, or a core block at the target's disparity, has a vote; after as many as are needed it is the target's. A
+/// core block is kept by the disparity alone for a limited time, as the floor around the feet has it, too. One at another disparity
+/// without target pixels has a vote against it, but not if hardly any disparities are measured: cloth and cardboard without texture
+/// have none. A block whose mean disparity is an occluder's, without target pixels, is occluded; it is the target's again at a similar
+/// disparity, and released where it shows what is behind the target for long.
+///
+/// @param states int64 (N,): 0, 1 or 2
+/// @param votes int64 (N,)
+/// @param against int64 (N,)
+/// @param core bool (N,)
+/// @param trusted int64 (N,)
+/// @param unproven int64 (N,)
+/// @param cells int64 (N,): pixels of each block inside the image
+/// @param targets int64 (N,): those of the target
+/// @param measured int64 (N,): those with a disparity; the mean counts from a fifth of the pixels on
+/// @param mean float64 (N,): their mean disparity
+/// @param similar int64 (N,): those at the target's disparity
+/// @param disparities (target, tolerance, occluder): a mean is similar within the tolerance of the target's disparity, and an
+///     occluder's above the third
+/// @param min_share of a block's pixels, for a vote
+/// @param frames (to add, to remove, to release, unproven): votes that make a block the target's, that end this, and that release an
+///     occluded block; frames for which disparity alone keeps a block
+/// @throws std::invalid_argument on sizes that differ, and states other than 0 to 2
+/// Source: Okada, Shirai, Miura 1996, section 4.4 and figure 7; core blocks, trust and release are ours.
+BlockVotes block_votes(BlockVotes blocks, const BlockObservations& seen, const VoteRules& rules);
+
+}  // namespace tricue

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+"""The votes on the blocks of the target window (Okada, Shirai, Miura 1996, section 4.4 and figure 7)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+
+Counts = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+
+OTHER, TARGET, OCCLUDED = 0, 1, 2
+TRUSTED_FRAMES = 3
+MIN_MEASURED_SHARE = 0.2
+
+
+def block_votes(
+    states: Counts,
+    votes: Counts,
+    against: Counts,
+    core: Flags,
+    trusted: Counts,
+    unproven: Counts,
+    cells: Counts,
+    targets: Counts,
+    measured: Counts,
+    mean: Floats,
+    similar: Counts,
+    disparities: tuple[float, float, float],
+    min_share: float,
+    frames: tuple[int, int, int, int],
+) -> tuple[Counts, Counts, Counts, Flags, Counts, Counts]:
+    """All blocks at once, one rule after the other."""
+    arguments = dict(locals())
+    for name in tuple(arguments)[1:11]:
+        if len(arguments[name]) != len(states):
+            refuse(name, f"{len(states)} numbers", len(arguments[name]))
+    for state in states:
+        if state not in (OTHER, TARGET, OCCLUDED):
+            refuse("states", "0, 1 or 2", state)
+    (target_disparity, tolerance, occluder), (to_add, to_remove, to_release, max_unproven) = (
+        disparities,
+        frames,
+    )
+    inside = cells > 0
+    has_mean = (measured >= MIN_MEASURED_SHARE * cells) & inside
+    found = (targets >= min_share * cells) & inside
+    same_depth = (similar >= min_share * cells) & inside
+    hidden = (mean > occluder) & has_mean & ~found
+    near = (np.abs(mean - target_disparity) <= tolerance) & has_mean
+    target, occluded = states == TARGET, states == OCCLUDED
+
+    unproven = np.where(found, 0, unproven + (same_depth & ~hidden))
+    core = core & (unproven < max_unproven)
+    votes = np.where(found | (same_depth & core), votes + 1, np.maximum(votes - inside, 0))
+    away = ~found & ~same_depth & ~hidden & has_mean
+    against = np.where(
+        away & (target | (occluded & ~near)),
+        against + 1,
+        np.where(target & (found | same_depth), 0, against),
+    )
+    after = states.copy()
+    after[(states == OTHER) & (votes >= to_add)] = TARGET
+    after[target & hidden] = OCCLUDED
+    after[occluded & (against >= to_release)] = OTHER
+    after[occluded & near] = TARGET
+    after[target & ((against >= to_remove) | (unproven >= max_unproven))] = OTHER
+    votes = np.where((after == OTHER) & (target | occluded), 0, np.minimum(votes, to_add))
+    against = np.where(after == states, against, 0)
+    trusted = np.where(found, TRUSTED_FRAMES, np.where(hidden, trusted, np.maximum(trusted - 1, 0)))
+    return after, votes, against, core, trusted, unproven
