@@ -23,7 +23,8 @@ using Offsets = std::vector<double>;
 
 constexpr int kMaxSamples = 64;
 constexpr int kBlock = 16;  // places, so that loops over them have no remainder
-constexpr Eigen::Index kBatch = 8;  // rectangles that take each step together: their samples and counts fit the L1 cache
+constexpr Eigen::Index kBatch =
+    8;  // rectangles that take each step together: their samples and counts fit the L1 cache
 
 /// The centers of n equal parts of [-1, 1].
 Offsets part_centers(int n) {
@@ -159,14 +160,17 @@ States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states
     const auto inner = static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
     const auto outer = 4 * static_cast<std::size_t>(places.along);
     const auto batch = static_cast<std::size_t>(std::min(kBatch, states.rows()));
-    std::vector<DepthSamples> samples(batch, DepthSamples{std::vector<float>(RelativeHistogram::padded(inner)),
-                                                          std::vector<float>(RelativeHistogram::padded(outer))});
-    std::vector<RelativeHistogram> histograms(
-        batch, RelativeHistogram(model.histogram.size(), model.reach, inner));
+    std::vector<DepthSamples> samples(batch,
+                                      DepthSamples{std::vector<float>(RelativeHistogram::padded(inner)),
+                                                   std::vector<float>(RelativeHistogram::padded(outer))});
+    std::vector<RelativeHistogram> histograms(batch,
+                                              RelativeHistogram(model.histogram.size(), model.reach, inner));
     States measured(states.rows(), 4);
     for (Eigen::Index first = 0; first < states.rows(); first += kBatch) {
         const auto n = static_cast<std::size_t>(std::min(kBatch, states.rows() - first));
-        const auto state = [&](std::size_t i) { return states.row(first + static_cast<Eigen::Index>(i)).data(); };
+        const auto state = [&](std::size_t i) {
+            return states.row(first + static_cast<Eigen::Index>(i)).data();
+        };
         for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state(i)), samples[i]);
         for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state(i)[2]);
         for (std::size_t i = 0; i < n; ++i) histograms[i].count();
@@ -174,8 +178,7 @@ States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states
             histograms[i].finish();
             const auto& [inside, around] = samples[i];
             const double z = state(i)[2];
-            measured.row(first + static_cast<Eigen::Index>(i))
-                << histograms[i].distance(model.histogram),
+            measured.row(first + static_cast<Eigen::Index>(i)) << histograms[i].distance(model.histogram),
                 histograms[i].total() / static_cast<double>(inner),
                 count_below(inside.data(), inside.size(), z - nearer) / static_cast<double>(inner),
                 count_within(around.data(), around.size(), z, model.reach) / static_cast<double>(outer);

@@ -27,7 +27,12 @@ from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.occluder import find_occluder
-from tricue.track.depth_particle.others import inside_box, remember_others, without_others
+from tricue.track.depth_particle.others import (
+    NOTHING_KNOWN,
+    inside_box,
+    remember_others,
+    without_others,
+)
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
 from tricue.track.depth_particle.state import ParticleSet, State
@@ -141,7 +146,9 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             signature=target.signature,
             particles=ParticleSet.at_state(target.state, self.params.particles),
             objects=objects,
-            others=remember_others(None, fg, target.state, self.params.histogram_reach),
+            others=remember_others(
+                self._k, NOTHING_KNOWN, fg, target.state, self.params.histogram_reach
+            ),
             score=_score(observed),
             mean_log_likelihood=float(observed.log_likelihood[0]),
             mean_inside=float(observed.inside[0]),
@@ -167,7 +174,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
-        free = without_others(state.others, fg) if p.leave_out_others else None
+        free = without_others(k, state.others, fg) if p.leave_out_others else None
         objects = segment(k, fg, plane, p, free)
         before = state.motion
         prediction = before.predict(p, seconds, state.missed_seconds)
@@ -248,7 +255,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         visible = state.missed_seconds == 0 and float(observed.front[0]) < p.max_covered
         return state._replace(
             particles=particles,
-            others=remember_others(state.others, fg, particles.state, p.histogram_reach),
+            others=remember_others(self._k, state.others, fg, particles.state, p.histogram_reach),
             motion=state.motion.update(particles.state, p, seconds, visible),
             score=_score(observed),
             missed_seconds=0.0,
