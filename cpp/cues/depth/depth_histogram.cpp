@@ -36,7 +36,8 @@ void require_levels(const DepthLevels& levels) {
 /// Whether each pixel of a row is counted, and its level; `levels.count` for what isn't.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
-                 const DepthLevels& levels, std::uint8_t* __restrict counted, std::int32_t* __restrict level) {
+                 const DepthLevels& levels, std::uint8_t* __restrict counted,
+                 std::int32_t* __restrict level) {
     const float least = round_up_to_float(levels.near), end = round_up_to_float(levels.far);
     const auto near = static_cast<float>(levels.near);
     const auto scale = static_cast<float>(levels.count / (levels.far - levels.near));

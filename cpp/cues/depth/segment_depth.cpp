@@ -43,9 +43,9 @@ Labels find_mask(const DepthView& distance, const ImageView& free, const Divisio
 }
 
 Vector find_dividers(const DepthView& distance, const ImageView& mask, const Divisions& divisions) {
-    const auto& [near, far, levels] = divisions.range;
+    const auto& [near, far, levels] = divisions.levels;
     const Vector density =
-        depth_density(depth_histogram(distance, mask, divisions.range), divisions.bandwidth);
+        depth_density(depth_histogram(distance, mask, divisions.levels), divisions.bandwidth);
     const Indices minima = density_extrema(density, divisions.prominence * density.maxCoeff()).minima;
     const Eigen::Index count = std::min(minima.size(), kMaxMinima);
     const double level = (far - near) / levels;
@@ -72,7 +72,7 @@ void cut_at_edge(StatesRef table, const Region& measured, int border, Flags& cut
 DepthObjects segment_depth(const DepthView& depth, const ImageView& free, VectorRef camera, VectorRef plane,
                            const Region& measured, const Divisions& divisions, const Cut& cut,
                            const Standing& standing) {
-    const auto& [near, far, levels] = divisions.range;
+    const auto& [near, far, levels] = divisions.levels;
     Floats along;
     DepthView distance = depth;
     if (plane.size() > 2 && (plane.head(3) != 0.0).any()) {

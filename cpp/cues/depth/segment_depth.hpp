@@ -12,7 +12,7 @@ namespace tricue {
 
 /// Where one object ends and another begins; each as in the kernels that segment_depth calls.
 struct Divisions {
-    DepthLevels range;
+    DepthLevels levels;
     double gap, slope, bandwidth, prominence;
     int min_area;
 };
@@ -41,7 +41,7 @@ struct DepthObjects {
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
 /// @param plane float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
 /// @param measured (x0, y0, x1, y1), pixels: outside of it nothing was measured
-/// @param range (near, far, levels), as in depth_histogram
+/// @param levels (near, far, count), as in depth_histogram
 /// @param edges (gap, slope), as in depth_edges
 /// @param density (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share of the greatest density
 /// @param min_area as in depth_components

@@ -146,9 +146,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             signature=target.signature,
             particles=ParticleSet.at_state(target.state, self.params.particles),
             objects=objects,
-            others=remember_others(
-                self._k, NOTHING_KNOWN, fg, target.state, self.params.histogram_reach
-            ),
+            others=remember_others(self._k, NOTHING_KNOWN, fg, target.state, self.params.histogram_reach),
             score=_score(observed),
             mean_log_likelihood=observed.log_likelihood,
             mean_inside=observed.inside,

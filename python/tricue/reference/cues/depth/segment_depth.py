@@ -29,7 +29,7 @@ def segment_depth(
     camera: Floats,
     plane: Floats,
     measured: tuple[int, int, int, int],
-    range: tuple[float, float, int],
+    levels: tuple[float, float, int],
     edges: tuple[float, float],
     density: tuple[float, float],
     min_area: int,
@@ -37,13 +37,13 @@ def segment_depth(
     standing: tuple[float, float],
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """Calls one twin after the other."""
-    near, far, levels = range
+    near, far, count = levels
     distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
     mask = 1 - depth_edges(distance, *edges)
     if free.shape != (0, 0):
         require_mask(free, depth)
         mask[free == 0] = 0
-    dividers = _dividers(depth_histogram(distance, mask, near, far, levels), near, far, *density)
+    dividers = _dividers(depth_histogram(distance, mask, near, far, count), near, far, *density)
     labels = divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = depth_components(labels, depth, near, far, 0, BINS, min_area, False)
     sides = cut_sides(depth, table, camera, *cut) | _at_edge(table, measured, cut[0])
