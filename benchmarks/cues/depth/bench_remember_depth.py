@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What was last seen beside a target in a depth image of 176x144: native, reference, and a script on NumPy."""
+"""What was last seen beside a target, 176x144: native, reference, and a script on NumPy."""
 
 from collections.abc import Callable
 from typing import Any

@@ -23,7 +23,6 @@ OCCLUDER_DISTANCE = 0.08  # meters from a side of an object, where an occluder i
 MAX_SIDE_COVERED = 0.15  # of a side; an object that is covered more is cut there
 NO_EDGES = 1e6  # meters: no jump of the depth is as large
 MIN_PIXELS = 8.0  # of an object, whatever its distance
-STANDING = (MAX_FEET_HEIGHT, LEGS_FILL)
 EVERYWHERE = np.empty((0, 0), np.uint8)
 
 
@@ -63,14 +62,19 @@ def segment(
     plane: (6,) the floor, along which distances are measured, and to which the feet of objects are extended;
     NO_FLOOR without one. free: (h, w) 0 where no object is looked for, otherwise 1; None for 1 everywhere.
     """
-    depth, levels = fg.depth, (p.near, p.far, p.levels)
-    edges = (p.edge_gap if p.edges else NO_EDGES, p.edge_slope)
-    density = p.bandwidth / ((p.far - p.near) / p.levels), p.prominence
     fx, fy = fg.camera[:2].tolist()
-    min_pixels = int(min(max(MIN_PIXELS, p.min_area * fx * fy / p.far**2), depth.size + 1.0))
-    cut_at = BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED
+    far_pixels = p.min_area * fx * fy / p.far**2
     measured, cut, columns, rows = k.segment_depth(
-        *(depth, EVERYWHERE if free is None else free, fg.camera, plane[:4], fg.measured),
-        *(levels, edges, density, min_pixels, cut_at, STANDING),
+        fg.depth,
+        EVERYWHERE if free is None else free,
+        fg.camera,
+        plane[:4],
+        fg.measured,
+        levels=(p.near, p.far, p.levels),
+        edges=(p.edge_gap if p.edges else NO_EDGES, p.edge_slope),
+        density=(p.bandwidth / ((p.far - p.near) / p.levels), p.prominence),
+        min_area=int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
+        cut=(BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
+        standing=(MAX_FEET_HEIGHT, LEGS_FILL),
     )
     return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])

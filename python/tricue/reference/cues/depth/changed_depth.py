@@ -17,5 +17,6 @@ def changed_depth(depth: Depth, before: Depth, noise: float, slope: float) -> ND
         if not 0 <= value < np.inf:
             refuse(name, "a finite number, not negative", float(value))
     with np.errstate(over="ignore", invalid="ignore"):
-        same = np.abs(depth - before) <= np.float32(noise) + np.float32(slope) * depth * depth
+        limit = np.float32(noise) + np.float32(slope) * depth * depth
+        same: NDArray[np.bool_] = np.abs(depth - before) <= limit
     return (~same).astype(np.uint8)
