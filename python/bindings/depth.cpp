@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "cues/depth/above_floor.hpp"
+#include "cues/depth/changed_depth.hpp"
 #include "cues/depth/depth_edges.hpp"
 #include "cues/depth/depth_histogram.hpp"
 #include "cues/depth/depth_picture.hpp"
@@ -13,6 +14,7 @@
 #include "cues/depth/ground_distance.hpp"
 #include "cues/depth/median_depths.hpp"
 #include "cues/depth/plane_support.hpp"
+#include "cues/depth/remember_depth.hpp"
 #include "cues/depth/support_pixels.hpp"
 #include "kernel_docs.hpp"
 
@@ -23,6 +25,22 @@ using Bytes = Array<std::uint8_t>;
 
 std::ptrdiff_t pixels(const DepthView& depth) {
     return std::ptrdiff_t{depth.rows} * depth.cols;
+}
+
+Bytes changed_depth_arrays(const Array<float>& depth, const Array<float>& before, double noise,
+                           double slope) {
+    const auto view = depth_image(depth, "depth");
+    const auto old = depth_image(before, "before");
+    return give(unlocked(pixels(view), [&] { return changed_depth(view, old, noise, slope); }));
+}
+
+Array<float> remember_depth_arrays(const Array<float>& depth, const Array<float>& before,
+                                   std::tuple<int, int, int, int> region, double z, double reach) {
+    const auto view = depth_image(depth, "depth");
+    const auto old = depth_image(before, "before");
+    const auto [x0, y0, x1, y1] = region;
+    const Region place{x0, y0, x1, y1};
+    return give(unlocked(pixels(view), [&] { return remember_depth(view, old, place, z, reach); }));
 }
 
 Bytes depth_edges_arrays(const Array<float>& depth, double gap, double slope) {
@@ -135,6 +153,10 @@ Bytes support_pixels_arrays(const Array<float>& depth, double x0, double y0, dou
 void define_depth(py::module_& m) {
     m.def("above_floor", above_floor_arrays, py::arg("depth"), py::arg("camera"), py::arg("plane"),
           py::arg("near"), py::arg("far"), py::arg("clear"), docs::above_floor);
+    m.def("changed_depth", changed_depth_arrays, py::arg("depth"), py::arg("before"), py::arg("noise"),
+          py::arg("slope"), docs::changed_depth);
+    m.def("remember_depth", remember_depth_arrays, py::arg("depth"), py::arg("before"), py::arg("region"),
+          py::arg("z"), py::arg("reach"), docs::remember_depth);
     m.def("depth_edges", depth_edges_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
           docs::depth_edges);
     m.def("depth_histogram", depth_histogram_arrays, py::arg("depth"), py::arg("mask"), py::arg("near"),

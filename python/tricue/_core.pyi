@@ -245,6 +245,56 @@ def box_contrast(
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
     """
 
+def cell_colors(
+    image: numpy.typing.NDArray[numpy.uint8], step: int
+) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Every step-th pixel of an image, from step // 2 on, and their mean.
+
+    Args:
+        image: uint8 (H, W, 3) BGR
+        step: pixels from one sample to the next, 1 to 1024
+
+    Returns:
+        colors: uint8 (ceil((H - step // 2) / step), the same of W, 3): the color of each cell's middle
+            pixel, BGR
+        mean: float64 (3,) blue, green and red: a measure of the light while the scene stays the same; 0
+            of an empty image
+
+    Raises:
+        ValueError: on a step out of range
+
+    Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries'
+    adaptation to the light.
+    """
+
+def changed_depth(
+    depth: numpy.typing.NDArray[numpy.float32],
+    before: numpy.typing.NDArray[numpy.float32],
+    noise: float,
+    slope: float,
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Where a depth image differs from one before by more than noise: 0 where |z - z'| <= noise + slope (z
+    z), otherwise 1, also where either isn't measured.
+
+    In float32, to which noise and slope are rounded, in this order; slope z first.
+
+    Args:
+        depth: float32 (H, W): z, meters, NaN where nothing was measured
+        before: float32 (H, W): z', likewise
+        noise: meters, finite, at least 0
+        slope: 1 / meter, finite, at least 0: noise grows with z²
+
+    Returns:
+        uint8 (H, W) of 0 and 1
+
+    Raises:
+        ValueError: on images of different shapes, or an invalid noise or slope
+
+    Source: ours.
+    """
+
 def coherent_cells(
     disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
 ) -> numpy.typing.NDArray[numpy.uint8]:
@@ -1776,6 +1826,38 @@ def regularized_filter(
     (BACF).
     """
 
+def remember_depth(
+    depth: numpy.typing.NDArray[numpy.float32],
+    before: numpy.typing.NDArray[numpy.float32],
+    region: tuple[int, int, int, int],
+    z: float,
+    reach: float,
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    What was last seen in each pixel beside a target: the depth image, but where it shows the target
+    what was there before.
+
+    The target's own are the pixels in its region with |depth - z| < reach, in float32, to which z and
+    reach are rounded.
+
+    Args:
+        depth: float32 (H, W), meters
+        before: float32 (H, W), meters: what was remembered until now; (0, 0) for nothing, which gives
+            NaN
+        region: (x0, y0, x1, y1), pixels: the target is in [x0, x1) x [y0, y1), which may extend beyond
+            the image
+        z: the target's depth, meters, finite
+        reach: how far from that a depth is its own, meters, finite, at least 0
+
+    Returns:
+        float32 (H, W), meters
+
+    Raises:
+        ValueError: on images of different shapes, or an invalid z or reach
+
+    Source: ours.
+    """
+
 def resample(
     weights: numpy.typing.NDArray[numpy.float64], offset: float
 ) -> numpy.typing.NDArray[numpy.int64]:
@@ -1979,6 +2061,59 @@ def section_distance(
         ValueError: on unlike numbers of sections
 
     Source: Sabeti, Parvizi, Wu 2008, equation (29).
+    """
+
+def segment_depth(
+    depth: numpy.typing.NDArray[numpy.float32],
+    free: numpy.typing.NDArray[numpy.uint8],
+    camera: numpy.typing.NDArray[numpy.float64],
+    plane: numpy.typing.NDArray[numpy.float64],
+    measured: tuple[int, int, int, int],
+    levels: tuple[float, float, int],
+    edges: tuple[float, float],
+    density: tuple[float, float],
+    min_area: int,
+    cut: tuple[int, float, float, float],
+    standing: tuple[float, float],
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.bool],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+]:
+    """
+    The objects of a depth image: connected components of the divisions of its range at the minima of
+    its density.
+
+    One after the other ground_distance (where there is a floor, else distances are depths),
+    depth_edges, whose pixels belong to nothing, depth_histogram, depth_density, density_extrema,
+    divide_depth at near, the middles of the minima's levels (the first 254) and far, depth_components,
+    cut_sides, and measure_objects; those say what each does. An object is also cut at a side less than
+    `border` pixels from the edge of what was measured.
+
+    Args:
+        depth: float32 (H, W), meters, NaN in the background; in the range
+        free: uint8 (H, W): 0 where no object is looked for; (0, 0) for one that is 1 everywhere
+        camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+        plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
+        measured: (x0, y0, x1, y1), pixels: outside of it nothing was measured
+        levels: (near, far, count), as in depth_histogram
+        edges: (gap, slope), as in depth_edges
+        density: (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share
+            of the greatest density
+        min_area: as in depth_components
+        cut: (border, beside, nearer, share), as in cut_sides
+        standing: (feet, legs), as in measure_objects
+
+    Returns:
+        measured: float64 (C, 8), as measure_objects gives it
+        cut: bool (C, 4): left, right, top, bottom: whether it may go on there
+        columns, rows: float32 (C, 16), as depth_components gives them
+
+    Raises:
+        ValueError: as those kernels
+
+    Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.
     """
 
 def shift_histogram(
@@ -2446,6 +2581,16 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def cell_colors(
+        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+    ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]: ...
+    def changed_depth(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        before: numpy.typing.NDArray[numpy.float32],
+        noise: float,
+        slope: float,
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def coherent_cells(
         self, disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
@@ -2786,6 +2931,14 @@ class Kernels(Protocol):
         temporal_weight: float,
         penalty: float,
     ) -> numpy.typing.NDArray[numpy.complex64]: ...
+    def remember_depth(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        before: numpy.typing.NDArray[numpy.float32],
+        region: tuple[int, int, int, int],
+        z: float,
+        reach: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def resample(
         self, weights: numpy.typing.NDArray[numpy.float64], offset: float
     ) -> numpy.typing.NDArray[numpy.int64]: ...
@@ -2829,6 +2982,25 @@ class Kernels(Protocol):
     def section_distance(
         self, sections: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def segment_depth(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        free: numpy.typing.NDArray[numpy.uint8],
+        camera: numpy.typing.NDArray[numpy.float64],
+        plane: numpy.typing.NDArray[numpy.float64],
+        measured: tuple[int, int, int, int],
+        levels: tuple[float, float, int],
+        edges: tuple[float, float],
+        density: tuple[float, float],
+        min_area: int,
+        cut: tuple[int, float, float, float],
+        standing: tuple[float, float],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.bool],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ]: ...
     def shift_histogram(
         self,
         histogram: numpy.typing.NDArray[numpy.float64],

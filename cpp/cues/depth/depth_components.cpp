@@ -10,6 +10,7 @@
 
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
+#include "base/overlapping_blocks.hpp"
 #include "base/pixel_runs.hpp"
 #include "base/simd.hpp"
 
@@ -42,6 +43,44 @@ PixelRuns label_runs(const ImageView& labels) {
     return runs;
 }
 
+/// The labels of a row that have a label beside them, above or below, 0 elsewhere. Rows have one more pixel at either end.
+TRICUE_MULTIVERSION
+void leave_out_single(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
+                      const std::uint8_t* __restrict below, int n, std::uint8_t* __restrict kept) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
+        const auto beside = static_cast<std::uint8_t>(here[x] | here[x + 2]);
+        const auto others = static_cast<std::uint8_t>(above[x] | above[x + 1] | above[x + 2] | below[x] |
+                                                      below[x + 1] | below[x + 2] | beside);
+        kept[x] = others != 0 ? here[x + 1] : std::uint8_t{0};
+    });
+}
+
+/// The same without pixels that are alone: noise is mostly that, and each would be a run and a component.
+PixelRuns label_joined_runs(const ImageView& labels) {
+    PixelRuns runs(labels.cols);
+    const auto n = static_cast<std::size_t>(labels.cols);
+    std::array<std::vector<std::uint8_t>, 3> rows;  // in turn, with a border of 0
+    rows.fill(std::vector<std::uint8_t>(n + 2));
+    std::vector<std::uint8_t> kept(n);
+    const auto read_row = [&](int y) {
+        auto& row = rows[static_cast<std::size_t>(y) % 3];
+        if (y < labels.rows)
+            std::copy_n(labels.row(y), n, row.begin() + 1);
+        else
+            std::fill(row.begin(), row.end(), std::uint8_t{0});
+        return row.data();
+    };
+    const std::uint8_t *above = rows[2].data(), *here = labels.rows > 0 ? read_row(0) : above;
+    for (int y = 0; y < labels.rows; ++y) {
+        const std::uint8_t* below = read_row(y + 1);
+        leave_out_single(above, here, below, labels.cols, kept.data());
+        runs.add_row(kept.data());
+        above = here;
+        here = below;
+    }
+    return runs;
+}
+
 struct Component {
     int x0, y0, x1, y1;
     std::int64_t area;
@@ -64,6 +103,7 @@ struct Grouping {
 /// All components; sets for every run the index of its component.
 std::vector<Component> collect_components(PixelRuns& runs, std::vector<std::int32_t>& component) {
     std::vector<Component> components;
+    components.reserve(runs.size());
     component.resize(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const std::size_t first = runs.root(i);
@@ -227,7 +267,7 @@ void require_arguments(const ImageView& labels, const DepthView& depth, const Si
 DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
                                  int min_area, bool image) {
     require_arguments(labels, depth, signature, min_area);
-    PixelRuns runs = label_runs(labels);
+    PixelRuns runs = min_area > 1 ? label_joined_runs(labels) : label_runs(labels);
     const Grouping groups = group(runs, min_area);
     const auto C = static_cast<Eigen::Index>(groups.components.size());
     DepthComponents result{States(C, 7), Floats::Zero(C, signature.levels), Floats::Zero(C, signature.bins),

@@ -26,12 +26,16 @@ inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-/// The nearest of each pixel and its neighbors left and right. `padded` has one more float at either end.
+/// A row with one more float at either end, infinite where nothing was measured.
 TRICUE_MULTIVERSION
-void nearest_in_row(const float* __restrict depth, int n, float* __restrict padded,
-                    float* __restrict nearest) {
+void pad_row(const float* __restrict depth, int n, float* __restrict padded) {
     for_overlapping_blocks(
         n, [=](std::ptrdiff_t x) { padded[x + 1] = has_depth(depth[x]) ? depth[x] : kUnmeasured; });
+}
+
+/// The nearest of each pixel and its neighbors left and right.
+TRICUE_MULTIVERSION
+void nearest_in_row(const float* __restrict padded, int n, float* __restrict nearest) {
     for_overlapping_blocks(
         n, [=](std::ptrdiff_t x) { nearest[x] = smaller(smaller(padded[x], padded[x + 1]), padded[x + 2]); });
 }
@@ -53,18 +57,25 @@ Labels depth_edges(const DepthView& depth, double gap, double slope) {
     require_step(slope, "slope");
     Labels edges(depth.rows, depth.cols);
     const auto n = static_cast<std::size_t>(depth.cols);
-    std::vector<float> padded(n + 2, kUnmeasured);
+    std::array<std::vector<float>, 2> padded;   // of two rows, in turn
     std::array<std::vector<float>, 3> nearest;  // of three rows, in turn
+    padded.fill(std::vector<float>(n + 2, kUnmeasured));
     nearest.fill(std::vector<float>(n, kUnmeasured));
+    // A row ahead: numbers that have just been written can't be loaded yet, shifted by one.
+    const auto pad = [&](int y) {
+        if (y < depth.rows) pad_row(depth.row(y), depth.cols, padded[static_cast<std::size_t>(y) % 2].data());
+    };
     const auto read_row = [&](int y) {
         auto& row = nearest[static_cast<std::size_t>(y) % 3];
+        pad(y + 1);
         if (y < depth.rows)
-            nearest_in_row(depth.row(y), depth.cols, padded.data(), row.data());
+            nearest_in_row(padded[static_cast<std::size_t>(y) % 2].data(), depth.cols, row.data());
         else
             std::fill(row.begin(), row.end(), kUnmeasured);
         return row.data();
     };
-    const float *above = nearest[2].data(), *here = depth.rows > 0 ? read_row(0) : above;
+    pad(0);
+    const float *above = nearest[2].data(), *here = read_row(0);
     for (int y = 0; y < depth.rows; ++y) {
         const float* below = read_row(y + 1);
         edges_of_row(depth.row(y), above, here, below, depth.cols, static_cast<float>(gap),

@@ -2,6 +2,8 @@
 #include "cues/depth/depth_histogram.hpp"
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "base/check.hpp"
@@ -16,6 +18,13 @@ namespace {
 // different tables.
 constexpr std::size_t kTables = 4;
 
+// Most pixels of a segmented image are not counted: eight at a time are skipped, as their flags are one number.
+constexpr std::size_t kWord = sizeof(std::uint64_t);
+
+std::size_t whole_words(std::size_t pixels) {
+    return (pixels + kWord - 1) / kWord * kWord;
+}
+
 void require_levels(const DepthLevels& levels) {
     if (!std::isfinite(levels.near)) refuse("near", "a finite number", levels.near);
     if (!(std::isfinite(levels.far) && levels.far > levels.near))
@@ -24,10 +33,11 @@ void require_levels(const DepthLevels& levels) {
         refuse("levels", "1 to 65536", std::to_string(levels.count));
 }
 
-/// The level of every pixel of a row; `levels.count` for what isn't counted.
+/// Whether each pixel of a row is counted, and its level; `levels.count` for what isn't.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
-                 const DepthLevels& levels, std::int32_t* __restrict level) {
+                 const DepthLevels& levels, std::uint8_t* __restrict counted,
+                 std::int32_t* __restrict level) {
     const float least = round_up_to_float(levels.near), end = round_up_to_float(levels.far);
     const auto near = static_cast<float>(levels.near);
     const auto scale = static_cast<float>(levels.count / (levels.far - levels.near));
@@ -38,6 +48,7 @@ void find_levels(const float* __restrict depth, const std::uint8_t* __restrict m
         const bool counts = has_depth(z) & (mask[x] != 0) & (z >= least) & (z < end);
         const float within = counts & (place < top) ? place : top;
         level[x] = counts ? static_cast<std::int32_t>(within) : none;
+        counted[x] = counts;
     });
 }
 
@@ -49,12 +60,17 @@ Vector depth_histogram(const DepthView& depth, const ImageView& mask, const Dept
     const auto bins = static_cast<std::size_t>(levels.count) + 1;
     const auto cols = static_cast<std::size_t>(depth.cols);
     std::vector<std::int64_t> counts(kTables * bins);
-    std::vector<std::int32_t> level((cols + kTables - 1) / kTables * kTables, levels.count);
+    std::vector<std::int32_t> level(whole_words(cols), levels.count);
+    std::vector<std::uint8_t> counted(level.size());
     for (int y = 0; y < depth.rows; ++y) {
-        find_levels(depth.row(y), mask.row(y), depth.cols, levels, level.data());
-        for (std::size_t x = 0; x < level.size(); x += kTables)
-            for (std::size_t t = 0; t < kTables; ++t)
-                ++counts[t * bins + static_cast<std::size_t>(level[x + t])];
+        find_levels(depth.row(y), mask.row(y), depth.cols, levels, counted.data(), level.data());
+        for (std::size_t first = 0; first < level.size(); first += kWord) {
+            std::uint64_t any;
+            std::memcpy(&any, counted.data() + first, kWord);
+            if (any == 0) continue;
+            for (std::size_t x = first; x < first + kWord; ++x)
+                ++counts[(x % kTables) * bins + static_cast<std::size_t>(level[x])];
+        }
     }
     Vector histogram = Vector::Zero(levels.count);
     for (std::size_t t = 0; t < kTables; ++t)

@@ -42,21 +42,30 @@ struct PaddedDepth {
     DepthView view() { return {row(0), rows, cols, std::ptrdiff_t{cols} + 2}; }
 };
 
-/// `known` has four more bytes, all 0: pixels beyond the end of a row count as not measured.
+constexpr int kBlock = 64;  // pixels, so that loops over a row have no remainder
+
+/// `known` has whole blocks and four more bytes, all 0 beyond the end of the row: pixels there count as not measured.
 TRICUE_MULTIVERSION
 void count_gaps(const float* __restrict depth, int n, std::uint8_t* __restrict known, std::int32_t* measured,
                 std::int32_t* gaps) {
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
     std::int32_t all = 0, short_gaps = 0;
-    for (int x = 0; x < n; ++x) all += known[x];
-    for (int x = 0; x < n; ++x)
-        short_gaps += known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
+    for (int first = 0; first < n; first += kBlock, known += kBlock) {
+        std::uint8_t here[kBlock], gap[kBlock];
+        for (int x = 0; x < kBlock; ++x) {
+            here[x] = known[x];
+            gap[x] = known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
+        }
+        for (int x = 0; x < kBlock; ++x) all += here[x];
+        for (int x = 0; x < kBlock; ++x) short_gaps += gap[x];
+    }
     *measured = all;
     *gaps = short_gaps;
 }
 
 bool is_ragged(const DepthView& depth, double share) {
-    std::vector<std::uint8_t> known(static_cast<std::size_t>(depth.cols) + 4);
+    const int blocks = (depth.cols + kBlock - 1) / kBlock;
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(blocks * kBlock) + 4);
     std::int64_t measured = 0, gaps = 0;
     for (int y = 0; y < depth.rows; ++y) {
         std::int32_t measured_here = 0, gaps_here = 0;

@@ -34,6 +34,7 @@ from tricue.reference.cues.color.skin_moments import skin_moments
 from tricue.reference.cues.color.skin_reference import skin_reference
 from tricue.reference.cues.color.skin_rule import skin_rule
 from tricue.reference.cues.depth.above_floor import above_floor
+from tricue.reference.cues.depth.changed_depth import changed_depth
 from tricue.reference.cues.depth.cut_sides import cut_sides
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
@@ -52,6 +53,8 @@ from tricue.reference.cues.depth.measure_objects import measure_objects
 from tricue.reference.cues.depth.median_depths import median_depths
 from tricue.reference.cues.depth.plane_support import plane_support
 from tricue.reference.cues.depth.rectangle_histogram import rectangle_histogram
+from tricue.reference.cues.depth.remember_depth import remember_depth
+from tricue.reference.cues.depth.segment_depth import segment_depth
 from tricue.reference.cues.depth.support_pixels import support_pixels
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
@@ -85,6 +88,7 @@ __all__ = [
     "block_mask",
     "block_votes",
     "box_contrast",
+    "changed_depth",
     "coherent_cells",
     "color_bins",
     "color_histogram",
@@ -131,12 +135,14 @@ __all__ = [
     "rectify_verged",
     "reduce_gray",
     "regularized_filter",
+    "remember_depth",
     "resample",
     "reweight",
     "sad_disparity",
     "sample_ellipses",
     "sample_windows",
     "section_distance",
+    "segment_depth",
     "shift_histogram",
     "skin_blobs",
     "skin_boundary",

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Intrinsics, reference
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
-from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, ground_distance, segment
+from tricue.track.depth_objects.objects import DISTRIBUTION_BINS, segment
 from tricue.track.depth_objects.projection import camera_vector
 from tricue.track.depth_particle.initialize import find_people, initialize_in_box, initialize_on_person
 
@@ -292,7 +292,7 @@ def test_who_stands_before_a_tilted_camera_has_one_distance(pitch, kernels):
     panel = np.zeros(depth.shape, np.bool_)
     panel[20:130, 70:100] = True
     fg = Foreground(np.where(panel, depth, np.nan).astype(np.float32), NUMBERS, 1, (0, 0, 176, 144))
-    found = ground_distance(kernels, fg, plane, P)
+    found = kernels.ground_distance(fg.depth, fg.camera, plane[:3], P.near, P.far)
     np.testing.assert_allclose(found[panel], distance, rtol=1e-6)
     assert np.isnan(found[~panel]).all()
     assert (np.ptp(depth[panel]) > 0.2) == (pitch > 0)

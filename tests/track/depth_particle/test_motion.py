@@ -53,7 +53,7 @@ def test_prediction_is_in_meters_per_second(seconds):
     np.testing.assert_allclose(prediction.drift, expected, rtol=1e-12, atol=1e-15)
     noise = 0.5 + 0.4 * 1.0  # of who stands, and of the speed of 1 m/s
     np.testing.assert_allclose(
-        prediction.scale[:3], MIN_POSITION_NOISE + noise * seconds * AXIS_NOISE, rtol=1e-12
+        prediction.scale[:3], MIN_POSITION_NOISE + noise * seconds * np.array(AXIS_NOISE), rtol=1e-12
     )
     np.testing.assert_allclose(prediction.scale[3:], 0.06 * np.array([0.8, 1.6]), rtol=1e-12)
 
@@ -88,14 +88,18 @@ def test_noise_grows_while_missed_up_to_a_second():
     """
     scales = np.array([motion().predict(P, 0.1, 0.1 * missed).scale for missed in range(40)])
     assert (np.diff(scales[:10, :3], axis=0) > 0).all()
-    np.testing.assert_allclose(scales[9:, :3] - (MIN_POSITION_NOISE + 0.5 * AXIS_NOISE), 0, atol=1e-12)
+    np.testing.assert_allclose(
+        scales[9:, :3] - (MIN_POSITION_NOISE + 0.5 * np.array(AXIS_NOISE)), 0, atol=1e-12
+    )
     assert np.ptp(scales[:, 3:], axis=0).max() == 0
 
 
 def test_noise_of_a_long_frame_is_not_cut():
     """A single frame of two seconds has the noise of two seconds, though hidden targets stop at one."""
     np.testing.assert_allclose(
-        motion().predict(P, 2.0, 5.0).scale[:3], MIN_POSITION_NOISE + 0.5 * 2 * AXIS_NOISE, rtol=1e-12
+        motion().predict(P, 2.0, 5.0).scale[:3],
+        MIN_POSITION_NOISE + 0.5 * 2 * np.array(AXIS_NOISE),
+        rtol=1e-12,
     )
 
 

@@ -4,10 +4,10 @@
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from tricue import Box, DepthParticleTracker, Frame, Intrinsics
+from tricue import Box, DepthParticleTracker, Frame, Intrinsics, _core
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.projection import back_project_box, camera_vector
-from tricue.track.depth_particle.others import inside_box, remember_others, without_others
+from tricue.track.depth_particle.others import NOTHING_KNOWN, inside_box, remember_others, without_others
 
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
 NUMBERS = camera_vector(CAMERA)
@@ -31,7 +31,7 @@ def room(left: int = 60) -> NDArray[np.float32]:
 
 def test_the_target_itself_is_not_remembered():
     """The pixels at its depth in its rectangle are unknown; all others are known, those behind it, too."""
-    others = remember_others(None, foreground(room()), STATE, REACH)
+    others = remember_others(_core, NOTHING_KNOWN, foreground(room()), STATE, REACH)
     assert np.isnan(others[40:120, 60:90]).all()
     assert (others[:, :55] == 5).all()
     assert (others[95:115, 100:170] == Z).all()
@@ -41,7 +41,7 @@ def test_the_target_itself_is_not_remembered():
 def test_what_is_behind_the_target_is_kept_from_before():
     """Where the target is now, what was there without it is still known."""
     before = np.full((144, 176), 5.0, np.float32)
-    others = remember_others(before, foreground(room()), STATE, REACH)
+    others = remember_others(_core, before, foreground(room()), STATE, REACH)
     assert (others[40:120, 60:90] == 5).all()
 
 
@@ -49,9 +49,9 @@ def test_what_stays_as_it_was_is_left_out():
     """Of a target that steps aside its pixels are searched, and those it no longer covers; the wall and the
     desk aren't, though their depths are noisy, and the desk touches the target.
     """
-    others = remember_others(None, foreground(room()), STATE, REACH)
+    others = remember_others(_core, NOTHING_KNOWN, foreground(room()), STATE, REACH)
     noise = np.random.default_rng(0).normal(0, 0.01, (144, 176)).astype(np.float32)
-    free = without_others(others, foreground(room(left=40) + noise))
+    free = without_others(_core, others, foreground(room(left=40) + noise))
     assert free.dtype == np.uint8
     assert (free[40:120, 40:57] == 1).all()
     assert (free[100:115, 100:170] == 0).all()
@@ -61,8 +61,8 @@ def test_what_stays_as_it_was_is_left_out():
 def test_unmeasured_pixels_are_searched():
     """Where nothing was known, or is measured now, nothing is left out; there is no warning."""
     unknown = np.full((144, 176), np.nan, np.float32)
-    assert (without_others(unknown, foreground(room())) == 1).all()
-    assert (without_others(room(), foreground(unknown)) == 1).all()
+    assert (without_others(_core, unknown, foreground(room())) == 1).all()
+    assert (without_others(_core, room(), foreground(unknown)) == 1).all()
 
 
 @pytest.mark.parametrize("step", [1, 2])

@@ -3,6 +3,7 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
+#include "cues/depth/detail/relative_histogram.hpp"
 
 namespace tricue {
 namespace {
@@ -33,13 +34,13 @@ DepthReader::DepthReader(const DepthView& depth, StatesRef pattern) : depth_(dep
     const auto places = static_cast<std::size_t>(pattern.rows());
     column_.resize(places);
     row_.resize(places);
-    depths_.resize(places);
+    depths_.resize(RelativeHistogram::padded(places));
 }
 
 const float* DepthReader::read(const double* rectangle) {
     find_pixels(u_.data(), v_.data(), u_.size(), rectangle, depth_.cols, depth_.rows, column_.data(),
                 row_.data());
-    for (std::size_t k = 0; k < depths_.size(); ++k)
+    for (std::size_t k = 0; k < row_.size(); ++k)
         depths_[k] = row_[k] < 0 ? 0.0f : depth_.row(row_[k])[column_[k]];
     return depths_.data();
 }

@@ -16,10 +16,11 @@ public:
     /// @throws std::invalid_argument on a pattern that isn't (n, 2), n at least 1, or not finite
     DepthReader(const DepthView& depth, StatesRef pattern);
 
-    /// Reads a rectangle of four finite numbers or more: center x, y, width, height. Returns the depths, 0 outside the image.
+    /// Reads a rectangle of four finite numbers or more: center x, y, width, height. Returns the depths, 0 outside the image, and
+    /// more zeros, as RelativeHistogram wants them.
     const float* read(const double* rectangle);
 
-    std::size_t places() const { return depths_.size(); }
+    std::size_t places() const { return row_.size(); }
 
 private:
     DepthView depth_;

@@ -13,24 +13,34 @@ namespace {
 
 constexpr std::size_t kLanes = 4;  // tables and sums side by side, so that none waits for the one before
 
-/// The level of each depth, `levels` where it doesn't count. Neighbors count in different tables, of `levels + 1` counters each.
+/// Samples and counters come in whole blocks, so that no loop has a remainder, which would take as long as the loop.
+constexpr std::size_t kBlock = 16;
+
+constexpr std::size_t whole_blocks(std::size_t n) {
+    return (n + kBlock - 1) / kBlock * kBlock;
+}
+
+/// The level of each depth, `levels` where it doesn't count. Neighbors count in different tables, of `size` counters each.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, std::size_t n, double z, double reach, int levels,
-                 std::int32_t* __restrict level) {
+                 std::int32_t size, std::int32_t* __restrict level) {
     const double scale = levels / (2.0 * reach), end = levels;
-    for (std::size_t k = 0; k < n; ++k) {
-        const double at = ((static_cast<double>(depth[k]) - z) + reach) * scale;
-        const bool counts = has_depth(depth[k]) & (at >= 0.0) & (at < end);
-        const auto table = static_cast<std::int32_t>(k % kLanes) * (levels + 1);
-        level[k] = static_cast<std::int32_t>(counts ? at : end) + table;
-    }
+    std::int32_t table[kBlock];
+    for (std::size_t i = 0; i < kBlock; ++i) table[i] = static_cast<std::int32_t>(i % kLanes) * size;
+    for (std::size_t first = 0; first < n; first += kBlock, depth += kBlock, level += kBlock)
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            const double at = ((static_cast<double>(depth[i]) - z) + reach) * scale;
+            const bool counts = has_depth(depth[i]) & (at >= 0.0) & (at < end);
+            level[i] = static_cast<std::int32_t>(counts ? at : end) + table[i];
+        }
 }
 
 /// Adds the tables up in the first.
 TRICUE_MULTIVERSION
 void add_tables(std::int32_t* __restrict counts, std::size_t size) {
-    for (std::size_t lane = 1; lane < kLanes; ++lane)
-        for (std::size_t i = 0; i < size; ++i) counts[i] += counts[lane * size + i];
+    for (std::size_t first = 0; first < size; first += kBlock, counts += kBlock)
+        for (std::size_t i = 0; i < kBlock; ++i)
+            counts[i] += (counts[size + i] + counts[2 * size + i]) + counts[3 * size + i];
 }
 
 /// sum (c - m total)².
@@ -53,20 +63,40 @@ double squared_distance(const std::int32_t* __restrict counts, double total, con
 
 }  // namespace
 
+std::size_t RelativeHistogram::padded(std::size_t samples) {
+    return whole_blocks(samples);
+}
+
 RelativeHistogram::RelativeHistogram(Eigen::Index levels, double reach, std::size_t samples)
     : reach_(reach),
       levels_(static_cast<int>(levels)),
-      level_(samples),
-      counts_(kLanes * (static_cast<std::size_t>(levels) + 1)) {
+      samples_(samples),
+      level_(whole_blocks(samples)),
+      table_(whole_blocks(static_cast<std::size_t>(levels) + 1)),
+      counts_(kLanes * table_) {
     if (!(reach > 0.0 && std::isfinite(reach))) refuse("reach", "a finite number above 0", reach);
 }
 
-void RelativeHistogram::count(const float* depths, double z) {
-    find_levels(depths, level_.size(), z, reach_, levels_, level_.data());
+void RelativeHistogram::read(const float* depths, double z) {
+    find_levels(depths, level_.size(), z, reach_, levels_, static_cast<std::int32_t>(table_), level_.data());
+}
+
+void RelativeHistogram::count() {
     std::fill(counts_.begin(), counts_.end(), 0);
     std::int32_t* counts = counts_.data();
-    for (const std::int32_t level : level_) ++counts[level];
-    add_tables(counts, static_cast<std::size_t>(levels_) + 1);
+    const std::int32_t* level = level_.data();
+    for (std::size_t k = 0; k < level_.size(); k += kLanes)
+        for (std::size_t lane = 0; lane < kLanes; ++lane) ++counts[level[k + lane]];
+}
+
+void RelativeHistogram::finish() {
+    add_tables(counts_.data(), table_);
+}
+
+void RelativeHistogram::count(const float* depths, double z) {
+    read(depths, z);
+    count();
+    finish();
 }
 
 double RelativeHistogram::distance(VectorRef model) const {
@@ -77,12 +107,19 @@ double RelativeHistogram::distance(VectorRef model) const {
     return std::min(std::sqrt(0.5 * square) / counted, 1.0);
 }
 
+namespace {
+
 TRICUE_MULTIVERSION
-int count_below(const float* __restrict depth, std::size_t n, double limit) {
+int count_below_float(const float* __restrict depth, std::size_t n, float limit) {
     int below = 0;
-    for (std::size_t k = 0; k < n; ++k)
-        below += has_depth(depth[k]) & (static_cast<double>(depth[k]) < limit);
+    for (std::size_t k = 0; k < n; ++k) below += has_depth(depth[k]) & (depth[k] < limit);
     return below;
+}
+
+}  // namespace
+
+int count_below(const float* depth, std::size_t n, double limit) {
+    return count_below_float(depth, n, round_up_to_float(limit));
 }
 
 TRICUE_MULTIVERSION

@@ -16,13 +16,24 @@ public:
     /// Of `samples` depths at a time. @throws std::invalid_argument unless reach is finite and above 0
     RelativeHistogram(Eigen::Index levels, double reach, std::size_t samples);
 
-    /// @param depths `samples` depths, meters; whatever isn't above 0 and finite is no measurement
+    /// How many depths are read at a time: `samples`, filled up.
+    static std::size_t padded(std::size_t samples);
+
+    /// @param depths `samples` depths, meters, then 0 up to `padded(samples)`; whatever isn't above 0 and finite is no measurement
     void count(const float* depths, double z);
+
+    /// The three steps of that. Who counts many histograms takes each step for several of them before the next: a step would wait for
+    /// what the one before has just written.
+    void read(const float* depths, double z);
+    void count();
+    void finish();
 
     const std::int32_t* counts() const { return counts_.data(); }  ///< of each level
     /// How many samples count.
-    double total() const { return samples() - counts_[static_cast<std::size_t>(levels_)]; }
-    double samples() const { return static_cast<double>(level_.size()); }
+    double total() const {
+        return static_cast<double>(level_.size()) - counts_[static_cast<std::size_t>(levels_)];
+    }
+    double samples() const { return static_cast<double>(samples_); }
 
     /// The distance of equation (38) between the normalized histogram and a model, over sqrt 2; 1 where nothing counts.
     double distance(VectorRef model) const;
@@ -30,8 +41,10 @@ public:
 private:
     double reach_;
     int levels_;
+    std::size_t samples_;
     std::vector<std::int32_t> level_;
-    /// Of each level and of samples that don't count; then kLanes - 1 more such tables.
+    std::size_t table_;
+    /// Of each level and of samples that don't count, filled up to `table_`; then kLanes - 1 more such tables.
     std::vector<std::int32_t> counts_;
 };
 

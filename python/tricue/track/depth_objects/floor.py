@@ -32,7 +32,7 @@ def find_floor(
     """
     step = max(1, round(depth.shape[1] / FLOOR_COLUMNS))
     support = 0.0
-    if known.any():
+    if known.item(4) > 0:
         support = float(k.plane_support(depth, camera, known[:4], FLOOR_TOLERANCE, step)[0])
         if support >= MIN_SUPPORT_KEPT * known[4]:
             return known

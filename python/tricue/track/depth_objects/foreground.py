@@ -57,11 +57,16 @@ def extract_foreground(
 
 def _measured_bounds(depth: Depth) -> tuple[int, int, int, int]:
     """Left, top, right, bottom of the pixels with a depth, as far as the image has narrow margins without."""
-    if all((side > 0).any() for side in (depth[0], depth[-1], depth[:, 0], depth[:, -1])):
+    if all(map(_is_measured, (depth[0], depth[-1], depth[:, 0], depth[:, -1]))):
         return 0, 0, depth.shape[1], depth.shape[0]  # four sides are looked at sooner than all pixels
     known = depth > 0
     (top, bottom), (left, right) = (_measured_span(np.asarray(known.any(axis=axis))) for axis in (1, 0))
     return left, top, right, bottom
+
+
+def _is_measured(side: NDArray[np.float32]) -> bool:
+    """Whether a side of the image has any depth; mostly its middle has."""
+    return side.item(len(side) // 2) > 0 or bool((side > 0).any())
 
 
 def _measured_span(known: NDArray[np.bool_]) -> tuple[int, int]:

@@ -23,7 +23,7 @@ OCCLUDER_DISTANCE = 0.08  # meters from a side of an object, where an occluder i
 MAX_SIDE_COVERED = 0.15  # of a side; an object that is covered more is cut there
 NO_EDGES = 1e6  # meters: no jump of the depth is as large
 MIN_PIXELS = 8.0  # of an object, whatever its distance
-MAX_DIVISIONS = 255  # of the range of depths: labels have 8 bits
+EVERYWHERE = np.empty((0, 0), np.uint8)
 
 
 class Objects(NamedTuple):
@@ -62,44 +62,19 @@ def segment(
     plane: (6,) the floor, along which distances are measured, and to which the feet of objects are extended;
     NO_FLOOR without one. free: (h, w) 0 where no object is looked for, otherwise 1; None for 1 everywhere.
     """
-    depth = fg.depth
-    distance = ground_distance(k, fg, plane, p)
-    gap = p.edge_gap if p.edges else NO_EDGES
-    mask = k.depth_edges(distance, gap, p.edge_slope) ^ np.uint8(1)
-    if free is not None:
-        mask &= free
-    counts = k.depth_histogram(distance, mask, p.near, p.far, p.levels)
-    level = (p.far - p.near) / p.levels
-    density = k.depth_density(counts, p.bandwidth / level)
-    _, minima = k.density_extrema(density, p.prominence * float(density.max()))
-    minima = minima[: MAX_DIVISIONS - 1]
-    dividers = np.array([p.near, *(p.near + (m + 0.5) * level for m in minima.tolist()), p.far])
-    labels = k.divide_depth(distance, mask, dividers)
-    far_pixels = p.min_area * fg.camera[0] * fg.camera[1] / p.far**2
-    min_pixels = int(min(max(MIN_PIXELS, far_pixels), depth.size + 1.0))
-    table, _, columns, rows, _ = k.depth_components(
-        labels, depth, p.near, p.far, 0, DISTRIBUTION_BINS, min_pixels, False
+    fx, fy = fg.camera[:2].tolist()
+    far_pixels = p.min_area * fx * fy / p.far**2
+    measured, cut, columns, rows = k.segment_depth(
+        fg.depth,
+        EVERYWHERE if free is None else free,
+        fg.camera,
+        plane[:4],
+        fg.measured,
+        levels=(p.near, p.far, p.levels),
+        edges=(p.edge_gap if p.edges else NO_EDGES, p.edge_slope),
+        density=(p.bandwidth / ((p.far - p.near) / p.levels), p.prominence),
+        min_area=int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
+        cut=(BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
+        standing=(MAX_FEET_HEIGHT, LEGS_FILL),
     )
-    cut = k.cut_sides(depth, table, fg.camera, BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED)
-    cut |= _at_edge(table, fg.measured)
-    measured = k.measure_objects(table, columns, rows, cut, fg.camera, plane[:4], MAX_FEET_HEIGHT, LEGS_FILL)
     return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])
-
-
-def ground_distance(k: Kernels, fg: Foreground, plane: Floats, p: SegmentationParams) -> Singles:
-    """(h, w) meters along the ground, in the camera's direction, within near and far; NaN in the background.
-
-    What stands upright before a tilted camera has one distance along the ground, but many depths. Without a
-    floor, plane (6,), the camera counts as level: its depths are the distances.
-    """
-    up = plane[:3]
-    if not up.any():
-        return fg.depth
-    return k.ground_distance(fg.depth, fg.camera, up, p.near, p.far)
-
-
-def _at_edge(table: Floats, measured: tuple[int, int, int, int]) -> NDArray[np.bool_]:
-    """(C, 4) whether an object's side is at the edge of all that was measured."""
-    (x, y, width, height), (left, top, right, bottom) = table[:, :4].T, measured
-    gaps = x - left, right - (x + width), y - top, bottom - (y + height)
-    return np.column_stack(gaps) < BORDER

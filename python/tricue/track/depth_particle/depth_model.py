@@ -20,17 +20,17 @@ MIN_LIKELIHOOD = 1e-12  # in the logarithm of the linear likelihood
 
 
 class DepthObservation(NamedTuple):
-    """(N,) each, of N rectangles.
+    """Of one rectangle.
 
-    log_likelihood: (37), or its exponential form, times the contrast term, nats. inside: the share of the
-    samples inside that are at the target's depth. contrast: that share less the same around the rectangle.
-    front: the share of the samples inside that are in front of the target.
+    log_likelihood: as :meth:`DepthModel.log_likelihood`. inside: the share of the samples inside that are at
+    the target's depth. contrast: that share less the same around the rectangle. front: the share of the
+    samples inside that are in front of the target.
     """
 
-    log_likelihood: Floats
-    inside: Floats
-    contrast: Floats
-    front: Floats
+    log_likelihood: float
+    inside: float
+    contrast: float
+    front: float
 
 
 class DepthModel(NamedTuple):
@@ -45,14 +45,19 @@ class DepthModel(NamedTuple):
         """A model that has learned nothing yet."""
         return cls(p, grid(*p.grid), np.zeros(p.bins if p.histogram == "relative" else p.levels))
 
-    def observe(self, k: Kernels, fg: Foreground, states: Floats) -> DepthObservation:
-        """Compare the foreground in and around the rectangles of states (N, 5) with the model."""
-        distance, inside, front, around = self._measure(k, fg, states).T
-        if self.p.histogram == "absolute":
-            distance = self._absolute_distance(k, fg, states)
-        contrast = inside - around
-        log_likelihood = self._log_likelihood(distance) + self.p.contrast * contrast
-        return DepthObservation(log_likelihood, inside, contrast, front)
+    def log_likelihood(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
+        """(N,) nats of the foreground in and around the rectangles of states (N, 5): (37), or its exponential
+        form, times the contrast term.
+        """
+        return self._log_likelihood(k, fg, states, self._measure(k, fg, states))
+
+    def observe(self, k: Kernels, fg: Foreground, state: Floats) -> DepthObservation:
+        """Compare the foreground in and around the rectangle of a state (5,) with the model."""
+        states = state[None]
+        measured = self._measure(k, fg, states)
+        log_likelihood = self._log_likelihood(k, fg, states, measured).item()
+        _, inside, front, around = measured[0].tolist()
+        return DepthObservation(log_likelihood, inside, inside - around, front)
 
     def distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
         """(N,) the distance (38) of the histograms in the rectangles of states (N, 5), in [0, 1]."""
@@ -72,19 +77,26 @@ class DepthModel(NamedTuple):
         )
         return measured
 
-    def _log_likelihood(self, distance: Floats) -> Floats:
-        if self.p.likelihood == "linear":
-            return np.log(np.maximum(1 - distance, MIN_LIKELIHOOD))
-        return np.asarray(-self.p.sharpness * distance * distance)
+    def _log_likelihood(self, k: Kernels, fg: Foreground, states: Floats, measured: Floats) -> Floats:
+        p, (distance, inside, _, around) = self.p, measured.T
+        if p.histogram == "absolute":
+            distance = self._absolute_distance(k, fg, states)
+        if p.likelihood == "linear":
+            likeness = np.log(np.maximum(1 - distance, MIN_LIKELIHOOD))
+        else:
+            likeness = -p.sharpness * distance * distance
+        log_likelihood: Floats = likeness + p.contrast * (inside - around)
+        return log_likelihood
 
     def learn(self, k: Kernels, fg: Foreground, state: Floats, rate: float) -> "DepthModel":
         """Blend in the histogram of one rectangle, state (5,); the first one is taken as it is."""
         rectangle, reach = self._rectangles(fg, state[None])
         new = k.rectangle_histogram(fg.depth, rectangle[0], len(self.histogram), self.grid, reach)
-        if not new.any():
+        if not np.count_nonzero(new):
             return self
         old = self.histogram
-        return self._replace(histogram=old + rate * (new - old) if old.any() else new)
+        known = bool(np.count_nonzero(old))
+        return DepthModel(self.p, self.grid, old + rate * (new - old) if known else new)
 
     def _absolute_distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
         rectangles, reach = self._rectangles(fg, states)

@@ -15,8 +15,8 @@ from tricue.track.depth_particle.signature import Signature
 Floats = NDArray[np.float64]
 
 # Standard deviations of an object that is the target, from the predicted state.
-POSITION_DEVIATION = np.array([0.15, 0.35, 0.15])  # meters of X, Y, Z, plus
-POSITION_DEVIATION_RATE = np.array([0.45, 0.2, 0.45])  # meters per second since the target was seen
+POSITION_DEVIATION = (0.15, 0.35, 0.15)  # meters of X, Y, Z, plus
+POSITION_DEVIATION_RATE = (0.45, 0.2, 0.45)  # meters per second since the target was seen
 SIZE_DEVIATION_SHARE = 0.2  # of the size, plus
 SIZE_DEVIATION = 0.05  # meters
 
@@ -56,11 +56,11 @@ def best_match(
     complete: whether objects count as completed where they are cut. seconds: since the target was seen.
     """
     # Hardly more than one object is near enough: a loop over those is faster than arrays.
-    deviation = [
-        *(POSITION_DEVIATION + POSITION_DEVIATION_RATE * seconds).tolist(),
-        *(SIZE_DEVIATION_SHARE * motion.mean_size + SIZE_DEVIATION).tolist(),
-    ]
     known, size, target = motion.size_known.tolist(), motion.mean_size.tolist(), expected.tolist()
+    deviation = [
+        *[d + r * seconds for d, r in zip(POSITION_DEVIATION, POSITION_DEVIATION_RATE, strict=True)],
+        *[SIZE_DEVIATION_SHARE * each + SIZE_DEVIATION for each in size],
+    ]
     min_area = (MIN_AREA_SHARE if max_cost >= MAX_COST else MIN_AREA_SHARE_MISSED) * size[0] * size[1]
     best, best_cost = None, max_cost
     for i, (state, cut) in enumerate(zip(objects.states.tolist(), objects.cut.tolist(), strict=True)):

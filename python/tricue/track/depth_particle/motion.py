@@ -13,8 +13,8 @@ from tricue.track.depth_particle.params import DepthParticleParams
 
 Floats = NDArray[np.float64]
 
-MIN_POSITION_NOISE = np.array([0.03, 0.02, 0.03])  # meters of X, Y, Z, standard deviation in no time
-AXIS_NOISE = np.array([1.0, 0.3, 1.0])  # times position_noise: people move less up and down than sideways
+MIN_POSITION_NOISE = (0.03, 0.02, 0.03)  # meters of X, Y, Z, standard deviation in no time
+AXIS_NOISE = (1.0, 0.3, 1.0)  # times position_noise: people move less up and down than sideways
 SIZE_RETURN = 0.3  # per frame, of the size to its running mean
 MAX_NOISE_TIME = 1.0  # seconds, up to which the noise of a missed target grows
 FIRST_SIZE_RATE = 0.7  # of learning a size that is visible as a whole, until it is known
@@ -46,24 +46,28 @@ class BodyMotion(NamedTuple):
         The noise, K of (39), grows with the speed, with them, and with ``missed``, the seconds without the
         target before them.
         """
+        # Numbers one by one: arrays of two or three take longer.
+        velocity, mean_size, size = self.velocity.tolist(), self.mean_size.tolist(), self.state[3:].tolist()
         drift = NO_DRIFT
         if p.motion == "velocity":
-            to_mean_size = SIZE_RETURN * (self.mean_size - self.state[3:])
-            drift = np.concatenate([self.velocity * seconds, to_mean_size])
+            to_mean = [SIZE_RETURN * (mean - now) for mean, now in zip(mean_size, size, strict=True)]
+            drift = np.array([*[each * seconds for each in velocity], *to_mean])
         time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
-        speed = math.hypot(*self.velocity.tolist())
-        noise = MIN_POSITION_NOISE + (p.position_noise + p.speed_noise * speed) * time * AXIS_NOISE
-        scale = np.concatenate([noise, p.size_noise * self.mean_size])
+        growth = (p.position_noise + p.speed_noise * math.hypot(*velocity)) * time
+        noise = [least + growth * axis for least, axis in zip(MIN_POSITION_NOISE, AXIS_NOISE, strict=True)]
+        scale = np.array([*noise, *[p.size_noise * each for each in mean_size]])
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":
         """Move to a new estimate; its step updates the velocity where both positions were ``visible``."""
         velocity = self.velocity
         if visible:
-            step = (state[:3] - self.state[:3]) / seconds
-            step *= min(1.0, p.max_speed / max(math.hypot(*step.tolist()), 1e-9))
-            velocity = velocity + p.velocity_rate * (step - velocity)
-        return self._replace(state=state, velocity=velocity)
+            positions = zip(state[:3].tolist(), self.state[:3].tolist(), strict=True)
+            step = [(now - before) / seconds for now, before in positions]
+            share = min(1.0, p.max_speed / max(math.hypot(*step), 1e-9))
+            both = zip(velocity.tolist(), step, strict=True)
+            velocity = np.array([old + p.velocity_rate * (each * share - old) for old, each in both])
+        return BodyMotion(state, velocity, self.mean_size, self.size_known)
 
     def coast(self, state: Floats, velocity_kept: float) -> "BodyMotion":
         """Move to a predicted state, and keep a share of the velocity."""
@@ -71,7 +75,7 @@ class BodyMotion(NamedTuple):
 
     def grow(self, size: Floats) -> "BodyMotion":
         """Raise mean sizes that are lower bounds to the size (2,) of the visible part."""
-        if self.size_known.all():
+        if all(self.size_known.tolist()):
             return self
         mean_size = np.where(self.size_known, self.mean_size, np.maximum(self.mean_size, size))
         return self._replace(mean_size=mean_size)
@@ -82,7 +86,9 @@ class BodyMotion(NamedTuple):
         It is known from then on, if the other one is: of somebody who is cut at the waist the hidden part may
         be wider.
         """
-        size = size if whole.all() else np.where(whole, size, self.mean_size)
+        if all(whole.tolist()) and all(self.size_known.tolist()):
+            return self._replace(mean_size=self.mean_size + p.size_rate * (size - self.mean_size))
+        size = np.where(whole, size, self.mean_size)
         known = whole & (whole | self.size_known)[::-1]
         first = whole & ~self.size_known
         rate = p.size_rate if self.size_known.all() else np.where(first, FIRST_SIZE_RATE, p.size_rate)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.box import Box
+from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_objects.projection import project_box
 
@@ -19,35 +20,31 @@ Depth = NDArray[np.float32]
 Mask = NDArray[np.uint8]
 
 OWN_REGION = 1.1  # times the target's rectangle, which may be off by that, or miss a hand
-SAME_DEPTH, SAME_DEPTH_SLOPE = np.float32(0.02), np.float32(0.005)  # meters, and times z²: a sensor's noise
+SAME_DEPTH, SAME_DEPTH_SLOPE = 0.02, 0.005  # meters, and times z²: a sensor's noise
+NOTHING_KNOWN = np.empty((0, 0), np.float32)
 
 
-def without_others(others: Depth, fg: Foreground) -> Mask:
+def without_others(k: Kernels, others: Depth, fg: Foreground) -> Mask:
     """(h, w) 0 where the depth is the one of ``others`` (h, w), meters, but for noise; otherwise 1."""
-    depth = fg.depth
-    same: NDArray[np.bool_] = np.abs(depth - others) <= SAME_DEPTH + SAME_DEPTH_SLOPE * depth * depth
-    return (~same).view(np.uint8)
+    return k.changed_depth(fg.depth, others, SAME_DEPTH, SAME_DEPTH_SLOPE)
 
 
 def inside_box(box: Box, fg: Foreground) -> Mask:
     """(h, w) 1 in the region of a box, pixels of the frame, in which its target is; otherwise 0."""
     mask = np.zeros(fg.depth.shape, np.uint8)
-    mask[_region(Box(*(each / fg.step for each in box)))] = 1
+    left, top, right, bottom = _region(Box(*(each / fg.step for each in box)), mask.shape)
+    mask[top:bottom, left:right] = 1
     return mask
 
 
-def remember_others(others: Depth | None, fg: Foreground, target: Floats, reach: float) -> Depth:
+def remember_others(k: Kernels, others: Depth, fg: Foreground, target: Floats, reach: float) -> Depth:
     """The depths (h, w), meters, of what isn't the target; in its place what ``others`` had there, or NaN.
 
     Its own are the pixels in the region of its rectangle, state (5,), whose depth is within ``reach`` of its
     own, meters.
     """
-    new: Depth = fg.depth.copy()
-    place = _region(project_box(target, fg.camera))
-    inside = new[place]
-    own = np.abs(inside - np.float32(target[2])) < reach
-    inside[own] = np.nan if others is None else others[place][own]
-    return new
+    region = _region(project_box(target, fg.camera), fg.depth.shape)
+    return k.remember_depth(fg.depth, others, region, float(target[2]), reach)
 
 
 def enlarge(box: Box) -> Box:
@@ -56,11 +53,13 @@ def enlarge(box: Box) -> Box:
     return Box(x - width / 2, y - height / 2, width, height)
 
 
-def _region(box: Box) -> tuple[slice, slice]:
-    """The rows and columns of the region of a box."""
+def _region(box: Box, shape: tuple[int, ...]) -> tuple[int, int, int, int]:
+    """First and end of the columns and rows, x0, y0, x1, y1, of the region of a box in an image."""
     left, top, right, bottom = enlarge(box).xyxy
-    return _pixels(top, bottom), _pixels(left, right)
+    (height, width), floor, ceil = shape, math.floor, math.ceil
+    first = _inside(floor(left), width), _inside(floor(top), height)
+    return *first, _inside(ceil(right), width), _inside(ceil(bottom), height)
 
 
-def _pixels(first: float, last: float) -> slice:
-    return slice(max(math.floor(first), 0), max(math.ceil(last), 0))
+def _inside(pixel: int, size: int) -> int:
+    return min(max(pixel, 0), size)

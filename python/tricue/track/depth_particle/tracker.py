@@ -27,7 +27,12 @@ from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
 from tricue.track.depth_particle.motion import BodyMotion
 from tricue.track.depth_particle.occluder import find_occluder
-from tricue.track.depth_particle.others import inside_box, remember_others, without_others
+from tricue.track.depth_particle.others import (
+    NOTHING_KNOWN,
+    inside_box,
+    remember_others,
+    without_others,
+)
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
 from tricue.track.depth_particle.state import ParticleSet, State
@@ -131,7 +136,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             objects = segment(self._k, fg, plane, self.params, inside_box(box_inside, fg))
             target = initialize_in_box(box_inside, objects, fg, self.params)
         model = DepthModel.empty(self.params).learn(self._k, fg, target.state, 1.0)
-        observed = model.observe(self._k, fg, target.state[None])
+        observed = model.observe(self._k, fg, target.state)
         state = State(
             shape=depth.shape,
             camera=camera,
@@ -141,10 +146,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             signature=target.signature,
             particles=ParticleSet.at_state(target.state, self.params.particles),
             objects=objects,
-            others=remember_others(None, fg, target.state, self.params.histogram_reach),
+            others=remember_others(self._k, NOTHING_KNOWN, fg, target.state, self.params.histogram_reach),
             score=_score(observed),
-            mean_log_likelihood=float(observed.log_likelihood[0]),
-            mean_inside=float(observed.inside[0]),
+            mean_log_likelihood=observed.log_likelihood,
+            mean_inside=observed.inside,
             random=random.save(),
             timestamp=timestamp,
         )
@@ -167,7 +172,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
-        free = without_others(state.others, fg) if p.leave_out_others else None
+        free = without_others(k, state.others, fg) if p.leave_out_others else None
         objects = segment(k, fg, plane, p, free)
         before = state.motion
         prediction = before.predict(p, seconds, state.missed_seconds)
@@ -177,11 +182,11 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         particles = self._filter(state, fg, prediction, target, measured)
         if p.sweeps > 1:
             particles = self._refine(state, fg, particles, measured)
-        observed = state.model.observe(k, fg, particles.state[None])
+        observed = state.model.observe(k, fg, particles.state)
         recognized = self._recognized(state, observed, target)
         if recognized or not p.coast:
             state = self._accept(state, fg, particles, observed, seconds)
-            clear = float(observed.front[0]) < MAX_COVERED_TO_LEARN
+            clear = observed.front < MAX_COVERED_TO_LEARN
             return self._learn(state, fg, observed, target) if recognized and clear else state
         return self._coast(state._replace(motion=before), fg, prediction, seconds)
 
@@ -224,15 +229,15 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """(N,) nats: of the depths in and around each rectangle, of its size, and of the measured object."""
         deviation = _size_deviation(self.params.size_prior)
         prior = self._k.rectangle_prior(particles, state.motion.mean_size, deviation, *measured)
-        return state.model.observe(self._k, fg, particles).log_likelihood + prior
+        return state.model.log_likelihood(self._k, fg, particles) + prior
 
     def _recognized(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
         """Whether the target is visible at the estimate; after it was missed, only where an object is it."""
         if state.missed_seconds > 0 and target is None:
             return False
-        return bool(
-            observed.inside[0] >= self.params.min_visible_share * state.mean_inside
-            and observed.log_likelihood[0] >= state.mean_log_likelihood - self.params.likelihood_drop
+        return (
+            observed.inside >= self.params.min_visible_share * state.mean_inside
+            and observed.log_likelihood >= state.mean_log_likelihood - self.params.likelihood_drop
         )
 
     def _accept(
@@ -245,10 +250,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
     ) -> State:
         """The state at the particles' estimate, which is where the target is."""
         p = self.params
-        visible = state.missed_seconds == 0 and float(observed.front[0]) < p.max_covered
+        visible = state.missed_seconds == 0 and observed.front < p.max_covered
         return state._replace(
             particles=particles,
-            others=remember_others(state.others, fg, particles.state, p.histogram_reach),
+            others=remember_others(self._k, state.others, fg, particles.state, p.histogram_reach),
             motion=state.motion.update(particles.state, p, seconds, visible),
             score=_score(observed),
             missed_seconds=0.0,
@@ -264,13 +269,13 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         p, motion, signature = self.params, state.motion, state.signature
         if target is not None:
             motion = motion.learn_size(target.state[3:], target.whole, p)
-            if target.whole.all():
+            if all(target.whole.tolist()):
                 signature = signature.learn(target.signature)
         mean, mean_inside = state.mean_log_likelihood, state.mean_inside
         return state._replace(
             model=state.model.learn(self._k, fg, state.particles.state, p.learning_rate),
-            mean_log_likelihood=mean + MEAN_RATE * (float(observed.log_likelihood[0]) - mean),
-            mean_inside=mean_inside + MEAN_RATE * (float(observed.inside[0]) - mean_inside),
+            mean_log_likelihood=mean + MEAN_RATE * (observed.log_likelihood - mean),
+            mean_inside=mean_inside + MEAN_RATE * (observed.inside - mean_inside),
             motion=motion,
             signature=signature,
         )
@@ -279,7 +284,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """The state of a missed target: moved as predicted; velocity, size and model are not learned."""
         p = self.params
         expected = np.clip(state.motion.state + prediction.drift, prediction.lower, prediction.upper)
-        front = float(state.model.observe(self._k, fg, expected[None]).front[0])
+        front = state.model.observe(self._k, fg, expected).front
         hidden, occluder = front > p.max_covered, state.occluder
         if hidden and occluder is None:
             index = find_occluder(state.objects, expected, p.occluder_margin)
@@ -317,5 +322,5 @@ def _size_deviation(weight: float) -> Floats:
 
 
 def _score(observed: DepthObservation) -> float:
-    """The contrast of a single rectangle, in [0, 1]."""
-    return min(max(float(observed.contrast[0]), 0.0), 1.0)
+    """The contrast, in [0, 1]."""
+    return min(max(observed.contrast, 0.0), 1.0)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/changed_depth.hpp"
+
+#include <cmath>
+
+#include "base/check.hpp"
+#include "base/overlapping_blocks.hpp"
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+/// No comparison with NaN holds.
+TRICUE_MULTIVERSION
+void compare_row(const float* __restrict depth, const float* __restrict before, int n, float noise,
+                 float slope, std::uint8_t* __restrict changed) {
+    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
+        const float z = depth[x];
+        const bool same = std::abs(z - before[x]) <= noise + slope * z * z;
+        changed[x] = !same;
+    });
+}
+
+void require_noise(double value, const char* name) {
+    if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
+}
+
+}  // namespace
+
+Labels changed_depth(const DepthView& depth, const DepthView& before, double noise, double slope) {
+    require_same_shape(before, depth, "before");
+    require_noise(noise, "noise");
+    require_noise(slope, "slope");
+    Labels changed(depth.rows, depth.cols);
+    for (int y = 0; y < depth.rows; ++y)
+        compare_row(depth.row(y), before.row(y), depth.cols, static_cast<float>(noise),
+                    static_cast<float>(slope), changed.row(y).data());
+    return changed;
+}
+
+}  // namespace tricue

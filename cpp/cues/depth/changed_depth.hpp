@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/depth_pixels.hpp"
+#include "base/depth_view.hpp"
+
+namespace tricue {
+
+/// Where a depth image differs from one before by more than noise: 0 where |z - z'| <= noise + slope (z z), otherwise 1, also where
+/// either isn't measured.
+///
+/// In float32, to which noise and slope are rounded, in this order; slope z first.
+///
+/// @param depth float32 (H, W): z, meters, NaN where nothing was measured
+/// @param before float32 (H, W): z', likewise
+/// @param noise meters, finite, at least 0
+/// @param slope 1 / meter, finite, at least 0: noise grows with z²
+/// @returns uint8 (H, W) of 0 and 1
+/// @throws std::invalid_argument on images of different shapes, or an invalid noise or slope
+/// Source: ours.
+Labels changed_depth(const DepthView& depth, const DepthView& before, double noise, double slope);
+
+}  // namespace tricue

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+#include "base/region.hpp"
+
+namespace tricue {
+
+/// What was last seen in each pixel beside a target: the depth image, but where it shows the target what was there before.
+///
+/// The target's own are the pixels in its region with |depth - z| < reach, in float32, to which z and reach are rounded.
+///
+/// @param depth float32 (H, W), meters
+/// @param before float32 (H, W), meters: what was remembered until now; (0, 0) for nothing, which gives NaN
+/// @param region (x0, y0, x1, y1), pixels: the target is in [x0, x1) x [y0, y1), which may extend beyond the image
+/// @param z the target's depth, meters, finite
+/// @param reach how far from that a depth is its own, meters, finite, at least 0
+/// @returns float32 (H, W), meters
+/// @throws std::invalid_argument on images of different shapes, or an invalid z or reach
+/// Source: ours.
+Floats remember_depth(const DepthView& depth, const DepthView& before, const Region& region, double z,
+                      double reach);
+
+}  // namespace tricue

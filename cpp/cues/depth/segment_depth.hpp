@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+#include "base/image_view.hpp"
+#include "base/region.hpp"
+#include "cues/depth/cut_sides.hpp"
+#include "cues/depth/depth_histogram.hpp"
+
+namespace tricue {
+
+/// Where one object ends and another begins; each as in the kernels that segment_depth calls.
+struct Divisions {
+    DepthLevels levels;
+    double gap, slope, bandwidth, prominence;
+    int min_area;
+};
+
+/// Where objects stand, as in measure_objects.
+struct Standing {
+    double feet, legs;
+};
+
+/// C objects, the largest first.
+struct DepthObjects {
+    States measured;       ///< float64 (C, 8), as measure_objects gives it
+    Flags cut;             ///< bool (C, 4): left, right, top, bottom: whether it may go on there
+    Floats columns, rows;  ///< float32 (C, 16), as depth_components gives them
+};
+
+/// The objects of a depth image: connected components of the divisions of its range at the minima of its density.
+///
+/// One after the other ground_distance (where there is a floor, else distances are depths), depth_edges, whose pixels belong to
+/// nothing, depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's levels (the first 254)
+/// and far, depth_components, cut_sides, and measure_objects; those say what each does. An object is also cut at a side less than
+/// `border` pixels from the edge of what was measured.
+///
+/// @param depth float32 (H, W), meters, NaN in the background; in the range
+/// @param free uint8 (H, W): 0 where no object is looked for; (0, 0) for one that is 1 everywhere
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
+/// @param plane float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
+/// @param measured (x0, y0, x1, y1), pixels: outside of it nothing was measured
+/// @param levels (near, far, count), as in depth_histogram
+/// @param edges (gap, slope), as in depth_edges
+/// @param density (bandwidth, prominence): of depth_density, levels, and of density_extrema, as a share of the greatest density
+/// @param min_area as in depth_components
+/// @param cut (border, beside, nearer, share), as in cut_sides
+/// @param standing (feet, legs), as in measure_objects
+/// @throws std::invalid_argument as those kernels
+/// Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.
+DepthObjects segment_depth(const DepthView& depth, const ImageView& free, VectorRef camera, VectorRef plane,
+                           const Region& measured, const Divisions& divisions, const Cut& cut,
+                           const Standing& standing);
+
+}  // namespace tricue

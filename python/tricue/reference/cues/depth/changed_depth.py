@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+"""Where a depth image differs from one before."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.depth_pixels import require_same_shape
+
+Depth = NDArray[np.float32]
+
+
+def changed_depth(depth: Depth, before: Depth, noise: float, slope: float) -> NDArray[np.uint8]:
+    """Compares all pixels at once; no comparison with NaN holds."""
+    require_same_shape("before", before, depth)
+    for name, value in (("noise", noise), ("slope", slope)):
+        if not 0 <= value < np.inf:
+            refuse(name, "a finite number, not negative", float(value))
+    with np.errstate(over="ignore", invalid="ignore"):
+        limit = np.float32(noise) + np.float32(slope) * depth * depth
+        same: NDArray[np.bool_] = np.abs(depth - before) <= limit
+    return (~same).astype(np.uint8)

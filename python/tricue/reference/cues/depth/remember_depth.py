@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""What was last seen in each pixel beside a target."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+from tricue.reference.base.depth_pixels import require_same_shape
+
+Depth = NDArray[np.float32]
+
+
+def remember_depth(
+    depth: Depth, before: Depth, region: tuple[int, int, int, int], z: float, reach: float
+) -> Depth:
+    """Copies the image, and puts back what the target hides."""
+    if before.shape == (0, 0):
+        before = np.full(depth.shape, np.nan, np.float32)
+    require_same_shape("before", before, depth)
+    if not np.isfinite(z):
+        refuse("z", "a finite number", float(z))
+    if not 0 <= reach < np.inf:
+        refuse("reach", "a finite number, not negative", float(reach))
+    left, top, right, bottom = (max(each, 0) for each in region)
+    inside = np.zeros(depth.shape, np.bool_)
+    inside[top:bottom, left:right] = True
+    with np.errstate(over="ignore", invalid="ignore"):
+        own = inside & (np.abs(depth - np.float32(z)) < np.float32(reach))
+    return np.where(own, before, depth)

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""The objects of a depth image (Sabeti, Parvizi, Wu 2008, section IV.A)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.depth_pixels import require_mask
+from tricue.reference.cues.depth.cut_sides import cut_sides
+from tricue.reference.cues.depth.density_extrema import density_extrema
+from tricue.reference.cues.depth.depth_components import depth_components
+from tricue.reference.cues.depth.depth_density import depth_density
+from tricue.reference.cues.depth.depth_edges import depth_edges
+from tricue.reference.cues.depth.depth_histogram import depth_histogram
+from tricue.reference.cues.depth.divide_depth import divide_depth
+from tricue.reference.cues.depth.ground_distance import ground_distance
+from tricue.reference.cues.depth.measure_objects import measure_objects
+
+Depth = NDArray[np.float32]
+Floats = NDArray[np.float64]
+Mask = NDArray[np.uint8]
+
+BINS = 16  # of an object's distributions
+MAX_MINIMA = 254  # labels have 8 bits
+
+
+def segment_depth(
+    depth: Depth,
+    free: Mask,
+    camera: Floats,
+    plane: Floats,
+    measured: tuple[int, int, int, int],
+    levels: tuple[float, float, int],
+    edges: tuple[float, float],
+    density: tuple[float, float],
+    min_area: int,
+    cut: tuple[int, float, float, float],
+    standing: tuple[float, float],
+) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
+    """Calls one twin after the other."""
+    near, far, count = levels
+    distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
+    mask = 1 - depth_edges(distance, *edges)
+    if free.shape != (0, 0):
+        require_mask(free, depth)
+        mask[free == 0] = 0
+    dividers = _dividers(depth_histogram(distance, mask, near, far, count), near, far, *density)
+    labels = divide_depth(distance, mask, dividers)
+    table, _, columns, rows, _ = depth_components(labels, depth, near, far, 0, BINS, min_area, False)
+    sides = cut_sides(depth, table, camera, *cut) | _at_edge(table, measured, cut[0])
+    return measure_objects(table, columns, rows, sides, camera, plane, *standing), sides, columns, rows
+
+
+def _dividers(counts: Floats, near: float, far: float, bandwidth: float, prominence: float) -> Floats:
+    density = depth_density(counts, bandwidth)
+    _, minima = density_extrema(density, prominence * float(density.max()))
+    level = (far - near) / len(counts)
+    return np.array([near, *(near + (minima[:MAX_MINIMA] + 0.5) * level), far])
+
+
+def _at_edge(table: Floats, measured: tuple[int, int, int, int], border: int) -> NDArray[np.bool_]:
+    (x, y, width, height), (left, top, right, bottom) = table[:, :4].T, measured
+    gaps = x - left, right - (x + width), y - top, bottom - (y + height)
+    at_edge: NDArray[np.bool_] = np.column_stack(gaps) < border
+    return at_edge
