@@ -20,8 +20,8 @@ from tricue.reference.cues.color.histogram_mean import histogram_mean
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
-from tricue.reference.cues.color.rank_contrast import rank_contrast
 from tricue.reference.cues.color.rank_distance import rank_distance
+from tricue.reference.cues.color.rank_likelihood import rank_likelihood
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 from tricue.reference.cues.color.sample_windows import sample_windows
@@ -121,8 +121,8 @@ __all__ = [
     "plane_support",
     "propose",
     "pyramid_flow",
-    "rank_contrast",
     "rank_distance",
+    "rank_likelihood",
     "rank_sections",
     "rectangle_histogram",
     "rectangle_prior",
