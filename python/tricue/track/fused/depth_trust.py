@@ -4,6 +4,7 @@
 Such depth is left out, and told of once; the target is then followed by color.
 """
 
+import math
 import warnings
 import zlib
 from typing import NamedTuple
@@ -92,10 +93,9 @@ def _sample(depth: Plane) -> Plane:
 
 def _wrong_unit(sample: Plane) -> str:
     """What is wrong with the unit and how to set it right, "" where nothing was noticed."""
-    measured = sample[~np.isnan(sample)]
-    if not measured.size:
+    low, high = float(np.fmin.reduce(sample, axis=None)), float(np.fmax.reduce(sample, axis=None))
+    if math.isnan(low):  # none is measured
         return ""
-    low, high = float(measured.min()), float(measured.max())
     found = f"expected meters, got {low:.4g} to {high:.4g}"
     give = "tricue.Frame(depth_scale={0}) or --depth-scale {0} tells their unit"
     if low > MAX_METERS:

@@ -6,7 +6,6 @@ keeps its aspect ratio. A side counts only where depth showed it in the first fr
 something that is as far away.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
@@ -162,25 +161,25 @@ def measure_reaches(
 
 def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:
     """How far the filled part reaches before and after a place, in halves of the box."""
-    filled = (profile >= MIN_FILLED_POSTERIOR).tolist()
+    filled = profile.tolist()
     start = min(max(int(center), 0), len(filled) - 1)
-    if not filled[start]:
+    if filled[start] < MIN_FILLED_POSTERIOR:
         return None, None
-    before, after = (
-        _first_empty(filled, range(start, -1, -1)),
-        _first_empty(filled, range(start, len(filled))),
-    )
+    before, after = _first_empty(filled, start, -1, -1), _first_empty(filled, start, len(filled), 1)
     return (
-        None if before is None else (center - _crossing(profile, before)) / half,
-        None if after is None else (_crossing(profile, after - 1) - center) / half,
+        None if before is None else (center - _crossing(filled, before)) / half,
+        None if after is None else (_crossing(filled, after - 1) - center) / half,
     )
 
 
-def _first_empty(filled: list[bool], indices: Iterable[int]) -> int | None:
-    return next((i for i in indices if not filled[i]), None)
+def _first_empty(profile: list[float], start: int, end: int, step: int) -> int | None:
+    for i in range(start, end, step):
+        if profile[i] < MIN_FILLED_POSTERIOR:
+            return i
+    return None
 
 
-def _crossing(profile: Plane, index: int) -> float:
+def _crossing(profile: list[float], index: int) -> float:
     """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
-    first, second = float(profile[index]), float(profile[index + 1])
+    first, second = profile[index], profile[index + 1]
     return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)

@@ -130,8 +130,9 @@ def _measurements(medians: Floats) -> list[DepthMeasurement | None]:
 
 def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> float:
     """The share of a target's box, so many patch pixels off the window's center, that an occluder covers."""
-    if window.depth is None:
+    if not window.has_occluder:
         return 0.0
+    assert window.depth is not None, "it has the occluder"
     nearer = window.depth[1][window.inner(right, down, INNER_SHARE)]
     return cv2.countNonZero(nearer) / nearer.size
 

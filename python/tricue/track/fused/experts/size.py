@@ -106,8 +106,10 @@ def divide(learned: Filter, ridge: float) -> Spectra:
     """(1, 19, 32, 17) as correlation_response takes filters. ridge: in parts of the mean denominator."""
     numerator, denominator = learned
     least = np.float32(ridge * max(float(denominator.mean()), 1e-12))
-    divided: Spectra = (numerator / (denominator + least))[None]
-    return divided
+    # Real factors, once for each part: NumPy's division of complex numbers takes five times as long.
+    factors = np.repeat(1 / (denominator + least), 2, axis=1)
+    divided: Spectra = (numerator.view(np.float32) * factors).view(np.complex64)
+    return divided[None]
 
 
 def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
