@@ -13,6 +13,7 @@ from tricue.reference.cues.color.cell_colors import cell_colors
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
+from tricue.reference.cues.color.color_posterior import color_posterior
 from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
@@ -20,6 +21,7 @@ from tricue.reference.cues.color.histogram_mean import histogram_mean
 from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
+from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
 from tricue.reference.cues.color.rank_sections import rank_sections
@@ -63,6 +65,7 @@ from tricue.reference.fuse.block_mask import block_mask
 from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.correlation_train import correlation_train
+from tricue.reference.fuse.evidence_peak import evidence_peak
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
@@ -88,6 +91,7 @@ __all__ = [
     "color_bins",
     "color_histogram",
     "color_lookup",
+    "color_posterior",
     "color_ranks",
     "combine_posteriors",
     "correlation_response",
@@ -105,6 +109,7 @@ __all__ = [
     "divide_depth",
     "ellipse_histogram",
     "ellipse_search",
+    "evidence_peak",
     "fill_gaps",
     "floor_plane",
     "gradient_disparity",
@@ -118,6 +123,7 @@ __all__ = [
     "learn_contrast",
     "measure_objects",
     "median_depths",
+    "pick_pixels",
     "plane_support",
     "propose",
     "pyramid_flow",

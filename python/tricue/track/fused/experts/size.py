@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.track.base.params import parameter
-from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts.spectra import FirstFrameParams, Spectra, blend_first_frame, label_spectrum
 from tricue.track.fused.peak import gaussian_peak_offset
 from tricue.track.fused.sources import OURS
@@ -119,12 +119,11 @@ def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
     """
     width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
     square = np.array([[target.x - width / 2, target.y - height / 2, width, height]])
-    patch = observation.sample(square, PATCH_PIXELS)
-    log_polar: Image = patch.reshape(-1, 3).take(LOG_POLAR_PIXELS, axis=0)
-    return observation.k.hog_color_cells(log_polar, TAPER)
+    k, patch = observation.k, observation.sample(square, PATCH_PIXELS)[0]
+    return k.hog_color_cells(k.pick_pixels(patch, LOG_POLAR_PIXELS), TAPER)
 
 
-def _log_polar_pixels() -> NDArray[np.intp]:
+def _log_polar_pixels() -> NDArray[np.int64]:
     """(64, 64) indices of the nearest pixels of a square patch.
 
     At small radii several samples share a pixel, which speaks for the size as it is: a new one is approached
@@ -137,7 +136,7 @@ def _log_polar_pixels() -> NDArray[np.intp]:
         np.clip(np.floor(PATCH_PIXELS / 2 + radius * unit), 0, PATCH_PIXELS - 1)
         for unit in (np.cos(angle), np.sin(angle))
     )
-    pixels: NDArray[np.intp] = (y * PATCH_PIXELS + x).astype(np.intp)
+    pixels: NDArray[np.int64] = (y * PATCH_PIXELS + x).astype(np.int64)
     return pixels
 
 
