@@ -66,8 +66,8 @@ Array<double> rank_likelihood_arrays(const Bytes& image, const Array<double>& el
     const auto places = windows.inside.rows();
     const ColorLook look{rank_maps(models, places), vector(shares, "shares"), nearest, color_cube(table)};
     const LookWeights weights{sharpness, contrast_weight};
-    return give(unlocked(each.rows() * places,
-                         [&] { return rank_likelihood(view, each, windows, look, weights); }));
+    return give(
+        unlocked(each.rows() * places, [&] { return rank_likelihood(view, each, windows, look, weights); }));
 }
 
 std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(const Bytes& inside,

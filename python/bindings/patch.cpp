@@ -36,8 +36,7 @@ Array<float> color_posterior_arrays(const Bytes& image, const Array<float>& tabl
     const auto view = color_image(image, "image");
     const auto side = require<float>(table, "table", 3, expected).shape(0);
     const auto cube = floats(table, "table", {side, side, side}, expected);
-    return give(
-        unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return color_posterior(view, cube); }));
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return color_posterior(view, cube); }));
 }
 
 Bytes pick_pixels_arrays(const Bytes& image, const Array<std::int64_t>& places) {

@@ -85,8 +85,7 @@ Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows
             const double distance = combined(distances.data(), look);
             const double contrast = inside.mean(within, i, bits, look.table.data()) -
                                     around.mean(without, i, bits, look.table.data());
-            log_likelihood[first + i] =
-                weights.contrast * contrast - weights.sharpness * distance * distance;
+            log_likelihood[first + i] = weights.contrast * contrast - weights.sharpness * distance * distance;
         }
     }
     return log_likelihood;

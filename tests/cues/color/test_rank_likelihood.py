@@ -43,7 +43,9 @@ def case(seed: int, ellipses: int = 5, n: int = 30, m: int = 7, models: int = 2,
 
 def rounding(n: int, m: int, models: int = 2) -> float:
     """At most: n + m roundings of a mean, M of a distance at most 1, and a few of the terms themselves."""
-    return EPS * (CONTRAST_WEIGHT * (n + m) + SHARPNESS * 2 * (models + 2) + 4 * (SHARPNESS + CONTRAST_WEIGHT))
+    return EPS * (
+        CONTRAST_WEIGHT * (n + m) + SHARPNESS * 2 * (models + 2) + 4 * (SHARPNESS + CONTRAST_WEIGHT)
+    )
 
 
 @given(

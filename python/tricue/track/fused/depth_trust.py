@@ -88,7 +88,7 @@ class DepthTrust(NamedTuple):
 
 def _sample(depth: Plane) -> Plane:
     rows, columns = (max(1, side // count) for side, count in zip(depth.shape, SAMPLED, strict=True))
-    return depth[rows // 2 :: rows, columns // 2 :: columns]
+    return np.ascontiguousarray(depth[rows // 2 :: rows, columns // 2 :: columns])
 
 
 def _wrong_unit(sample: Plane) -> str:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
+import numpy as np
+
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Plane
 from tricue.track.fused.sources import OURS
@@ -17,6 +19,7 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
 MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
+FILLED = float(np.float32(MIN_FILLED_POSTERIOR))  # as profiles hold it
 OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
 BORDER_MARGIN = 0.1  # of the target's side, from the image's border: boxes are drawn by hand
@@ -154,27 +157,27 @@ def measure_reaches(
     rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
     across, along = posterior[rows], posterior[:, columns]
-    left, far = _extent(across.sum(axis=0) / len(across), x, window.size[0] / 2)
-    top, bottom = _extent(along.sum(axis=1) / along.shape[1], y, window.size[1] / 2)
+    left, far = _extent(np.add.reduce(across, axis=0) / len(across), x, window.size[0] / 2)
+    top, bottom = _extent(np.add.reduce(along, axis=1) / along.shape[1], y, window.size[1] / 2)
     return Reaches(left, top, far, bottom)
 
 
 def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:
     """How far the filled part reaches before and after a place, in halves of the box."""
-    filled = profile.tolist()
-    start = min(max(int(center), 0), len(filled) - 1)
-    if filled[start] < MIN_FILLED_POSTERIOR:
+    values = profile.tolist()
+    start = min(max(int(center), 0), len(values) - 1)
+    if values[start] < FILLED:
         return None, None
-    before, after = _first_empty(filled, start, -1, -1), _first_empty(filled, start, len(filled), 1)
+    before, after = _first_empty(values, start, -1, -1), _first_empty(values, start, len(values), 1)
     return (
-        None if before is None else (center - _crossing(filled, before)) / half,
-        None if after is None else (_crossing(filled, after - 1) - center) / half,
+        None if before is None else (center - _crossing(values, before)) / half,
+        None if after is None else (_crossing(values, after - 1) - center) / half,
     )
 
 
 def _first_empty(profile: list[float], start: int, end: int, step: int) -> int | None:
     for i in range(start, end, step):
-        if profile[i] < MIN_FILLED_POSTERIOR:
+        if profile[i] < FILLED:
             return i
     return None
 

@@ -121,9 +121,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         cameras = self.rig, self.intrinsics
         return observe_frame(self._k, frame, shape, cameras, "depth" in self.params.cues)
 
-    def _predict(
-        self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float
-    ) -> State:
+    def _predict(self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float) -> State:
         """The state when the frame was taken, so many seconds later."""
         position = state.position
         if position is not None:

@@ -149,7 +149,7 @@ def depth_continuity(window: Window, right: float, down: float) -> float:
     inner, outer = (
         window.depth[0][window.inner(right, down, share)] for share in (INNER_SHARE, SURROUND_SIZE)
     )
-    inside = float(inner.sum())
-    outside = float(outer.sum()) - inside
+    inside = float(np.add.reduce(inner, axis=None))
+    outside = float(np.add.reduce(outer, axis=None)) - inside
     contrast = inside / inner.size - outside / max(outer.size - inner.size, 1)
     return max(contrast, 0.0) * min(FULL_WEIGHT_SIGMA / expected.sigma, 1.0) ** 2

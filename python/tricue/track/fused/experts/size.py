@@ -8,6 +8,7 @@ frame at a time lets the size wander.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -87,9 +88,10 @@ class SizeExpert(NamedTuple):
         """The ratio of the size of what is at a target's place to the target's."""
         p, cells = self.params, log_polar_cells(observation, target)
         response = observation.k.correlation_response(cells, self.applied)[0]
-        evidence = response[ROWS, COLUMNS] - p.size_change_penalty * SQUARED_SHIFTS
+        near = response[ROWS, COLUMNS]
+        evidence = near - _penalties(p.size_change_penalty)
         row, column = divmod(int(evidence.argmax()), evidence.shape[1])
-        shift = column + gaussian_peak_offset(response[ROWS, COLUMNS][row], column) - MAX_SHIFT
+        shift = column + gaussian_peak_offset(near[row], column) - MAX_SHIFT
         return math.exp(shift * LOG_PER_CELL)
 
     def learn(self, observation: TargetObservation, target: Target, rate: float) -> "SizeExpert":
@@ -100,6 +102,12 @@ class SizeExpert(NamedTuple):
             blend_first_frame(*parts, p) for parts in zip(learned, self.first, strict=True)
         )
         return self._replace(learned=learned, applied=divide((numerator, denominator), p.ridge))
+
+
+@lru_cache(maxsize=8)
+def _penalties(penalty: float) -> Plane:
+    """(5,) of each shift."""
+    return penalty * SQUARED_SHIFTS
 
 
 def divide(learned: Filter, ridge: float) -> Spectra:
