@@ -1385,6 +1385,8 @@ def pick_pixels(
 
     Raises:
         ValueError: on a place outside of the image, or padded rows
+
+    Source: the log-polar coordinates that it serves for, Reddy and Chatterji 1996.
     """
 
 def plane_support(

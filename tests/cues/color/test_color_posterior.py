@@ -17,6 +17,7 @@ SIDES = [1, 2, 4, 8, 16, 32, 64]
 
 
 def picture(seed: int, height: int, width: int) -> Image:
+    """An image of random colors."""
     return np.random.default_rng(seed).integers(0, 256, (height, width, 3)).astype(np.uint8)
 
 

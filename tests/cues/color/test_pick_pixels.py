@@ -15,6 +15,7 @@ Image = NDArray[np.uint8]
 
 
 def picture(seed: int, height: int, width: int) -> Image:
+    """An image of random colors."""
     return np.random.default_rng(seed).integers(0, 256, (height, width, 3)).astype(np.uint8)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The likelihood by the order of the pixels in an ellipse and its colors against its surround, in one pass."""
+"""The likelihood by the order of the pixels in an ellipse and its colors against its surround."""
 
 from typing import Any
 

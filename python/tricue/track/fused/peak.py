@@ -11,8 +11,8 @@ MIN_SHARE = 0.05  # of the peak, of a neighbor in its logarithm
 
 
 def gaussian_peak_offset(values: NDArray[np.floating], index: int) -> float:
-    """Offset of a peak from the largest value, by a Gaussian through it and its neighbors, which a correlation
-    filter answers with: a parabola through the logarithms.
+    """Offset of a peak from the largest value, by a Gaussian, which a correlation filter answers with: a
+    parabola through the logarithms of it and its neighbors.
     """
     if not 0 < index < len(values) - 1:
         return 0.0
