@@ -139,6 +139,13 @@ TRICUE_INLINE void prefetch(const void* address) {
 #endif
 }
 
+/// The same for n bytes. A new frame isn't in the cache yet, and the rows of a part of it are too far apart for the hardware to
+/// load them ahead.
+TRICUE_INLINE void prefetch_bytes(const void* address, std::ptrdiff_t n) {
+    constexpr std::ptrdiff_t kLine = 64;
+    for (std::ptrdiff_t k = 0; k < n; k += kLine) prefetch(static_cast<const char*>(address) + k);
+}
+
 /// out[k] = table[indices[k]] for n indices and a table of 256 bytes. Processors with byte permutations (AVX-512 VBMI) do 64 at a
 /// time; `out` must not overlap the others.
 void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out);

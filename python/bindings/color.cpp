@@ -6,8 +6,8 @@
 #include "cues/color/color_ranks.hpp"
 #include "cues/color/joint_histogram.hpp"
 #include "cues/color/learn_contrast.hpp"
-#include "cues/color/rank_contrast.hpp"
 #include "cues/color/rank_distance.hpp"
+#include "cues/color/rank_likelihood.hpp"
 #include "cues/color/rank_sections.hpp"
 #include "cues/color/sample_ellipses.hpp"
 #include "cues/color/section_distance.hpp"
@@ -56,16 +56,18 @@ Array<double> rank_distance_arrays(const Bytes& pixels, const Array<float>& mode
     return give(unlocked(3 * view.ellipses * view.n, [&] { return rank_distance(view, rows); }));
 }
 
-std::tuple<Array<double>, Array<double>> rank_contrast_arrays(
-    const Bytes& image, const Array<double>& ellipses, const Array<double>& inside,
-    const Array<double>& around, const Array<float>& models, const Array<float>& table) {
+Array<double> rank_likelihood_arrays(const Bytes& image, const Array<double>& ellipses,
+                                     const Array<double>& inside, const Array<double>& around,
+                                     const Array<float>& models, const Array<double>& shares, bool nearest,
+                                     const Array<float>& table, double sharpness, double contrast_weight) {
     const auto view = color_image(image, "image");
     const auto each = states(ellipses, "ellipses");
     const Windows windows{states(inside, "inside"), states(around, "around")};
     const auto places = windows.inside.rows();
-    const ColorLook look{rank_maps(models, places), color_cube(table)};
-    auto measured = unlocked(each.rows() * places, [&] { return rank_contrast(view, each, windows, look); });
-    return {give(std::move(measured.distances)), give(std::move(measured.contrast))};
+    const ColorLook look{rank_maps(models, places), vector(shares, "shares"), nearest, color_cube(table)};
+    const LookWeights weights{sharpness, contrast_weight};
+    return give(
+        unlocked(each.rows() * places, [&] { return rank_likelihood(view, each, windows, look, weights); }));
 }
 
 std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(const Bytes& inside,
@@ -123,8 +125,9 @@ void define_color(py::module_& m) {
     m.def("learn_contrast", learn_contrast_arrays, py::arg("inside"), py::arg("around"), py::arg("target"),
           py::arg("surround"), py::arg("rate"), py::arg("rare"), docs::learn_contrast);
     m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"), docs::rank_distance);
-    m.def("rank_contrast", rank_contrast_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
-          py::arg("around"), py::arg("models"), py::arg("table"), docs::rank_contrast);
+    m.def("rank_likelihood", rank_likelihood_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
+          py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"),
+          py::arg("sharpness"), py::arg("contrast_weight"), docs::rank_likelihood);
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),
           docs::joint_histogram);
     m.def("color_histogram", color_histogram_arrays, py::arg("samples"), py::arg("bins"),

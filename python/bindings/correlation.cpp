@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "fuse/correlation_response.hpp"
 #include "fuse/correlation_train.hpp"
+#include "fuse/evidence_peak.hpp"
 #include "fuse/regularized_filter.hpp"
 #include "kernel_docs.hpp"
 
@@ -59,6 +60,13 @@ Complex regularized_filter_arrays(const Floating& cells, const Floating& mask, c
     return give(std::move(filter), {old.planes, old.rows, old.cols});
 }
 
+Array<double> evidence_peak_arrays(const Floating& responses, const Floating& contrast, double filter_weight,
+                                   double contrast_weight) {
+    const auto planes = stack<float>(responses, "responses", "float32 responses (F, R, C)");
+    const auto other = floats(contrast, "contrast", {-1, -1}, kPlane);
+    return give(evidence_peak(planes, other, {filter_weight, contrast_weight}));
+}
+
 }  // namespace
 
 void define_correlation(py::module_& m) {
@@ -66,6 +74,8 @@ void define_correlation(py::module_& m) {
           docs::correlation_response);
     m.def("correlation_train", correlation_train_arrays, py::arg("cells"), py::arg("label"),
           py::arg("numerator"), py::arg("denominator"), py::arg("rate"), docs::correlation_train);
+    m.def("evidence_peak", evidence_peak_arrays, py::arg("responses"), py::arg("contrast"),
+          py::arg("filter_weight"), py::arg("contrast_weight"), docs::evidence_peak);
     m.def("regularized_filter", regularized_filter_arrays, py::arg("cells"), py::arg("mask"),
           py::arg("label"), py::arg("previous"), py::arg("temporal_weight"), py::arg("penalty"),
           docs::regularized_filter);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 #include "cues/color/box_contrast.hpp"
+#include "cues/color/color_posterior.hpp"
 #include "cues/color/hog_color_cells.hpp"
+#include "cues/color/pick_pixels.hpp"
 #include "cues/color/sample_windows.hpp"
 #include "kernel_docs.hpp"
 
@@ -29,6 +31,23 @@ Array<float> hog_color_cells_arrays(const Bytes& patch, const Array<float>& tape
     return give(std::move(cells), {19, weights.rows(), weights.cols()});
 }
 
+Array<float> color_posterior_arrays(const Bytes& image, const Array<float>& table) {
+    const char* expected = "float32 (B, B, B)";
+    const auto view = color_image(image, "image");
+    const auto side = require<float>(table, "table", 3, expected).shape(0);
+    const auto cube = floats(table, "table", {side, side, side}, expected);
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return color_posterior(view, cube); }));
+}
+
+Bytes pick_pixels_arrays(const Bytes& image, const Array<std::int64_t>& places) {
+    const auto view = color_image(image, "image");
+    const auto array = require<std::int64_t>(places, "places", 2, "int64 (R, C)");
+    const Eigen::Map<const Places> each(contiguous<std::int64_t>(array, "places"), array.shape(0),
+                                        array.shape(1));
+    return give(unlocked(each.size(), [&] { return pick_pixels(view, each); }),
+                {each.rows(), each.cols(), 3});
+}
+
 PlaneView map(const Array<float>& plane) {
     return plane_view(plane, "plane", "a float32 map (H, W)");
 }
@@ -47,6 +66,9 @@ void define_patch(py::module_& m) {
           py::arg("columns"), docs::sample_windows);
     m.def("hog_color_cells", hog_color_cells_arrays, py::arg("patch"), py::arg("taper"),
           docs::hog_color_cells);
+    m.def("color_posterior", color_posterior_arrays, py::arg("image"), py::arg("table"),
+          docs::color_posterior);
+    m.def("pick_pixels", pick_pixels_arrays, py::arg("image"), py::arg("places"), docs::pick_pixels);
     m.def("box_contrast", box_contrast_arrays, py::arg("plane"), py::arg("width"), py::arg("height"),
           py::arg("outer"), py::arg("around"), docs::box_contrast);
 }

@@ -394,6 +394,26 @@ def color_lookup(
     histogram model of Sabeti, Parvizi, Wu 2008, figure 1.
     """
 
+def color_posterior(
+    image: numpy.typing.NDArray[numpy.uint8], table: numpy.typing.NDArray[numpy.float32]
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Looks the color of each pixel of an image up in a table, as color_lookup does for samples:
+    P(target | color).
+
+    Args:
+        image: uint8 (H, W, 3) BGR
+        table: float32 (B, B, B), B a power of two up to 64; in C++ B² rows (blue, green) of B reds
+
+    Returns:
+        float32 (H, W)
+
+    Raises:
+        ValueError: on a table of another size
+
+    Source: the normalized look-up table of Vezhnevets, Sazonov, Andreeva 2003, section 3.1.
+    """
+
 def color_ranks(samples: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDArray[numpy.float32]:
     """
     The mid-rank of each sample among the samples of its ellipse and channel: (samples of a lower
@@ -925,6 +945,34 @@ def ellipse_search(
     the mask are ours.
     """
 
+def evidence_peak(
+    responses: numpy.typing.NDArray[numpy.float32],
+    contrast: numpy.typing.NDArray[numpy.float32],
+    filter_weight: float,
+    contrast_weight: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The place with most evidence, filter_weight × the first filter's response + contrast_weight ×
+    contrast, to a part of a cell: by the parabola through the greatest and its neighbors along each
+    axis, at most half a cell off; 0 at the border. In float32, parabolas in float64.
+
+    Args:
+        responses: float32 (F, R, C) of F correlation filters, F at least 1, as correlation_response
+            gives them
+        contrast: float32 (R, C), as box_contrast gives it, or (0, 0) where there is none
+        filter_weight, contrast_weight: finite
+
+    Returns:
+        float64 (5 + F,): cells to the right of column C // 2 and below row R // 2; there the evidence,
+            the first filter's response, and the contrast, 0 where there is none; and of each filter the
+            greatest response among the 3 x 3 cells there
+
+    Raises:
+        ValueError: on other shapes, weights or evidence that isn't finite
+
+    Source: the weighted sum of Bertinetto et al. 2016 (Staple), equation (1).
+    """
+
 def fill_gaps(
     depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
 ) -> numpy.typing.NDArray[numpy.float32]:
@@ -1442,6 +1490,26 @@ def median_depths(
     1993, (1.2).
     """
 
+def pick_pixels(
+    image: numpy.typing.NDArray[numpy.uint8], places: numpy.typing.NDArray[numpy.int64]
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    An image whose pixels are those of another at given places: a map to other coordinates, such as
+    log-polar ones, by nearest pixels.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, without padding between its rows
+        places: int64 (R, C): y W + x of each pixel, from 0 to H W - 1
+
+    Returns:
+        uint8 (R, C, 3); in C++ the bytes one after the other
+
+    Raises:
+        ValueError: on a place outside of the image, or padded rows
+
+    Source: the log-polar coordinates that it serves for, Reddy and Chatterji 1996.
+    """
+
 def plane_support(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -1570,40 +1638,6 @@ def pyramid_flow(
     2000.
     """
 
-def rank_contrast(
-    image: numpy.typing.NDArray[numpy.uint8],
-    ellipses: numpy.typing.NDArray[numpy.float64],
-    inside: numpy.typing.NDArray[numpy.float64],
-    around: numpy.typing.NDArray[numpy.float64],
-    models: numpy.typing.NDArray[numpy.float32],
-    table: numpy.typing.NDArray[numpy.float32],
-) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
-    """
-    The measurement of the color particle tracker in one pass: rank_distance of the samples inside each
-    ellipse, and their color contrast to those around it.
-
-    The samples are those of sample_ellipses; one pass keeps them in the cache.
-
-    Args:
-        image: uint8 (H, W, 3) BGR, at least one pixel
-        ellipses: float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
-        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
-        around: float64 (m, 2): places (u, v) around it
-        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them; in C++ M rows of 3
-            n
-        table: float32 (B, B, B): P(target | color), as color_lookup takes it
-
-    Returns:
-        distances: float64 (N, M): rank_distance of the samples inside
-        contrast: float64 (N,): mean of the table over the samples inside minus that around
-
-    Raises:
-        ValueError: as the kernels that it joins, or on a pattern without places
-
-    Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is
-    ours.
-    """
-
 def rank_distance(
     samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -1627,6 +1661,50 @@ def rank_distance(
 
     Source: Sabeti, Parvizi, Wu 2008, the order of corresponding pixels that section III.B argues for;
     its printed equations (19)-(29) are rank_sections and section_distance.
+    """
+
+def rank_likelihood(
+    image: numpy.typing.NDArray[numpy.uint8],
+    ellipses: numpy.typing.NDArray[numpy.float64],
+    inside: numpy.typing.NDArray[numpy.float64],
+    around: numpy.typing.NDArray[numpy.float64],
+    models: numpy.typing.NDArray[numpy.float32],
+    shares: numpy.typing.NDArray[numpy.float64],
+    nearest: bool,
+    table: numpy.typing.NDArray[numpy.float32],
+    sharpness: float,
+    contrast_weight: float,
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² +
+    contrast_weight c, nats.
+
+    d is the mean of the distances between the samples inside the ellipse and each rank map, as
+    rank_distance has them, by the maps' shares; or the least of them. c is the mean of the table over
+    the samples inside less that over those around it. The samples are those of sample_ellipses; one
+    pass keeps them in the cache.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, at least one pixel
+        ellipses: float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
+        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
+        around: float64 (m, 2): places (u, v) around it
+        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
+            C++ M rows of 3 n
+        shares: float64 (M,): of each map in the mean distance, finite
+        nearest: whether to take the least distance instead: shares only have to be valid
+        table: float32 (B, B, B): P(target | color), as color_lookup takes it
+        sharpness: nats, finite
+        contrast_weight: nats, finite
+
+    Returns:
+        float64 (N,)
+
+    Raises:
+        ValueError: as the kernels that it joins, on a pattern without places, or without maps
+
+    Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is
+    ours.
     """
 
 def rank_sections(
@@ -2609,6 +2687,9 @@ class Kernels(Protocol):
     def color_lookup(
         self, samples: numpy.typing.NDArray[numpy.uint8], table: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def color_posterior(
+        self, image: numpy.typing.NDArray[numpy.uint8], table: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def color_ranks(
         self, samples: numpy.typing.NDArray[numpy.uint8]
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -2728,6 +2809,13 @@ class Kernels(Protocol):
         margin: float,
         mask: numpy.typing.NDArray[numpy.uint8] | None,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def evidence_peak(
+        self,
+        responses: numpy.typing.NDArray[numpy.float32],
+        contrast: numpy.typing.NDArray[numpy.float32],
+        filter_weight: float,
+        contrast_weight: float,
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
     def fill_gaps(
         self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
@@ -2841,6 +2929,9 @@ class Kernels(Protocol):
         max_offset: float,
         min_share: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def pick_pixels(
+        self, image: numpy.typing.NDArray[numpy.uint8], places: numpy.typing.NDArray[numpy.int64]
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def plane_support(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -2878,17 +2969,21 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
     ]: ...
-    def rank_contrast(
+    def rank_distance(
+        self, samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
+    ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def rank_likelihood(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
         ellipses: numpy.typing.NDArray[numpy.float64],
         inside: numpy.typing.NDArray[numpy.float64],
         around: numpy.typing.NDArray[numpy.float64],
         models: numpy.typing.NDArray[numpy.float32],
+        shares: numpy.typing.NDArray[numpy.float64],
+        nearest: bool,
         table: numpy.typing.NDArray[numpy.float32],
-    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
-    def rank_distance(
-        self, samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
+        sharpness: float,
+        contrast_weight: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
     def rank_sections(
         self, samples: numpy.typing.NDArray[numpy.uint8], sections: int

@@ -14,8 +14,9 @@ namespace {
 constexpr int kSubpixels = 64;   // positions are rounded to 1 / kSubpixels of a pixel
 constexpr int kMaxReadings = 4;  // of a sample along one axis
 constexpr int kMaxRows = 2 * kMaxReadings;
-constexpr int kBlock = 64;  // numbers of a row that are blended at once
-constexpr int kLanes = 8;   // numbers of two neighboring pixels, and two unused ones
+constexpr int kPrefetchSamples = 2;  // rows of samples that are loaded ahead
+constexpr int kBlock = 64;           // numbers of a row that are blended at once
+constexpr int kLanes = 8;            // numbers of two neighboring pixels, and two unused ones
 
 using TwoPixels = Pack<float, kLanes>;
 
@@ -161,6 +162,18 @@ Rows find_rows(const ImageView& image, const Axis& down, int sample, int left) {
     return rows;
 }
 
+/// Begins to load the rows of a sample, if there is one.
+void prefetch_rows(const ImageView& image, const Axis& down, int sample, int left, int width) {
+    if (sample >= down.count) return;
+    const Reading* reading = down.readings.data() + std::ptrdiff_t{sample} * down.each;
+    int before = -1;
+    for (int j = 0; j < down.each; ++j)
+        for (const int row : {reading[j].pixel, std::min(reading[j].pixel + 1, image.rows - 1)}) {
+            if (row > before) prefetch_bytes(image.row(row) + image.channels * left, width);
+            before = row;
+        }
+}
+
 std::vector<Column> find_columns(const Axis& across, int channels) {
     std::vector<Column> columns;
     columns.reserve(across.readings.size());
@@ -179,6 +192,7 @@ void sample_window(const ImageView& image, const Axis& down, const Axis& across,
         sums(static_cast<std::size_t>(numbers + kLanes));
     const auto whole = static_cast<float>(down.each * across.each * kSubpixels * kSubpixels);
     for (int y = 0; y < down.count; ++y, bytes += numbers) {
+        prefetch_rows(image, down, y + kPrefetchSamples, left, width);
         blend_rows(find_rows(image, down, y, left), width, blend.data());
         (channels == 1 ? sum_gray_columns : sum_columns)(columns.data(), across.count, across.each,
                                                          blend.data(), sums.data());

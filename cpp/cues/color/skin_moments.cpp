@@ -46,11 +46,6 @@ RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t lea
     return {count, sum};
 }
 
-/// A new frame isn't in the cache yet, and the rows of a region are too far apart for the hardware prefetcher.
-void prefetch_row(const std::uint8_t* bytes, int n) {
-    for (int k = 0; k < n; k += 64) prefetch(bytes + k);
-}
-
 void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region,
               const Region& tile, Sums& sums) {
     const int width = tile.x1 - tile.x0;
@@ -58,7 +53,7 @@ void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, 
     TileRow boundary, columns{};
     for (int row = tile.y0; row < tile.y1; ++row) {
         if (row + kPrefetchRows < tile.y1)
-            prefetch_row(image.row(row + kPrefetchRows) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
+            prefetch_bytes(image.row(row + kPrefetchRows) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
         skin_boundary_row(image.row(row) + 3 * std::ptrdiff_t{tile.x0}, width, reference, boundary.data());
         const RowSums skin = sum_row(boundary.data(), width, least, columns.data());
         const std::int64_t y = row - region.y0, x = skin.x + left * skin.count;

@@ -108,7 +108,9 @@ void read_samples(const DepthView& depth, const double* box, int samples, bool i
     const double limit = in_ellipse ? 1.0 : std::numeric_limits<double>::infinity();
     read.depths.resize(across.pixels.size() * down.pixels.size());
     std::size_t measured = 0;
+    for (std::size_t i = 0; i < kPrefetchSamples; ++i) prefetch_samples(depth, across, down, i);
     for (std::size_t i = 0; i < down.pixels.size(); ++i) {
+        prefetch_samples(depth, across, down, i + kPrefetchSamples);
         const float* row = depth.row(down.pixels[i]);
         for (std::size_t j = 0; j < across.pixels.size(); ++j) {
             const float z = row[across.pixels[j]];

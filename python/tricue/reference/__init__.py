@@ -12,6 +12,7 @@ from tricue.reference.cues.color.box_contrast import box_contrast
 from tricue.reference.cues.color.color_bins import color_bins
 from tricue.reference.cues.color.color_histogram import color_histogram
 from tricue.reference.cues.color.color_lookup import color_lookup
+from tricue.reference.cues.color.color_posterior import color_posterior
 from tricue.reference.cues.color.color_ranks import color_ranks
 from tricue.reference.cues.color.ellipse_histogram import ellipse_histogram
 from tricue.reference.cues.color.ellipse_search import ellipse_search
@@ -20,8 +21,9 @@ from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.image_mean import image_mean
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
-from tricue.reference.cues.color.rank_contrast import rank_contrast
+from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
+from tricue.reference.cues.color.rank_likelihood import rank_likelihood
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 from tricue.reference.cues.color.sample_windows import sample_windows
@@ -67,6 +69,7 @@ from tricue.reference.fuse.block_votes import block_votes
 from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.correlation_train import correlation_train
+from tricue.reference.fuse.evidence_peak import evidence_peak
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.propose import propose
@@ -93,6 +96,7 @@ __all__ = [
     "color_bins",
     "color_histogram",
     "color_lookup",
+    "color_posterior",
     "color_ranks",
     "combine_posteriors",
     "correlation_response",
@@ -110,6 +114,7 @@ __all__ = [
     "divide_depth",
     "ellipse_histogram",
     "ellipse_search",
+    "evidence_peak",
     "fill_gaps",
     "floor_plane",
     "gradient_disparity",
@@ -124,11 +129,12 @@ __all__ = [
     "learn_contrast",
     "measure_objects",
     "median_depths",
+    "pick_pixels",
     "plane_support",
     "propose",
     "pyramid_flow",
-    "rank_contrast",
     "rank_distance",
+    "rank_likelihood",
     "rank_sections",
     "rectangle_histogram",
     "rectangle_prior",

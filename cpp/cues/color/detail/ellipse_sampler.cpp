@@ -27,19 +27,28 @@ void find_offsets(const float* __restrict u, const float* __restrict v, std::ptr
     }
 }
 
+TRICUE_MULTIVERSION
+void find_furthest(const std::int32_t* offsets, std::ptrdiff_t n, std::int32_t* furthest) {
+    std::int32_t most = 0;
+    for (std::ptrdiff_t k = 0; k < n; ++k) most = std::max(most, offsets[k]);
+    *furthest = most;
+}
+
 /// Each pixel as one word of four bytes, the fourth of the next pixel. The image's last pixel has no next: it is read one byte
 /// early, and shifted. Not multiversioned: gathers are slower than loads on processors with the Downfall
 /// mitigation.
 void gather(const std::uint8_t* pixels, std::int32_t last, const std::int32_t* offsets, std::ptrdiff_t n,
             std::uint32_t* words) {
     std::int32_t furthest = 0;
+    find_furthest(offsets, n, &furthest);
+    if (furthest <= last) {
+        for (std::ptrdiff_t k = 0; k < n; ++k) std::memcpy(words + k, pixels + offsets[k], sizeof *words);
+        return;
+    }
     for (std::ptrdiff_t k = 0; k < n; ++k) {
         std::memcpy(words + k, pixels + std::min(offsets[k], last), sizeof *words);
-        furthest = std::max(furthest, offsets[k]);
-    }
-    if (furthest <= last) return;
-    for (std::ptrdiff_t k = 0; k < n; ++k)
         if (offsets[k] > last) words[k] >>= 8 * (offsets[k] - last);
+    }
 }
 
 TRICUE_MULTIVERSION

@@ -55,17 +55,34 @@ TRICUE_MULTIVERSION void measure_distances(const SampleView& samples, std::ptrdi
     }
 }
 
-/// The models in units of 1/2n.
 template <typename Count>
-std::vector<Count> to_counts(FloatsRef models, std::ptrdiff_t n) {
-    std::vector<Count> counts;
-    counts.reserve(static_cast<std::size_t>(models.size()));
-    const auto twice = static_cast<float>(2 * n);
+TRICUE_MULTIVERSION void scale_ranks(const float* ranks, std::size_t n, float twice, Count* counts) {
+    for (std::size_t k = 0; k < n; ++k)
+        counts[k] = static_cast<Count>(static_cast<std::int32_t>(ranks[k] * twice + 0.5f));
+}
+
+TRICUE_MULTIVERSION
+void are_ranks(const float* numbers, std::size_t n, bool* all) {
+    int others = 0;
+    for (std::size_t k = 0; k < n; ++k) others += !(numbers[k] >= 0.0f && numbers[k] <= 1.0f);
+    *all = others == 0;
+}
+
+void require_ranks(FloatsRef models) {
+    bool all = true;
+    are_ranks(models.data(), static_cast<std::size_t>(models.size()), &all);
+    if (all) return;
     for (Eigen::Index i = 0; i < models.size(); ++i) {
         const float rank = models.data()[i];
         if (!(rank >= 0.0f && rank <= 1.0f)) refuse("models", "ranks in [0, 1]", static_cast<double>(rank));
-        counts.push_back(static_cast<Count>(rank * twice + 0.5f));
     }
+}
+
+/// The models in units of 1/2n.
+template <typename Count>
+std::vector<Count> to_counts(FloatsRef models, std::ptrdiff_t n) {
+    std::vector<Count> counts(static_cast<std::size_t>(models.size()));
+    scale_ranks(models.data(), counts.size(), static_cast<float>(2 * n), counts.data());
     return counts;
 }
 
@@ -76,6 +93,7 @@ RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()) {
     if (models.cols() != 3 * n)
         refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples",
                std::to_string(models.cols()));
+    require_ranks(models);
     with_count_type(static_cast<std::size_t>(n), [&](auto count) {
         using Count = decltype(count);
         counts_ =

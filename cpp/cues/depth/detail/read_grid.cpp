@@ -11,7 +11,9 @@ Floats read_grid(const DepthView& depth, const SampleGrid& grid) {
     const SamplePixels across = find_sample_pixels(grid.x, grid.step, grid.columns, depth.cols),
                        down = find_sample_pixels(grid.y, grid.step, grid.rows, depth.rows);
     Floats depths = Floats::Zero(grid.rows, grid.columns);
+    for (std::size_t i = 0; i < kPrefetchSamples; ++i) prefetch_samples(depth, across, down, i);
     for (std::size_t i = 0; i < down.pixels.size(); ++i) {
+        prefetch_samples(depth, across, down, i + kPrefetchSamples);
         const float* row = depth.row(down.pixels[i]);
         float* to = depths.data() + (down.first + i) * static_cast<std::size_t>(grid.columns) + across.first;
         for (const int x : across.pixels) *to++ = row[x];

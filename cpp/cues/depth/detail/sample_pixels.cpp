@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cues/depth/detail/sample_pixels.hpp"
 
+#include "base/simd.hpp"
+
 namespace tricue {
 
 SamplePixels find_sample_pixels(double start, double step, int count, int size) {
@@ -14,6 +16,17 @@ SamplePixels find_sample_pixels(double start, double step, int count, int size) 
             ++axis.first;
     }
     return axis;
+}
+
+void prefetch_samples(const DepthView& depth, const SamplePixels& across, const SamplePixels& down,
+                      std::size_t i) {
+    if (i >= down.pixels.size() || across.pixels.empty()) return;
+    const int first = across.pixels.front(), count = across.pixels.back() + 1 - first;
+    const float* row = depth.row(down.pixels[i]);
+    if (count < 16 * static_cast<int>(across.pixels.size()))
+        prefetch_bytes(row + first, std::ptrdiff_t{4} * count);
+    else  // samples are farther apart than cache lines
+        for (const int x : across.pixels) prefetch(row + x);
 }
 
 }  // namespace tricue

@@ -69,24 +69,27 @@ class Appearance(NamedTuple):
 
     def log_likelihood(self, k: Kernels, image: Image, ellipses: Floats, searching: bool = False) -> Floats:
         """(N,) log p(y | x), nats: equation (18), or its exponential form, times the color contrast term."""
-        distance, log_contrast = self._measure(k, image, ellipses, searching)
-        if self.linear:
-            log_contrast += np.log(np.maximum(1 - distance, MIN_LINEAR_LIKELIHOOD))
-        else:
-            log_contrast -= self.sharpness * distance * distance
-        return log_contrast
-
-    def _measure(self, k: Kernels, image: Image, ellipses: Floats, searching: bool) -> tuple[Floats, Floats]:
-        """(N,) distances to the model and (N,) log-likelihoods of the color contrast."""
-        if self.contrast and isinstance(self.model, RankSpatial):  # one kernel computes both
-            maps, table = self.model.maps, self.contrast.table
-            distances, contrast = k.rank_contrast(image, ellipses, self.grid, self.ring, maps, table)
-            return self.model.combine(distances, searching), self.contrast.weight * contrast
+        model, contrast = self.model, self.contrast
+        if contrast and isinstance(model, RankSpatial) and not self.linear:  # one kernel does it all
+            return k.rank_likelihood(
+                image,
+                ellipses,
+                self.grid,
+                self.ring,
+                model.maps,
+                model.weights,
+                searching,
+                contrast.table,
+                self.sharpness,
+                contrast.weight,
+            )
         samples = self.sample(k, image, ellipses)
-        distance = self.model.distance(k, *samples, searching).astype(np.float64)
-        if self.contrast:
-            return distance, self.contrast.log_likelihood(k, *samples)
-        return distance, np.zeros(len(ellipses))
+        distance = model.distance(k, *samples, searching).astype(np.float64)
+        if self.linear:
+            log_likelihood: Floats = np.log(np.maximum(1 - distance, MIN_LINEAR_LIKELIHOOD))
+        else:
+            log_likelihood = -self.sharpness * distance * distance
+        return log_likelihood + contrast.log_likelihood(k, *samples) if contrast else log_likelihood
 
     def score(self, k: Kernels, samples: WindowSamples, searching: bool = False) -> float:
         """Confidence, in [0, 1], that the first window shows the target."""

@@ -44,20 +44,22 @@ class EllipseMotion(NamedTuple):
         Centers stay in the image of this shape.
         """
         (x, y, minor, major), (vx, vy) = self.ellipse, self.velocity
-        noise, k, pull = MIN_PIXEL_NOISE + p.position_noise * self.side, p.velocity_noise, p.size_pull
+        side, k, pull = self.side, p.velocity_noise, p.size_pull
+        noise = MIN_PIXEL_NOISE + p.position_noise * side
         size_noise = (p.size_noise**2 + p.aspect_noise**2) ** 0.5
-        step = max(p.max_step, p.max_step_sizes * self.side)
+        step = max(p.max_step, p.max_step_sizes * side)
         height, width = shape[:2]
         left, right = min(max(x - step, 0.0), width), min(max(x + step, 0.0), width)
         top, bottom = min(max(y - step, 0.0), height), min(max(y + step, 0.0), height)
         mean_minor, mean_major = self.mean_size
         (smallest, largest), (first_minor, first_major) = p.size_range, self.first_size
-        return Prediction(
-            np.array((p.drift * vx, p.drift * vy, pull * (mean_minor - minor), pull * (mean_major - major))),
-            np.array((noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major)),
-            np.array((left, top, smallest * first_minor, smallest * first_major)),
-            np.array((right, bottom, largest * first_minor, largest * first_major)),
+        rows = (
+            (p.drift * vx, p.drift * vy, pull * (mean_minor - minor), pull * (mean_major - major)),
+            (noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major),
+            (left, top, smallest * first_minor, smallest * first_major),
+            (right, bottom, largest * first_minor, largest * first_major),
         )
+        return Prediction(*np.array(rows))  # one array is made faster than four
 
     def update(self, ellipse: Ellipse, p: ColorParticleParams) -> "EllipseMotion":
         """Move to a new estimate; its step updates the velocity, its size the mean size."""

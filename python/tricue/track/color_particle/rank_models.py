@@ -26,9 +26,11 @@ def rank_correlation(a: Singles, b: Singles) -> float:
 
     The mean of a map is 1/2, so sum(a b) - N / 4 is the sum of the products of their deviations.
     """
-    a, b = a.ravel(), b.ravel()
-    ab, aa, bb = (float(x.dot(y)) - a.size / 4 for x, y in ((a, b), (a, a), (b, b)))
-    return min(max(ab, 0.0) / math.sqrt(aa * bb), 1.0) if min(aa, bb) > MIN_RANK_SPREAD else 0.0
+    ab, aa, bb = float(np.vdot(a, b)), float(np.vdot(a, a)), float(np.vdot(b, b))
+    even = a.size / 4
+    if min(aa, bb) - even <= MIN_RANK_SPREAD:
+        return 0.0
+    return min(max(ab - even, 0.0) / math.sqrt((aa - even) * (bb - even)), 1.0)
 
 
 class RankSpatial(NamedTuple):
@@ -50,14 +52,14 @@ class RankSpatial(NamedTuple):
         if rate >= 1:
             return RankSpatial(self.weights, np.concatenate([ranks, ranks]))
         maps = self.maps.copy()
-        maps[0] += np.float32(rate) * (ranks[0] - maps[0])
+        learned = maps[0]
+        change = ranks[0] - learned
+        change *= np.float32(rate)
+        learned += change
         return RankSpatial(self.weights, maps)
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
-        return self.combine(k.rank_distance(inside, self.maps), searching)
-
-    def combine(self, distances: Floats, searching: bool) -> Floats:
-        """(N,) the weighted mean of the distances (N, 2) to both maps; their minimum while searching."""
+        distances = k.rank_distance(inside, self.maps)
         combined: Floats = distances.min(axis=1) if searching else distances @ self.weights
         return combined
 

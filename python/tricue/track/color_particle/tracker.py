@@ -238,7 +238,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         if particles.effective >= self.params.resample_below * n:
             return particles.particles, particles.weights
         indices = self._k.resample(particles.weights, self._rng.random())
-        return particles.particles[indices], self._uniform
+        return particles.particles.take(indices, axis=0), self._uniform
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:

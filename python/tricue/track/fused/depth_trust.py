@@ -4,6 +4,7 @@
 Such depth is left out, and told of once; the target is then followed by color.
 """
 
+import math
 import zlib
 from typing import NamedTuple
 
@@ -87,15 +88,14 @@ class DepthTrust(NamedTuple):
 
 def _sample(depth: Plane) -> Plane:
     rows, columns = (max(1, side // count) for side, count in zip(depth.shape, SAMPLED, strict=True))
-    return depth[rows // 2 :: rows, columns // 2 :: columns]
+    return np.ascontiguousarray(depth[rows // 2 :: rows, columns // 2 :: columns])
 
 
 def _wrong_unit(sample: Plane) -> str:
     """What is wrong with the unit and how to set it right, "" where nothing was noticed."""
-    measured = sample[~np.isnan(sample)]
-    if not measured.size:
+    low, high = float(np.fmin.reduce(sample, axis=None)), float(np.fmax.reduce(sample, axis=None))
+    if math.isnan(low):  # none is measured
         return ""
-    low, high = float(measured.min()), float(measured.max())
     found = f"expected meters, got {low:.4g} to {high:.4g}"
     give = "tricue.Frame(depth_scale={0}) or --depth-scale {0} tells their unit"
     if low > MAX_METERS:

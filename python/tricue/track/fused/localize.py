@@ -11,11 +11,11 @@ from tricue.track.fused.experts import PixelExpert, combine_posteriors
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.identity import IdentityFeatures
 from tricue.track.fused.params import FusedParams
-from tricue.track.fused.peak import peak_offset
 from tricue.track.fused.state import AppearanceModels
 from tricue.track.fused.target import Target
-from tricue.track.fused.window import CELL_PIXELS, CENTER_CELL, WINDOW_CELLS, Window, extract_windows
+from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
 
+NO_CONTRAST: Plane = np.empty((0, 0), np.float32)
 MAX_PEAK_CELLS = 6  # from a window's center; a peak farther off is localized again in a window of its own
 
 
@@ -58,30 +58,25 @@ class Candidate(NamedTuple):
 def localize(model: TargetModel, window: Window) -> Candidate:
     """The place in a window with most evidence, to a part of a cell."""
     appearance, p = model.appearance, model.params
-    responses = appearance.filter.responses(window)
-    evidence = (p.filter_weight if "filter" in p.cues else 0.0) * responses[0]
-    k = window.observation.k
+    k, responses = window.observation.k, appearance.filter.responses(window)
     posterior = combine_posteriors(k, [each.posterior(window) for each in _pixel_experts(model)])
-    contrast = None
+    contrast = NO_CONTRAST
     if posterior is not None:
         contrast = k.box_contrast(posterior, *window.size, p.surround_size, p.surround_weight)
-        evidence += p.color_weight * contrast
-    i, j = divmod(int(evidence.argmax()), WINDOW_CELLS)
-    down = i + peak_offset(evidence[:, j], i) - CENTER_CELL
-    right = j + peak_offset(evidence[i], j) - CENTER_CELL
+    filter_weight = p.filter_weight if "filter" in p.cues else 0.0
+    peak = k.evidence_peak(responses, contrast, filter_weight, p.color_weight)
+    right, down, evidence, response, contrast_there, nearby, first_nearby = peak.tolist()
     cell = CELL_PIXELS * window.pixel_size
     target = _clamp(window.target.shift(cell * right, cell * down), window)
-    near = slice(max(i - 1, 0), i + 2), slice(max(j - 1, 0), j + 2)
-    response = responses[0]
     return Candidate(
         target,
         window,
         CELL_PIXELS * right,
         CELL_PIXELS * down,
-        float(evidence[i, j]),
-        (float(response[i, j]), float(responses[1][near].max())),
-        _peak_sharpness(response, float(response[near].max())),
-        0.0 if contrast is None else float(contrast[i, j]),
+        evidence,
+        (response, first_nearby),
+        _peak_sharpness(responses[0], nearby),
+        contrast_there,
         posterior,
     )
 

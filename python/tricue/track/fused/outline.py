@@ -6,10 +6,11 @@ keeps its aspect ratio. A side counts only where depth showed it in the first fr
 something that is as far away.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
+
+import numpy as np
 
 from tricue.track.base.params import Params, parameter
 from tricue.track.fused.arrays import Plane
@@ -18,6 +19,7 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.window import PATCH_PIXELS, Window
 
 MIN_FILLED_POSTERIOR = 0.45  # mean P(target | depth) along a row or column of the target: half of its maximum
+FILLED = float(np.float32(MIN_FILLED_POSTERIOR))  # as profiles hold it
 OUTLINE_CENTER_SHARE = 0.25  # of the box's sides: the rows and columns that are followed outwards
 MAX_COVERED_BY_OCCLUDER = 0.05  # of the box, above which its outline can't be measured
 BORDER_MARGIN = 0.1  # of the target's side, from the image's border: boxes are drawn by hand
@@ -155,32 +157,32 @@ def measure_reaches(
     rows, columns = window.inner(right, down, OUTLINE_CENTER_SHARE)
     x, y = PATCH_PIXELS / 2 + right, PATCH_PIXELS / 2 + down
     across, along = posterior[rows], posterior[:, columns]
-    left, far = _extent(across.sum(axis=0) / len(across), x, window.size[0] / 2)
-    top, bottom = _extent(along.sum(axis=1) / along.shape[1], y, window.size[1] / 2)
+    left, far = _extent(np.add.reduce(across, axis=0) / len(across), x, window.size[0] / 2)
+    top, bottom = _extent(np.add.reduce(along, axis=1) / along.shape[1], y, window.size[1] / 2)
     return Reaches(left, top, far, bottom)
 
 
 def _extent(profile: Plane, center: float, half: float) -> tuple[float | None, float | None]:
     """How far the filled part reaches before and after a place, in halves of the box."""
-    filled = (profile >= MIN_FILLED_POSTERIOR).tolist()
-    start = min(max(int(center), 0), len(filled) - 1)
-    if not filled[start]:
+    values = profile.tolist()
+    start = min(max(int(center), 0), len(values) - 1)
+    if values[start] < FILLED:
         return None, None
-    before, after = (
-        _first_empty(filled, range(start, -1, -1)),
-        _first_empty(filled, range(start, len(filled))),
-    )
+    before, after = _first_empty(values, start, -1, -1), _first_empty(values, start, len(values), 1)
     return (
-        None if before is None else (center - _crossing(profile, before)) / half,
-        None if after is None else (_crossing(profile, after - 1) - center) / half,
+        None if before is None else (center - _crossing(values, before)) / half,
+        None if after is None else (_crossing(values, after - 1) - center) / half,
     )
 
 
-def _first_empty(filled: list[bool], indices: Iterable[int]) -> int | None:
-    return next((i for i in indices if not filled[i]), None)
+def _first_empty(profile: list[float], start: int, end: int, step: int) -> int | None:
+    for i in range(start, end, step):
+        if profile[i] < FILLED:
+            return i
+    return None
 
 
-def _crossing(profile: Plane, index: int) -> float:
+def _crossing(profile: list[float], index: int) -> float:
     """Where MIN_FILLED_POSTERIOR is crossed between the centers of a pixel and the next."""
-    first, second = float(profile[index]), float(profile[index + 1])
+    first, second = profile[index], profile[index + 1]
     return index + 0.5 + (MIN_FILLED_POSTERIOR - first) / (second - first)

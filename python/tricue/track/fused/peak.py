@@ -10,16 +10,10 @@ MAX_OFFSET = 0.5  # samples; a peak farther off would be at the next one
 MIN_SHARE = 0.05  # of the peak, of a neighbor in its logarithm
 
 
-def peak_offset(values: NDArray[np.floating], index: int) -> float:
-    """Offset of a peak from the largest value, by a parabola through it and its neighbors."""
-    if not 0 < index < len(values) - 1:
-        return 0.0
-    before, top, after = values[index - 1 : index + 2].tolist()
-    return _parabola(before, top, after)
-
-
 def gaussian_peak_offset(values: NDArray[np.floating], index: int) -> float:
-    """The same by a Gaussian, which a correlation filter answers with: a parabola through the logarithms."""
+    """Offset of a peak from the largest value, by a Gaussian, which a correlation filter answers with: a
+    parabola through the logarithms of it and its neighbors.
+    """
     if not 0 < index < len(values) - 1:
         return 0.0
     before, top, after = values[index - 1 : index + 2].tolist()

@@ -71,9 +71,11 @@ class PositionFilter(NamedTuple):
         Which part of a thick target is seen, and what beside it is measured with it, is the same in many
         frames. This error lies along the line of sight and doesn't average out: it is added to the filter's.
         """
-        ray = self.mean[:3] / max(float(self.mean[2]), MIN_POSITION_Z)
+        x, y, z = self.mean[:3].tolist()
+        depth = max(z, MIN_POSITION_Z)
+        ray = x / depth, y / depth, z / depth
         shared = (SHARED_DEPTH_ERROR * spread) ** 2
-        error: Floats = self.covariance[:3, :3] + shared * (ray[:, None] * ray)
+        error: Floats = self.covariance[:3, :3] + np.array([[shared * (a * b) for b in ray] for a in ray])
         return error
 
     def expected_depth(self, spread: float) -> ExpectedDepth:
@@ -123,6 +125,11 @@ def _dynamics(seconds: float, acceleration_noise: float) -> tuple[Floats, Floats
     return transition, noise
 
 
+@lru_cache(maxsize=8)
+def _intrinsics(*numbers: float) -> Floats:
+    return np.array(numbers)
+
+
 def back_project(
     observation: TargetObservation, target: Target, depth: DepthMeasurement
 ) -> tuple[Floats, Floats]:
@@ -134,6 +141,6 @@ def back_project(
     lateral_noise = LATERAL_NOISE * target.side
     k, place = observation.k, np.array([[target.x - 0.5, target.y - 0.5, disparity]])
     variances = np.array([lateral_noise**2, lateral_noise**2, depth_noise**2])
-    intrinsics = np.array([camera.fx, camera.fy, camera.cx, camera.cy])
+    intrinsics = _intrinsics(camera.fx, camera.fy, camera.cx, camera.cy)
     points, covariances = k.back_project(place, variances, intrinsics, 1.0)
     return points[0], covariances[0].reshape(3, 3)

@@ -3,8 +3,7 @@
 
 import math
 import operator
-from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import cv2
 import numpy as np
@@ -21,8 +20,7 @@ PICTURE_DEPTH_RANGE = 0.5  # meters from the expected depth to black or white in
 SAMPLE_REACH = 2  # pixels beyond a window that its samples may read
 
 
-@dataclass(frozen=True, slots=True)
-class TargetObservation:
+class TargetObservation(NamedTuple):
     """A picture of the frame, and a source of depth for its pixels.
 
     picture: (H, W, 3) BGR of color, None where it is drawn of depth. camera: the picture's.
@@ -47,7 +45,7 @@ class TargetObservation:
 
     def expect(self, expected: ExpectedDepth) -> "TargetObservation":
         """The same frame, given another expected depth."""
-        return replace(self, expected_depth=expected)
+        return self._replace(expected_depth=expected)
 
     def sample(self, windows: Floats, side: int) -> Image:
         """(N, side, side, 3) samples of the picture in windows (N, 4): left, top, width, height in pixels.

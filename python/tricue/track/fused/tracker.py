@@ -109,7 +109,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         observed = self._observe(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, observed.timestamp, self.params.rate)
         trust, observed = before.depth_trust.examine(observed, seconds)
-        state = self._predict(before, observed, seconds)._replace(depth_trust=trust)
+        state = self._predict(before, observed, trust, seconds)
         state = initialize_depth(state, observed, self._k, self.params)
         observation = observed.for_target(self._k, _expected_depth(state))
         state = ensure_models(state, observation, self.params)
@@ -121,7 +121,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         cameras = self.rig, self.intrinsics
         return observe_frame(self._k, frame, shape, cameras, "depth" in self.params.cues)
 
-    def _predict(self, state: State, observed: FrameObservation, seconds: float) -> State:
+    def _predict(self, state: State, observed: FrameObservation, trust: DepthTrust, seconds: float) -> State:
         """The state when the frame was taken, so many seconds later."""
         position = state.position
         if position is not None:
@@ -131,6 +131,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             position = position.predict(self._k, passed, self.params)
         return state._replace(
             position=position,
+            depth_trust=trust,
             is_metric=state.is_metric and self._is_metric(observed),
             timestamp=observed.timestamp,
             seconds=seconds,

@@ -14,23 +14,26 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     min_score = p.min_score_to_redetect if state.is_lost(p) else p.min_score
     recognized = not occluded and match.score >= min_score
     score = match.score if recognized else min(match.score, p.min_score)
-    state = state._replace(features=match.features, score=score, occluded=occluded)
-    if occluded or score < p.min_score_to_move:
-        return _count_missed(state)
-    state = state._replace(target=match.target)
-    if not recognized:
-        return _count_missed(state)
+    moved = not occluded and score >= p.min_score_to_move
+    target = match.target if moved else state.target
+    if not (moved and recognized):
+        return state._replace(
+            target=target,
+            features=match.features,
+            score=score,
+            occluded=occluded,
+            missed_frames=state.missed_frames + 1,
+            missed_seconds=state.missed_seconds + state.seconds,
+        )
     rate = max(1 / state.frames, VERIFIED_MEAN_RATE)  # the mean of all frames at first
     return state._replace(
+        target=target,
+        features=match.features,
+        score=score,
+        occluded=occluded,
         missed_frames=0,
         missed_seconds=0.0,
         recognized_side=match.target.side,
         mean_response=state.mean_response + rate * (match.response - state.mean_response),
         typical=match.features if state.typical is None else state.typical.blend(match.features, rate),
-    )
-
-
-def _count_missed(state: State) -> State:
-    return state._replace(
-        missed_frames=state.missed_frames + 1, missed_seconds=state.missed_seconds + state.seconds
     )

@@ -4,6 +4,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -64,6 +65,11 @@ class Window:
         if posterior is None or self.observation.kind == "color":
             return posterior
         return self._without_support(posterior[0]), posterior[1]
+
+    @cached_property
+    def has_occluder(self) -> bool:
+        """Whether anything in the window is nearer than expected."""
+        return self.depth is not None and cv2.countNonZero(self.depth[1]) > 0
 
     @cached_property
     def standing(self) -> Plane | None:

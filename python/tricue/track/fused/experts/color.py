@@ -60,8 +60,7 @@ class ColorExpert(NamedTuple):
 
     def posterior(self, window: Window) -> Plane:
         """(64, 64) P(target | color) of the patch's pixels."""
-        colors = window.observation.k.color_lookup(window.colors, self.table)
-        return colors.reshape(PATCH_PIXELS, PATCH_PIXELS)
+        return window.observation.k.color_posterior(window.patch, self.table)
 
     def learn(self, window: Window, rate: float) -> "ColorExpert":
         """The expert with a window blended in, whose center is the target's.

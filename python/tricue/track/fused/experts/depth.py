@@ -130,8 +130,9 @@ def _measurements(medians: Floats) -> list[DepthMeasurement | None]:
 
 def covered_share(window: Window, right: float = 0.0, down: float = 0.0) -> float:
     """The share of a target's box, so many patch pixels off the window's center, that an occluder covers."""
-    if window.depth is None:
+    if not window.has_occluder:
         return 0.0
+    assert window.depth is not None, "it has the occluder"
     nearer = window.depth[1][window.inner(right, down, INNER_SHARE)]
     return cv2.countNonZero(nearer) / nearer.size
 
@@ -148,7 +149,7 @@ def depth_continuity(window: Window, right: float, down: float) -> float:
     inner, outer = (
         window.depth[0][window.inner(right, down, share)] for share in (INNER_SHARE, SURROUND_SIZE)
     )
-    inside = float(inner.sum())
-    outside = float(outer.sum()) - inside
+    inside = float(np.add.reduce(inner, axis=None))
+    outside = float(np.add.reduce(outer, axis=None)) - inside
     contrast = inside / inner.size - outside / max(outer.size - inner.size, 1)
     return max(contrast, 0.0) * min(FULL_WEIGHT_SIGMA / expected.sigma, 1.0) ** 2

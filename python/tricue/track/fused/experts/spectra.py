@@ -31,8 +31,10 @@ class FirstFrameParams(Params):
 
 def blend_first_frame(learned: NDArray[Any], first: NDArray[Any], p: FirstFrameParams) -> NDArray[Any]:
     """A filter as it is learned with a share of the first frame's, against forgetting."""
-    blended: NDArray[Any] = learned + np.float32(p.first_frame_weight) * (first - learned)
-    return blended
+    old, blended = learned.view(np.float32), first.view(np.float32) - learned.view(np.float32)
+    blended *= np.float32(p.first_frame_weight)
+    blended += old
+    return blended.view(learned.dtype)
 
 
 def label_spectrum(width: float) -> Spectra:

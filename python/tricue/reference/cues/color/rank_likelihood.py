@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT
-"""The default measurement of the color tracker: the order of the pixels, and colors against the surround."""
+"""The default likelihood of the color tracker: the order of the pixels, and colors against the surround."""
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.checks import refuse
+from tricue.reference.base.checks import refuse, require_finite, require_shape
 from tricue.reference.cues.color.color_lookup import color_lookup
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
@@ -12,20 +14,34 @@ from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 Floats = NDArray[np.float64]
 
 
-def rank_contrast(
+def rank_likelihood(
     image: NDArray[np.uint8],
     ellipses: Floats,
     inside: Floats,
     around: Floats,
     models: NDArray[np.float32],
+    shares: Floats,
+    nearest: bool,
     table: NDArray[np.float32],
-) -> tuple[Floats, Floats]:
+    sharpness: float,
+    contrast_weight: float,
+) -> Floats:
     """Joins sample_ellipses, rank_distance and color_lookup."""
     for name, pattern in (("inside", inside), ("around", around)):
         if len(pattern) < 1:
             refuse(name, "at least one place", "none")
+    if len(models) < 1:
+        refuse("models", "at least one rank map", "none")
+    require_shape("shares", shares, (len(models),))
+    require_finite("shares", shares)
+    for name, weight in (("sharpness", sharpness), ("contrast_weight", contrast_weight)):
+        if not math.isfinite(weight):
+            refuse(name, "a finite number", weight)
     within, without = (sample_ellipses(image, ellipses, pattern) for pattern in (inside, around))
     mean_inside, mean_around = (
         color_lookup(samples, table).mean(axis=1, dtype=np.float64) for samples in (within, without)
     )
-    return rank_distance(within, models), mean_inside - mean_around
+    distances = rank_distance(within, models)
+    distance = distances.min(axis=1) if nearest else distances @ shares
+    log_likelihood: Floats = contrast_weight * (mean_inside - mean_around) - sharpness * distance * distance
+    return log_likelihood

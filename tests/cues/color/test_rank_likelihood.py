@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The order of the pixels in an ellipse and its colors against its surround, measured in one pass."""
+"""The likelihood by the order of the pixels in an ellipse and its colors against its surround."""
 
 from typing import Any
 
@@ -15,15 +15,37 @@ from tricue.kernels import Kernels
 EPS = float(np.finfo(np.float64).eps)
 
 
+SHARPNESS, CONTRAST_WEIGHT = 110.0, 8.0
+
+
 def case(seed: int, ellipses: int = 5, n: int = 30, m: int = 7, models: int = 2, side: int = 16) -> list[Any]:
-    """All arguments: a picture, ellipses over its edge, two patterns, rank maps, a table."""
+    """All arguments: a picture, ellipses over its edge, two patterns, rank maps, their shares, a table."""
     rng = np.random.default_rng(seed)
     image = rng.integers(0, 256, (rng.integers(1, 40), rng.integers(1, 60), 3)).astype(np.uint8)
     places = rng.uniform(-10, 60, (ellipses, 2))
     sizes = rng.uniform(0, 20, (ellipses, 2))
     inside, around = rng.uniform(-1, 1, (n, 2)), rng.uniform(-2, 2, (m, 2))
     maps, table = rng.random((models, 3, n), np.float32), rng.random((side, side, side), np.float32)
-    return [image, np.concatenate([places, sizes], axis=1), inside, around, maps, table]
+    shares = rng.dirichlet(np.ones(models))
+    return [
+        image,
+        np.concatenate([places, sizes], axis=1),
+        inside,
+        around,
+        maps,
+        shares,
+        bool(rng.integers(2)),
+        table,
+        SHARPNESS,
+        CONTRAST_WEIGHT,
+    ]
+
+
+def rounding(n: int, m: int, models: int = 2) -> float:
+    """At most: n + m roundings of a mean, M of a distance at most 1, and a few of the terms themselves."""
+    return EPS * (
+        CONTRAST_WEIGHT * (n + m) + SHARPNESS * 2 * (models + 2) + 4 * (SHARPNESS + CONTRAST_WEIGHT)
+    )
 
 
 @given(
@@ -31,20 +53,15 @@ def case(seed: int, ellipses: int = 5, n: int = 30, m: int = 7, models: int = 2,
     st.integers(0, 20),
     st.integers(1, 300),
     st.integers(1, 70),
-    st.integers(0, 3),
+    st.integers(1, 3),
     st.sampled_from([1, 2, 16, 64]),
 )
 def test_twin_measures_the_same(seed: int, ellipses: int, n: int, m: int, models: int, side: int) -> None:
-    """Distances agree to the last bit; the contrast to the order of a sum of float64: n roundings of 1."""
+    """They agree to the order of sums of float64."""
     arguments = case(seed, ellipses, n, m, models, side)
-    (native, contrast), (twin, expected) = (
-        _core.rank_contrast(*arguments),
-        reference.rank_contrast(*arguments),
-    )
-    assert native.shape == (ellipses, models)
-    assert contrast.shape == (ellipses,)
-    assert_array_equal(native, twin)
-    assert_allclose(contrast, expected, rtol=0, atol=(n + m) * EPS)
+    native, twin = _core.rank_likelihood(*arguments), reference.rank_likelihood(*arguments)
+    assert native.shape == (ellipses,)
+    assert_allclose(native, twin, rtol=0, atol=rounding(n, m, models))
 
 
 @pytest.mark.parametrize("view", [np.s_[3:40, 5:50], np.s_[:1, :1], np.s_[:1], np.s_[:, :1], np.s_[::2]])
@@ -52,24 +69,29 @@ def test_odd_images(view: Any) -> None:
     """Padded rows, one pixel, one row, one column, every second row: read by both alike."""
     _, *others = case(3)
     image = np.random.default_rng(0).integers(0, 256, (60, 90, 3)).astype(np.uint8)[view]
-    native, twin = (k.rank_contrast(image, *others) for k in (_core, reference))
-    assert_array_equal(native[0], twin[0])
-    assert_allclose(native[1], twin[1], rtol=0, atol=40 * EPS)
+    native, twin = (k.rank_likelihood(image, *others) for k in (_core, reference))
+    assert_allclose(native, twin, rtol=0, atol=rounding(30, 7))
 
 
-def test_joins_the_kernels_that_it_stands_for(kernels: Kernels) -> None:
+@pytest.mark.parametrize("nearest", [False, True])
+def test_joins_the_kernels_that_it_stands_for(kernels: Kernels, nearest: bool) -> None:
     """It is sample_ellipses, rank_distance and the mean of color_lookup, for 1, 8, 9 and 100 ellipses."""
     for count in (1, 8, 9, 100):
-        image, ellipses, inside, around, maps, table = case(count, count)
-        distances, contrast = kernels.rank_contrast(image, ellipses, inside, around, maps, table)
+        arguments = case(count, count)
+        arguments[6] = nearest
+        image, ellipses, inside, around, maps, shares, _, table, *_ = arguments
         within, without = (kernels.sample_ellipses(image, ellipses, each) for each in (inside, around))
-        assert_array_equal(distances, kernels.rank_distance(within, maps))
+        distances = kernels.rank_distance(within, maps)
+        distance = np.minimum(*distances.T) if nearest else (shares * distances).sum(axis=1)
         means = [kernels.color_lookup(each, table).mean(axis=1, dtype=float) for each in (within, without)]
-        assert_allclose(contrast, means[0] - means[1], rtol=0, atol=40 * EPS)
+        expected = CONTRAST_WEIGHT * (means[0] - means[1]) - SHARPNESS * distance**2
+        assert_allclose(kernels.rank_likelihood(*arguments), expected, rtol=0, atol=rounding(30, 7))
 
 
 def test_a_target_of_its_own_color(kernels: Kernels) -> None:
-    """A red disk on blue, with a table that is 1 for red, has contrast 1; beside it -0 or less."""
+    """A red disk on blue, with a table that is 1 for red, gets the whole weight of the contrast; beside it
+    none.
+    """
     y, x = np.indices((80, 80)) - 40
     image: NDArray[np.uint8] = np.where((x**2 + y**2 < 200)[..., None], [0, 0, 255], [255, 0, 0]).astype(
         np.uint8
@@ -79,22 +101,23 @@ def test_a_target_of_its_own_color(kernels: Kernels) -> None:
     angle = np.linspace(0, 6, 20)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     ellipses = np.array([[40.5, 40.5, 13, 13], [70, 40.5, 13, 13]])
-    maps = np.full((1, 3, 20), 0.5, np.float32)
-    distances, contrast = kernels.rank_contrast(image, ellipses, 0.9 * circle, 1.5 * circle, maps, table)
-    assert contrast[0] == 1
-    assert contrast[1] <= 0
-    assert distances[0] == 0
+    maps = np.full((1, 3, 20), 0.5, np.float32)  # of a single color, as the disk: its distance is 0
+    log_likelihood = kernels.rank_likelihood(
+        image, ellipses, 0.9 * circle, 1.5 * circle, maps, np.ones(1), False, table, 100.0, 3.0
+    )
+    assert log_likelihood[0] == 3
+    assert log_likelihood[1] <= 0
 
 
 @given(st.integers(0, 2**32))
 def test_light_does_not_change_the_order(seed: int) -> None:
-    """A strictly increasing change of each channel leaves the distances as they are, bit for bit."""
-    image, *others = case(seed)
+    """Without contrast, a strictly increasing change of each channel changes nothing, bit for bit."""
+    image, *others, _ = case(seed)
     rng = np.random.default_rng(seed)
     curves = [np.sort(rng.choice(256, 128, replace=False)) for _ in range(3)]
     lit = np.stack([curve[image[..., c] // 2] for c, curve in enumerate(curves)], axis=-1).astype(np.uint8)
     for k in (_core, reference):
-        assert_array_equal(k.rank_contrast(lit, *others)[0], k.rank_contrast(image // 2, *others)[0])
+        assert_array_equal(k.rank_likelihood(lit, *others, 0.0), k.rank_likelihood(image // 2, *others, 0.0))
 
 
 BAD: list[tuple[int, Any, str]] = [
@@ -108,9 +131,14 @@ BAD: list[tuple[int, Any, str]] = [
         np.full((2, 2), np.inf),
         "pattern: expected finite numbers, got inf|around: expected finite numbers, got inf",
     ),
-    (4, np.full((1, 3, 30), 1.5, np.float32), r"models: expected ranks in \[0, 1\], got 1.5"),
-    (4, np.zeros((1, 3, 29), np.float32), "models: expected"),
-    (5, np.zeros((3, 3, 3), np.float32), r"table: expected shape \(B, B, B\), B a power of two"),
+    (4, np.full((2, 3, 30), 1.5, np.float32), r"models: expected ranks in \[0, 1\], got 1.5"),
+    (4, np.zeros((2, 3, 29), np.float32), "models: expected"),
+    (4, np.zeros((0, 3, 30), np.float32), "models: expected at least one rank map, got none"),
+    (5, np.ones(3), "shares: expected"),
+    (5, np.array([np.nan, 1]), "shares: expected finite numbers, got nan"),
+    (7, np.zeros((3, 3, 3), np.float32), r"table: expected shape \(B, B, B\), B a power of two"),
+    (8, np.nan, "sharpness: expected a finite number, got nan"),
+    (9, np.inf, "contrast_weight: expected a finite number, got inf"),
 ]
 
 
@@ -120,21 +148,21 @@ def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None
     arguments = case(0)
     arguments[place] = value
     with pytest.raises(ValueError, match=message):
-        kernels.rank_contrast(*arguments)
+        kernels.rank_likelihood(*arguments)
 
 
 def test_refuses_to_rank_nothing(kernels: Kernels) -> None:
     """Without places inside there is no order."""
     arguments = case(0)
-    arguments[2], arguments[4] = np.zeros((0, 2)), np.zeros((1, 3, 0), np.float32)
+    arguments[2], arguments[4] = np.zeros((0, 2)), np.zeros((2, 3, 0), np.float32)
     with pytest.raises(ValueError, match="inside: expected at least one place, got none"):
-        kernels.rank_contrast(*arguments)
+        kernels.rank_likelihood(*arguments)
 
 
-@pytest.mark.parametrize("place", range(6))
+@pytest.mark.parametrize("place", [0, 1, 2, 3, 4, 5, 7])
 def test_native_refuses_other_types(place: int) -> None:
     """No argument is converted."""
     arguments = case(0)
     arguments[place] = arguments[place].astype(np.float16)
     with pytest.raises(TypeError, match="float16"):
-        _core.rank_contrast(*arguments)
+        _core.rank_likelihood(*arguments)

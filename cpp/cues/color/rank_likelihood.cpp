@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cues/color/rank_contrast.hpp"
+#include "cues/color/rank_likelihood.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/check.hpp"
@@ -45,29 +46,49 @@ private:
     std::vector<std::int32_t> cells_;
 };
 
+/// The mean of M distances by their shares, or the least of them.
+double combined(const double* distances, const ColorLook& look) {
+    const Eigen::Index M = look.shares.size();
+    if (look.nearest) return *std::min_element(distances, distances + M);
+    double mean = 0.0;
+    for (Eigen::Index m = 0; m < M; ++m) mean += look.shares[m] * distances[m];
+    return mean;
+}
+
+void require_valid(const ColorLook& look, const LookWeights& weights) {
+    if (look.maps.rows() < 1) refuse("models", "at least one rank map", "none");
+    require_size(look.shares, look.maps.rows(), "shares");
+    require_finite(look.shares, "shares");
+    if (!std::isfinite(weights.sharpness)) refuse("sharpness", "a finite number", weights.sharpness);
+    if (!std::isfinite(weights.contrast)) refuse("contrast_weight", "a finite number", weights.contrast);
+}
+
 }  // namespace
 
-RankContrast rank_contrast(const ImageView& image, StatesRef ellipses, const Windows& windows,
-                           const ColorLook& look) {
+Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
+                       const ColorLook& look, const LookWeights& weights) {
     require_shape(ellipses, ellipses.rows(), 4, "ellipses");
     Reader inside(image, windows.inside, "inside"), around(image, windows.around, "around");
+    require_valid(look, weights);
     RankMaps maps(look.maps, windows.inside.rows());
     const int bits = bits_of_cube(look.table, "table");
     require_finite(ellipses, "ellipses");
 
     const Eigen::Index N = ellipses.rows();
-    RankContrast measured{States(N, maps.size()), Vector(N)};
+    Vector log_likelihood(N), distances(maps.size());
     for (Eigen::Index first = 0; first < N; first += EllipseSampler::kBatch) {
         const std::ptrdiff_t count = std::min(N - first, EllipseSampler::kBatch);
         const SampleView within = inside.read(ellipses.data() + 4 * first, count);
         const SampleView without = around.read(ellipses.data() + 4 * first, count);
         for (std::ptrdiff_t i = 0; i < count; ++i) {
-            maps.compare(within, i, measured.distances.data() + (first + i) * maps.size());
-            measured.contrast[first + i] = inside.mean(within, i, bits, look.table.data()) -
-                                           around.mean(without, i, bits, look.table.data());
+            maps.compare(within, i, distances.data());
+            const double distance = combined(distances.data(), look);
+            const double contrast = inside.mean(within, i, bits, look.table.data()) -
+                                    around.mean(without, i, bits, look.table.data());
+            log_likelihood[first + i] = weights.contrast * contrast - weights.sharpness * distance * distance;
         }
     }
-    return measured;
+    return log_likelihood;
 }
 
 }  // namespace tricue

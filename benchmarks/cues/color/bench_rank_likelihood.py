@@ -18,8 +18,17 @@ Singles = NDArray[np.float32]
 
 
 def script(
-    image: Image, ellipses: Floats, inside: Floats, around: Floats, maps: Singles, table: Singles
-) -> tuple[Floats, Floats]:
+    image: Image,
+    ellipses: Floats,
+    inside: Floats,
+    around: Floats,
+    maps: Singles,
+    shares: Floats,
+    nearest: bool,
+    table: Singles,
+    sharpness: float,
+    contrast_weight: float,
+) -> Floats:
     """The baseline: remap reads the pixels, calcHist and cumsum rank them, a table is indexed."""
     cells = (image >> 4).astype(np.int32)
     likely = table[cells[..., 0], cells[..., 1], cells[..., 2]]
@@ -38,25 +47,26 @@ def script(
             counts = cv2.calcHist([levels], [0], None, [256], [0, 256]).ravel()
             ranks[k] = ((np.cumsum(counts) - counts / 2) / n)[levels]
         distances[i] = 2 * np.abs(ranks - maps).mean(axis=(1, 2))
-    return distances, means[0] - means[1]
+    distance = distances @ shares
+    log_likelihood: Floats = contrast_weight * (means[0] - means[1]) - sharpness * distance**2
+    return log_likelihood
 
 
-@pytest.mark.benchmark(group="rank_contrast")
+@pytest.mark.benchmark(group="rank_likelihood")
 @pytest.mark.work(counts=100 * 3 * 96, lookups=2 * 100 * (96 + 40))
 @pytest.mark.parametrize(
-    "rank_contrast",
-    [_core.rank_contrast, reference.rank_contrast, script],
+    "rank_likelihood",
+    [_core.rank_likelihood, reference.rank_likelihood, script],
     ids=["native", "reference", "baseline"],
 )
-def bench_rank_contrast(benchmark: Any, rank_contrast: Callable[..., Any], frame: Image) -> None:
+def bench_rank_likelihood(benchmark: Any, rank_likelihood: Callable[..., Any], frame: Image) -> None:
     """Twins agree; the script's places are rounded to 1/32 of a pixel, which moves a few samples by one."""
     rng = np.random.default_rng(0)
     ellipses = rng.normal([160, 120, 25, 31], [20, 20, 1, 1], (100, 4))
     inside, around = grid(12, 8), ring(40, 1.3, 1.8)
     maps, table = rng.random((2, 3, 96), np.float32), rng.random((16, 16, 16), np.float32)
-    arguments = (frame, ellipses, inside, around, maps, table)
-    distances, contrast = benchmark(rank_contrast, *arguments)
-    expected = reference.rank_contrast(*arguments)
-    near = 0.02 if rank_contrast is script else 1e-12
-    assert_allclose(distances, expected[0], rtol=0, atol=near)
-    assert_allclose(contrast, expected[1], rtol=0, atol=2 * near)
+    shares = np.array([0.6, 0.4])
+    arguments = (frame, ellipses, inside, around, maps, shares, False, table, 110.0, 8.0)
+    log_likelihood = benchmark(rank_likelihood, *arguments)
+    near = 0.02 * (2 * 110 + 2 * 8) if rank_likelihood is script else 1e-11
+    assert_allclose(log_likelihood, reference.rank_likelihood(*arguments), rtol=0, atol=near)

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "base/image_view.hpp"
+
+namespace tricue {
+
+using PixelBytes = Eigen::Array<std::uint8_t, Eigen::Dynamic, 1>;
+using Places = Eigen::Array<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using PlacesRef = Eigen::Ref<const Places>;
+
+/// An image whose pixels are those of another at given places: a map to other coordinates, such as log-polar ones, by nearest pixels.
+///
+/// @param image uint8 (H, W, 3) BGR, without padding between its rows
+/// @param places int64 (R, C): y W + x of each pixel, from 0 to H W - 1
+/// @returns uint8 (R, C, 3); in C++ the bytes one after the other
+/// @throws std::invalid_argument on a place outside of the image, or padded rows
+/// Source: the log-polar coordinates that it serves for, Reddy and Chatterji 1996.
+PixelBytes pick_pixels(const ImageView& image, PlacesRef places);
+
+}  // namespace tricue

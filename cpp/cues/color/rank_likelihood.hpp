@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+
+namespace tricue {
+
+/// Where an ellipse is read.
+struct Windows {
+    /// float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
+    StatesRef inside;
+    StatesRef around;  ///< float64 (m, 2): places (u, v) around it
+};
+
+/// What a target looks like: rank maps and their shares, and a table over colors.
+struct ColorLook {
+    FloatsRef maps;
+    VectorRef shares;
+    bool nearest;
+    FloatsRef table;
+};
+
+/// How much a distance and a contrast count.
+struct LookWeights {
+    double sharpness;
+    double contrast;
+};
+
+/// The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² + contrast_weight c, nats.
+///
+/// d is the mean of the distances between the samples inside the ellipse and each rank map, as rank_distance has them, by the maps'
+/// shares; or the least of them. c is the mean of the table over the samples inside less that over those around it. The samples are
+/// those of sample_ellipses; one pass keeps them in the cache.
+///
+/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param ellipses float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
+/// @param models float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
+/// @param shares float64 (M,): of each map in the mean distance, finite
+/// @param nearest whether to take the least distance instead: shares only have to be valid
+/// @param table float32 (B, B, B): P(target | color), as color_lookup takes it
+/// @param sharpness nats, finite
+/// @param contrast_weight nats, finite
+/// @returns float64 (N,)
+/// @throws std::invalid_argument as the kernels that it joins, on a pattern without places, or without maps
+/// Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is ours.
+Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
+                       const ColorLook& look, const LookWeights& weights);
+
+}  // namespace tricue
