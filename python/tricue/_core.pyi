@@ -245,29 +245,6 @@ def box_contrast(
     Source: ours; centers and surrounds by integral images, after Viola, Jones 2001.
     """
 
-def cell_colors(
-    image: numpy.typing.NDArray[numpy.uint8], step: int
-) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]:
-    """
-    Every step-th pixel of an image, from step // 2 on, and their mean.
-
-    Args:
-        image: uint8 (H, W, 3) BGR
-        step: pixels from one sample to the next, 1 to 1024
-
-    Returns:
-        colors: uint8 (ceil((H - step // 2) / step), the same of W, 3): the color of each cell's middle
-            pixel, BGR
-        mean: float64 (3,) blue, green and red: a measure of the light while the scene stays the same; 0
-            of an empty image
-
-    Raises:
-        ValueError: on a step out of range
-
-    Source: ours, for Moreno et al. 2002, whose images are 160x120 already; the mean is for von Kries'
-    adaptation to the light.
-    """
-
 def changed_depth(
     depth: numpy.typing.NDArray[numpy.float32],
     before: numpy.typing.NDArray[numpy.float32],
@@ -2659,9 +2636,6 @@ class Kernels(Protocol):
         outer: float,
         around: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
-    def cell_colors(
-        self, image: numpy.typing.NDArray[numpy.uint8], step: int
-    ) -> tuple[numpy.typing.NDArray[numpy.uint8], numpy.typing.NDArray[numpy.float64]]: ...
     def changed_depth(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
