@@ -243,15 +243,19 @@ def test_a_warning_is_given_once(workers, things):
         assert told[0].filename == __file__
 
 
-def test_a_warning_as_an_error_leaves_all(things, alone, started):
-    """With warnings turned into errors the update fails as a whole."""
+@each_workers
+def test_a_warning_as_an_error_leaves_all(workers, things, alone, started):
+    """With warnings turned into errors an update fails as a whole, each time, and a start as well."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         millimeters = Frame(things.frames[0].color, np.full((160, 240), 2000, np.float32))
-    several = started(FUSED)
-    with pytest.raises(UserWarning, match="expected meters"):
-        several.update(millimeters)
-    assert on(several, things.frames[1:]) == alone(FUSED)
+    with started(FUSED, workers=workers) as several:
+        for _ in range(2):
+            with pytest.raises(UserWarning, match="expected meters"):
+                several.update(millimeters)
+            with pytest.raises(UserWarning, match="expected meters"):
+                several.add(millimeters, things.boxes[0])
+        assert on(several, things.frames[1:]) == alone(FUSED)
 
 
 def test_what_is_alike_is_computed_once(things, started, monkeypatch):

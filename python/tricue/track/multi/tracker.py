@@ -33,7 +33,7 @@ class MultiTracker:
     tracker: the kind for targets that ask for no other, a name as :func:`tricue.create` takes it.
     workers: the processes that share the targets, this one among them. Tracks are the same whatever their
         number. They see the frames in shared memory. There are no threads: the trackers' loops are Python, so
-        that two threads are about as fast as one.
+        that two threads are hardly faster than one.
     on_lost: called with id and track when a target becomes LOST, after all were updated.
     rig, intrinsics: the camera, for all trackers that take one.
     seed, kernels: for all targets, as of every tracker. parameters: of the default kind.
@@ -93,8 +93,12 @@ class MultiTracker:
         target = self._last_id + 1
         with self._reporting_losses():
             track = self._targets.add(target, made, shared, box)
+            try:
+                self._warn(shared)
+            except BaseException:  # where warnings are errors
+                self._targets.remove(target)
+                raise
         self._last_id, self._tracks[target] = target, track
-        self._warn(shared)
         return target
 
     def remove(self, id: int) -> None:  # noqa: A002
@@ -177,8 +181,8 @@ class MultiTracker:
         """Show what the trackers warn of, once, at the line that called the caller."""
         for message in frame.messages:
             if message not in self._told:
-                self._told |= {message}
                 warnings.warn(message, UserWarning, stacklevel=3)
+                self._told |= {message}
 
 
 def _targets(workers: int) -> "Targets | DistributedTargets":
