@@ -4,7 +4,6 @@
 from dataclasses import dataclass
 from functools import cached_property
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,7 +68,7 @@ class Window:
     @cached_property
     def has_occluder(self) -> bool:
         """Whether anything in the window is nearer than expected."""
-        return self.depth is not None and cv2.countNonZero(self.depth[1]) > 0
+        return self.depth is not None and 1 in self.depth[1].tobytes()  # in bytes it is fastest
 
     @cached_property
     def standing(self) -> Plane | None:
