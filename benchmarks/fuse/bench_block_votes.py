@@ -58,6 +58,7 @@ IMPLEMENTATIONS = {"native": _core.block_votes, "reference": reference.block_vot
 
 
 @pytest.mark.benchmark(group="block_votes, 200")
+@pytest.mark.work(flops64=20 * 200, why="one block after the other")
 @pytest.mark.parametrize("block_votes", IMPLEMENTATIONS.values(), ids=IMPLEMENTATIONS)
 def bench_block_votes(benchmark: Any, block_votes: Callable[..., Any]) -> None:
     """All count the same votes."""

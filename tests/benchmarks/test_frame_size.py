@@ -13,7 +13,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import run
 from tricue.track.base import registry
 
-from benchmarks import endurance, frame_size
+from benchmarks import frame_size, large_frames
 
 ROOT = Path(__file__).parents[2]
 MAX_BYTES_AT_START = 30  # per pixel of a pair: corners are looked for in all of it, once
@@ -72,24 +72,16 @@ def test_section_is_replaced_in_its_place() -> None:
     assert frame_size.with_section(f"# A\n\n{new}", new) == f"# A\n\n{new}"
 
 
-def test_memory_stays(cases: list[frame_size.Case]) -> None:
-    """A thousand more updates take no more memory; the lines come at powers of ten and at the end."""
-    case = next(case for case in cases if case.name == "color-particle")
-    lines = [re.split(r" *\| *", line)[2:4] for line in endurance.endure(case, 2500)]
-    assert [updates for updates, _ in lines] == ["1,000", "2,500"]
-    assert float(lines[1][1]) - float(lines[0][1]) < 1.0  # megabytes
-
-
 @pytest.mark.slow
 def test_frames_of_7680x4320() -> None:
     """Each tracker starts and updates on 8K frames, and tells the memory that it takes beside them."""
-    command = [sys.executable, "-m", "benchmarks.endurance", "--large"]
+    command = [sys.executable, "-m", "benchmarks.large_frames"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     print(done.stdout)
     assert done.returncode == 0, done.stderr
     rows = [re.split(r" *\| *", line)[1:-1] for line in done.stdout.splitlines()[2:]]
     assert [row[0] for row in rows] == [case.name for case in frame_size.cases(2)]
-    pixels = endurance.LARGE[0] * endurance.LARGE[1] / 1e6
+    pixels = large_frames.LARGE[0] * large_frames.LARGE[1] / 1e6
     for name, frame, at_start, more, _, status in rows:
         assert float(at_start) < MAX_BYTES_AT_START * pixels, name
         assert float(more) < MAX_SHARE * float(frame), name

@@ -54,9 +54,25 @@ def record_calls() -> Calls:
             tracker.init(frames[0], scene.boxes[0])
             for frame in frames[1:]:
                 tracker.update(frame)
-    image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
-    Recorder(calls).skin_boundary(image, image[0, 0])  # of an experiment alone
+    _call_stages(Recorder(calls))
     return dict(calls)
+
+
+def _call_stages(k: Any) -> None:
+    """Call the kernels that trackers don't: one of an experiment, and the stages of ``segment_depth``."""
+    image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
+    k.skin_boundary(image, image[0, 0])
+    scene = walker(0, 1, "tof")
+    depth, lens = np.ascontiguousarray(scene.frames[0].depth), scene.intrinsics
+    camera, plane = np.array([lens.fx, lens.fy, lens.cx, lens.cy]), np.array([0.0, -1.0, 0.0, 1.0])
+    distance = k.ground_distance(depth, camera, plane[:3], 0.3, 8.0)
+    mask = k.depth_edges(distance, 0.06, 0.01) ^ np.uint8(1)
+    density = k.depth_density(k.depth_histogram(distance, mask, 0.3, 8.0, 256), 4.0)
+    k.density_extrema(density, 0.05 * float(density.max()))
+    labels = k.divide_depth(distance, mask, np.array([0.3, 2.0, 4.0, 8.0]))
+    table, _, columns, rows, _ = k.depth_components(labels, depth, 0.3, 8.0, 0, 16, 8, False)
+    cut = k.cut_sides(depth, table, camera, 2, 0.08, 0.3, 0.15)
+    k.measure_objects(table, columns, rows, cut, camera, plane, 0.35, 0.7)
 
 
 def _runs() -> Iterator[tuple[str, Any, str | None, list[dict[str, Any]]]]:

@@ -22,6 +22,7 @@ def script(image: Image, table: Plane) -> Plane:
 
 
 @pytest.mark.benchmark(group="color_posterior, 64x64")
+@pytest.mark.work(lookups=64 * 64)
 @pytest.mark.parametrize(
     "color_posterior",
     [_core.color_posterior, reference.color_posterior, script],

@@ -21,6 +21,7 @@ def baseline(image: Image, step: int) -> Floats:
 
 
 @pytest.mark.benchmark(group="image_mean, 640x480")
+@pytest.mark.work(bytes=120 * 640 * 3)
 @pytest.mark.parametrize(
     "image_mean",
     [_core.image_mean, reference.image_mean, baseline],

@@ -23,6 +23,7 @@ def script(image: Image, places: NDArray[np.int64]) -> Image:
 
 
 @pytest.mark.benchmark(group="pick_pixels, 64x64")
+@pytest.mark.work(lookups=64 * 64)
 @pytest.mark.parametrize(
     "pick_pixels",
     [_core.pick_pixels, reference.pick_pixels, script],

@@ -23,6 +23,7 @@ def script(depth: Depth, before: Depth, noise: float, slope: float) -> NDArray[n
 
 
 @pytest.mark.benchmark(group="changed_depth")
+@pytest.mark.work(bytes=9 * 176 * 144, flops32=5 * 176 * 144)
 @pytest.mark.parametrize(
     "changed_depth",
     [_core.changed_depth, reference.changed_depth, script],

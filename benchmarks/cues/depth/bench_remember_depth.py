@@ -25,6 +25,7 @@ def script(depth: Depth, before: Depth, region: tuple[int, int, int, int], z: fl
 
 
 @pytest.mark.benchmark(group="remember_depth")
+@pytest.mark.work(bytes=12 * 176 * 144)
 @pytest.mark.parametrize(
     "remember_depth",
     [_core.remember_depth, reference.remember_depth, script],

@@ -33,6 +33,7 @@ def script(
 
 
 @pytest.mark.benchmark(group="segment_depth")
+@pytest.mark.work(flops32=19 * 176 * 144, counts=176 * 144 * 4 // 3, why="runs are joined one by one")
 @pytest.mark.parametrize(
     "segment_depth",
     [_core.segment_depth, reference.segment_depth, script],

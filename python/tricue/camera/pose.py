@@ -34,8 +34,8 @@ class Pose:
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> "Pose":
         """From a (4, 4) matrix [R t; 0 0 0 1], or its first three rows."""
-        values = np.asarray(matrix, np.float64)
-        rows = _numbers(values, "pose", (3, 4) if values.shape == (3, 4) else (4, 4))
+        shape = (3, 4) if np.shape(matrix) == (3, 4) else (4, 4)
+        rows = _numbers(matrix, "pose", shape)
         if len(rows) == 4 and not np.allclose(rows[3], [0, 0, 0, 1]):
             raise ValueError(f"pose: expected the last row 0, 0, 0, 1, got {rows[3].tolist()}")
         return cls(rows[:3, :3], rows[:3, 3])
@@ -71,7 +71,7 @@ def as_pose(value: Any) -> Pose | None:
 def _numbers(value: ArrayLike, name: str, shape: tuple[int, ...]) -> Floats:
     try:
         array = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{name}: expected numbers of shape {shape}, got {value!r:.80}") from None
     if array.shape != shape:
         raise ValueError(f"{name}: expected numbers of shape {shape}, got shape {array.shape}")
