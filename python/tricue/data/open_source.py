@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
 """Opens whatever can be tracked in: a video, a folder of images, a benchmark's sequence, a camera."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from tricue.data.box_table import find_video_box_table, read_box_table
+from tricue.data.box_table import find_box_table, find_video_box_table, read_box_table
 from tricue.data.files import image_paths, is_image
 from tricue.data.layouts import depth_images, note_box_table, read_layout
+from tricue.data.recordings.recording import is_recording, open_recording
 from tricue.data.source import Source
 from tricue.data.streams import Camera, Stream, Video
 from tricue.data.truth import Truth, check_target
@@ -25,12 +27,15 @@ def open_source(
     fps: float | None = None,
     right: str | Path | None = None,
     target: str | None = None,
+    topics: Mapping[str, str] | None = None,
 ) -> Source:
-    """Open a video file, a folder of images, a sequence folder, or a camera by its number.
+    """Open a video file, a folder of images, a sequence folder, a recording, or a camera by its number.
 
     A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
     benchmark's (``rgb/r-0-1.png``), or holds one video, with a file of true boxes. 16-bit images are depth.
     Stereo pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
+
+    A recording is a ROS 1 bag, also RealSense's, a ROS 2 folder, or an MCAP file.
 
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
@@ -39,9 +44,10 @@ def open_source(
     right: the right camera's video, folder or number, where ``place`` is the left one's; paired by order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
         cut to the frames in which it is labeled.
+    topics: of a recording, by channel: "color", "depth", "right"; guessed by default, which a note says.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
-    source = _opened(place, depth_scale, target)
+    source = _opened(place, depth_scale, target, topics)
     if right is not None:
         source = _with_right(source, place, right)
     if depth is not None:
@@ -51,10 +57,21 @@ def open_source(
     return source if fps is None else replace(source, rate=fps)
 
 
-def _opened(place: str | Path, scale: float | None, target: str | None = None) -> Source:
+def _opened(
+    place: str | Path,
+    scale: float | None,
+    target: str | None = None,
+    topics: Mapping[str, str] | None = None,
+) -> Source:
     if isinstance(place, str) and place.isdecimal():
         return Source(f"camera {place}", {"color": Camera(int(place))}, format="camera")
     path = _existing(Path(place))
+    if is_recording(path):
+        return _with_table(open_recording(path, topics, scale), path)
+    if topics is not None:
+        raise ValueError(
+            f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
+        )
     if path.is_dir():
         layout = read_layout(path, scale, target)
         name = path.resolve().name if target is None else f"{path.resolve().name} {target}"
@@ -72,13 +89,16 @@ def _opened(place: str | Path, scale: float | None, target: str | None = None) -
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
     if target is not None:
         check_target(target, (), path)
-    video = Source(path.stem, {"color": Video(path)}, format="video")
-    table = find_video_box_table(path)
-    return (
-        video
-        if table is None
-        else replace(_with_truth(video, read_box_table(table)), notes=(note_box_table(table),))
-    )
+    return _with_table(Source(path.stem, {"color": Video(path)}, format="video"), path)
+
+
+def _with_table(source: Source, path: Path) -> Source:
+    """The source with the true boxes of the table beside a file, or in a recording's folder."""
+    table = find_box_table(path, None) if path.is_dir() else find_video_box_table(path)
+    if table is None:
+        return source
+    notes = (*source.notes, note_box_table(table))
+    return replace(_with_truth(source, read_box_table(table)), notes=notes)
 
 
 def _with_truth(source: Source, truth: Truth | None) -> Source:
