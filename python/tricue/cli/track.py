@@ -14,7 +14,7 @@ import numpy as np
 
 import tricue
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.cli.arguments import add_common, angles, box, tracker_name
+from tricue.cli.arguments import add_common, add_topics, angles, box, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
@@ -53,7 +53,7 @@ examples:
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument(
-        "input", metavar="INPUT", help="video file, folder of images, sequence folder, camera number"
+        "input", metavar="INPUT", help="video, folder of images, sequence, recording, URL, camera number"
     )
     command.add_argument(
         "--tracker",
@@ -76,6 +76,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="frames a second of images without times (default 30); videos, cameras, VOT, TUM and "
         "Princeton have their own",
     )
+    add_topics(command)
     _add_stereo(command)
     _add_depth(command)
     command.add_argument("--output", type=Path, metavar="FILE", help="overlay video, .mp4 or .avi")
@@ -158,6 +159,7 @@ def run(options: argparse.Namespace) -> int:
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
     _report(run.source, clock, tracks, interrupted)
+    notes += run.source.remarks
     notes += [f"wrote {output.path}" for output in outputs]
     if options.plot:
         notes.append(_plot(options.plot, run, tracks))
@@ -191,6 +193,7 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
         depth_scale=options.depth_scale,
         fps=options.fps,
         right=options.right,
+        topics=options.topics,
     )
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None

@@ -57,7 +57,8 @@ def find_extrinsics(transforms: Sequence[Transform], start: str, end: str) -> Ex
         matrix = _matrix(each)
         steps.setdefault(each.child, []).append((each.parent, matrix))
         steps.setdefault(each.parent, []).append((each.child, np.linalg.inv(matrix)))
-    reached, waiting = {start: np.eye(4)}, deque([start])
+    reached: dict[str, NDArray[np.floating[Any]]] = {start: np.eye(4)}
+    waiting = deque([start])
     while waiting and end not in reached:
         here = waiting.popleft()
         for there, matrix in steps.get(here, ()):
@@ -66,7 +67,8 @@ def find_extrinsics(transforms: Sequence[Transform], start: str, end: str) -> Ex
                 waiting.append(there)
     if end not in reached or not (start and end):
         return None
-    return Extrinsics(reached[end][:3, :3], reached[end][:3, 3])
+    matrix = reached[end].astype(np.float64)
+    return Extrinsics(matrix[:3, :3], matrix[:3, 3])
 
 
 def calibrate(views: Mapping[str, View], transforms: Sequence[Transform]) -> Cameras:

@@ -91,7 +91,9 @@ def _topics(channels: Collection[Any], schemas: dict[int, Any]) -> dict[str, Top
     topics = {}
     for channel in channels:
         schema = schemas.get(channel.schema_id)
-        name, language, data = ("", "", b"") if schema is None else (schema.name, schema.encoding, schema.data)
+        name, language, data = (
+            ("", "", b"") if schema is None else (schema.name, schema.encoding, schema.data)
+        )
         text = data.decode(errors="replace") if language in ("ros1msg", "ros2msg", "ros2idl") else ""
         topics[channel.topic] = Topic(
             channel.topic, name, channel.message_encoding, text, language == "ros2idl"

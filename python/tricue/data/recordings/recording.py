@@ -60,6 +60,11 @@ class Recording:
         return round(0.5e9 / self.fps)
 
     @property
+    def depth_unit(self) -> float:
+        """Meters per unit of depth: 1 where it is recorded in meters."""
+        return 1.0 if "32FC1" in self.head.images[self.chosen["depth"]].encoding else self.scale
+
+    @property
     def remarks(self) -> tuple[str, ...]:
         found = []
         if self.container.damage:

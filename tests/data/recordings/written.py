@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 pytest.importorskip("rosbags", reason="needs the extra recordings")
 pytest.importorskip("mcap", reason="needs the extra recordings")
 
-from mcap.writer import Writer as McapWriter  # noqa: E402
-from rosbags.rosbag1 import Writer as Bag1Writer  # noqa: E402
-from rosbags.rosbag2 import StoragePlugin  # noqa: E402
-from rosbags.rosbag2 import Writer as Bag2Writer  # noqa: E402
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore  # noqa: E402
+from mcap.writer import Writer as McapWriter
+from rosbags.rosbag1 import Writer as Bag1Writer
+from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import Writer as Bag2Writer
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 SECOND = 10**9
 START = 1_700_000_000 * SECOND  # ns, when the recordings begin
