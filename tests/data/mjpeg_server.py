@@ -57,7 +57,7 @@ class MjpegServer:
 class _Handler(BaseHTTPRequestHandler):
     owner: MjpegServer
 
-    def do_GET(self) -> None:  # noqa: N802 (as http.server names it)
+    def do_GET(self) -> None:
         self.send_response(200)
         self.send_header("Content-Type", "multipart/x-mixed-replace; boundary=frame")
         self.end_headers()

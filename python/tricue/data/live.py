@@ -116,6 +116,7 @@ class Live:
 
     def _newest_moments(self, channels: Sequence[str]) -> Iterator[Moment]:
         self._start_thread()
+        self._dropped = 0  # those that came before are no loss
         try:
             while True:
                 newest = self._wait_for_news()
@@ -140,7 +141,8 @@ class Live:
     def _wait_for_first(self) -> _Newest:
         with self._news:
             self._news.wait_for(lambda: self._newest or self._failure, self.patience.start)
-            newest, failure, trouble = self._newest, self._failure, self._trouble
+            newest, failure = self._newest, self._failure
+            trouble, self._trouble = self._trouble, ""
         if newest is not None:
             return newest
         self.close()
@@ -189,8 +191,8 @@ class Live:
                     return
             finally:
                 self.device.close()
-            stopped = stopped or time.monotonic()
-            wait = self._pause(trouble, wait)
+            told, stopped = stopped > 0, stopped or time.monotonic()
+            wait = self._pause("" if told else trouble, wait)
 
     def _put(self, images: dict[str, NDArray[Any]], stopped: float) -> None:
         now = time.monotonic()
@@ -207,10 +209,10 @@ class Live:
             self._news.notify_all()
 
     def _pause(self, trouble: str, wait: float) -> float:
-        """Wait before another try; the next wait."""
+        """Wait before another try; the next wait. trouble: "" if it is told already."""
         with self._news:
             if self._running:
-                self._trouble = trouble
+                self._trouble = trouble or self._trouble
                 self._news.notify_all()
                 self._news.wait_for(lambda: not self._running, wait)
         return min(2 * wait, self.patience.longest_wait)

@@ -133,7 +133,7 @@ def walk(
         time = START + index * period
         sent += [
             info("/camera/color/camera_info", time, size, 30.0),
-            raw("/camera/color/image_raw", time, color(10 * (index + 1), size), "bgr8"),
+            raw("/camera/color/image_raw", time, color(10 * (index + 1) % 250, size), "bgr8"),
             info("/camera/depth/camera_info", time, size, 30.0),
             raw("/camera/depth/image_rect_raw", time + lag, depth(1000 + 100 * index, size), "16UC1"),
         ]

@@ -17,6 +17,7 @@ from tricue.data.recordings.container import EXTRA, Container, Message, Topic
 
 _MESSAGE, _HEADER, _CHUNK, _CHUNK_INFO, _CONNECTION = 2, 3, 5, 6, 7  # kinds of records
 _MAX_HELD = 200  # messages, whose order by time is being found; chunks overlap a little
+_BROKEN = (EOFError, IndexError, KeyError, ValueError, struct.error)  # what reading damaged records raises
 _MAX_FIELDS = 1 << 20  # bytes of a record's header; more is no header
 
 
@@ -40,7 +41,7 @@ class Bag1(Container):
             index, connections, chunks = _read_start(file, path)
             try:
                 self._read_index(file, index, connections, chunks)
-            except (EOFError, ValueError):
+            except _BROKEN:
                 self.topics, self._names, self._chunks = {}, {}, []
                 self._scan(file)
 
@@ -54,13 +55,12 @@ class Bag1(Container):
                 while held and (held[0][0] <= chunk.start or len(held) > _MAX_HELD):
                     yield heapq.heappop(held)[2]
                 try:
-                    found = list(self._messages_of(_read_chunk(file, chunk.position), wanted))
-                except (EOFError, ValueError) as error:
-                    self.damage = f"it is damaged: {error}"
+                    for message in self._messages_of(_read_chunk(file, chunk.position), wanted):
+                        heapq.heappush(held, (message.time, number, message))
+                        number += 1
+                except _BROKEN:
+                    self.damage = "it is damaged in the middle"
                     break
-                for message in found:
-                    heapq.heappush(held, (message.time, number, message))
-                    number += 1
         while held:
             yield heapq.heappop(held)[2]
 
@@ -96,7 +96,7 @@ class Bag1(Container):
                 fields, data = _read_record(file)
                 if fields["op"][0] == _CHUNK:
                     self._scan_chunk(position, _decompressed(fields, data))
-        except (EOFError, ValueError):
+        except _BROKEN:
             return
 
     def _scan_chunk(self, position: int, content: bytes) -> None:
@@ -138,7 +138,7 @@ def _read_start(file: BinaryIO, path: Path) -> tuple[int, int, int]:
         place, connections, chunks = (
             int.from_bytes(fields[name], "little") for name in ("index_pos", "conn_count", "chunk_count")
         )
-    except (EOFError, KeyError, ValueError):
+    except _BROKEN:
         raise ValueError(f"{path}: expected a ROS 1 bag, this one is cut off in its first record") from None
     return place, connections, chunks
 

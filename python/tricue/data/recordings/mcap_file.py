@@ -52,7 +52,7 @@ class McapFile(Container):
 
     def _indexed(self, names: Collection[str]) -> Iterator[Message]:
         with self.path.open("rb") as file:
-            reader = _library(self.path).make_reader(file)
+            reader = _library(self.path).make_reader(file, validate_crcs=True)
             for _, channel, message in reader.iter_messages(topics=list(names)):
                 yield Message(channel.topic, message.log_time, message.data)
 
@@ -67,7 +67,7 @@ class McapFile(Container):
     def _records(self) -> Iterator[Any]:
         mcap = _library(self.path)
         with self.path.open("rb") as file:
-            for record in mcap.StreamReader(file).records:
+            for record in mcap.StreamReader(file, validate_crcs=True).records:
                 if isinstance(record, mcap.Schema | mcap.Channel | mcap.Message):
                     yield record
 

@@ -55,8 +55,12 @@ class SqliteFile(Container):
         return counts
 
     def _connect(self) -> sqlite3.Connection:
-        """Read alone, and without a journal beside the file."""
-        return sqlite3.connect(f"file:{quote(str(self.path))}?immutable=1", uri=True)
+        """Read alone; what a recorder that crashed left in a journal beside the file is taken, too."""
+        journal = self.path.with_name(f"{self.path.name}-wal").exists()
+        options = "mode=ro" if journal else "mode=ro&immutable=1"
+        database = sqlite3.connect(f"file:{quote(str(self.path))}?{options}", uri=True)
+        database.execute("PRAGMA writable_schema = ON")  # else a file that is cut off isn't opened at all
+        return database
 
 
 def _marks(values: Collection[int]) -> str:
