@@ -83,6 +83,8 @@ def _color_and_depth(dai: Any, pipeline: Any, aligns_apart: bool) -> Any:
 def _library() -> Any:
     try:
         import depthai
-    except ImportError:
-        raise ImportError("an OAK camera needs the package depthai: pip install 'tricue[oak]'") from None
+    except ImportError as error:
+        raise ImportError(
+            f"an OAK camera needs the package depthai: pip install 'tricue[oak]' ({error})"
+        ) from None
     return depthai

@@ -33,14 +33,17 @@ class RealSense:
         config = rs.config()
         if self.serial:
             config.enable_device(self.serial)
-        config.enable_stream(rs.stream.depth, rs.format.z16)
-        config.enable_stream(rs.stream.color, rs.format.bgr8)
+        config.enable_stream(rs.stream.depth)
+        config.enable_stream(rs.stream.color)
         try:
             profile = pipeline.start(config)
         except RuntimeError as error:
             raise OSError(f"{self.name}: can't be opened ({error}); is it plugged in, by USB 3?") from None
         self._pipeline, self._align = pipeline, rs.align(rs.stream.color)
         color = profile.get_stream(rs.stream.color).as_video_stream_profile()
+        self._rgb = color.format() == rs.format.rgb8
+        if not self._rgb and color.format() != rs.format.bgr8:
+            raise OSError(f"{self.name}: expected color in rgb8 or bgr8, got {color.format()}")
         lens = color.get_intrinsics()
         self.fps = float(color.fps())
         self.camera = Intrinsics(lens.fx, lens.fy, lens.ppx, lens.ppy, lens.width, lens.height)
@@ -54,7 +57,8 @@ class RealSense:
         if not color or not depth:
             return None
         meters = np.asanyarray(depth.get_data()) * np.float32(depth.get_units())
-        return {"color": np.array(color.get_data()), "depth": meters}
+        image = np.asanyarray(color.get_data())
+        return {"color": image[..., ::-1] if self._rgb else image.copy(), "depth": meters}
 
     def close(self) -> None:
         if self._pipeline is not None:
@@ -65,8 +69,8 @@ class RealSense:
 def _library() -> Any:
     try:
         import pyrealsense2
-    except ImportError:
+    except ImportError as error:
         raise ImportError(
-            "a RealSense camera needs the package pyrealsense2: pip install 'tricue[realsense]'"
+            f"a RealSense camera needs the package pyrealsense2: pip install 'tricue[realsense]' ({error})"
         ) from None
     return pyrealsense2

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tricue import Intrinsics, StereoRig, open_source
+from tricue.camera.registration import Reprojection
 from tricue.cli.program import main
 from tricue.data.source import Source
 
@@ -234,7 +235,7 @@ def realsense(path: Path, units: float = 0.00025) -> Path:
         Sent("/file_version", 1, "std_msgs/msg/UInt32", {"data": 4}),
         Sent("/device_0/sensor_0/option/Depth Units/value", 1, "std_msgs/msg/Float32", {"data": units}),
     ]
-    for sensor, stream, shift in ((0, "Depth", 0.0), (1, "Color", -0.015)):
+    for sensor, stream, shift in ((0, "Depth", 0.0), (1, "Color", 0.015)):
         name = place.format(sensor, stream)
         fields = {"fps": 30, "encoding": "x", "is_recommended": False}
         sent.append(Sent(f"{name}info", 1, "realsense_msgs/msg/StreamInfo", fields))
@@ -259,8 +260,8 @@ def test_realsense_bags(tmp_path: Path) -> None:
     assert blues(source) == [10, 20, 30, 40]
     assert meters(source) == pytest.approx([1.0] * 4)
     assert source.camera == Intrinsics(30, 30, 15.5, 11.5, 32, 24)
-    assert source.register is not None
-    assert "15.0 mm beside it" in source.notes[-1]
+    assert isinstance(source.register, Reprojection)
+    assert np.allclose(source.register.extrinsics.translation, [0.015, 0, 0])
     assert meters(open_source(tmp_path / "a.bag", depth_scale=0.0005)) == pytest.approx([2.0] * 4)
 
 

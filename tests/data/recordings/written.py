@@ -143,7 +143,9 @@ def walk(
 def write_bag1(path: Path, sent: Sequence[Sent], compression: str = "", **types: str) -> Path:
     """A ROS 1 bag. types: definitions of types that ROS doesn't have, "/" as "__"."""
     store = get_typestore(Stores.ROS1_NOETIC)
-    store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
+    store.register(
+        get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage")
+    )
     for name, definition in types.items():
         store.register(get_types_from_msg(definition, name.replace("__", "/")))
     writer = Bag1Writer(path)
