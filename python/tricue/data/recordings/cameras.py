@@ -52,12 +52,12 @@ def find_info(image: str, frame: str, infos: Mapping[str, CameraMessage]) -> Cam
 
 def find_extrinsics(transforms: Sequence[Transform], start: str, end: str) -> Extrinsics | None:
     """x_end = rotation @ x_start + translation between two frames; None where nothing connects them."""
-    steps: dict[str, list[tuple[str, NDArray[np.floating[Any]]]]] = {}
+    steps: dict[str, list[tuple[str, NDArray[Any]]]] = {}
     for each in transforms:
         matrix = _matrix(each)
         steps.setdefault(each.child, []).append((each.parent, matrix))
         steps.setdefault(each.parent, []).append((each.child, np.linalg.inv(matrix)))
-    reached: dict[str, NDArray[np.floating[Any]]] = {start: np.eye(4)}
+    reached: dict[str, NDArray[Any]] = {start: np.eye(4)}
     waiting = deque([start])
     while waiting and end not in reached:
         here = waiting.popleft()
