@@ -42,7 +42,7 @@ def log(
     in the camera's frame (x right, y down, z forward). Log several targets of a frame under names of their
     own; ``frame`` may be None after the first.
 
-    camera: of the images, so that Rerun shows them and depth in space, at the pose of the frame or the camera.
+    camera: of the images, so that Rerun shows them in space, at the pose of the frame or the camera.
     number: of the frame, for a second timeline. recording: a ``rerun.RecordingStream``; by default the
         current one.
     ImportError where rerun-sdk isn't installed; TypeError or ValueError for what is no frame.

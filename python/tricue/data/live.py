@@ -141,8 +141,7 @@ class Live:
     def _wait_for_first(self) -> _Newest:
         with self._news:
             self._news.wait_for(lambda: self._newest or self._failure, self.patience.start)
-            newest, failure = self._newest, self._failure
-            trouble, self._trouble = self._trouble, ""
+            newest, failure, trouble = self._newest, self._failure, self._trouble
         if newest is not None:
             return newest
         self.close()
@@ -182,7 +181,7 @@ class Live:
                 trouble = "it stopped giving frames"
                 self.device.open()
                 while self._running and (images := self.device.read()) is not None:
-                    self._put(images, stopped)
+                    self._put(images, stopped, first=not any_read)
                     any_read, stopped, wait = True, 0.0, self.patience.first_wait
             except Exception as error:  # a thread's error has to reach its reader
                 trouble = str(error)
@@ -194,12 +193,15 @@ class Live:
             told, stopped = stopped > 0, stopped or time.monotonic()
             wait = self._pause("" if told else trouble, wait)
 
-    def _put(self, images: dict[str, NDArray[Any]], stopped: float) -> None:
+    def _put(self, images: dict[str, NDArray[Any]], stopped: float, first: bool) -> None:
         now = time.monotonic()
         with self._news:
+            if first:
+                self._trouble = ""  # with the start, which is over
+            elif stopped:
+                self._reopened += 1
+                self._silence += now - stopped
             self._dropped += self._newest is not None
-            self._reopened += stopped > 0
-            self._silence += now - stopped if stopped else 0.0
             self._newest = _Newest(now - self._begin, images)
             self._news.notify_all()
 
