@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from tricue import Intrinsics, StereoRig, open_source
@@ -180,7 +181,7 @@ def test_a_damaged_image_is_left_out(tmp_path: Path) -> None:
     ]
     source = open_source(mcap(tmp_path, sent))
     assert blues(source) == pytest.approx([10, 30], abs=2)
-    assert source.remarks == ("left out 1 damaged images",)
+    assert source.remarks == ("left out 1 damaged image",)
 
 
 def test_depth_is_registered_by_transforms(tmp_path: Path) -> None:
@@ -223,6 +224,14 @@ def test_a_stereo_pair(tmp_path: Path) -> None:
     pairs = [(int(frame.color[0, 0, 0]), int(frame.right[0, 0, 0])) for frame in source]  # type: ignore[index]
     assert pairs == [(0, 100), (10, 110), (20, 120)]
     assert source.camera == StereoRig(Intrinsics(30, 30, 15.5, 11.5, 32, 24), 0.125)
+
+
+def test_a_folder_of_images_beside_its_bag(tmp_path: Path) -> None:
+    """It proves that images that were taken out of a bag are read, not the bag beside them."""
+    (tmp_path / "rgb").mkdir()
+    cv2.imwrite(str(tmp_path / "rgb" / "1.png"), color(3))
+    bag1(tmp_path, walk())
+    assert open_source(tmp_path).format == "images"
 
 
 STREAM_INFO = "uint32 fps\nstring encoding\nbool is_recommended\n"
@@ -340,6 +349,13 @@ def several(folder: Path) -> Path:
     return folder
 
 
+def packed(folder: Path) -> Path:
+    """A ROS 2 folder whose database is compressed as a whole."""
+    path = next(write_bag2(folder / "b", walk(1)).glob("*.db3"))
+    path.rename(path.with_name(f"{path.name}.zstd"))
+    return path.parent
+
+
 def unknown_encoding(folder: Path) -> Path:
     """A bag of images that nobody knows."""
     return write_bag1(folder / "x.bag", [raw("/a", START, color(1), "secret")])
@@ -350,6 +366,7 @@ def unknown_encoding(folder: Path) -> Path:
     [
         (no_images, "x.bag: expected images in the recording, found only std_msgs/msg/UInt32"),
         (no_messages, "x.bag: expected images in the recording, found no messages"),
+        (packed, "b.db3.zstd: expected unpacked files; zstd -d --rm "),
         (several, "expected one recording, found 2; name one of them"),
         (
             unknown_encoding,

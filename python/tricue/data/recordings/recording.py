@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tricue.data.files import natural_order
 from tricue.data.joint import JointStream, Moment
+from tricue.data.layouts import find_plain_images
 from tricue.data.recordings.bag1 import Bag1
 from tricue.data.recordings.cameras import View, calibrate, find_info
 from tricue.data.recordings.container import Chain, Container
@@ -76,7 +77,7 @@ class Recording:
                 f"with no {others} image within {self.tolerance / 1e6:.3g} ms"
             )
         if self._damaged:
-            found.append(f"left out {self._damaged} damaged images")
+            found.append(f"left out {self._damaged} damaged image{'s' * (self._damaged > 1)}")
         return tuple(found)
 
     def size(self, channel: str) -> tuple[int, int]:
@@ -145,8 +146,10 @@ class Recording:
 
 
 def is_recording(path: Path) -> bool:
-    """Whether it is a recording's file, or a folder with some."""
-    return bool(_files(path)) if path.is_dir() else path.suffix.lower() in READERS
+    """Whether it is a recording's file, or a folder with some and without images of its own."""
+    if not path.is_dir():
+        return path.suffix.lower() in READERS
+    return bool(_files(path) or _packed(path)) and not find_plain_images(path)
 
 
 def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: float | None = None) -> Source:
@@ -184,12 +187,19 @@ def _files(folder: Path) -> list[Path]:
     return natural_order(path for path in folder.iterdir() if path.suffix.lower() in READERS)
 
 
+def _packed(folder: Path) -> list[Path]:
+    """Files that ROS 2 compressed as a whole, such as walk_0.db3.zstd."""
+    return [path for path in folder.glob("*.zstd") if Path(path.stem).suffix.lower() in READERS]
+
+
 def _open_container(path: Path) -> tuple[Container, str]:
     """The container, and the name of its format."""
     if not path.is_dir():
         name, reader = READERS[path.suffix.lower()]
         return reader(path), name
     files = _files(path)
+    if packed := _packed(path):
+        raise ValueError(f"{packed[0]}: expected unpacked files; zstd -d --rm {packed[0]} unpacks it")
     if len(files) > 1 and not (path / METADATA).is_file():
         raise ValueError(f"{path}: expected one recording, found {len(files)}; name one of them")
     name, _ = READERS[files[0].suffix.lower()]
