@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import random
 import sys
 import tracemalloc
 from collections.abc import Callable, Sequence
@@ -312,6 +313,28 @@ def test_a_cut_off_recording(tmp_path: Path, write: Writer) -> None:
     (remark,) = source.remarks
     assert "it is cut off" in remark
     assert remark.endswith("; what is before that was read")
+
+
+@pytest.mark.filterwarnings("ignore:depth")  # which may be damaged, too
+@pytest.mark.parametrize("write", WRITERS)
+def test_damaged_bytes(tmp_path: Path, write: Writer) -> None:
+    """It proves that whatever bytes of a recording are wrong, it's read, or an error that names it."""
+    path = write(tmp_path, walk(3))
+    file = path if path.is_file() else next(each for each in path.iterdir() if each.suffix != ".yaml")
+    content, rng = file.read_bytes(), random.Random(0)
+    errors = []
+    for _ in range(40):
+        damaged = bytearray(content)
+        for _ in range(rng.choice((1, 4, 20))):
+            place = rng.randrange(len(damaged))
+            damaged[place : place + rng.choice((1, 4))] = rng.choice((b"\xff" * 4, b"", rng.randbytes(1)))
+        file.write_bytes(damaged)
+        try:
+            list(open_source(file))
+        except ValueError as error:
+            errors.append(str(error))
+    assert 0 < len(errors) < 40
+    assert all(file.name in error for error in errors)
 
 
 def test_memory_stays_flat(tmp_path: Path) -> None:

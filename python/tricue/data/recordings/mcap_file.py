@@ -17,8 +17,9 @@ class McapFile(Container):
         mcap = _library(path)
         self.path = path
         self._broken: tuple[type[Exception], ...] = (
-            mcap.McapError, EOFError, RuntimeError, ValueError, struct.error, _zstd_error(),
-        )  # fmt: skip
+            *(mcap.McapError, _zstd_error(), struct.error, EOFError, RuntimeError, ValueError),
+            *(KeyError, MemoryError, OverflowError),  # numbers of channels and lengths that can't be
+        )
         with path.open("rb") as file:
             try:
                 reader = mcap.make_reader(file)
