@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from tricue.cli.program import main
 from tricue.data import open_source as opening
 from tricue.data.capture import Capture, is_capture, is_file_url
+from tricue.data.joint import Moment
 from tricue.data.live import Live, Patience
 from tricue.data.source import Source
 
@@ -29,14 +30,24 @@ def brief(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 class Counter:
-    """A device whose images count; it ends after some, and can't be opened for a few times then."""
+    """A device whose images count; it ends after some, and can't be opened for a few times then.
+
+    permits: how many images it may give, for tests that say when; None for all.
+    """
 
     remote = True
     fps: float | None = 100.0
     camera = None
 
-    def __init__(self, count: int = 10**6, period: float = 0.0, refusals: int = 0) -> None:
+    def __init__(
+        self,
+        count: int = 10**6,
+        period: float = 0.0,
+        refusals: int = 0,
+        permits: threading.Semaphore | None = None,
+    ) -> None:
         self.name, self.count, self.period, self.refusals = "counter", count, period, refusals
+        self.permits = permits
         self.opened: list[float] = []
         self.number = self.left = 0
 
@@ -49,46 +60,56 @@ class Counter:
 
     def read(self) -> dict[str, NDArray[Any]] | None:
         time.sleep(self.period)
-        if self.left == 0:
+        if self.left == 0 or (self.permits is not None and not self.permits.acquire(timeout=5)):
             return None
         self.left -= 1
         self.number += 1
-        return {"color": np.full((4, 6, 3), self.number % 250, np.uint8)}
+        image = np.zeros((4, 6, 3), np.uint8)
+        image[..., 0], image[..., 1] = self.number % 256, self.number // 256
+        return {"color": image}
 
     def close(self) -> None:
         self.left = 0
 
 
+def number_of(moment: Moment) -> int:
+    """The number of the image that a counter gave."""
+    low, high, _ = moment["color"][1][0, 0].tolist()
+    return int(low + 256 * high)
+
+
 def test_the_newest_frame_is_given() -> None:
-    """It proves that a slow reader gets the image of now, with its time, and that the others are counted."""
+    """It proves that a slow reader gets no image older than when it asks, and that the others are counted."""
     device = Counter(period=0.002)
     live = Live(device, BRIEF)
     assert live.size("color") == (6, 4)
-    numbers = []
-    for moment in live.moments(["color"]):
-        numbers.append(device.number)
-        seconds, image = moment["color"]
-        assert abs(int(image[0, 0, 0]) - device.number % 250) <= 3
-        assert 0 <= time.monotonic() - live._begin - seconds < 0.5
+    moments, numbers = live.moments(["color"]), []
+    for _ in range(8):
+        before = device.number
+        moment = next(moments)
+        numbers.append(number_of(moment))
+        assert numbers[-1] >= before - 1  # the last one may not be handed over yet
+        assert 0 <= moment["color"][0] <= time.monotonic() - live._begin
         time.sleep(0.05)
-        if len(numbers) == 8:
-            break
-    assert numbers == sorted(numbers)
+    moments.close()  # type: ignore[attr-defined]
+    assert numbers == sorted(set(numbers))
     (remark,) = live.remarks
     dropped = int(remark.split("dropped ")[1].split()[0])
-    assert dropped > 50
-    assert dropped <= device.number - len(numbers)
+    assert dropped >= numbers[-1] - numbers[0] - 8
+    assert dropped > 30
 
 
 def test_a_fast_reader_gets_every_frame_once() -> None:
-    """It proves that no image is given twice, and that nothing is dropped while the reader is faster."""
-    live = Live(Counter(period=0.01), BRIEF)
+    """It proves that no image is given twice, and that nothing is dropped while the reader waits for each."""
+    permits = threading.Semaphore(1)
+    live = Live(Counter(permits=permits), BRIEF)
     found = []
     for moment in live.moments(["color"]):
-        found.append(int(moment["color"][1][0, 0, 0]))
+        found.append(number_of(moment))
         if len(found) == 20:
             break
-    assert found == list(range(found[0], found[0] + 20))
+        permits.release()
+    assert found == list(range(1, 21))
     assert live.remarks == ()
 
 
@@ -141,7 +162,7 @@ def read_over_an_outage(source: Source, server: MjpegServer) -> tuple[list[float
         if len(times) == 5:
             server.stop()
             threading.Timer(0.3, server.start).start()
-        if len(times) > 5 and times[-1] - times[-2] > 0.25:
+        if any("connected again" in remark for remark in source.remarks):
             return times, int(frame.color.mean())
     raise AssertionError("the stream ended")
 
