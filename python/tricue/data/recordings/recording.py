@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A recording as a source: topics become channels, paired by their times while they are read."""
 
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -85,27 +85,21 @@ class Recording:
         return width, height
 
     def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
-        wanted = None if indices is None else iter(indices)
-        target = None if wanted is None else next(wanted, -1)
-        number = 0
-        self._damaged = 0
+        remaining = None if indices is None else deque(indices)
+        number = self._damaged = 0
         for paired in self._paired():
-            if target in (None, number):
-                try:
-                    moment = {
-                        name: (paired[name].time * 1e-9, self._image(name, paired[name].item))
-                        for name in channels
-                    }
-                except ValueError:
-                    self._damaged += 1
+            if remaining is None or (remaining and remaining[0] == number):
+                moment = self._decoded(paired, channels)
+                if moment is None:
                     continue
                 yield moment
-                target = None if wanted is None else next(wanted, -1)
-            if target == -1:
+                if remaining:
+                    remaining.popleft()
+            if remaining is not None and not remaining:
                 return
             number += 1
-        if target not in (None, -1):
-            raise ValueError(f"{self.container.path}: expected {(target or 0) + 1} frames, got {number}")
+        if remaining:
+            raise ValueError(f"{self.container.path}: expected {remaining[0] + 1} frames, got {number}")
 
     def count(self) -> int:
         return sum(1 for _ in self._paired())
@@ -117,6 +111,16 @@ class Recording:
             TopicSummary(name, topic.type, counts[name], self._channels.get(name, ""))
             for name, topic in sorted(self.container.topics.items())
         ]
+
+    def _decoded(self, paired: dict[str, Timed[ImageMessage]], channels: Sequence[str]) -> Moment | None:
+        """The images of these channels; None where one is damaged."""
+        try:
+            return {
+                name: (1e-9 * paired[name].time, self._image(name, paired[name].item)) for name in channels
+            }
+        except ValueError:
+            self._damaged += 1
+            return None
 
     def _paired(self) -> Iterator[dict[str, Timed[ImageMessage]]]:
         pairing: Pairing[ImageMessage] = Pairing(list(self.chosen), self.tolerance)
