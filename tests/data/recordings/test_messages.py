@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import json
 import struct
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -198,6 +199,18 @@ def test_unreadable_types(topic: Topic, message: str) -> None:
     """It proves that types and encodings that can't be read are errors that name them."""
     with pytest.raises(ValueError, match=message):
         decoder(topic)
+
+
+HOSTILE = ("x/msg/X:\n    pass\nopen('owned', 'w')\nclass Y/Image", "x/msg/X:\n  open('owned', 'w') #/Image")
+
+
+@pytest.mark.parametrize("kind", HOSTILE)
+def test_hostile_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
+    """It proves that the name of a type, from which rosbags makes code, can't bring code of its own."""
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match="can't be the name of a type"):
+        decoder(Topic("/a", kind, "cdr", "uint8 a\n"))
+    assert not Path("owned").exists()
 
 
 def test_ros_without_a_definition() -> None:

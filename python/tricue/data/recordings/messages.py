@@ -3,6 +3,7 @@
 
 import base64
 import json
+import re
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
@@ -16,6 +17,7 @@ IMAGES = {"Image", "RawImage", "CompressedImage"}
 CAMERAS = {"CameraInfo", "CameraCalibration"}
 TRANSFORMS = {"TFMessage", "FrameTransform", "FrameTransforms"}
 Decoder = Callable[[bytes], Any]
+_ROS_TYPE = re.compile(r"[A-Za-z]\w*/msg/[A-Za-z]\w*", re.ASCII)
 
 
 class ImageMessage(NamedTuple):
@@ -163,6 +165,8 @@ def _ros_decoder(topic: Topic) -> Decoder:
         raise ImportError(f"ROS's messages need the package rosbags: {EXTRA}") from None
     ros1 = topic.encoding == "ros1"
     kind = topic.type if "/msg/" in topic.type else topic.type.replace("/", "/msg/", 1)
+    if not _ROS_TYPE.fullmatch(kind):  # which rosbags makes Python code of
+        raise ValueError(f"{topic.type!r:.60} can't be the name of a type")
     try:
         store = get_typestore(Stores.EMPTY)
         store.register(_ros_types(topic, kind))
