@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import subprocess
 import sys
 import threading
 import time
@@ -177,6 +178,21 @@ def test_http_that_stops_and_comes_back(brief: None) -> None:
         assert abs(level - server.level()) <= 20  # at most a second old
         assert times == sorted(times)
     assert any("connected again once" in remark for remark in source.remarks)
+
+
+def test_a_process_that_ends_while_it_reads() -> None:
+    """It proves that Python ends in order while a thread is reading, even in the middle of a frame."""
+    code = "import sys, tricue; frames = iter(tricue.open_source(sys.argv[1])); next(frames); next(frames)"
+    with mjpeg_server() as server:
+        for _ in range(3):
+            done = subprocess.run(
+                [sys.executable, "-c", code, server.url],
+                capture_output=True,
+                text=True,
+                timeout=60,
+                check=False,
+            )
+            assert (done.returncode, "FATAL" in done.stderr) == (0, False)
 
 
 def test_http_tracked_from_the_command_line(

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Live streams: a thread reads a device, keeps its newest images alone, and opens it again when it stops."""
 
+import atexit
 import time
 import warnings
 from collections.abc import Iterator, Sequence
 from threading import Condition, Thread
 from typing import Any, NamedTuple, Protocol
+from weakref import WeakSet
 
 from numpy.typing import NDArray
 
@@ -13,9 +15,13 @@ from tricue.camera.rig import Intrinsics
 from tricue.data.joint import JointStream, Moment
 from tricue.data.streams import DEFAULT_FPS
 
+MAX_LAST_READ = 6.0  # seconds, in which a device's methods return
+
+_lives: "WeakSet[Live]" = WeakSet()
+
 
 class Device(Protocol):
-    """A camera or a stream. Its methods are called in one thread.
+    """A camera or a stream. Its methods are called in one thread, and return within MAX_LAST_READ.
 
     name: as messages call it. remote: whether it may come later, which is waited for.
     """
@@ -132,6 +138,7 @@ class Live:
         if self._thread is not None:
             self._thread.join()  # the device is still its own
         self._running = True
+        _lives.add(self)
         self._newest: _Newest | None = None
         self._trouble = ""
         self._failure: Exception | None = None
@@ -218,6 +225,16 @@ class Live:
                 self._news.notify_all()
                 self._news.wait_for(lambda: not self._running, wait)
         return min(2 * wait, self.patience.longest_wait)
+
+
+@atexit.register
+def _end_threads() -> None:
+    """Wait for the threads: one that comes out of a library while Python ends would abort the process."""
+    for live in [*_lives]:
+        live.close()
+    for live in [*_lives]:
+        if live._thread is not None:
+            live._thread.join(MAX_LAST_READ)
 
 
 class LiveStream(JointStream):
