@@ -3,6 +3,7 @@ import subprocess
 import sys
 import threading
 import time
+from datetime import timedelta
 from itertools import takewhile
 from types import ModuleType, SimpleNamespace
 from typing import Any
@@ -340,7 +341,7 @@ def fake_depthai(frames: int) -> tuple[ModuleType, list[str]]:
     class Queue:
         left = frames
 
-        def get(self) -> dict[str, FakeImage]:
+        def get(self, _timeout: timedelta) -> dict[str, FakeImage]:
             time.sleep(0.005)
             self.left -= 1
             if self.left < 0:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """OAK cameras, live: color, and stereo depth registered to it on the camera itself."""
 
+from datetime import timedelta
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from tricue.camera.rig import Intrinsics
 PREFIX = "oak:"
 SIZE = 640, 400  # pixels of both images
 FPS = 30.0
+_WAIT = timedelta(seconds=5)  # for an image
 _METERS_PER_UNIT = np.float32(0.001)
 
 
@@ -41,8 +43,10 @@ class Oak:
 
     def read(self) -> dict[str, NDArray[Any]] | None:
         try:
-            group = self._queue.get()
+            group = self._queue.get(_WAIT)
         except (RuntimeError, self._gone):
+            group = None
+        if group is None:
             return None
         color, depth = (group[name] for name in ("color", "depth"))
         return {"color": color.getCvFrame(), "depth": np.asarray(depth.getFrame()) * _METERS_PER_UNIT}
