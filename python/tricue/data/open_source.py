@@ -11,7 +11,7 @@ from tricue.data.box_table import find_box_table, find_video_box_table, read_box
 from tricue.data.capture import Capture, is_capture, is_file_url
 from tricue.data.files import image_paths, is_image
 from tricue.data.layouts import depth_images, note_box_table, read_layout
-from tricue.data.live import Device, Live, LiveStream, live_channels
+from tricue.data.live import Device, Live, LiveStream, Patience, live_channels
 from tricue.data.recordings.recording import is_recording, open_recording
 from tricue.data.source import Source
 from tricue.data.streams import Stream, Video
@@ -19,6 +19,7 @@ from tricue.data.truth import Truth, check_target
 
 __all__ = ["Source", "open_source"]
 
+BOOT_SECONDS = 30.0  # until the first image of a camera that starts a system of its own
 CALIBRATION_FILE = "intrinsics.toml"  # searched in a sequence's folder and in the folder above
 PRINCETON_CALIBRATION_FILE = "frames.mat"  # searched in the sequence's folder
 
@@ -111,7 +112,7 @@ def _device(place: str) -> Device | None:
 
 
 def _open_live(device: Device) -> Source:
-    live = Live(device)
+    live = Live(device) if device.remote else Live(device, Patience(start=BOOT_SECONDS))
     format_ = "stream" if device.remote else "camera"
     return Source(device.name, live_channels(live), format=format_, camera=live.camera)
 
