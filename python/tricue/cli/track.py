@@ -43,6 +43,8 @@ examples:
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
   tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
+  tricue track walk.bag --topics color=/rgb/image_raw,depth=/depth/image_raw --box 60,30,25,74
+  tricue track rtsp://camera/stream --box 60,30,25,74         live: always the newest frame
   tricue track kitti/ --tracker stereo-head --box 560,170,30,60 --set near=5 --set far=40
   tricue track pair/ --tracker flow-depth --box 60,30,25,74 --calibration stereo.yml --output overlay.mp4
   tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
