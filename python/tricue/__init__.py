@@ -25,6 +25,7 @@ from tricue.track.pan_tilt import PanTilt
 former_names.install()
 
 if TYPE_CHECKING:
+    from tricue.data.open_source import open_source
     from tricue.track.color_particle.tracker import ColorParticleTracker
     from tricue.track.depth_particle.tracker import DepthParticleTracker
     from tricue.track.flow_depth.tracker import FlowDepthTracker
@@ -51,6 +52,7 @@ __all__ = [
     "__version__",
     "as_opencv",
     "create",
+    "open_source",
 ]
 
 
@@ -64,9 +66,13 @@ _TRACKERS = {
 
 
 def __getattr__(name: str) -> Any:
-    """Trackers and the version are looked up when first asked for, so that the import stays quick."""
+    """What is looked up when first asked for, so that the import stays quick."""
     if name in _TRACKERS:
         return tracker_class(_TRACKERS[name])
+    if name == "open_source":
+        from tricue.data.open_source import open_source
+
+        return open_source
     if name == "__version__":
         from importlib.metadata import version
 

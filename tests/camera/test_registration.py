@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: MIT
+import math
+
+import cv2
 import numpy as np
 import pytest
-from tricue.camera.registration import Extrinsics, Registration, color_in_depth
+from numpy.typing import NDArray
+from tricue.camera.registration import Extrinsics, Registration, Reprojection, color_in_depth
 from tricue.camera.rig import Intrinsics
 
 DEPTH = Intrinsics(60.0, 60.0, 19.5, 14.5, 40, 30)
@@ -146,3 +150,59 @@ def test_depth_of_another_size_is_named() -> None:
     """Depth of another size than its camera's is an error."""
     with pytest.raises(ValueError, match=r"^depth: expected its camera's size, 40x30, got 80x50"):
         REGISTRATION(np.ones((50, 80), np.float32))
+
+
+def slowly_reprojected(depth: NDArray[np.float32], way: Reprojection) -> NDArray[np.float64]:
+    """Pixel by pixel: the nearest depth whose pixel's outline, projected, holds the color pixel's center."""
+    found = np.full((way.color.height, way.color.width), np.inf)
+    for (v, u), z in np.ndenumerate(depth):
+        if not (np.isfinite(z) and z > 0):
+            continue
+        corners = way.depth.back_project([u - 0.5, u + 0.5, u], [v - 0.5, v + 0.5, v], z)
+        placed = corners @ way.extrinsics.rotation.T + way.extrinsics.translation
+        low, high = np.sort(way.color.project(placed[:2]), axis=0)
+        for y in range(max(0, math.ceil(low[1])), min(way.color.height, math.ceil(high[1]))):
+            for x in range(max(0, math.ceil(low[0])), min(way.color.width, math.ceil(high[0]))):
+                found[y, x] = min(found[y, x], placed[2, 2])
+    return np.where(np.isinf(found), np.nan, found)
+
+
+@pytest.mark.parametrize("scale", [0.5, 1.0, 2.3])
+def test_reprojection_agrees_with_loops(scale: float) -> None:
+    """It proves for color cameras of several sizes, turned and moved, that depth lands where a loop over all
+    pixels puts it, nearest first.
+    """
+    rng = np.random.default_rng(5)
+    depth_camera = Intrinsics(40, 41, 15.2, 11.7, 32, 24)
+    width, height = round(32 * scale), round(24 * scale)
+    color_camera = Intrinsics(44 * scale, 43 * scale, width / 2, height / 2, width, height)
+    turn = cv2.Rodrigues(np.array([0.02, -0.03, 0.05]))[0]
+    way = Reprojection(depth_camera, color_camera, Extrinsics(turn, np.array([0.05, -0.02, 0.01])))
+    depth = rng.uniform(0.7, 3.0, (24, 32)).astype(np.float32)
+    depth[rng.uniform(size=depth.shape) < 0.1] = 0
+    depth[3, 4], depth[5, 6] = np.nan, np.inf
+    found, expected = way(depth), slowly_reprojected(depth, way)
+    assert found.shape == (height, width)
+    # a pixel's center may lie within float32's rounding of an outline
+    assert np.isclose(found, expected, rtol=1e-5, equal_nan=True).mean() > 0.998
+    assert 0.5 < np.isfinite(found).mean() < 1
+
+
+def test_reprojection_without_motion_is_the_image_itself() -> None:
+    """It proves that one camera in one place gets its own depth back."""
+    camera = Intrinsics(40, 40, 15.5, 11.5, 32, 24)
+    depth = np.random.default_rng(0).uniform(0.5, 4, (24, 32)).astype(np.float32)
+    assert np.allclose(Reprojection(camera, camera, Extrinsics())(depth), depth, rtol=1e-6)
+    with pytest.raises(ValueError, match="depth: expected its camera's size, 32x24, got 31x24"):
+        Reprojection(camera, camera, Extrinsics())(depth[:, :-1])
+
+
+def test_what_is_near_hides_what_is_behind() -> None:
+    """It proves that the nearer surface is taken where both fall on one pixel."""
+    camera = Intrinsics(40, 40, 15.5, 11.5, 32, 24)
+    depth = np.full((24, 32), 4.0, np.float32)
+    depth[:, 16:20] = 1.0
+    moved = Reprojection(camera, camera, Extrinsics(np.eye(3), np.array([-0.2, 0.0, 0.0])))(depth)
+    assert (moved[:, 8:12] == 1.0).all()  # 40 px * 0.2 m / 1 m to the left
+    assert (moved[:, :8] == 4.0).all()
+    assert np.isnan(moved[:, 14:18]).any()  # what it hid, 2 px shifted, has no depth

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
+
 """``tricue info``: what is said of recordings whose contents are known."""
 
 import json
+import time
 from pathlib import Path
 from typing import Any
 
@@ -277,6 +279,13 @@ def test_a_camera_has_no_frames_to_count(
 
         def get(self, _key: int) -> float:
             return 30.0
+
+        def read(self) -> tuple[bool, object]:
+            time.sleep(0.01)
+            return True, np.zeros((4, 6, 3), np.uint8)
+
+        def release(self) -> None:
+            pass
 
     monkeypatch.setattr(cv2, "VideoCapture", Live)
     assert main(["info", "0"]) == 2

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from time import sleep
 
 import cv2
 import numpy as np
@@ -485,7 +486,7 @@ def uneven_vot(folder: Path) -> Source:
         (beside(eight_bits), r"1.png: expected depth, 16 bits .*, got uint8 \(48, 64, 3\); .* not meters"),
         (beside(gray_bits), r"1.png: .* got uint8 \(30, 40\); 8 bits are a picture of the depth, not meters"),
         (beside(wide_bits), r"1.png: expected depth, 16 bits of one channel, got uint16 \(30, 40, 3\)"),
-        (eight_bits_in_the_middle, "2.png: expected depth, 16 bits of one channel, got uint8"),
+        (eight_bits_in_the_middle, "expected images of one kind, found 1 of color and 1 of depth"),
         (cut_off, "2.png: expected an image, this file can't be read as one"),
         (beside(lambda f: f.mkdir()), "d: expected a folder of images or a sequence, found neither"),
         (
@@ -540,8 +541,15 @@ def test_a_camera_has_no_depth_folder(tmp_path: Path, monkeypatch: pytest.Monkey
         def isOpened(self) -> bool:  # noqa: N802 (as cv2 names it)
             return True
 
-        def get(self, key: int) -> float:
-            return {cv2.CAP_PROP_FRAME_WIDTH: 64.0, cv2.CAP_PROP_FRAME_HEIGHT: 48.0}.get(key, 0.0)
+        def get(self, _key: int) -> float:
+            return 0.0
+
+        def read(self) -> tuple[bool, object]:
+            sleep(0.01)
+            return True, np.zeros((48, 64, 3), np.uint8)
+
+        def release(self) -> None:
+            pass
 
     monkeypatch.setattr(cv2, "VideoCapture", Endless)
     assert open_source("0").size == (64, 48)

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: MIT
+import time
 from pathlib import Path
 
 import cv2
@@ -6,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import StereoRig
+from tricue.data.live import LiveStream
 from tricue.data.open_source import Source, open_source
-from tricue.data.streams import Camera
 
 KITTI = "P2: 700 0 600 45 0 700 170 0.2 0 0 1 0.003\nP3: 700 0 600 -333 0 700 170 2 0 0 1 0.003\n"
 
@@ -145,11 +146,11 @@ def test_pairs_are_rectified(tmp_path: Path) -> None:
     assert levels(swapped) == [(right, left) for left, right in PAIRS]
 
 
-class TwoFrames:
-    """A cv2.VideoCapture that gives two frames of its number's level."""
+class LevelCamera:
+    """A cv2.VideoCapture that gives frames of its number's level."""
 
     def __init__(self, number: int) -> None:
-        self.number, self.left = number, 2
+        self.number = number
 
     def isOpened(self) -> bool:  # noqa: N802 (as cv2 names it)
         return True
@@ -158,19 +159,19 @@ class TwoFrames:
         return 0.0
 
     def read(self) -> tuple[bool, object]:
-        self.left -= 1
-        return self.left >= 0, np.full((48, 64, 3), 10 * self.number, np.uint8)
+        time.sleep(0.01)
+        return True, np.full((48, 64, 3), 10 * self.number, np.uint8)
 
     def release(self) -> None:
-        self.left = 0
+        pass
 
 
 def test_two_cameras(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """It proves that two cameras are a pair, with a word on their times; a camera and a folder are none."""
-    monkeypatch.setattr(cv2, "VideoCapture", TwoFrames)
+    monkeypatch.setattr(cv2, "VideoCapture", LevelCamera)
     source = open_source("1", right="2")
-    assert isinstance(source.channels["right"], Camera)
-    assert "one after the other" in source.notes[0]
+    assert isinstance(source.channels["right"], LiveStream)
+    assert "don't expose at one time" in source.notes[0]
     frame = next(iter(source))
     assert frame.color is not None
     assert frame.right is not None

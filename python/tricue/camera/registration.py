@@ -2,6 +2,7 @@
 """Registration: color images in the depth camera's pixels, and depth images in the color camera's."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +12,8 @@ from tricue import imgproc
 from tricue.camera.rig import Intrinsics
 
 _OUTSIDE_IMAGE = -2.0  # a pixel coordinate that is in no image
+_FAR_OUTSIDE = 1 << 20  # pixels
+_MAX_COVERED = 16  # color pixels that one depth pixel covers in a row or a column
 
 
 class Extrinsics(NamedTuple):
@@ -89,6 +92,93 @@ class Registration:
             np.array([each.cx, each.cy]) + 0.5 for each in (depth, color)
         )  # in box coordinates
         return np.hstack([(in_depth[:, :2] - depth_center) * scale + color_center, in_depth[:, 2:] * scale])
+
+
+@dataclass(frozen=True)
+class Reprojection:
+    """Brings depth images into the pixels of a color camera in another place.
+
+    depth, color: the intrinsics of the two cameras. extrinsics: depth to color camera.
+    """
+
+    depth: Intrinsics
+    color: Intrinsics
+    extrinsics: Extrinsics
+
+    def __call__(self, meters: NDArray[Any]) -> NDArray[np.float32]:
+        """The depth (H, W) of each pixel of the color image, from a depth image (h, w); both in meters.
+
+        A depth pixel covers what lies between the projections of its corners, so that a finer color image has
+        no gaps; where several fall on one pixel, the nearest surface hides the others. NaN where none does:
+        beside of edges, and outside of the depth image. ValueError where the depth image has another size
+        than its camera.
+        """
+        image = np.asarray(meters, np.float32)
+        _check("depth", image.shape, self.depth)
+        with np.errstate(invalid="ignore"):
+            z = np.where((image > 0) & np.isfinite(image), image, np.float32(np.nan))
+        first, last = (self._project(corner, z) for corner in self._corners)
+        columns, rows = (_covered(first[axis], last[axis]) for axis in (0, 1))
+        depth = z * self._middle[..., 2] + np.float32(self.extrinsics.translation[2])
+        return self._nearest_of(depth, columns, rows)
+
+    @cached_property
+    def _corners(self) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Of each pixel: where the rays through two opposite corners go, in the color camera's frame."""
+        return self._rays(-0.5), self._rays(0.5)
+
+    @cached_property
+    def _middle(self) -> NDArray[np.float32]:
+        return self._rays(0.0)
+
+    def _rays(self, offset: float) -> NDArray[np.float32]:
+        """(h, w, 3): the point of each pixel at a depth of 1 m, turned into the color camera's frame."""
+        u, v = np.meshgrid(np.arange(self.depth.width), np.arange(self.depth.height))
+        points = self.depth.back_project(u + offset, v + offset, 1.0)
+        rays: NDArray[np.float32] = (points @ np.asarray(self.extrinsics.rotation).T).astype(np.float32)
+        return rays
+
+    def _project(self, rays: NDArray[np.float32], z: NDArray[np.float32]) -> list[NDArray[np.float32]]:
+        """Columns and rows (h, w) in the color image; NaN where there is no depth or it is behind."""
+        x, y, forward = (
+            z * rays[..., axis] + np.float32(self.extrinsics.translation[axis]) for axis in range(3)
+        )
+        with np.errstate(invalid="ignore", divide="ignore"):
+            inverse = np.where(forward > 0, 1 / forward, np.float32(np.nan))
+        camera = self.color
+        return [
+            np.float32(camera.fx) * x * inverse + np.float32(camera.cx),
+            np.float32(camera.fy) * y * inverse + np.float32(camera.cy),
+        ]
+
+    def _nearest_of(
+        self,
+        depth: NDArray[np.float32],
+        columns: tuple[NDArray[np.intp], NDArray[np.intp]],
+        rows: tuple[NDArray[np.intp], NDArray[np.intp]],
+    ) -> NDArray[np.float32]:
+        height, width = self.color.height, self.color.width
+        nearest = np.full(height * width, np.inf, np.float32)
+        (left, across), (top, down) = columns, rows
+        across, down = (np.minimum(count, _MAX_COVERED) for count in (across, down))
+        for dy in range(int(down.max(initial=0))):
+            for dx in range(int(across.max(initial=0))):
+                x, y = left + dx, top + dy
+                hit = (dx < across) & (dy < down) & (x >= 0) & (x < width) & (y >= 0) & (y < height)
+                np.minimum.at(nearest, y[hit] * width + x[hit], depth[hit])
+        nearest[np.isinf(nearest)] = np.nan
+        return nearest.reshape(height, width)
+
+
+def _covered(
+    start: NDArray[np.float32], end: NDArray[np.float32]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """The first pixel whose center lies between two coordinates, and how many do; 0 for NaN."""
+    low, high = np.fmin(start, end), np.fmax(start, end)
+    known = np.isfinite(start) & np.isfinite(end)
+    first = np.ceil(np.where(known, low, 0)).clip(-_FAR_OUTSIDE, _FAR_OUTSIDE).astype(np.intp)
+    behind = np.ceil(np.where(known, high, 0)).clip(-_FAR_OUTSIDE, _FAR_OUTSIDE).astype(np.intp)
+    return first, behind - first
 
 
 def _nearest(coordinates: NDArray[np.floating[Any]], length: int) -> NDArray[np.intp]:

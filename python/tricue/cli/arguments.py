@@ -57,6 +57,24 @@ def angles(text: str) -> tuple[float, ...]:
     return found
 
 
+def topics(text: str) -> dict[str, str]:
+    """Topics of a recording by channel, color=/a,depth=/b."""
+    found = dict(part.strip().split("=", 1) for part in text.split(",") if "=" in part)
+    if len(found) != text.count(",") + 1 or not all(found) or not all(found.values()):
+        raise argparse.ArgumentTypeError(f"expected color=/topic,depth=/topic,right=/topic, got {text!r}")
+    return found
+
+
+def add_topics(command: argparse.ArgumentParser) -> None:
+    """The option that chooses a recording's topics."""
+    command.add_argument(
+        "--topics",
+        type=topics,
+        metavar="CHANNEL=TOPIC,...",
+        help="of a recording: color=/a,depth=/b",
+    )
+
+
 def tracker_name(text: str) -> str:
     """A tracker's name, or ``module:Class`` of a module that is installed or in the working folder."""
     if ":" in text and "" not in sys.path and (here := str(Path.cwd())) not in sys.path:

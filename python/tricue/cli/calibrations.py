@@ -17,6 +17,7 @@ from tricue.track.base.registry import traits
 from tricue.track.base.validation import DEFAULT_BASELINE, DEFAULT_FIELD_OF_VIEW
 
 STEREO_FILE = "--calibration FILE, by OpenCV, KITTI or in TOML"
+OWN_CALIBRATION = "calibration: the recording's or the camera's own"
 
 
 class Calibration(NamedTuple):
@@ -107,6 +108,8 @@ def _find_rig(tracker: str, source: Source) -> Calibration:
             reason = f"left out the calibration beside the images: {error}"
         else:
             return Calibration(rig=rig, note=f"calibration found: {source.calibration}")
+    elif isinstance(source.camera, StereoRig):
+        return Calibration(rig=source.camera, note=OWN_CALIBRATION)
     if "right" in source.channels:  # else the missing right images are reported first
         consequence = "tracks will have no position in meters"
         if traits(tracker).guesses:
@@ -146,6 +149,9 @@ def _find_intrinsics(tracker: str, source: Source, cameras: Collection[str]) -> 
         else:
             note = f"calibration found: {source.calibration}"
             return found._replace(note="; ".join(filter(None, (note, found.note))))
+    elif source.camera is not None:
+        own = source.camera
+        return Calibration(own.intrinsics if isinstance(own, StereoRig) else own, OWN_CALIBRATION)
     if "depth" not in source.channels:
         return Calibration(note="" if source.calibration is None else reason)
     give = "give --calibration FILE or --fov H,V"

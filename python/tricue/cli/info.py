@@ -9,16 +9,18 @@ from typing import Any
 
 import numpy as np
 
+from tricue.cli.arguments import add_topics
 from tricue.data import layouts
 from tricue.data.datasets import find_sequences
+from tricue.data.live import LiveStream
 from tricue.data.open_source import Source, open_source
-from tricue.data.streams import Camera
 from tricue.data.summary import (
     Summary,
     compute_duration,
     summarize_calibration,
     summarize_channel,
     summarize_depth,
+    summarize_topics,
     summarize_truth,
 )
 
@@ -28,6 +30,7 @@ examples:
   tricue info sequences/                                      a line for each sequence below
   tricue info depth/ --depth-scale 0.001 --fps 15
   tricue info left.mp4 --right right.mp4 --calibration stereo.yml
+  tricue info robot.mcap --topics color=/camera/color/image_raw
   tricue info kitti/ --target "Car 31" --json
 """
 VALUE_COLUMN = 13  # characters before the values
@@ -35,11 +38,14 @@ VALUE_COLUMN = 13  # characters before the values
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
-    command.add_argument("place", metavar="PLACE", help="video file, sequence folder, or folder of sequences")
+    command.add_argument(
+        "place", metavar="PLACE", help="video file, recording, sequence folder, or folder of sequences"
+    )
     command.add_argument("--depth-scale", type=float, metavar="M", help="meters per unit of depth")
     command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
     command.add_argument("--right", metavar="PLACE", help="the right camera's; PLACE is the left one's")
     command.add_argument("--target", metavar="NAME", help="one of a folder's several targets")
+    add_topics(command)
     command.add_argument("--calibration", type=Path, metavar="FILE", help="not the one beside the images")
     command.add_argument("--json", action="store_true", help="the same as one JSON object")
 
@@ -66,8 +72,9 @@ def _open(options: argparse.Namespace) -> Source:
         fps=options.fps,
         right=options.right,
         target=options.target,
+        topics=options.topics,
     )
-    if any(isinstance(stream, Camera) for stream in source.channels.values()):
+    if any(isinstance(stream, LiveStream) for stream in source.channels.values()):
         raise ValueError(f"{source.name}: expected a recording, of which the frames can be counted")
     return source
 
@@ -85,11 +92,12 @@ def _facts(source: Source, options: argparse.Namespace) -> Summary:
         "fps_known": source.rate is not None or source.clock.timed,
         "seconds": compute_duration(source, frames),
         "channels": channels,
+        "topics": summarize_topics(source),
         "depth": None if depth is None else summarize_depth(depth, unit),
         "truth": summarize_truth(source, frames),
         "targets": _targets(Path(options.place)),
         "calibration": summarize_calibration(source, options.calibration),
-        "notes": list(source.notes),
+        "notes": [*source.notes, *source.remarks],
     }
 
 
@@ -113,6 +121,9 @@ def _lines(facts: Summary) -> Iterator[str]:
     if facts["targets"]:
         yield _line("targets", f"{len(facts['targets'])}, by --target: {', '.join(facts['targets'])}")
     yield from _calibration_lines(facts["calibration"])
+    for topic in facts["topics"]:
+        channel = f", as {topic['channel']}" if topic["channel"] else ""
+        yield _line("topic", f"{topic['name']}, {topic['type']}, {topic['messages']} messages{channel}")
     for note in facts["notes"]:
         yield _line("note", note)
 

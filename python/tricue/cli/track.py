@@ -16,7 +16,7 @@ import numpy as np
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.cli.arguments import add_common, angles, box, count, tracker_name
+from tricue.cli.arguments import add_common, add_topics, angles, box, count, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.exports import CocoOutput, MotOutput
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
@@ -47,6 +47,8 @@ examples:
   tricue track depth/ --depth-scale 0.001 --fps 15 --tracker depth-particle --fov 57,43 --plot path.png
   tricue track video.mp4 --depth depth/ --depth-scale 0.001 --tracker depth-particle --calibration camera.yml
   tricue track left.mp4 --right right.mp4 --calibration stereo.yml --tracker stereo-head --detect face
+  tricue track walk.bag --topics color=/rgb/image_raw,depth=/depth/image_raw --box 60,30,25,74
+  tricue track rtsp://camera/stream --box 60,30,25,74         live: always the newest frame
   tricue track kitti/ --tracker stereo-head --box 560,170,30,60 --set near=5 --set far=40
   tricue track pair/ --tracker flow-depth --box 60,30,25,74 --calibration stereo.yml --output overlay.mp4
   tricue track rgbd/ --tracker flow-depth --box 60,30,25,74   color and depth; a target among others
@@ -58,7 +60,7 @@ examples:
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
     command.add_argument(
-        "input", metavar="INPUT", help="video file, folder of images, sequence folder, camera number"
+        "input", metavar="INPUT", help="video, folder of images, sequence, recording, URL, camera number"
     )
     command.add_argument(
         "--tracker",
@@ -87,6 +89,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="frames a second of images without times (default 30); videos, cameras, VOT, TUM and "
         "Princeton have their own",
     )
+    add_topics(command)
     _add_stereo(command)
     _add_depth(command)
     command.add_argument(
@@ -191,6 +194,7 @@ def run(options: argparse.Namespace) -> int:
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
     _report(run.source, clock, tracks, interrupted)
+    notes += run.source.remarks
     notes += [f"wrote {output.about}" for output in outputs]
     if options.plot:
         notes.append(_plot(options.plot, run, tracks.get(1, {})))
@@ -227,6 +231,7 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
         depth_scale=options.depth_scale,
         fps=options.fps,
         right=options.right,
+        topics=options.topics,
     )
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from tricue.data import kitti, otb, princeton, tum, vot
+from tricue.data import kitti, otb, princeton, tum, viewer_images, vot
 from tricue.data.box_table import find_box_table, read_box_table
 from tricue.data.depth_images import DepthReader, is_depth, require_scale
 from tricue.data.files import image_paths, is_video, natural_order
@@ -97,6 +97,9 @@ def _detect_layout(folder: Path, scale: float | None, target: str | None) -> Lay
         name = "KITTI tracking" if sequence.tracking else "KITTI"
         channels, truth = kitti.read_channels(sequence, target)
         return Layout(name, channels, truth, calibration=sequence.calibration)
+    if found := viewer_images.read_channels(folder, scale):
+        channels, notes = found
+        return Layout("viewer's images", channels, find_truth(folder, target), notes)
     return _read_plain_layout(folder, scale, target)
 
 

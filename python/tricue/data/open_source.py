@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: MIT
 """Opens whatever can be tracked in: a video, a folder of images, a benchmark's sequence, a camera."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from urllib.parse import urlsplit
 
-from tricue.data.box_table import find_video_box_table, read_box_table
+from tricue.data import oak, realsense
+from tricue.data.box_table import find_box_table, find_video_box_table, read_box_table
+from tricue.data.capture import Capture, is_capture, is_file_url
 from tricue.data.files import image_paths, is_image
 from tricue.data.layouts import depth_images, note_box_table, read_layout
+from tricue.data.live import Device, Live, LiveStream, Patience, live_channels
+from tricue.data.recordings.recording import is_recording, open_recording
 from tricue.data.source import Source
-from tricue.data.streams import Camera, Stream, Video
+from tricue.data.streams import Stream, Video
 from tricue.data.truth import Truth, check_target
 
 __all__ = ["Source", "open_source"]
 
+BOOT_SECONDS = 30.0  # until the first image of a camera that starts a system of its own
 CALIBRATION_FILE = "intrinsics.toml"  # searched in a sequence's folder and in the folder above
 PRINCETON_CALIBRATION_FILE = "frames.mat"  # searched in the sequence's folder
 
@@ -25,23 +32,29 @@ def open_source(
     fps: float | None = None,
     right: str | Path | None = None,
     target: str | None = None,
+    topics: Mapping[str, str] | None = None,
 ) -> Source:
-    """Open a video file, a folder of images, a sequence folder, or a camera by its number.
+    """Open a video file, a folder of images, a sequence folder, a recording, or a live camera.
 
     A sequence folder is OTB's (``img/``), VOT's (``sequence``), TUM's (``depth.txt``), the Princeton
     benchmark's (``rgb/r-0-1.png``), or holds one video, with a file of true boxes. 16-bit images are depth.
     Stereo pairs are KITTI's (``image_02`` and ``image_03``), or in ``left`` and ``right``.
 
+    A recording is a ROS 1 bag, also RealSense's, a ROS 2 folder, or an MCAP file. A camera is a number, a
+    file such as ``/dev/video0``, a URL (rtsp, http, https, udp, tcp), ``realsense:`` or ``oak:``, which
+    a serial number may follow; each frame is the newest then, and :attr:`Source.remarks` counts the dropped.
+
     depth: a folder of 16-bit images, or a sequence folder with depth, for the color images of ``place``;
         they are paired by order.
     depth_scale: meters per unit of depth; required unless the format defines it (VOT, TUM, Princeton).
     fps: frames per second of images without times, 30 by default; ValueError for images with times.
-    right: the right camera's video, folder or number, where ``place`` is the left one's; paired by order.
+    right: the right camera's video, folder, number or URL; ``place`` is the left one's; paired by order.
     target: one of :func:`tricue.data.layouts.list_targets`, for a folder with several. A KITTI sequence is
         cut to the frames in which it is labeled.
+    topics: of a recording, by channel: "color", "depth", "right"; guessed by default, which a note says.
     Raises ValueError or OSError that names the place and what is wrong with it.
     """
-    source = _opened(place, depth_scale, target)
+    source = _opened(place, depth_scale, target, topics)
     if right is not None:
         source = _with_right(source, place, right)
     if depth is not None:
@@ -51,10 +64,24 @@ def open_source(
     return source if fps is None else replace(source, rate=fps)
 
 
-def _opened(place: str | Path, scale: float | None, target: str | None = None) -> Source:
-    if isinstance(place, str) and place.isdecimal():
-        return Source(f"camera {place}", {"color": Camera(int(place))}, format="camera")
+def _opened(
+    place: str | Path,
+    scale: float | None,
+    target: str | None = None,
+    topics: Mapping[str, str] | None = None,
+) -> Source:
+    if isinstance(place, str) and (device := _device(place)):
+        return _open_live(device)
+    if isinstance(place, str) and is_file_url(place):
+        file = Path(urlsplit(place).path)
+        return Source(file.stem, {"color": Video(file, place)}, format="video")
     path = _existing(Path(place))
+    if is_recording(path):
+        return _with_table(open_recording(path, topics, scale), path)
+    if topics is not None:
+        raise ValueError(
+            f"--topics: expected with a recording (.bag, .mcap, .db3), got {place}; leave it out"
+        )
     if path.is_dir():
         layout = read_layout(path, scale, target)
         name = path.resolve().name if target is None else f"{path.resolve().name} {target}"
@@ -72,13 +99,31 @@ def _opened(place: str | Path, scale: float | None, target: str | None = None) -
         raise ValueError(f"{place}: expected a video or a folder, got one picture; give its folder")
     if target is not None:
         check_target(target, (), path)
-    video = Source(path.stem, {"color": Video(path)}, format="video")
-    table = find_video_box_table(path)
-    return (
-        video
-        if table is None
-        else replace(_with_truth(video, read_box_table(table)), notes=(note_box_table(table),))
-    )
+    return _with_table(Source(path.stem, {"color": Video(path)}, format="video"), path)
+
+
+def _device(place: str) -> Device | None:
+    """The live device of this name; None for files and folders."""
+    if place.startswith(realsense.PREFIX):
+        return realsense.RealSense(place.removeprefix(realsense.PREFIX))
+    if place.startswith(oak.PREFIX):
+        return oak.Oak(place.removeprefix(oak.PREFIX))
+    return Capture(place) if is_capture(place) else None
+
+
+def _open_live(device: Device) -> Source:
+    live = Live(device) if device.remote else Live(device, Patience(start=BOOT_SECONDS))
+    format_ = "stream" if device.remote else "camera"
+    return Source(device.name, live_channels(live), format=format_, camera=live.camera)
+
+
+def _with_table(source: Source, path: Path) -> Source:
+    """The source with the true boxes of the table beside a file, or in a recording's folder."""
+    table = find_box_table(path, None) if path.is_dir() else find_video_box_table(path)
+    if table is None:
+        return source
+    notes = (*source.notes, note_box_table(table))
+    return replace(_with_truth(source, read_box_table(table)), notes=notes)
 
 
 def _with_truth(source: Source, truth: Truth | None) -> Source:
@@ -96,10 +141,10 @@ def _with_right(source: Source, place: str | Path, right: str | Path) -> Source:
     left, other = streams
     assert left
     assert other
-    if isinstance(left, Camera) != isinstance(other, Camera):
+    if isinstance(left, LiveStream) != isinstance(other, LiveStream):
         raise ValueError(f"--right {right}: expected two cameras or two recordings, got one of each")
-    note = "the two cameras are read one after the other; what moves fast isn't at one place in both"
-    notes = (*source.notes, note) if isinstance(left, Camera) else source.notes
+    note = "the two cameras don't expose at one time; what moves fast isn't at one place in both"
+    notes = (*source.notes, note) if isinstance(left, LiveStream) else source.notes
     rest = {name: stream for name, stream in source.channels.items() if name not in ("color", "right")}
     channels = {"color": left, "right": other, **rest}
     return replace(source, channels=channels, notes=notes, format="stereo pair")
@@ -110,7 +155,7 @@ def _with_depth(source: Source, place: str | Path, depth: Path, scale: float | N
     color = source.channels.get("color")
     if color is None:
         raise ValueError(f"{place}: expected color images beside --depth {depth}, found only depth")
-    if isinstance(color, Camera):
+    if isinstance(color, LiveStream):
         raise ValueError(f"--depth {depth}: expected with a video or a folder, got {source.name}")
     channels = {**source.channels, "depth": _depth_stream(_existing(depth), scale)}
     return replace(source, channels=channels, calibration=source.calibration or _calibration(depth))

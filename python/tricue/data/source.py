@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.camera.numbers import positive
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.data.joint import Moment, common_joint, joints_of
 from tricue.data.streams import MAX_FPS, Stream
 
 Rectify = Callable[[NDArray[Any], NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]]
@@ -29,6 +31,8 @@ class Source:
     truth: (M, 4) true boxes x, y, width, height in pixels from 0, NaN where absent or unknown; M may differ
         from the number of frames.
     calibration: a calibration file that was found beside the images.
+    camera: the camera or the stereo pair as the recording or the device itself tells it: of registered depth
+        the color camera, else the depth camera.
     notes: what was left out of a folder and why, one sentence each.
     rate: frames per second, for images without times.
     rectify: rectifies a raw stereo pair (color, right).
@@ -53,6 +57,7 @@ class Source:
     absent: NDArray[np.bool_] | None = None
     positions: NDArray[np.float64] | None = None
     format: str = ""
+    camera: Intrinsics | StereoRig | None = None
 
     def __post_init__(self) -> None:
         if self.truth is not None and self.absent is None:
@@ -82,8 +87,16 @@ class Source:
 
     @property
     def size(self) -> tuple[int, int]:
-        """Width and height in pixels that a calibration has to match: of depth, else of color images."""
-        return self.channels.get("depth", self._first).size
+        """Width and height in pixels that a calibration has to match: of depth, unless it gets registered to
+        color, else of color images.
+        """
+        registered = self.register is not None and "color" in self.channels
+        return self.channels.get("color" if registered else "depth", self._first).size
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What showed while reading, one sentence each: images left out, a recording cut off."""
+        return tuple(remark for joint in joints_of(self.channels.values()) for remark in joint.remarks)
 
     @property
     def first_box(self) -> Box | None:
@@ -93,7 +106,7 @@ class Source:
         return Box(*self.truth[0].tolist())
 
     def __iter__(self) -> Iterator[Frame]:
-        return self._frames({name: iter(stream) for name, stream in self.channels.items()}, count())
+        return self._frames(self._moments(), count())
 
     def frames(self, indices: Iterable[int]) -> Iterator[Frame]:
         """Only the frames with these increasing indices from 0; of image files only those are read.
@@ -101,11 +114,22 @@ class Source:
         ValueError for indices that don't increase, and for an index beyond the last frame.
         """
         wanted = _increasing(indices)
-        return self._frames({name: stream.at(wanted) for name, stream in self.channels.items()}, wanted)
+        return self._frames(self._moments(wanted), wanted)
 
-    def _frames(
+    def _moments(self, wanted: list[int] | None = None) -> Iterator[Moment]:
+        """The images by channel, moment by moment."""
+        if joint := common_joint(self.channels.values()):
+            return joint.moments(list(self.channels), wanted)
+        streams = {
+            name: iter(stream) if wanted is None else stream.at(wanted)
+            for name, stream in self.channels.items()
+        }
+        return self._together(streams, count() if wanted is None else wanted)
+
+    def _together(
         self, streams: Mapping[str, Iterator[tuple[float, NDArray[Any]]]], numbers: Iterable[int]
-    ) -> Iterator[Frame]:
+    ) -> Iterator[Moment]:
+        """Moments of streams that are paired by order; ValueError where one ends before the others."""
         for number in numbers:
             found = {name: next(stream, None) for name, stream in streams.items()}
             moment = {name: image for name, image in found.items() if image is not None}
@@ -117,6 +141,10 @@ class Source:
                     f"{self.name}: expected as many {' as '.join(streams)} images, "
                     f"got {number} {ended} and more {next(iter(moment))}"
                 )
+            yield moment
+
+    def _frames(self, moments: Iterator[Moment], numbers: Iterable[int]) -> Iterator[Frame]:
+        for number, moment in zip(numbers, moments, strict=False):
             seconds = moment[self._clock][0] if self.rate is None else number / self.rate
             images = {name: image for name, (_, image) in moment.items()}
             color, depth, right = (images.get(name) for name in ("color", "depth", "right"))

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Streams: the images of one channel in order, from a folder, a video file, or a live camera."""
+"""Streams: the images of one channel in order, from a folder or a video file."""
 
 import os
-import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -103,12 +102,15 @@ def timed_images(images: TimedPaths, read: ImageReader = read_color) -> Images:
 
 
 class Video:
-    """A video file. Its length is None, for containers state their frame count wrongly or not at all."""
+    """A video file. Its length is None, for containers state their frame count wrongly or not at all.
+
+    url: where it is instead, in a network.
+    """
 
     length = None
 
-    def __init__(self, path: Path) -> None:
-        self.path = path
+    def __init__(self, path: Path, url: str = "") -> None:
+        self.path, self.place = path, url or str(path)
         capture = self._open()
         rate = plausible_fps(capture.get(cv2.CAP_PROP_FPS))
         self.fps, self.timed = rate or DEFAULT_FPS, rate is not None
@@ -128,10 +130,10 @@ class Video:
         finally:
             capture.release()
         if index == 0:
-            raise ValueError(f"{self.path}: expected a video, this file has no frame that can be decoded")
+            raise ValueError(f"{self.place}: expected a video, this file has no frame that can be decoded")
         if index < MIN_DECODED_SHARE * stated:
             warnings.warn(
-                f"{self.path}: only {index} of its {stated:.0f} frames can be decoded; is it cut off?",
+                f"{self.place}: only {index} of its {stated:.0f} frames can be decoded; is it cut off?",
                 stacklevel=2,
             )
 
@@ -144,7 +146,7 @@ class Video:
                     index += 1
                 image = _read(capture) if index == wanted else None
                 if image is None:
-                    raise ValueError(f"{self.path}: expected {wanted + 1} frames, got {index}")
+                    raise ValueError(f"{self.place}: expected {wanted + 1} frames, got {index}")
                 yield wanted / self.fps, image
                 index += 1
         finally:
@@ -162,48 +164,15 @@ class Video:
 
     def _open(self) -> cv2.VideoCapture:
         try:
-            str(self.path).encode()
+            self.place.encode()
         except UnicodeEncodeError:
             raise ValueError(
-                f"{str(self.path)!a}: OpenCV opens only videos whose path is UTF-8; rename it"
+                f"{self.place!a}: OpenCV opens only videos whose path is UTF-8; rename it"
             ) from None
-        capture = cv2.VideoCapture(str(self.path))
+        capture = cv2.VideoCapture(self.place)
         if not capture.isOpened():
-            raise ValueError(f"{self.path}: expected a video, this file can't be opened as one")
+            raise ValueError(f"{self.place}: expected a video, this file can't be opened as one")
         return capture
-
-
-class Camera:
-    """A live camera by its number; OSError where it can't be opened or stops giving frames."""
-
-    length = None
-    timed = True  # by the clock
-
-    def __init__(self, number: int) -> None:
-        self.number = number
-        self.capture = cv2.VideoCapture(number)
-        if not self.capture.isOpened():
-            raise OSError(f"camera {number}: can't be opened; is it plugged in and not in use elsewhere?")
-        self.fps = plausible_fps(self.capture.get(cv2.CAP_PROP_FPS)) or DEFAULT_FPS
-
-    @property
-    def size(self) -> tuple[int, int]:
-        width, height = (self.capture.get(p) for p in (cv2.CAP_PROP_FRAME_WIDTH, cv2.CAP_PROP_FRAME_HEIGHT))
-        return int(width), int(height)
-
-    def __iter__(self) -> Iterator[tuple[float, Image]]:
-        start = time.monotonic()
-        try:
-            while (image := _read(self.capture)) is not None:
-                yield time.monotonic() - start, image
-        finally:
-            self.capture.release()
-        raise OSError(f"camera {self.number}: it stopped giving frames; was it unplugged?")
-
-    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        raise ValueError(
-            f"camera {self.number}: expected a recording; a live camera can't give frames {indices[0]}, ..."
-        )
 
 
 def read_image(path: Path, flag: int) -> Image:

@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.camera.read_calibration import read_intrinsics, read_rig
-from tricue.camera.rig import Intrinsics
-from tricue.data.depth_images import DepthReader
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.data.depth_images import METERS_PER_MILLIMETER, DepthReader
+from tricue.data.joint import JointStream, joints_of
 from tricue.data.open_source import Source
+from tricue.data.recordings.recording import Recording
 from tricue.data.streams import Images, Stream, Video
 
 MAX_SAMPLED_FRAMES = 100  # whose depth is summarized
@@ -22,7 +24,7 @@ Summary = dict[str, Any]
 
 def count_frames(stream: Stream) -> int:
     """The number of images in a recording; a video is read to its end."""
-    return stream.count() if isinstance(stream, Video) else stream.length or 0
+    return stream.count() if isinstance(stream, Video | JointStream) else stream.length or 0
 
 
 def compute_duration(source: Source, frames: int) -> float:
@@ -42,6 +44,16 @@ def summarize_channel(stream: Stream) -> Summary:
     return {"width": width, "height": height, "type": kind, "frames": count_frames(stream)}
 
 
+def summarize_topics(source: Source) -> list[Summary]:
+    """All topics of a recording, with type and number of messages; empty for other sources."""
+    return [
+        topic._asdict()
+        for joint in joints_of(source.channels.values())
+        if isinstance(joint, Recording)
+        for topic in joint.topics()
+    ]
+
+
 def summarize_depth(stream: Stream, source: str) -> Summary | None:
     """The unit, the 5th and 95th percentile of the depth in meters, and the share of pixels without depth.
 
@@ -49,18 +61,17 @@ def summarize_depth(stream: Stream, source: str) -> Summary | None:
     where no pixel has a depth; the summary is None where the stream has no unit. source: where the unit is
     from, as it is reported.
     """
-    if not isinstance(stream, Images) or not isinstance(stream.read, DepthReader):
+    scale, rotated = _depth_unit(stream)
+    if scale is None:
         return None
-    scale, rotated = stream.read.scale, stream.read.rotated
-    chosen = np.unique(
-        np.linspace(0, stream.length - 1, min(MAX_SAMPLED_FRAMES, stream.length)).round().astype(int)
-    )
+    length = count_frames(stream)
+    chosen = np.unique(np.linspace(0, length - 1, min(MAX_SAMPLED_FRAMES, length)).round().astype(int))
     counts = np.zeros(DEPTH_LEVELS, np.int64)
+    level = min(scale, METERS_PER_MILLIMETER)  # also of depth that is recorded in meters
     for _, meters in stream.at(chosen.tolist()):
-        counts += np.bincount(np.rint(meters.ravel() / scale).astype(np.int64), minlength=DEPTH_LEVELS)[
-            :DEPTH_LEVELS
-        ]
-    near, far = (_percentile(counts, share, scale) for share in (0.05, 0.95))
+        units = np.rint(np.nan_to_num(meters.ravel() / level, posinf=0)).clip(0, DEPTH_LEVELS - 1)
+        counts += np.bincount(units.astype(np.int64), minlength=DEPTH_LEVELS)
+    near, far = (_percentile(counts, share, level) for share in (0.05, 0.95))
     return {
         "metres_per_unit": scale,
         "unit_from": "Princeton's format" if rotated and source != "--depth-scale" else source,
@@ -97,13 +108,23 @@ def summarize_calibration(source: Source, given: Path | None) -> Summary | None:
     """
     path = given or source.calibration
     if path is None:
-        return None
+        own = source.camera
+        return None if own is None else {"file": "the recording's own", **_summarize_known(own)}
     try:
         return {"file": str(path), **_summarize_camera(source, path)}
     except ValueError as error:
         if given:
             raise
         return {"file": str(path), "error": str(error)}
+
+
+def _depth_unit(stream: Stream) -> tuple[float | None, bool]:
+    """Meters per unit, None where it isn't known, and whether the bits are rotated."""
+    if isinstance(stream, Images) and isinstance(stream.read, DepthReader):
+        return stream.read.scale, stream.read.rotated
+    if isinstance(stream, JointStream) and isinstance(stream.joint, Recording):
+        return stream.joint.depth_unit, False
+    return None, False
 
 
 def _percentile(counts: NDArray[np.int64], share: float, scale: float) -> float | None:
@@ -126,12 +147,18 @@ def _summarize_camera(source: Source, path: Path) -> Summary:
     if "right" in source.channels:
         rig = read_rig(path, source.size)
         low, high = PLAUSIBLE_BASELINES
-        summary = {**_summarize_intrinsics(rig.intrinsics), "baseline_m": rig.baseline}
+        summary = _summarize_known(rig)
         if not low <= rig.baseline <= high:
             summary["warning"] = f"a baseline of {rig.baseline:.4g} m is implausible; is it in another unit?"
         return summary
     channel = "depth" if "depth" in source.channels else "color"
     return _summarize_intrinsics(read_intrinsics(path, source.size, channel))
+
+
+def _summarize_known(camera: Intrinsics | StereoRig) -> Summary:
+    if isinstance(camera, Intrinsics):
+        return _summarize_intrinsics(camera)
+    return {**_summarize_intrinsics(camera.intrinsics), "baseline_m": camera.baseline}
 
 
 def _summarize_intrinsics(camera: Intrinsics) -> Summary:

@@ -34,7 +34,7 @@ def read_channels(folder: Path, scale: float | None) -> tuple[dict[str, Stream],
     reader = DepthReader(TUM_METERS_PER_UNIT if scale is None else scale)
     if not (color and depth):
         return {"color": timed_images(color)} if color else {"depth": timed_images(depth, reader)}, ()
-    matches = _match_times([time for time, _ in color], [time for time, _ in depth], MAX_TIME_DIFFERENCE)
+    matches = match_times([time for time, _ in color], [time for time, _ in depth], MAX_TIME_DIFFERENCE)
     if not matches:
         raise ValueError(
             f"{folder}: expected color and depth images within {MAX_TIME_DIFFERENCE} s of each other, "
@@ -77,7 +77,7 @@ def _entry(line: str, path: Path, number: int) -> tuple[float, Path]:
     return seconds, listed_path(path.parent, name[0], path)
 
 
-def _match_times(
+def match_times(
     first: Sequence[float], second: Sequence[float], max_difference: float
 ) -> list[tuple[int, int]]:
     """Pairs of indices into two sorted lists of times, closest matches first; each index is used once."""

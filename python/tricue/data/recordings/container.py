@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: MIT
+"""Containers of recorded messages: what ROS 1 bags, ROS 2 databases and MCAP files have in common."""
+
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+EXTRA = "pip install 'tricue[recordings]'"
+
+
+class Topic(NamedTuple):
+    """A topic of a recording.
+
+    type: such as "sensor_msgs/msg/Image", "foxglove.RawImage". encoding: of its messages: "ros1", "cdr",
+    "json", "protobuf". definition: the text that defines the type, "" if the file lacks it. idl: whether that
+    is in OMG's language, not in ROS's.
+    """
+
+    name: str
+    type: str
+    encoding: str
+    definition: str = ""
+    idl: bool = False
+
+    @property
+    def kind(self) -> str:
+        """The type without its package: "Image", "CompressedImage", "CameraInfo", ..."""
+        return re.split(r"[/.:]", self.type)[-1]
+
+
+class Message(NamedTuple):
+    """A message as it was recorded. time: nanoseconds, when it was recorded."""
+
+    topic: str
+    time: int
+    data: bytes
+
+
+class Container(ABC):
+    """Messages by topic, which are read from the file when asked for.
+
+    damage: why not all of the file can be read, "" if all can; it may show only while reading.
+    """
+
+    path: Path
+    topics: Mapping[str, Topic]
+    damage: str = ""
+
+    @abstractmethod
+    def messages(self, names: Collection[str]) -> Iterator[Message]:
+        """The messages of these topics by the time of recording; those before a damage, if there is one."""
+
+    @abstractmethod
+    def counts(self) -> dict[str, int]:
+        """The number of messages that can be read by topic."""
+
+
+class Chain(Container):
+    """The files of one recording, one after the other."""
+
+    def __init__(self, path: Path, parts: list[Container]) -> None:
+        self.path, self.parts = path, parts
+        self.topics = {name: topic for part in reversed(parts) for name, topic in part.topics.items()}
+
+    @property
+    def damage(self) -> str:  # type: ignore[override]  # it is the parts'
+        """The first damage of a part."""
+        return next((part.damage for part in self.parts if part.damage), "")
+
+    def messages(self, names: Collection[str]) -> Iterator[Message]:
+        for part in self.parts:
+            yield from part.messages(names)
+
+    def counts(self) -> dict[str, int]:
+        total = dict.fromkeys(self.topics, 0)
+        for part in self.parts:
+            for name, count in part.counts().items():
+                total[name] += count
+        return total

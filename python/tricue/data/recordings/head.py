@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""The beginning of a recording, which tells what its topics hold: the first images, cameras, transforms."""
+
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tricue.data.recordings.container import Container, Message, Topic
+from tricue.data.recordings.messages import (
+    CAMERAS,
+    IMAGES,
+    TRANSFORMS,
+    CameraMessage,
+    Decoder,
+    ImageMessage,
+    Transform,
+    decoder,
+    to_camera,
+    to_image,
+    to_transform,
+    to_transforms,
+)
+from tricue.data.streams import plausible_fps
+
+HEAD_IMAGES = 15  # of each topic
+HEAD_SECONDS = 2.0  # behind the first image
+
+# RealSense's own bags: where a stream is, such as /device_0/sensor_0/Depth_0/tf/0, and the unit of depth
+_STREAM_PLACE = re.compile(r"(/device_\d+/sensor_\d+/\w+)/tf/(\d+)$")
+_DEPTH_UNITS = re.compile(r"/option/Depth[ _]Units/value$")
+
+
+@dataclass
+class Head:
+    """What the beginning holds, by topic.
+
+    images: the first ones. times: nanoseconds, of the first few. units: meters per unit of 16-bit depth, None
+    where nothing says it. unread: why topics of images can't be read.
+    """
+
+    images: dict[str, ImageMessage] = field(default_factory=dict)
+    times: dict[str, list[int]] = field(default_factory=dict)
+    cameras: dict[str, CameraMessage] = field(default_factory=dict)
+    transforms: list[Transform] = field(default_factory=list)
+    units: float | None = None
+    unread: dict[str, str] = field(default_factory=dict)
+
+    def fps(self, topic: str) -> float | None:
+        """Images per second of a topic, None where the first few don't tell."""
+        times = self.times.get(topic, [])
+        step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+        return plausible_fps(1e9 / step) if step > 0 else None
+
+
+def read_head(container: Container, images: Collection[str] | None = None) -> Head:
+    """Read the beginning; images: the topics of images that matter, all by default."""
+    head = Head()
+    decoders: dict[str, Decoder] = {}
+    for topic in container.topics.values():
+        if _matters(topic, images):
+            try:
+                decoders[topic.name] = decoder(topic)
+            except ValueError as error:
+                head.unread[topic.name] = str(error)
+    pending = {name for name in decoders if container.topics[name].kind in IMAGES}
+    for message in _until_known(container, decoders, pending):
+        try:
+            _add(head, container.topics[message.topic], message, decoders[message.topic])
+        except ValueError as error:
+            head.unread[message.topic] = str(error)
+        if len(head.times.get(message.topic, ())) >= HEAD_IMAGES or message.topic in head.unread:
+            pending.discard(message.topic)
+    return head
+
+
+def _matters(topic: Topic, images: Collection[str] | None) -> bool:
+    if topic.kind in IMAGES:
+        return images is None or topic.name in images
+    return topic.kind in CAMERAS | TRANSFORMS or bool(
+        _STREAM_PLACE.search(topic.name) or _DEPTH_UNITS.search(topic.name)
+    )
+
+
+def _until_known(container: Container, names: Collection[str], pending: set[str]) -> Iterator[Message]:
+    """Messages until no image is pending, or too long after the first one."""
+    first = None
+    for message in container.messages(names) if pending else ():
+        if message.topic in pending and first is None:
+            first = message.time
+        if first is not None and message.time > first + HEAD_SECONDS * 1e9:
+            return
+        yield message
+        if not pending:
+            return
+
+
+def _add(head: Head, topic: Topic, message: Message, decode: Decoder) -> None:
+    value = decode(message.data)
+    if topic.kind in IMAGES:
+        image = to_image(value)
+        head.images.setdefault(topic.name, image)
+        head.times.setdefault(topic.name, []).append(image.time or message.time)
+    elif topic.kind in CAMERAS:
+        head.cameras.setdefault(topic.name, to_camera(value))
+    elif topic.kind in TRANSFORMS:
+        head.transforms += to_transforms(value)
+    elif place := _STREAM_PLACE.search(topic.name):
+        # librealsense writes x_stream = R x_reference + t
+        head.transforms.append(to_transform(value, place[1], f"reference {place[2]}"))
+    elif _DEPTH_UNITS.search(topic.name):
+        head.units = float(value.data)

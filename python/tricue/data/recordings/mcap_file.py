@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: MIT
+"""MCAP files, by the library mcap: indexed, or, where the index is missing, from the start to the end."""
+
+import struct
+from collections import Counter
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import Any
+
+from tricue.data.recordings.container import EXTRA, Container, Message, Topic
+
+
+class McapFile(Container):
+    """An MCAP file; one without a summary, such as one cut off, is read once to find its topics."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._broken = _errors(path)
+        self._summary = self._read_summary()
+        self._counts: Counter[str] = Counter()
+        if self._summary is None:
+            self._scan()
+            return
+        self.topics = _topics(self._summary.channels.values(), self._summary.schemas)
+        for number, count in self._summary.statistics.channel_message_counts.items():
+            self._counts[self._summary.channels[number].topic] += count
+
+    def messages(self, names: Collection[str]) -> Iterator[Message]:
+        indexed = self._summary is not None and self._summary.chunk_indexes
+        try:
+            yield from self._indexed(names) if indexed else self._in_order(names)
+        except self._broken as error:
+            self.damage = self.damage or f"it is damaged: {error or type(error).__name__}"
+
+    def counts(self) -> dict[str, int]:
+        return {name: self._counts[name] for name in self.topics}
+
+    def _read_summary(self) -> Any:
+        """The summary at the file's end; None where it is missing, incomplete or damaged."""
+        from mcap.exceptions import McapError
+        from mcap.reader import make_reader
+
+        with self.path.open("rb") as file:
+            try:
+                reader = make_reader(file)
+            except (McapError, struct.error):
+                raise ValueError(f"{self.path}: expected an MCAP file, this file isn't one") from None
+            try:
+                summary = reader.get_summary()
+            except self._broken:
+                return None
+        if summary is None or summary.statistics is None or not summary.channels:
+            return None
+        counted = summary.statistics.channel_message_counts.keys()
+        return summary if counted <= summary.channels.keys() else None
+
+    def _indexed(self, names: Collection[str]) -> Iterator[Message]:
+        from mcap.reader import make_reader
+
+        with self.path.open("rb") as file:
+            reader = make_reader(file, validate_crcs=True)
+            for _, channel, message in reader.iter_messages(topics=list(names)):
+                yield Message(channel.topic, message.log_time, message.data)
+
+    def _in_order(self, names: Collection[str]) -> Iterator[Message]:
+        from mcap import records
+
+        channels: dict[int, str] = {}
+        for record in self._records():
+            if isinstance(record, records.Channel):
+                channels[record.id] = record.topic
+            elif isinstance(record, records.Message) and channels.get(record.channel_id) in names:
+                yield Message(channels[record.channel_id], record.log_time, record.data)
+
+    def _records(self) -> Iterator[Any]:
+        from mcap.stream_reader import StreamReader
+
+        with self.path.open("rb") as file:
+            yield from StreamReader(file, validate_crcs=True).records
+
+    def _scan(self) -> None:
+        """Find topics and counts by reading all."""
+        from mcap import records
+
+        schemas: dict[int, Any] = {}
+        channels: dict[int, Any] = {}
+        try:
+            for record in self._records():
+                if isinstance(record, records.Schema):
+                    schemas[record.id] = record
+                elif isinstance(record, records.Channel):
+                    channels[record.id] = record
+                elif isinstance(record, records.Message):
+                    self._counts[channels[record.channel_id].topic] += 1
+        except self._broken:
+            self.damage = "it is cut off or wasn't closed"
+        self.topics = _topics(channels.values(), schemas)
+
+
+def _topics(channels: Collection[Any], schemas: dict[int, Any]) -> dict[str, Topic]:
+    topics = {}
+    for channel in channels:
+        schema = schemas.get(channel.schema_id)
+        kind, language, data = (
+            ("", "", b"") if schema is None else (schema.name, schema.encoding, schema.data)
+        )
+        text = data.decode(errors="replace") if language in ("ros1msg", "ros2msg", "ros2idl") else ""
+        topics[channel.topic] = Topic(
+            channel.topic, kind, channel.message_encoding, text, language == "ros2idl"
+        )
+    return topics
+
+
+def _errors(path: Path) -> tuple[type[Exception], ...]:
+    """What mcap raises for files that are cut off or damaged; ImportError where it isn't installed."""
+    try:
+        from mcap.exceptions import McapError
+        from zstandard import ZstdError
+    except ImportError:
+        raise ImportError(f"{path}: an MCAP file needs the package mcap: {EXTRA}") from None
+    return (
+        *(McapError, ZstdError, struct.error, EOFError, RuntimeError, ValueError),
+        *(KeyError, MemoryError, OverflowError),  # numbers of channels and lengths that can't be
+    )

@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: MIT
+"""A recording as a source: topics become channels, paired by their times while they are read."""
+
+from collections import Counter, deque
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from numpy.typing import NDArray
+
+from tricue.data.files import natural_order
+from tricue.data.joint import JointStream, Moment
+from tricue.data.layouts import find_plain_images
+from tricue.data.recordings.bag1 import Bag1
+from tricue.data.recordings.cameras import View, calibrate, find_info
+from tricue.data.recordings.container import Chain, Container
+from tricue.data.recordings.head import Head, read_head
+from tricue.data.recordings.images import METERS_PER_UNIT, to_color, to_depth
+from tricue.data.recordings.mcap_file import McapFile
+from tricue.data.recordings.messages import IMAGES, ImageMessage, decoder, to_image
+from tricue.data.recordings.pairing import Pairing, Timed
+from tricue.data.recordings.sqlite_file import SqliteFile
+from tricue.data.recordings.topics import CHANNELS, guess_topics, is_depth_topic, stem
+from tricue.data.source import Source
+from tricue.data.streams import DEFAULT_FPS
+
+READERS: dict[str, tuple[str, Callable[[Path], Container]]] = {
+    ".bag": ("ROS 1 bag", Bag1),
+    ".mcap": ("MCAP", McapFile),
+    ".db3": ("ROS 2 recording", SqliteFile),
+}
+METADATA = "metadata.yaml"  # in the folder of a ROS 2 recording, once it is closed
+
+
+class TopicSummary(NamedTuple):
+    """A topic for the user. channel: "" where it isn't read."""
+
+    name: str
+    type: str
+    messages: int
+    channel: str
+
+
+class Recording:
+    """The chosen topics of a container, as a joint of channels; see :class:`tricue.data.joint.Joint`."""
+
+    def __init__(self, container: Container, chosen: Mapping[str, str], head: Head, scale: float) -> None:
+        self.container, self.chosen, self.head = container, dict(chosen), head
+        self.scale = scale
+        self._channels = {topic: channel for channel, topic in chosen.items()}
+        self._first = {channel: self._image(channel, head.images[topic]) for channel, topic in chosen.items()}
+        self.clock = next(iter(chosen))
+        rate = head.fps(chosen[self.clock])
+        self.fps = rate or DEFAULT_FPS
+        self._left_out: Counter[str] = Counter()
+        self._moments = self._damaged = 0
+
+    @property
+    def tolerance(self) -> int:
+        """Nanoseconds between images of one moment: half a frame."""
+        return round(0.5e9 / self.fps)
+
+    @property
+    def depth_unit(self) -> float:
+        """Meters per unit of depth: 1 where it is recorded in meters."""
+        return 1.0 if "32FC1" in self.head.images[self.chosen["depth"]].encoding else self.scale
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        found = []
+        if self.container.damage:
+            found.append(f"{self.container.path}: {self.container.damage}; what is before that was read")
+        for channel, count in self._left_out.items():
+            others = " or ".join(name for name in self.chosen if name != channel)
+            found.append(
+                f"left out {count} of {count + self._moments} {channel} images, "
+                f"with no {others} image within {self.tolerance / 1e6:.3g} ms"
+            )
+        if self._damaged:
+            found.append(f"left out {self._damaged} damaged image{'s' * (self._damaged > 1)}")
+        return tuple(found)
+
+    def size(self, channel: str) -> tuple[int, int]:
+        height, width = self._first[channel].shape[:2]
+        return width, height
+
+    def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
+        remaining = None if indices is None else deque(indices)
+        number = self._damaged = 0
+        for paired in self._paired():
+            if remaining is None or (remaining and remaining[0] == number):
+                moment = self._decoded(paired, channels)
+                if moment is None:
+                    continue
+                yield moment
+                if remaining:
+                    remaining.popleft()
+            if remaining is not None and not remaining:
+                return
+            number += 1
+        if remaining:
+            raise ValueError(f"{self.container.path}: expected {remaining[0] + 1} frames, got {number}")
+
+    def count(self) -> int:
+        return sum(1 for _ in self._paired())
+
+    def topics(self) -> list[TopicSummary]:
+        """All topics, by name, with the numbers of their messages."""
+        counts = self.container.counts()
+        return [
+            TopicSummary(name, topic.type, counts[name], self._channels.get(name, ""))
+            for name, topic in sorted(self.container.topics.items())
+        ]
+
+    def _decoded(self, paired: dict[str, Timed[ImageMessage]], channels: Sequence[str]) -> Moment | None:
+        """The images of these channels; None where one is damaged."""
+        try:
+            return {
+                name: (1e-9 * paired[name].time, self._image(name, paired[name].item)) for name in channels
+            }
+        except ValueError:
+            self._damaged += 1
+            return None
+
+    def _paired(self) -> Iterator[dict[str, Timed[ImageMessage]]]:
+        pairing: Pairing[ImageMessage] = Pairing(list(self.chosen), self.tolerance)
+        count = 0
+        for count, paired in enumerate(pairing(self._images()), 1):  # noqa: B007  # the last is reported
+            yield paired
+        self._left_out, self._moments = +pairing.left_out, count
+        if count == 0:
+            names = " and ".join(self.chosen)
+            raise ValueError(
+                f"{self.container.path}: expected {names} images within {self.tolerance / 1e6:.3g} ms of "
+                f"each other, found none; --topics {self.clock}={self.chosen[self.clock]} reads one alone"
+            )
+
+    def _images(self) -> Iterator[Timed[ImageMessage]]:
+        decoders = {topic: decoder(self.container.topics[topic]) for topic in self._channels}
+        for message in self.container.messages(self._channels):
+            try:
+                image = to_image(decoders[message.topic](message.data))
+            except ValueError:
+                self._damaged += 1
+                continue
+            yield Timed(self._channels[message.topic], image.time or message.time, image)
+
+    def _image(self, channel: str, image: ImageMessage) -> NDArray[Any]:
+        return to_depth(image, self.scale) if channel == "depth" else to_color(image)
+
+
+def is_recording(path: Path) -> bool:
+    """Whether it is a recording's file, or a folder with some and without images of its own."""
+    if not path.is_dir():
+        return path.suffix.lower() in READERS
+    return bool(_files(path) or _packed(path)) and not find_plain_images(path)
+
+
+def open_recording(path: Path, topics: Mapping[str, str] | None = None, scale: float | None = None) -> Source:
+    """The recording as a source.
+
+    topics: by channel: "color", "depth", "right"; chosen by their names and images where none are given.
+    scale: meters per unit of 16-bit depth, 0.001 unless the recording says it.
+    ValueError, OSError or ImportError in one line that says what to do.
+    """
+    container, format_ = _open_container(path)
+    _check_topics(container, topics)
+    head = read_head(container, None if topics is None else set(topics.values()))
+    chosen = dict(topics) if topics else guess_topics(head.images)
+    _check_images(container, head, chosen)
+    ordered = {channel: chosen[channel] for channel in CHANNELS if channel in chosen}
+    units = scale or head.units or METERS_PER_UNIT
+    try:
+        recording = Recording(container, ordered, head, units)
+    except ValueError as error:
+        given = ", ".join(f"{channel}={topic}" for channel, topic in ordered.items())
+        raise ValueError(f"{path}: {error}; got {given}, choose others by --topics") from None
+    cameras = calibrate({channel: _view(recording, channel) for channel in ordered}, head.transforms)
+    return Source(
+        path.resolve().stem,
+        {channel: JointStream(recording, channel) for channel in ordered},
+        notes=(*(() if topics else (_note_choice(ordered, head),)), *cameras.notes),
+        register=cameras.register,
+        rectify=cameras.rectify,
+        camera=cameras.camera,
+        format=format_,
+    )
+
+
+def _files(folder: Path) -> list[Path]:
+    return natural_order(path for path in folder.iterdir() if path.suffix.lower() in READERS)
+
+
+def _packed(folder: Path) -> list[Path]:
+    """Files that ROS 2 compressed as a whole, such as walk_0.db3.zstd."""
+    return [path for path in folder.glob("*.zstd") if Path(path.stem).suffix.lower() in READERS]
+
+
+def _open_container(path: Path) -> tuple[Container, str]:
+    """The container, and the name of its format."""
+    if not path.is_dir():
+        name, reader = READERS[path.suffix.lower()]
+        return reader(path), name
+    files = _files(path)
+    if packed := _packed(path):
+        raise ValueError(f"{packed[0]}: expected unpacked files; zstd -d --rm {packed[0]} unpacks it")
+    if len(files) > 1 and not (path / METADATA).is_file():
+        raise ValueError(f"{path}: expected one recording, found {len(files)}; name one of them")
+    name, _ = READERS[files[0].suffix.lower()]
+    parts = [READERS[file.suffix.lower()][1](file) for file in files]
+    format_ = "ROS 2 recording" if (path / METADATA).is_file() else name
+    return (parts[0] if len(parts) == 1 else Chain(path, parts)), format_
+
+
+def _check_topics(container: Container, topics: Mapping[str, str] | None) -> None:
+    """ValueError for topics that aren't there, and for those of other types than images."""
+    images = [name for name, topic in container.topics.items() if topic.kind in IMAGES]
+    if not images:
+        kinds = sorted({topic.type for topic in container.topics.values() if topic.type})
+        found = f"only {', '.join(kinds[:5])}{', ...' if len(kinds) > 5 else ''}" if kinds else "no messages"
+        damage = f" ({container.damage})" if container.damage else ""
+        raise ValueError(f"{container.path}: expected images in the recording, found {found}{damage}")
+    for channel, name in (topics or {}).items():
+        if channel not in CHANNELS or (channel == "right" and "color" not in (topics or {})):
+            raise ValueError(f"--topics {channel}={name}: expected color, depth, or right beside color")
+        if name not in images:
+            topic = container.topics.get(name)
+            got = f"{name}, of the type {topic.type}" if topic else f"{name}, which isn't there"
+            raise ValueError(f"--topics: expected one of the images {', '.join(sorted(images))}, got {got}")
+
+
+def _check_images(container: Container, head: Head, chosen: Mapping[str, str]) -> None:
+    for name in chosen.values():
+        if name not in head.images:
+            reason = head.unread.get(name, "it has no image at the beginning")
+            raise ValueError(f"{container.path}: {name} can't be read: {reason}; choose by --topics")
+    if not chosen:
+        reason = next((f"{name}: {why}" for name, why in head.unread.items()), "the topics have no messages")
+        raise ValueError(f"{container.path}: expected images in the recording, found none: {reason}")
+
+
+def _note_choice(chosen: Mapping[str, str], head: Head) -> str:
+    others = [name for name in head.images if name not in chosen.values()]
+    named = ", ".join(f"{channel}={name}" for channel, name in chosen.items())
+    rest = f"; left out {', '.join(others)}" if others else ""
+    return f"topics chosen: {named}{rest}" + ("; --topics chooses others" if others else "")
+
+
+def _view(recording: Recording, channel: str) -> View:
+    topic, head = recording.chosen[channel], recording.head
+    info = find_info(topic, head.images[topic].frame, head.cameras)
+    own = stem(topic)
+    frames = {each for transform in head.transforms for each in (transform.parent, transform.child)}
+    # RealSense's own bags name the stream itself; ROS has the camera's frame in the images
+    frame = own if own in frames else head.images[topic].frame or (info.frame if info else "")
+    rectified = "rect" in own.rsplit("/", 1)[-1] or is_depth_topic(topic, head.images[topic])
+    return View(topic, recording.size(channel), frame, info, rectified)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""ROS 2 databases (.db3): a table of topics and one of messages, each in CDR."""
+
+import sqlite3
+from collections.abc import Collection, Iterator
+from contextlib import closing
+from pathlib import Path
+from urllib.parse import quote
+
+from tricue.data.recordings.container import EXTRA, Container, Message, Topic
+
+_ZSTD = b"\x28\xb5\x2f\xfd"  # begins a compressed message; CDR begins with 0
+
+
+class SqliteFile(Container):
+    """A ROS 2 database, of any of its versions; one whose recording was cut off is read to the damage."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            with closing(self._connect()) as database:
+                definitions = _definitions(database)
+                rows = database.execute("SELECT id, name, type, serialization_format FROM topics").fetchall()
+        except sqlite3.DatabaseError as error:
+            raise ValueError(f"{path}: expected a ROS 2 recording, got another database ({error})") from None
+        self._names = {number: name for number, name, _, _ in rows}
+        self.topics = {
+            name: Topic(name, kind, encoding, *definitions.get(kind, ("", False)))
+            for _, name, kind, encoding in rows
+        }
+
+    def messages(self, names: Collection[str]) -> Iterator[Message]:
+        numbers = [number for number, name in self._names.items() if name in names]
+        query = f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({_marks(numbers)})"
+        any_read = False
+        with closing(self._connect()) as database:
+            for order in ("ORDER BY timestamp", "ORDER BY id"):  # a damage may be in the index of times
+                try:
+                    for number, time, data in database.execute(f"{query} {order}", numbers):
+                        any_read = True
+                        yield Message(self._names[number], time, _decompressed(data))
+                except sqlite3.DatabaseError as error:
+                    self.damage = f"it is cut off or damaged ({error})"
+                if any_read or not self.damage:
+                    return
+
+    def counts(self) -> dict[str, int]:
+        counts = dict.fromkeys(self.topics, 0)
+        with closing(self._connect()) as database:
+            try:
+                for number, count in database.execute("SELECT topic_id, COUNT(*) FROM messages GROUP BY 1"):
+                    counts[self._names[number]] = count
+            except sqlite3.DatabaseError as error:
+                self.damage = f"it is cut off or damaged ({error})"
+        return counts
+
+    def _connect(self) -> sqlite3.Connection:
+        """Read alone; what a recorder that crashed left in a journal beside the file is taken, too."""
+        journal = self.path.with_name(f"{self.path.name}-wal").exists()
+        options = "mode=ro" if journal else "mode=ro&immutable=1"
+        database = sqlite3.connect(f"file:{quote(str(self.path))}?{options}", uri=True)
+        database.execute("PRAGMA writable_schema = ON")  # else a file that is cut off isn't opened at all
+        return database
+
+
+def _marks(values: Collection[int]) -> str:
+    """As many question marks as there are values, for a query."""
+    return ", ".join("?" * len(values))
+
+
+def _definitions(database: sqlite3.Connection) -> dict[str, tuple[str, bool]]:
+    """The definitions of types, which older databases lack, and whether they are in OMG's language."""
+    try:
+        rows = database.execute(
+            "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions"
+        ).fetchall()
+    except sqlite3.OperationalError:
+        return {}
+    return {kind: (text, language == "ros2idl") for kind, language, text in rows}
+
+
+def _decompressed(data: bytes) -> bytes:
+    if not data.startswith(_ZSTD):
+        return data
+    try:
+        import zstandard
+    except ImportError:
+        raise ImportError(f"compressed messages need the package zstandard: {EXTRA}") from None
+    content: bytes = zstandard.decompress(data)
+    return content

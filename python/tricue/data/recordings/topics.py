@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""Which of a recording's topics are color, depth and the right camera's, where nobody says it."""
+
+import re
+from collections.abc import Collection, Mapping
+
+from tricue.data.recordings.images import is_depth
+from tricue.data.recordings.messages import ImageMessage
+
+CHANNELS = ("color", "depth", "right")
+_PAIRS = (
+    ("left", "right"),
+    ("infra1", "infra2"),
+    ("Infrared_1", "Infrared_2"),
+    ("cam0", "cam1"),
+    ("cam_0", "cam_1"),
+    ("camera0", "camera1"),
+    ("image_0", "image_1"),
+    ("image_02", "image_03"),
+)
+"""What names of the left and the right camera differ in."""
+_NO_PICTURE = r"mask|segment|label|confiden|disparit|debug|annotat|heat"
+_INFRARED = r"infra|thermal|(^|[/_])ir([/_]|$)|fisheye"
+_REGISTERED = r"aligned|registered|depth_to_(color|rgb)"
+
+
+def guess_topics(first: Mapping[str, ImageMessage]) -> dict[str, str]:
+    """Topics by channel, from the first image of each topic: color and depth, else a stereo pair, else one.
+
+    Empty where there are no images.
+    """
+    depths = [name for name, image in first.items() if is_depth_topic(name, image)]
+    colors = [name for name in first if name not in depths]
+    chosen = {"color": min(colors, key=_color_rank)} if colors else {}
+    if depths:
+        chosen["depth"] = min(depths, key=lambda name: _depth_rank(name, chosen.get("color", "")))
+    elif colors and (right := _partner(chosen["color"], colors)):
+        chosen["right"] = right
+    return chosen
+
+
+def is_depth_topic(name: str, image: ImageMessage) -> bool:
+    """Whether it is depth, not the 16 bits of an infrared camera."""
+    floats = image.encoding.startswith(("32F", "64F"))
+    return is_depth(image) and (floats or not re.search(_INFRARED, name, re.IGNORECASE))
+
+
+def stem(name: str) -> str:
+    """The topic's name without what image_transport appends."""
+    return re.sub(r"/(compressed|compressedDepth|theora|image/data)$", "", name)
+
+
+def _has(pattern: str, name: str) -> bool:
+    return re.search(pattern, name, re.IGNORECASE) is not None
+
+
+def _color_rank(name: str) -> tuple[object, ...]:
+    """Sorts the likeliest first: color before infrared, left before right, rectified before others."""
+    right = any(_has(rf"(^|[/_]){second}([/_]|$)", name) for _, second in _PAIRS)
+    return (
+        _has(_NO_PICTURE, name),
+        _has(_INFRARED, name),
+        right,
+        not _has("color|colour|rgb", name),
+        not _has("rect", name),
+        stem(name) != name and not name.endswith("/image/data"),
+        name,
+    )
+
+
+def _depth_rank(name: str, color: str) -> tuple[object, ...]:
+    shared = next((i for i, (a, b) in enumerate(zip(name, color, strict=False)) if a != b), len(color))
+    return not _has("depth", name), not _has(_REGISTERED, name), -shared, stem(name) != name, name
+
+
+def _partner(left: str, names: Collection[str]) -> str | None:
+    """The right camera's topic to the left one's."""
+    swapped = (left.replace(first, second) for first, second in _PAIRS if first in left)
+    return next((name for name in swapped if name in names), None)

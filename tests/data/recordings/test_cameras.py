@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+import math
+
+import cv2
+import numpy as np
+import pytest
+from tricue import Intrinsics, StereoRig
+from tricue.camera.registration import Registration, Reprojection
+from tricue.data.recordings.cameras import Cameras, View, calibrate, find_extrinsics, find_info
+from tricue.data.recordings.messages import CameraMessage, Transform
+
+SIZE = 64, 48
+IDENTITY = (0.0, 0.0, 0.0, 1.0)
+QUARTER = (0.0, 0.0, math.sin(math.pi / 4), math.cos(math.pi / 4))  # about z
+
+
+def info(
+    focal: float = 60.0, frame: str = "", shift: float = 0.0, **other: tuple[float, ...]
+) -> CameraMessage:
+    """A camera_info. shift: meters to the right of the left camera."""
+    k = (focal, 0, 31.5, 0, focal, 23.5, 0, 0, 1)
+    p = (focal, 0, 31.5, -focal * shift, 0, focal, 23.5, 0, 0, 0, 1, 0)
+    camera = CameraMessage(frame, *SIZE, "plumb_bob", (0.0,) * 5, k, (1, 0, 0, 0, 1, 0, 0, 0, 1), p)
+    return camera._replace(**other)  # type: ignore[arg-type]
+
+
+def view(camera: CameraMessage | None, frame: str = "", rectified: bool = True) -> View:
+    """A channel with this camera."""
+    return View("/a", SIZE, frame, camera, rectified)
+
+
+def test_extrinsics_along_a_tree() -> None:
+    """It proves the transform from one camera to another over their common parent, by a hand-made point.
+
+    The depth camera is 0.1 m along the body's x; color is turned by 90 degrees about z, 0.2 m along y.
+    """
+    tree = [
+        Transform("map", "body", (5.0, 5.0, 5.0), QUARTER),
+        Transform("body", "depth", (0.1, 0.0, 0.0), IDENTITY),
+        Transform("body", "mount", (0.0, 0.2, 0.0), QUARTER),
+        Transform("mount", "color", (0.0, 0.0, 0.0), IDENTITY),
+    ]
+    found = find_extrinsics(tree, "depth", "color")
+    assert found is not None
+    point = np.array([0.0, 0.0, 2.0])  # in depth; (0.1, 0, 2) in the body; (0.1, -0.2, 2) from the mount
+    assert np.allclose(found.rotation @ point + found.translation, [-0.2, -0.1, 2.0])
+    back = find_extrinsics(tree, "color", "depth")
+    assert back is not None
+    assert np.allclose(back.rotation @ found.rotation, np.eye(3))
+    assert find_extrinsics(tree, "depth", "elsewhere") is None
+    assert find_extrinsics(tree, "", "color") is None
+
+
+@pytest.mark.parametrize(
+    ("image", "topic"),
+    [
+        ("/camera/color/image_raw", "/camera/color/camera_info"),
+        ("/camera/color/image_raw/compressed", "/camera/color/camera_info"),
+        ("/device_0/sensor_1/Color_0/image/data", "/device_0/sensor_1/Color_0/info/camera_info"),
+        ("/cam/image", "/cam/calibration"),
+        ("/by/frame", "/elsewhere/info"),
+        ("/nothing/here", None),
+    ],
+)
+def test_the_camera_info_of_an_image(image: str, topic: str | None) -> None:
+    """It proves where a camera_info is looked for: beside the image, then by the coordinate frame."""
+    names = [
+        "/camera/color/camera_info",
+        "/camera/depth/camera_info",
+        "/device_0/sensor_1/Color_0/info/camera_info",
+        "/cam/calibration",
+        "/elsewhere/info",
+    ]
+    infos = {name: info(50.0 + index, frame=name) for index, name in enumerate(names)}
+    frame = "/elsewhere/info" if image == "/by/frame" else "other"
+    found = find_info(image, frame, infos)
+    assert found == (None if topic is None else infos[topic])
+
+
+def test_one_camera() -> None:
+    """It proves that K counts of raw images and P of rectified ones, and that a bent lens is told."""
+    raw = info(d=(0.1, 0.0, 0.0, 0.0, 0.0), p=(55.0, 0, 30.0, 0, 0, 56.0, 22.0, 0, 0, 0, 1, 0))
+    assert calibrate({"color": view(raw, rectified=False)}, []) == Cameras(
+        Intrinsics(60, 60, 31.5, 23.5, *SIZE), notes=("/a: its lens' distortion isn't taken out",)
+    )
+    assert calibrate({"color": view(raw)}, []) == Cameras(Intrinsics(55, 56, 30, 22, *SIZE))
+
+
+@pytest.mark.parametrize(
+    ("camera", "note"),
+    [
+        (None, "/a has no camera_info"),
+        (info(k=(0.0,) * 9), "the camera of /a isn't calibrated"),
+        (info()._replace(width=640, height=480), "/a has images of 64x48, its camera_info is for 640x480"),
+    ],
+)
+def test_an_unknown_camera(camera: CameraMessage | None, note: str) -> None:
+    """It proves that a camera that nobody calibrated, or for another size, is none, and that it's told."""
+    found = calibrate({"depth": view(camera)}, [])
+    assert found.camera is None
+    assert found.notes[0].startswith(note)
+
+
+def both(color: View, depth: View, *transforms: Transform) -> Cameras:
+    """The cameras of color and depth."""
+    return calibrate({"color": color, "depth": depth}, transforms)
+
+
+def test_registered_depth_stays_as_it_is() -> None:
+    """It proves that two equal cameras in one place need nothing."""
+    assert both(view(info(), "a"), view(info(), "a")) == Cameras(Intrinsics(60, 60, 31.5, 23.5, *SIZE))
+
+
+def test_depth_of_another_camera() -> None:
+    """It proves that it's registered by the transform between the cameras, or, without, as from one place."""
+    color, depth = view(info(), "c"), view(info(90.0), "d")
+    beside = Transform("c", "d", (0.015, 0.0, 0.0), IDENTITY)
+    found = both(color, depth, beside)
+    assert isinstance(found.register, Reprojection)
+    assert np.allclose(found.register.extrinsics.translation, [0.015, 0, 0])
+    assert "15.0 mm beside it" in found.notes[0]
+    found = both(color, depth)
+    assert isinstance(found.register, Registration)
+    assert "as from one place" in found.notes[0]
+    assert found.camera == Intrinsics(60, 60, 31.5, 23.5, *SIZE)
+    # equal lenses in two places are two cameras
+    assert isinstance(both(color, view(info(), "d"), beside).register, Reprojection)
+
+
+def test_depth_without_cameras() -> None:
+    """It proves that depth is left as it is where a camera isn't known, and that both cases are told."""
+    assert "is taken to be registered" in both(view(None), view(info())).notes[-1]
+    small = view(None)._replace(size=(32, 24))
+    assert "can't be registered" in both(view(info()), small).notes[-1]
+
+
+def pair(left: View, right: View, *transforms: Transform) -> Cameras:
+    """The cameras of a stereo pair."""
+    return calibrate({"color": left, "right": right}, transforms)
+
+
+def test_a_rectified_pair() -> None:
+    """It proves that the baseline is what the right camera's P says."""
+    rig = StereoRig(Intrinsics(60, 60, 31.5, 23.5, *SIZE), 0.125)
+    assert pair(view(info()), view(info(shift=0.125))) == Cameras(rig)
+
+
+def test_a_pair_of_realsense() -> None:
+    """It proves that without P the baseline comes from the extrinsics between both cameras."""
+    bare = info(p=(0.0,) * 12, r=(0.0,) * 9)
+    apart = [
+        Transform("left", "reference 0", (0.0, 0.0, 0.0), IDENTITY),
+        Transform("right", "reference 0", (-0.05, 0.0, 0.0), IDENTITY),
+    ]
+    found = pair(view(bare, "left"), view(bare, "right"), *apart)
+    assert isinstance(found.camera, StereoRig)
+    assert found.camera.baseline == pytest.approx(0.05)
+    assert "the baseline isn't known" in pair(view(bare), view(bare)).notes[0]
+
+
+def test_a_raw_pair_is_rectified() -> None:
+    """It proves that lenses that bend, and cameras that are turned, are rectified by the recorded R and P, as
+    OpenCV would with its own.
+    """
+    bent, turn = np.array([-0.2, 0.05, 0.001, 0.0, 0.0]), cv2.Rodrigues(np.array([0.01, 0.03, -0.02]))[0]
+    k = np.reshape(info().k, (3, 3))
+    first, second, left, right, _, _, _ = cv2.stereoRectify(
+        k, bent, k, bent, SIZE, turn, np.array([[-0.1], [0.0], [0.0]]), flags=0x400, alpha=0
+    )
+    cameras = [
+        info(d=tuple(bent), r=tuple(rotation.ravel()), p=tuple(projection.ravel()))
+        for rotation, projection in ((first, left), (second, right))
+    ]
+    found = pair(*(view(camera, rectified=False) for camera in cameras))
+    assert isinstance(found.camera, StereoRig)
+    assert found.camera.baseline == pytest.approx(0.1, rel=1e-6)
+    assert found.rectify is not None
+    image = np.random.default_rng(0).integers(0, 255, (SIZE[1], SIZE[0], 3), dtype=np.uint8)
+    maps = cv2.initUndistortRectifyMap(k, bent, first, left[:, :3], SIZE, cv2.CV_16SC2)
+    assert np.array_equal(found.rectify(image, image)[0], cv2.remap(image, *maps, cv2.INTER_LINEAR))
+    other = [camera._replace(model="equidistant") for camera in cameras]
+    assert (
+        "can't be rectified: the distortion model equidistant"
+        in pair(*(view(camera, rectified=False) for camera in other)).notes[-1]
+    )

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+import sqlite3
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+import zstandard
+from tricue.data.recordings.bag1 import Bag1
+from tricue.data.recordings.container import Chain, Container
+from tricue.data.recordings.mcap_file import McapFile
+from tricue.data.recordings.sqlite_file import SqliteFile
+
+from tests.data.recordings.written import (
+    SECOND,
+    START,
+    Sent,
+    raw,
+    walk,
+    write_bag1,
+    write_bag2,
+    write_mcap,
+)
+
+Maker = Callable[[Path, Sequence[Sent]], Container]
+
+
+def bag1(folder: Path, sent: Sequence[Sent]) -> Container:
+    """A ROS 1 bag."""
+    return Bag1(write_bag1(folder / "a.bag", sent))
+
+
+def sqlite(folder: Path, sent: Sequence[Sent]) -> Container:
+    """A ROS 2 database."""
+    return SqliteFile(next(write_bag2(folder / "b", sent).glob("*.db3")))
+
+
+def ros2_mcap(folder: Path, sent: Sequence[Sent]) -> Container:
+    """An MCAP file as ROS 2 writes it."""
+    return McapFile(next(write_bag2(folder / "c", sent, "mcap").glob("*.mcap")))
+
+
+def mcap(folder: Path, sent: Sequence[Sent]) -> Container:
+    """An MCAP file of several small chunks."""
+    return McapFile(write_mcap(folder / "d.mcap", sent))
+
+
+def mcap_without_index(folder: Path, sent: Sequence[Sent]) -> Container:
+    """An MCAP file without chunks and summary, which may be."""
+    from mcap.writer import IndexType
+
+    return McapFile(
+        write_mcap(
+            folder / "e.mcap",
+            sent,
+            use_chunking=False,
+            index_types=IndexType.NONE,
+            repeat_channels=False,
+            repeat_schemas=False,
+            use_statistics=False,
+            use_summary_offsets=False,
+        )
+    )
+
+
+MAKERS = [bag1, sqlite, ros2_mcap, mcap, mcap_without_index]
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_all_messages_by_time(tmp_path: Path, make: Maker) -> None:
+    """It proves that each container gives types, counts, and the wanted messages alone, in order of time."""
+    sent = walk(4)
+    container = make(tmp_path, sent)
+    assert {topic.name: topic.kind for topic in container.topics.values()} == {
+        "/camera/color/camera_info": "CameraInfo",
+        "/camera/color/image_raw": "Image",
+        "/camera/depth/camera_info": "CameraInfo",
+        "/camera/depth/image_rect_raw": "Image",
+    }
+    assert set(container.counts().values()) == {4}
+    wanted = {"/camera/color/image_raw", "/camera/depth/image_rect_raw"}
+    found = [(message.topic, message.time) for message in container.messages(wanted)]
+    assert sorted(found) == sorted((each.topic, each.time) for each in sent if each.topic in wanted)
+    assert [time for _, time in found] == sorted(time for _, time in found)
+    assert container.damage == ""
+
+
+@pytest.mark.parametrize("make", [bag1, sqlite, mcap])
+def test_topics_written_one_after_the_other(tmp_path: Path, make: Maker) -> None:
+    """It proves that a recording with all of one topic in front of the next is read in order of time."""
+    sent = sorted(walk(60, size=(160, 120)), key=lambda each: each.topic)
+    times = [message.time for message in make(tmp_path, sent).messages({each.topic for each in sent})]
+    assert len(times) == 240
+    assert times == sorted(times)
+
+
+@pytest.mark.parametrize("compression", ["LZ4", "BZ2"])
+def test_compressed_bags(tmp_path: Path, compression: str) -> None:
+    """It proves that both compressions of ROS 1 give the same messages as none."""
+    plain = Bag1(write_bag1(tmp_path / "a.bag", walk()))
+    packed = Bag1(write_bag1(tmp_path / "b.bag", walk(), compression))
+    assert packed.path.stat().st_size < plain.path.stat().st_size
+    assert list(packed.messages(plain.topics)) == list(plain.messages(plain.topics))
+
+
+def test_compressed_messages_of_ros_2(tmp_path: Path) -> None:
+    """It proves that messages that ROS 2 compressed one by one are read."""
+    path = next(write_bag2(tmp_path / "b", walk()).glob("*.db3"))
+    before = list(SqliteFile(path).messages(SqliteFile(path).topics))
+    with sqlite3.connect(path) as database:
+        for number, data in database.execute("SELECT id, data FROM messages").fetchall():
+            packed = zstandard.compress(data)
+            database.execute("UPDATE messages SET data = ? WHERE id = ?", (packed, number))
+    database.close()
+    assert list(SqliteFile(path).messages(SqliteFile(path).topics)) == before
+
+
+def many(count: int = 120) -> list[Sent]:
+    """Noise, which nothing compresses, in several chunks and pages."""
+    period, rng = SECOND // 30, np.random.default_rng(0)
+    noise = rng.integers(0, 255, (count, 120, 160, 3), dtype=np.uint8)
+    return [raw("/a", START + index * period, image, "bgr8") for index, image in enumerate(noise)]
+
+
+@pytest.mark.parametrize("make", [bag1, sqlite, ros2_mcap, mcap])
+@pytest.mark.parametrize("share", [0.4, 0.9])
+def test_a_cut_off_file_is_read_to_the_cut(tmp_path: Path, make: Maker, share: float) -> None:
+    """It proves that what stands before the end of a cut off file is read, in order, and that it's told."""
+    whole = make(tmp_path, many())
+    content = whole.path.read_bytes()
+    whole.path.write_bytes(content[: int(share * len(content))])
+    container = type(whole)(whole.path)  # type: ignore[call-arg]
+    found = list(container.messages({"/a"}))
+    assert container.damage.startswith("it is cut off")
+    assert [message.time for message in found] == [each.time for each in many()[: len(found)]]
+    assert 0.5 * share * 120 < len(found) <= share * 120 + 1
+
+
+@pytest.mark.parametrize("make", [bag1, mcap])
+def test_damage_in_the_middle(tmp_path: Path, make: Maker) -> None:
+    """It proves that messages before a damaged chunk are read, though the index is whole, and that it's
+    told.
+    """
+    whole = make(tmp_path, many())
+    content = bytearray(whole.path.read_bytes())
+    middle = len(content) // 2
+    content[middle : middle + 200_000] = bytes(200_000)
+    whole.path.write_bytes(content)
+    container = type(whole)(whole.path)  # type: ignore[call-arg]
+    found = list(container.messages({"/a"}))
+    assert container.damage.startswith("it is damaged")
+    assert 30 < len(found) < 70
+
+
+def test_a_chain_of_files(tmp_path: Path) -> None:
+    """It proves that the files of one recording follow each other, and that counts add up."""
+    sent = walk(6)
+    parts = [McapFile(write_mcap(tmp_path / f"{n}.mcap", sent[12 * n : 12 * n + 12])) for n in range(2)]
+    chain = Chain(tmp_path, list(parts))
+    assert [message.time for message in chain.messages(chain.topics)] == [each.time for each in sent]
+    assert set(chain.counts().values()) == {6}
+
+
+@pytest.mark.parametrize(
+    ("reader", "content", "message"),
+    [
+        (Bag1, b"not a bag", "expected a ROS 1 bag, this file isn't one"),
+        (Bag1, b"", "expected a ROS 1 bag, this file isn't one"),
+        (Bag1, b"#ROSBAG V1.2\nold", r"expected a ROS 1 bag of version 2.0, got 1.2; rosbag fix"),
+        (Bag1, b"#ROSBAG V2.0\n\x45\x00", "cut off in its first record"),
+        (McapFile, b"not an mcap file", "expected an MCAP file, this file isn't one"),
+        (McapFile, b"", "expected an MCAP file, this file isn't one"),
+        (SqliteFile, b"no database", "expected a ROS 2 recording, got another database"),
+    ],
+)
+def test_other_files_are_refused(
+    tmp_path: Path, reader: Callable[[Path], Container], content: bytes, message: str
+) -> None:
+    """It proves that a file that is none of the kind is an error that names it."""
+    path = tmp_path / "x.bag"
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=rf"x\.bag: .*{message}"):
+        reader(path)

@@ -1,0 +1,409 @@
+# SPDX-License-Identifier: MIT
+import subprocess
+import sys
+import threading
+import time
+from datetime import timedelta
+from itertools import takewhile
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+import tricue
+from numpy.typing import NDArray
+from tricue.cli.program import main
+from tricue.data import open_source as opening
+from tricue.data.capture import Capture, is_capture, is_file_url
+from tricue.data.joint import Moment
+from tricue.data.live import Live, Patience
+from tricue.data.source import Source
+
+from tests.data.mjpeg_server import SIZE, MjpegServer, mjpeg_server
+
+BRIEF = Patience(start=5.0, first_wait=0.05, longest_wait=0.2, silence=3.0)
+
+
+@pytest.fixture
+def brief(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sources that lose patience soon."""
+    monkeypatch.setattr(opening, "Live", lambda device: Live(device, BRIEF))
+
+
+class Counter:
+    """A device whose images count; it ends after some, and can't be opened for a few times then.
+
+    permits: how many images it may give, for tests that say when; None for all.
+    """
+
+    remote = True
+    fps: float | None = 100.0
+    camera = None
+
+    def __init__(
+        self,
+        count: int = 10**6,
+        period: float = 0.0,
+        refusals: int = 0,
+        permits: threading.Semaphore | None = None,
+    ) -> None:
+        self.name, self.count, self.period, self.refusals = "counter", count, period, refusals
+        self.permits = permits
+        self.opened: list[float] = []
+        self.number = self.left = 0
+
+    def open(self) -> None:
+        self.opened.append(time.monotonic())
+        if len(self.opened) > 1 and self.refusals:
+            self.refusals -= 1
+            raise OSError("it isn't there")
+        self.left = self.count
+
+    def read(self) -> dict[str, NDArray[Any]] | None:
+        time.sleep(self.period)
+        if self.left == 0 or (self.permits is not None and not self.permits.acquire(timeout=5)):
+            return None
+        self.left -= 1
+        self.number += 1
+        image = np.zeros((4, 6, 3), np.uint8)
+        image[..., 0], image[..., 1] = self.number % 256, self.number // 256
+        return {"color": image}
+
+    def close(self) -> None:
+        self.left = 0
+
+
+def number_of(moment: Moment) -> int:
+    """The number of the image that a counter gave."""
+    low, high, _ = moment["color"][1][0, 0].tolist()
+    return int(low + 256 * high)
+
+
+def test_the_newest_frame_is_given() -> None:
+    """It proves that a slow reader gets no image older than when it asks, and that the others are counted."""
+    device = Counter(period=0.002)
+    live = Live(device, BRIEF)
+    assert live.size("color") == (6, 4)
+    moments, numbers = live.moments(["color"]), []
+    for _ in range(8):
+        before = device.number
+        moment = next(moments)
+        numbers.append(number_of(moment))
+        assert numbers[-1] >= before - 1  # the last one may not be handed over yet
+        assert 0 <= moment["color"][0] <= time.monotonic() - live._begin
+        time.sleep(0.05)
+    moments.close()  # type: ignore[attr-defined]
+    assert numbers == sorted(set(numbers))
+    (remark,) = live.remarks
+    dropped = int(remark.split("dropped ")[1].split()[0])
+    assert dropped >= numbers[-1] - numbers[0] - 8
+    assert dropped > 30
+
+
+def test_a_fast_reader_gets_every_frame_once() -> None:
+    """It proves that no image is given twice, and that nothing is dropped while the reader waits for each."""
+    permits = threading.Semaphore(1)
+    live = Live(Counter(permits=permits), BRIEF)
+    found = []
+    for moment in live.moments(["color"]):
+        found.append(number_of(moment))
+        if len(found) == 20:
+            break
+        permits.release()
+    assert found == list(range(1, 21))
+    assert live.remarks == ()
+
+
+def test_waits_grow() -> None:
+    """It proves that a lost stream is tried again after growing waits, which is told once, and counted."""
+    device = Counter(count=3, period=0.005, refusals=3)
+    live = Live(device, BRIEF)
+    frames = live.moments(["color"])
+    with pytest.warns(UserWarning, match="counter: it stopped giving frames; connecting again") as told:
+        list(takewhile(lambda _: device.number < 5, frames))
+    assert len(told) == 1
+    frames.close()  # type: ignore[attr-defined]
+    waits = np.diff(device.opened)[:4]
+    assert (waits >= [0.05, 0.05, 0.1, 0.2]).all()
+    (remark,) = [each for each in live.remarks if "connected" in each]
+    assert remark.startswith("counter: connected again once, after 0.")
+
+
+def test_a_stream_that_stays_away() -> None:
+    """It proves that after a long silence the reading ends, with an error of one line."""
+    live = Live(Counter(count=1, refusals=10**6), BRIEF._replace(silence=0.4))
+    with (
+        pytest.warns(UserWarning, match="connecting again"),
+        pytest.raises(OSError, match=r"^counter: no image for \d s; the stream has ended$"),
+    ):
+        list(live.moments(["color"]))
+
+
+def test_the_thread_ends_with_its_reader() -> None:
+    """It proves that leaving the loop ends the thread, and that another loop begins anew."""
+    device = Counter(period=0.001)
+    live = Live(device, BRIEF)
+    for _ in range(2):
+        frames = live.moments(["color"])
+        next(frames)
+        frames.close()  # type: ignore[attr-defined]
+        assert live._thread is not None
+        live._thread.join(2)
+        assert not live._thread.is_alive()
+    assert len(device.opened) == 2
+
+
+def read_over_an_outage(source: Source, server: MjpegServer) -> tuple[list[float], int]:
+    """The times of the frames up to the first one after an outage, and that one's level."""
+    times: list[float] = []
+    for frame in source:
+        assert frame.timestamp is not None
+        assert frame.color is not None
+        times.append(frame.timestamp)
+        if len(times) == 5:
+            server.stop()
+            threading.Timer(0.3, server.start).start()
+        if any("connected again" in remark for remark in source.remarks):
+            return times, int(frame.color.mean())
+    raise AssertionError("the stream ended")
+
+
+def test_http_that_stops_and_comes_back(brief: None) -> None:
+    """It proves that a camera in the network is read by its newest images, and read again after an outage."""
+    with mjpeg_server() as server:
+        source = tricue.open_source(server.url)
+        assert (source.size, source.format, source.length) == (SIZE, "stream", None)
+        with pytest.warns(UserWarning, match="connecting again"):
+            times, level = read_over_an_outage(source, server)
+        assert abs(level - server.level()) <= 20  # at most a second old
+        assert times == sorted(times)
+    assert any("connected again once" in remark for remark in source.remarks)
+
+
+def test_a_process_that_ends_while_it_reads() -> None:
+    """It proves that Python ends in order while a thread is reading, even in the middle of a frame."""
+    code = "import sys, tricue; frames = iter(tricue.open_source(sys.argv[1])); next(frames); next(frames)"
+    with mjpeg_server() as server:
+        for _ in range(3):
+            done = subprocess.run(
+                [sys.executable, "-c", code, server.url],
+                capture_output=True,
+                text=True,
+                timeout=60,
+                check=False,
+            )
+            assert (done.returncode, "FATAL" in done.stderr) == (0, False)
+
+
+def test_http_tracked_from_the_command_line(
+    brief: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that tricue track takes a URL, and tells at the end how many frames it dropped."""
+    import tricue.cli.track as command
+
+    def ended_soon(source: Any) -> Any:
+        """The first frames, slowly read."""
+        for number, frame in enumerate(source):
+            if number == 6:
+                return
+            time.sleep(0.1)
+            yield frame
+
+    monkeypatch.setattr(command, "takewhile", lambda _, source: ended_soon(source))
+    with mjpeg_server() as server:
+        assert main(["track", server.url, "--tracker", "color-particle", "--box", "9,9,20,20"]) == 0
+    said = capsys.readouterr().out
+    assert "6 frames" in said
+    assert f"{server.url}: dropped " in said
+
+
+def test_an_address_without_a_stream(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a stream that never starts is an error of one line after the time limit."""
+    with mjpeg_server() as server:
+        url = server.url.replace("//", "//user:secret@")
+    begin = time.monotonic()
+    with pytest.raises(
+        OSError, match=r"^http://127[^@]*: no image within 0.6 s \(it can't be opened\); is it on"
+    ):
+        Live(Capture(url), BRIEF._replace(start=0.6))
+    assert 0.5 < time.monotonic() - begin < 5
+
+
+@pytest.mark.parametrize(
+    ("place", "live", "file"),
+    [
+        ("0", True, False),
+        ("/dev/video2", True, False),
+        ("rtsp://camera/stream", True, False),
+        ("http://camera:8080/video.cgi?x=1", True, False),
+        ("https://host/clip.mp4?token=1", False, True),
+        ("udp://@:1234", True, False),
+        ("tcp://host:9", True, False),
+        ("clip.mp4", False, False),
+        ("ftp://host/clip.mp4", False, False),
+    ],
+)
+def test_what_is_live(place: str, live: bool, file: bool) -> None:
+    """It proves which places are cameras, and which URLs are files that are read from start to end."""
+    assert (is_capture(place), is_file_url(place)) == (live, file)
+
+
+class Unplugged:
+    """A cv2.VideoCapture that gives two images once, and then can't be opened any more."""
+
+    opened = 0
+
+    def __init__(self, _number: int) -> None:
+        Unplugged.opened += 1
+        self.left = 2 if Unplugged.opened == 1 else 0
+
+    def isOpened(self) -> bool:  # noqa: N802 (as cv2 names it)
+        return self.left > 0
+
+    def get(self, _property: int) -> float:
+        return 0.0
+
+    def read(self) -> tuple[bool, object]:
+        time.sleep(0.05)
+        self.left -= 1
+        return (True, np.zeros((4, 6, 3), np.uint8)) if self.left >= 0 else (False, None)
+
+    def release(self) -> None:
+        self.left = 0
+
+
+def test_an_unplugged_camera(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that a camera that is unplugged is tried again, and then an error with its number."""
+    monkeypatch.setattr(cv2, "VideoCapture", Unplugged)
+    monkeypatch.setattr(Unplugged, "opened", 0)
+    live = Live(Capture("3"), BRIEF._replace(silence=0.5))
+    with (
+        pytest.warns(UserWarning, match="camera 3: it stopped giving frames; connecting again"),
+        pytest.raises(OSError, match="camera 3: no image for"),
+    ):
+        list(live.moments(["color"]))
+    assert Unplugged.opened > 2
+
+
+def test_an_absent_camera_is_named() -> None:
+    """It proves that a camera that can't be opened is an error with its number, at once."""
+    with pytest.raises(OSError, match="camera 97: can't be opened; is it plugged in"):
+        tricue.open_source("97")
+
+
+@pytest.mark.parametrize(
+    ("place", "package", "extra"), [("realsense:", "pyrealsense2", "realsense"), ("oak:", "depthai", "oak")]
+)
+def test_a_missing_package_is_named(
+    monkeypatch: pytest.MonkeyPatch, place: str, package: str, extra: str
+) -> None:
+    """It proves that without the camera's library the error says what to install."""
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(ImportError, match=rf"the package {package}: pip install 'tricue\[{extra}\]'"):
+        tricue.open_source(place)
+
+
+def test_a_device_that_fails_in_its_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an error that isn't a matter of connection reaches the reader at once."""
+    device = Counter()
+    monkeypatch.setattr(device, "read", lambda: {}["color"])
+    with pytest.raises(KeyError, match="color"):
+        Live(device, BRIEF)
+
+
+class FakeImage:
+    """An image of depthai."""
+
+    def __init__(self, image: NDArray[Any]) -> None:
+        self.image = image
+
+    def getFrame(self) -> NDArray[Any]:  # noqa: N802 (as depthai names it)
+        return self.image
+
+    getCvFrame = getFrame  # noqa: N815
+
+
+def fake_depthai(frames: int) -> tuple[ModuleType, list[str]]:
+    """A module with what is used of depthai, and the links that were made."""
+    module, links = ModuleType("depthai"), []
+
+    class Port:
+        def __init__(self, name: str) -> None:
+            self.name = name
+
+        def link(self, other: "Port") -> None:
+            links.append(f"{self.name} -> {other.name}")
+
+        def createOutputQueue(self, **_: object) -> Any:  # noqa: N802
+            return Queue()
+
+    class Queue:
+        left = frames
+
+        def get(self, _timeout: timedelta) -> dict[str, FakeImage]:
+            time.sleep(0.005)
+            self.left -= 1
+            if self.left < 0:
+                raise Gone("closed")
+            shape = (400, 640)
+            return {
+                "color": FakeImage(np.full((*shape, 3), 7, np.uint8)),
+                "depth": FakeImage(np.full(shape, 1500, np.uint16)),
+            }
+
+    class Gone(Exception):  # noqa: N818 (depthai's QueueException)
+        pass
+
+    class Node:
+        def __init__(self, kind: str) -> None:
+            self.kind, self.inputs = kind, {name: Port(f"{kind}.{name}") for name in ("color", "depth")}
+
+        def build(self, socket: str) -> "Node":
+            self.kind = socket
+            return self
+
+        def requestOutput(self, size: tuple[int, int], **_: object) -> Port:  # noqa: N802
+            assert size == (640, 400)
+            return Port(self.kind)
+
+        def __getattr__(self, name: str) -> Port:
+            return Port(f"{self.kind}.{name}")
+
+    calibration = SimpleNamespace(
+        getCameraIntrinsics=lambda _socket, width, height: [
+            [500, 0, width / 2],
+            [0, 501, height / 2],
+            [0, 0, 1],
+        ]
+    )
+    device = SimpleNamespace(getPlatform=lambda: "RVC2", readCalibration=lambda: calibration)
+    pipeline = SimpleNamespace(create=Node, start=lambda: None, stop=lambda: None)
+    module.Device = lambda *_: device  # type: ignore[attr-defined]
+    module.DeviceInfo = str  # type: ignore[attr-defined]
+    module.Pipeline = lambda _device: pipeline  # type: ignore[attr-defined]
+    module.Platform = SimpleNamespace(RVC4="RVC4")  # type: ignore[attr-defined]
+    module.CameraBoardSocket = SimpleNamespace(CAM_A="A", CAM_B="B", CAM_C="C")  # type: ignore[attr-defined]
+    kinds = ("Camera", "StereoDepth", "Sync", "ImageAlign")
+    module.node = SimpleNamespace(**{kind: kind for kind in kinds})  # type: ignore[attr-defined]
+    module.MessageQueue = SimpleNamespace(QueueException=Gone)  # type: ignore[attr-defined]
+    return module, links
+
+
+def test_oak(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves, on a stand-in for depthai, that color and registered depth come with the color camera."""
+    module, links = fake_depthai(frames=10**6)
+    monkeypatch.setitem(sys.modules, "depthai", module)
+    source = tricue.open_source("oak:")
+    frame = next(iter(source))
+    assert frame.channels == ("color", "depth")
+    assert frame.depth is not None
+    assert frame.depth[0, 0] == pytest.approx(1.5)
+    assert source.camera == tricue.Intrinsics(500, 501, 320, 200, 640, 400)
+    assert set(links) == {
+        "B -> StereoDepth.left",
+        "C -> StereoDepth.right",
+        "A -> StereoDepth.inputAlignTo",
+        "A -> Sync.color",
+        "StereoDepth.depth -> Sync.depth",
+    }
