@@ -86,6 +86,7 @@ def _serve(
             log_level="error",
             ws="websockets-sansio",
             lifespan="off",
+            proxy_headers=False,
             timeout_graceful_shutdown=CLOSING_TIME,
         )
         server = uvicorn.Server(config)

@@ -94,8 +94,8 @@ def make_app(serving: Serving) -> ASGIApp:
     """The application: all of it is below the token, and only for pages of this machine."""
     base = f"/{serving.token}"
     routes = [
-        Route(f"{base}/", lambda _: _page_file("index.html")),
-        Route(f"{base}/page/{{name}}", lambda request: _page_file(request.path_params["name"])),
+        Route(f"{base}/", _page),
+        Route(f"{base}/page/{{name}}", _page),
         Route(f"{base}/state", _bound(_state, serving)),
         Route(f"{base}/frame/{{number:int}}.jpg", _bound(_frame, serving)),
         Route(f"{base}/do", _bound(_do, serving), methods=["POST"]),
@@ -142,8 +142,8 @@ def _bound(handler: Callable[..., Any], serving: Serving) -> Callable[..., Any]:
     return handle
 
 
-async def _page_file(name: str) -> Response:
-    path = PAGE / name
+async def _page(request: Request) -> Response:
+    path = PAGE / request.path_params.get("name", "index.html")
     if path.suffix not in PAGE_TYPES or path.parent != PAGE or not path.is_file():
         return PlainTextResponse("there is no such page\n", 404, HEADERS)
     return FileResponse(path, media_type=PAGE_TYPES[path.suffix], headers=HEADERS)
@@ -393,6 +393,7 @@ def state(serving: Serving) -> dict[str, Any]:
         "undo": bool(history.past),
         "redo": bool(history.future),
         "run": None if run is None else {"step": run.step, "targets": list(run.followed)},
+        "reached": session.reached,
         "video": None
         if job is None
         else {"written": job.written, "total": job.total, "done": job.path is not None, "error": job.error},

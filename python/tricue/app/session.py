@@ -91,6 +91,7 @@ class Session:
         self.trackers = fitting_trackers(recording)
         self.history, self.run, self.job = History(), None, None
         self.errors: list[str] = []
+        self.reached: int | None = None  # the last frame of the last run
         self.changed_video: list[str] = []
         self.version, self.saved = 0, True
         self.on_change: Callable[[], None] = lambda: None
@@ -234,7 +235,7 @@ class Session:
             with self._lock:
                 found = edits.add_tracks(self.history.present, run.tracks())
                 self.history = self.history.amend(found) if run.found else self.history.undo()
-                self.run = None
+                self.run, self.reached = None, run.found[-1][1] if run.found else run.start
             self._changed()
 
     def _run(self, run: Run, targets: Sequence[Target], stop: int) -> None:
