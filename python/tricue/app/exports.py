@@ -105,7 +105,7 @@ def as_coco(tracked: Tracked) -> str:
     width, height = tracked.recording.size
     targets = tracked.project.targets
     categories = {name: number for number, name in enumerate(dict.fromkeys(t.name for t in targets), 1)}
-    annotations = []
+    annotations: list[dict[str, Any]] = []
     for at, target, track in tracked.tracks():
         if track.status is Status.LOST:
             continue

@@ -19,6 +19,7 @@ from tricue.data.streams import Camera, Image, Stream, Video, plausible_fps
 
 KEPT_BYTES = 128 << 20  # of decoded frames, in YUV: what stepping back and tracking backwards fall back on
 MIN_KEPT = 4  # frames, however large
+MAX_UNREADABLE = 30  # frames in a row, after which a recording is broken
 GUESSED_TIMES = {("avi", "h264"), ("avi", "hevc")}
 """Containers without times for codecs that reorder frames: after a seek FFmpeg guesses, and guesses wrong."""
 
@@ -218,20 +219,20 @@ class Recording:
         """Frames with their numbers from ``start`` to before ``stop``, backwards if that is less.
 
         Backwards, time runs on as if the recording were mirrored: trackers know no other. Frames that can't
-        be decoded are left out; ValueError if none can.
+        be decoded are left out; ValueError for the first one, and for MAX_UNREADABLE in a row.
         """
         step = 1 if stop > start else -1
-        error, given = None, 0
+        unreadable = 0
         for number in range(start, stop, step):
             try:
                 frame = self.frame(number)
-            except ValueError as found:
-                error = found
+            except ValueError:
+                unreadable += 1
+                if unreadable == MAX_UNREADABLE or number == start:
+                    raise
                 continue
-            given += 1
+            unreadable = 0
             yield number, frame if step > 0 else _mirrored(frame, self.seconds(start))
-        if error is not None and not given:
-            raise error
 
 
 def image_of(frame: Frame) -> NDArray[Any]:

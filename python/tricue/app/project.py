@@ -91,7 +91,7 @@ def choose_tracker(project: Project, number: int, tracker: str) -> Project:
 
 
 def add_tracks(project: Project, found: Mapping[int, Mapping[int, Track]]) -> Project:
-    """The project with tracks by target and frame, which replace those before; deleted targets are left out."""
+    """The project with these tracks, by target and frame, in place of those before."""
     return replace(
         project,
         targets=tuple(

@@ -133,7 +133,8 @@ def _lines(project: Project, video: Footprint) -> Iterator[str]:
     yield f' "video": {json.dumps(asdict(video), ensure_ascii=False)},\n'
     yield f' "next_id": {project.next_id},\n "columns": {json.dumps(COLUMNS)},\n "targets": ['
     for index, target in enumerate(project.targets):
-        yield f'{"," * (index > 0)}\n  {{"id": {target.id}, "name": {json.dumps(target.name, ensure_ascii=False)}'
+        name = json.dumps(target.name, ensure_ascii=False)
+        yield f'{"," * (index > 0)}\n  {{"id": {target.id}, "name": {name}'
         yield f', "tracker": {json.dumps(target.tracker)},\n   "drawn": {{'
         yield ", ".join(f'"{at}": {json.dumps(_rounded(box))}' for at, box in sorted(target.drawn.items()))
         yield '},\n   "tracks": ['

@@ -55,7 +55,9 @@ def serve_project(
         with closing(Session(Recording(source), place, path, cameras, seed)) as session:
             if tracker:
                 session.check_tracker(tracker)
-            kept = path if path.parent == place.resolve().parent else f"{path}, as its folder can't be written"
+            kept = (
+                path if path.parent == place.resolve().parent else f"{path}, as its folder can't be written"
+            )
             say(f"the work is kept in {kept}")
             _serve(Serving(session, tracker=tracker, notes=notes), port, browser, say, own.announce)
 

@@ -194,57 +194,46 @@ async def _do(serving: Serving, request: Request) -> Response:
     return JSONResponse(answer or {}, headers=HEADERS)
 
 
-def _command(serving: Serving, command: Mapping[str, Any]) -> dict[str, Any] | None:
-    name = command.get("do")
+def _command(serving: Serving, command: dict[str, Any]) -> dict[str, Any]:
+    name = command.pop("do", None)
     if name not in COMMANDS:
         raise ValueError(f"do: expected one of {', '.join(COMMANDS)}, got {name!r:.40}")
-    return COMMANDS[name](serving, command)
+    return COMMANDS[name](serving.session if name in OF_SESSION else serving, **command) or {}
 
 
-def _add(serving: Serving, command: Mapping[str, Any]) -> dict[str, Any]:
-    return {"id": serving.session.add(command.get("frame"), command.get("box"), command.get("tracker"))}
+def _add(session: Session, frame: Any, box: Any, tracker: Any) -> dict[str, Any]:
+    return {"id": session.add(frame, box, tracker)}
 
 
-def _draw(serving: Serving, command: Mapping[str, Any]) -> None:
-    serving.session.draw(command.get("target"), command.get("frame"), command.get("box"))
+def _erase(session: Session, target: Any, frame: Any) -> None:
+    session.edit(lambda project: edits.erase_box(project, target, frame))
 
 
-def _erase(serving: Serving, command: Mapping[str, Any]) -> None:
-    target, frame = command.get("target"), command.get("frame")
-    serving.session.edit(lambda project: edits.erase_box(project, target, frame))
+def _delete(session: Session, target: Any) -> None:
+    session.edit(lambda project: edits.delete_target(project, target))
 
 
-def _delete(serving: Serving, command: Mapping[str, Any]) -> None:
-    serving.session.edit(lambda project: edits.delete_target(project, command.get("target")))
+def _rename(session: Session, target: Any, name: Any) -> None:
+    session.edit(lambda project: edits.rename_target(project, target, name))
 
 
-def _rename(serving: Serving, command: Mapping[str, Any]) -> None:
-    target, name = command.get("target"), command.get("name")
-    serving.session.edit(lambda project: edits.rename_target(project, target, name))
-
-
-def _choose(serving: Serving, command: Mapping[str, Any]) -> None:
-    serving.session.choose_tracker(command.get("target"), command.get("tracker"))
-
-
-def _track(serving: Serving, command: Mapping[str, Any]) -> None:
-    step, targets = command.get("step", 1), command.get("targets")
+def _track(session: Session, frame: Any, step: Any = 1, targets: Any = None) -> None:
     if step not in (1, -1):
         raise ValueError(f"step: expected 1 or -1, got {step!r:.40}")
     if targets is not None and not isinstance(targets, list):
         raise ValueError(f"targets: expected a list of ids, got {targets!r:.40}")
-    serving.session.track(command.get("frame"), step, targets)
+    session.track(frame, step, targets)
 
 
-def _keep(serving: Serving, command: Mapping[str, Any]) -> None:
-    serving.session.keep_project(bool(command.get("keep")))
+def _keep(session: Session, keep: Any) -> None:
+    session.keep_project(bool(keep))
 
 
-def _video(serving: Serving, _: Mapping[str, Any]) -> None:
+def _video(serving: Serving) -> None:
     serving.session.make_video(serving.folder / f"{serving.session.place.stem}.overlay.mp4")
 
 
-def _select(serving: Serving, command: Mapping[str, Any]) -> None:
+def _select(serving: Serving) -> None:
     """End the serving with the boxes that were drawn."""
     if not serving.selecting:
         raise ValueError("do: this page isn't asked for boxes alone")
@@ -253,22 +242,22 @@ def _select(serving: Serving, command: Mapping[str, Any]) -> None:
     serving.finish()
 
 
-COMMANDS: dict[str, Callable[[Serving, Mapping[str, Any]], dict[str, Any] | None]] = {
+OF_SESSION: dict[str, Callable[..., dict[str, Any] | None]] = {
     "add": _add,
-    "draw": _draw,
+    "draw": Session.draw,
     "erase": _erase,
     "delete": _delete,
     "rename": _rename,
-    "tracker": _choose,
+    "tracker": Session.choose_tracker,
     "track": _track,
-    "pause": lambda serving, _: serving.session.pause(),
-    "undo": lambda serving, _: serving.session.undo(),
-    "redo": lambda serving, _: serving.session.redo(),
+    "pause": Session.pause,
+    "undo": Session.undo,
+    "redo": Session.redo,
     "keep": _keep,
-    "video": _video,
-    "cancel-video": lambda serving, _: serving.session.cancel_video(),
-    "select": _select,
+    "cancel-video": Session.cancel_video,
 }
+COMMANDS = {**OF_SESSION, "video": _video, "select": _select}
+"""What a page can have done; the values of a command are the function's arguments."""
 
 
 async def _export(serving: Serving, request: Request) -> Response:
@@ -336,8 +325,9 @@ class _Page:
             self.run, self.found, self.sent = run, 0, -1
         if run is None:
             return
-        tracks, self.found = run.tracks(self.found), len(run.found)
-        latest = run.latest
+        latest = run.latest  # before the tracks, so that its own are among them
+        count = len(run.found)
+        tracks, self.found = run.tracks(self.found, count), count
         message = {
             "type": "run",
             "frame": run.start if latest is None else latest[0],

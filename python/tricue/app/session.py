@@ -27,7 +27,7 @@ Direction = Literal[1, -1]
 
 @dataclass
 class Run:
-    """A tracking run: ``found`` grows while it lasts, in the order of the frames. step: 1, or -1 backwards."""
+    """A tracking run: ``found`` grows while it lasts, frame by frame. step: 1, or -1 backwards."""
 
     start: int
     step: Direction
@@ -39,10 +39,10 @@ class Run:
     updates: int = 0
     seconds: float = 0.0  # spent in trackers
 
-    def tracks(self, first: int = 0) -> dict[int, dict[int, Track]]:
-        """Those found from the ``first`` one on, by target and frame."""
+    def tracks(self, first: int = 0, end: int | None = None) -> dict[int, dict[int, Track]]:
+        """Those found, from the ``first`` to before the ``end``, by target and frame."""
         by_target: dict[int, dict[int, Track]] = {}
-        for number, at, track in self.found[first:]:
+        for number, at, track in self.found[first:end]:
             by_target.setdefault(number, {})[at] = track
         return by_target
 
@@ -72,9 +72,8 @@ class Paused:
 class Session:
     """One project on one recording. Its methods may be called from any thread.
 
-    path: the project's file, None to keep nothing. cameras: the keywords intrinsics or rig of trackers, as far
-    as they are known. on_change is called, from any thread, when there is something new to show.
-    Errors of a run and of saving are in ``errors``, one line each, with rising numbers.
+    path: the project's file, None to keep nothing. cameras: the trackers' keywords intrinsics or rig, where
+    they are known. errors: of runs and of saving, one line each.
     """
 
     def __init__(
@@ -89,12 +88,13 @@ class Session:
         self.cameras, self.seed = dict(cameras or {}), seed
         self.footprint = project_file.footprint(place, recording.length, recording.size)
         self.trackers = fitting_trackers(recording)
-        self.history, self.run, self.job = History(), None, None
+        self.history = History()
+        self.run: Run | None = None
+        self.job: VideoJob | None = None
         self.errors: list[str] = []
         self.reached: int | None = None  # the last frame of the last run
         self.changed_video: list[str] = []
         self.version, self.saved = 0, True
-        self.on_change: Callable[[], None] = lambda: None
         self._written_at: int | None = None  # the file's time of change after our last saving
         self._paused: dict[int, Paused] = {}
         self._commands, self._lock = threading.RLock(), threading.RLock()  # taken in this order
@@ -105,9 +105,6 @@ class Session:
             self._load(path)
         self._saver = threading.Thread(target=self._save_on_and_on, name="saver", daemon=True)
         self._saver.start()
-
-    run: Run | None
-    job: VideoJob | None
 
     @property
     def project(self) -> Project:
@@ -207,9 +204,14 @@ class Session:
                 self.check_tracker(each.tracker)
             stop = max(self._end(each, frame, step) * step for each in able) * step
             if abs(stop - frame) < 2:
+                drawn = 0 <= stop < self.recording.length
                 raise ValueError(
-                    f"frame {frame}: expected frames to track in, the next {'after' if step > 0 else 'before'} it "
-                    + ("has a drawn box" if 0 <= stop < self.recording.length else "isn't there")
+                    f"frame {frame}: nothing to track, "
+                    + (
+                        f"frame {stop} has a drawn box"
+                        if drawn
+                        else f"it is the {'last' if step > 0 else 'first'} one"
+                    )
                 )
             with self._lock:
                 self.history = self.history.step()
@@ -246,12 +248,12 @@ class Session:
         recording = self.recording.again()
         with closing(prefetch(recording.frames(run.start, stop))) as frames:
             for number, frame in frames:
-                run.latest = number, frame
                 for one in list(following):
                     if number * run.step >= ends[one] * run.step:
                         del following[one]
                     elif number != run.start or resumed[one] is None:
                         self._step(run, by_id[one], following, number, frame)
+                run.latest = number, frame
                 if run.stop.is_set() or not following:
                     break
 
@@ -267,6 +269,7 @@ class Session:
                 track = tracker.update(frame)
         except Exception as error:  # whatever a third party's tracker raises
             del following[target.id]
+            self._paused.pop(target.id, None)
             self._report(error, f"{target.name}, {target.tracker}, frame {number}: ")
             return
         run.seconds += time.perf_counter() - before
@@ -306,7 +309,6 @@ class Session:
 
         def progress(count: int) -> bool:
             job.written = count
-            self.on_change()
             return not job.stop
 
         def work() -> None:
@@ -315,7 +317,6 @@ class Session:
                 job.path = path
             except Exception as error:
                 job.error = one_line(error)
-            self.on_change()
 
         threading.Thread(target=work, name="overlay", daemon=True).start()
 
@@ -365,7 +366,6 @@ class Session:
                 self._report(error, "not saved: ")
         with self._wake:
             self.saved = self.version == version  # what failed is tried again after the next change
-        self.on_change()
 
     def _write(self, path: Path, project: Project) -> None:
         there = path.stat().st_mtime_ns if path.exists() else None
@@ -379,7 +379,6 @@ class Session:
             self.version += 1
             self.saved = self.saved and not save
             self._wake.notify()
-        self.on_change()
 
     # Checks.
 
@@ -387,7 +386,6 @@ class Session:
         text = where + one_line(error)
         if not self.errors or self.errors[-1] != text:
             self.errors.append(text)
-        self.on_change()
 
     def check_frame(self, frame: Any) -> None:
         """ValueError for what isn't the number of a frame."""

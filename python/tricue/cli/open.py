@@ -28,7 +28,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--port", type=int, metavar="N", help="of the server on 127.0.0.1; 0 for a free one")
     command.add_argument("--no-browser", action="store_true", help="only print the address")
     command.add_argument(
-        "--tracker", type=tracker_name, metavar="NAME", help="what new targets begin with; the page has a choice"
+        "--tracker",
+        type=tracker_name,
+        metavar="NAME",
+        help="what new targets begin with; the page has a choice",
     )
     command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
     command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
@@ -39,7 +42,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--depth-scale", type=float, metavar="M", help="meters per unit of depth")
     camera = command.add_mutually_exclusive_group()
     camera.add_argument(
-        "--calibration", type=Path, metavar="FILE", help="of the camera or stereo pair, as tricue track takes it"
+        "--calibration",
+        type=Path,
+        metavar="FILE",
+        help="of the camera or stereo pair, as tricue track takes it",
     )
     camera.add_argument("--fov", type=angles, metavar="H[,V]", help="the camera's angles of view, in degrees")
 

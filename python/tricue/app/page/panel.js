@@ -33,8 +33,7 @@ export class Panel {
     get("selecting").hidden = !model.state.selecting;
     this.#updateList();
     const target = model.target();
-    get("target-name").parentElement.hidden = !target;
-    get("delete").hidden = !target || model.state.selecting;
+    get("target-name").closest("div").hidden = !target;
     if (!get("target-tracker").options.length) this.#fillTrackers();
     if (document.activeElement !== get("target-name")) get("target-name").value = target?.name ?? "";
     get("target-tracker").value = target?.tracker ?? model.state.tracker;

@@ -110,7 +110,7 @@ export class Timeline {
     pen.strokeStyle = this.#color("--panel");
     pen.lineWidth = 1;
     for (const frame of target.drawn) {
-      const x = ((frame + 0.5) / frames) * width, y = top + height / 2;
+      const x = Math.min(Math.max(((frame + 0.5) / frames) * width, 6), width - 6), y = top + height / 2;
       pen.beginPath();
       pen.moveTo(x, y - 5);
       pen.lineTo(x + 5, y);
