@@ -82,7 +82,9 @@ def test_phone_video_is_upright(video: Path) -> None:
     """A video with the mark of a phone that was held upright is turned, as OpenCV turns it."""
     content = bytearray(video.read_bytes())
     matrix = content.index(b"tkhd") + 4 + 40
-    content[matrix : matrix + 36] = struct.pack(">9i", 0, 1 << 16, 0, -(1 << 16), 0, 0, HEIGHT << 16, 0, 1 << 30)
+    content[matrix : matrix + 36] = struct.pack(
+        ">9i", 0, 1 << 16, 0, -(1 << 16), 0, 0, HEIGHT << 16, 0, 1 << 30
+    )
     video.write_bytes(content)
     expected = [image for _, image in Video(video)]
     assert expected[0].shape == (WIDTH, HEIGHT, 3)

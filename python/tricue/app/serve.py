@@ -24,7 +24,7 @@ from tricue.camera.box import Box
 from tricue.data.open_source import Source, open_source
 
 ADDRESS = "127.0.0.1"
-DEFAULT_PORT = 8765
+DEFAULT_PORT, MAX_PORT = 8765, 65535
 CLOSING_TIME = 2  # seconds that open connections get at the end
 
 
@@ -101,15 +101,16 @@ def _serve(
 
 def _listening(port: int | None) -> socket.socket:
     """A socket at this port; without a wish at the default one, or at a free one if that is in use."""
+    if port is not None and not 0 <= port <= MAX_PORT:
+        raise ValueError(f"--port {port}: expected a port from 0 to {MAX_PORT}")
     try:
         return socket.create_server((ADDRESS, DEFAULT_PORT if port is None else port))
-    except (OSError, OverflowError) as error:
-        if isinstance(error, OSError) and error.errno in (errno.EADDRINUSE, errno.EACCES):
-            if port is None:
-                return socket.create_server((ADDRESS, 0))
-            why = "is in use" if error.errno == errno.EADDRINUSE else "isn't open to you"
-            raise OSError(f"--port {port}: the port {why}; give another, or leave it out") from None
-        raise ValueError(f"--port {port}: expected a port from 0 to 65535") from None
+    except OSError as error:
+        if port is None:
+            return socket.create_server((ADDRESS, 0))
+        why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "the port isn't open to you"}
+        reason = why.get(error.errno or 0, error.strerror)
+        raise OSError(f"--port {port}: {reason}; give another, or leave it out") from None
 
 
 def _show(url: str, browser: bool) -> None:

@@ -266,7 +266,9 @@ function onlyDrawn(target) {
 
 function updateVideo(video) {
   const bar = get("video-progress");
-  bar.hidden = !video || video.done || Boolean(video.error);
+  const writing = Boolean(video) && !video.done && !video.error;
+  bar.hidden = !writing;
+  get("video").textContent = writing ? "Cancel" : "Video";
   if (!video) return;
   bar.value = video.written / video.total;
   get("video-state").textContent = video.error || (video.done ? "written" : `writing, ${Math.floor(100 * bar.value)} %`);
@@ -314,8 +316,9 @@ const CLICKS = {
   "changed-keep": () => act("keep", { keep: true }),
   "changed-anew": () => act("keep", { keep: false }),
   video() {
+    if (!get("video-progress").hidden) return act("cancel-video");
     get("video").dataset.asked = "yes";
-    act("video");
+    return act("video");
   },
   async done() {
     await act("select");

@@ -119,7 +119,7 @@ export class Stage {
     }
     if (this.model.state.run) return;
     const at = this.#at(event), start = this.#toFrame(...at);
-    const box = this.#own();
+    const box = event.shiftKey ? null : this.#own(); // with Shift a box is always drawn anew
     const reach = event.pointerType === "touch" ? TOUCH_HANDLE : HANDLE + 3;
     const corner = box ? this.#cornerAt(box, at, reach) : -1;
     if (corner >= 0) {
