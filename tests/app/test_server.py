@@ -77,7 +77,7 @@ def test_without_token_nothing_is_served(serving: Serving, path: str) -> None:
     ],
 )
 def test_other_sites_are_refused_with_the_token(client: TestClient, headers: dict[str, str]) -> None:
-    """Neither a name that leads here nor a page of another origin gets anything, even if it knows the token."""
+    """Neither another name that leads here nor a page of another origin gets anything, token or not."""
     assert client.get("state", headers=headers).status_code == 403
     assert client.post("do", headers=headers, content='{"do": "undo"}').status_code == 403
     with pytest.raises(WebSocketDisconnect) as caught, live(client, headers=headers):
@@ -219,7 +219,7 @@ def test_video_that_vanishes_is_told(client: TestClient, video: Path) -> None:
 
 
 def test_page_is_told_all_of_a_run(client: TestClient) -> None:
-    """Over the WebSocket come the state, the run's tracks as they are found, pictures, and all tracks in the end."""
+    """Over the WebSocket come the state, a run's pictures and tracks, and all tracks in the end."""
     with live(client) as socket:
         first = [socket.receive_json(), socket.receive_json()]
         assert [each["type"] for each in first] == ["times", "state"]

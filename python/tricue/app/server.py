@@ -384,6 +384,7 @@ def state(serving: Serving) -> dict[str, Any]:
         "redo": bool(history.future),
         "run": None if run is None else {"step": run.step, "targets": list(run.followed)},
         "reached": session.reached,
+        "version": session.version,
         "video": None
         if job is None
         else {"written": job.written, "total": job.total, "done": job.path is not None, "error": job.error},

@@ -166,6 +166,7 @@ listen({
 });
 
 function hearState(state) {
+  document.documentElement.dataset.version = state.version; // for tests
   const first = !model.state;
   const tracker = model.state?.tracker;
   if (tracker) state.tracker = tracker;
