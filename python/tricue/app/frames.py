@@ -11,6 +11,7 @@ from typing import Any
 import av
 import av.error
 import numpy as np
+from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
@@ -87,6 +88,7 @@ class SeekableVideo:
         self.fps, self.timed = self.index.fps or 30.0, self.index.timed
         self._numbers = {int(time): number for number, time in enumerate(self.index.times)}
         self._container: Any = None
+        self._reformatter = VideoReformatter()  # one for all frames: to make it takes longer than to use it
         self._kept: OrderedDict[int, Any] = OrderedDict()
         self._decoded: Iterator[tuple[int, Any]] = iter(())
         self._coming: int | None = None  # the least number that may come next
@@ -111,7 +113,13 @@ class SeekableVideo:
         for number in indices:
             if not 0 <= number < self.length:
                 raise ValueError(f"{self.path}: expected frame 0 to {self.length - 1}, got {number}")
-            yield self.index.seconds(number), _bgr(self._find(number))
+            yield self.index.seconds(number), self._bgr(self._find(number))
+
+    def _bgr(self, frame: Any) -> Image:
+        """The frame as BGR, (H, W, 3), upright as a phone held it."""
+        image: Image = self._reformatter.reformat(frame, format="bgr24").to_ndarray()
+        turns = round(frame.rotation / 90) % 4
+        return np.ascontiguousarray(np.rot90(image, turns)) if turns else image
 
     def _find(self, number: int) -> Any:
         if number not in self._kept and not self._decode_to(number):
@@ -298,10 +306,3 @@ def _frames(container: Any, stream: Any) -> Iterator[Any]:
         except av.error.FFmpegError:
             return
         yield from decoded
-
-
-def _bgr(frame: Any) -> Image:
-    """The frame as BGR, (H, W, 3), upright as a phone held it."""
-    image = frame.to_ndarray(format="bgr24")
-    turns = round(frame.rotation / 90) % 4
-    return np.ascontiguousarray(np.rot90(image, turns)) if turns else image

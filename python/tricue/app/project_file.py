@@ -104,7 +104,9 @@ def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
         targets = tuple(_target(each, pose) for each in content["targets"])
         return Project(targets, int(content["next_id"])), Footprint(**content["video"])
     except (KeyError, TypeError, IndexError, UnicodeError, json.JSONDecodeError) as error:
-        raise ValueError(f"{path}: expected a project of tricue open, can't read it: {error!r}") from None
+        raise ValueError(
+            f"{path}: expected a project of tricue open, can't read it; rename it to begin anew ({error!r})"
+        ) from None
 
 
 def save(path: Path, project: Project, video: Footprint) -> None:

@@ -367,7 +367,7 @@ def state(serving: Serving) -> dict[str, Any]:
     recording, history, run, job = session.recording, session.history, session.run, session.job
     source = recording.source
     return {
-        "name": session.place.resolve().name,
+        "name": session.place.name,
         "frames": recording.length,
         "fps": source.fps,
         "size": recording.size,
@@ -377,7 +377,7 @@ def state(serving: Serving) -> dict[str, Any]:
         "selecting": serving.selecting,
         "notes": list(serving.notes),
         "file": None if session.path is None else str(session.path),
-        "beside": session.path is not None and session.path.parent == session.place.resolve().parent,
+        "beside": session.path is not None and session.path.parent == session.place.parent,
         "saved": session.saved,
         "changed_video": session.changed_video,
         "undo": bool(history.past),

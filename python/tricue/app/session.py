@@ -84,7 +84,7 @@ class Session:
         cameras: Mapping[str, Any] | None = None,
         seed: int = 0,
     ) -> None:
-        self.recording, self.place, self.path = recording, place, path
+        self.recording, self.place, self.path = recording, place.resolve(), path
         self.cameras, self.seed = dict(cameras or {}), seed
         self.footprint = project_file.footprint(place, recording.length, recording.size)
         self.trackers = fitting_trackers(recording)
