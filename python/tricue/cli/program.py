@@ -25,6 +25,7 @@ INTERRUPTED, CLOSED_PIPE = 130, 141
 COMMANDS = {
     "demo": "track a scene with known truth",
     "track": "track in a video, a folder, a camera",
+    "open": "draw boxes in a video, track and correct, in the browser",
     "info": "describe a video, a folder, a sequence",
     "evaluate": "compare trackers with OpenCV's on a data set",
     "calibrate": "measure a tracker's parameters on own images",

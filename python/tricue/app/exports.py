@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: MIT
+"""What leaves a project: tables and annotations as text, and the overlay video."""
+
+import csv
+import io
+import json
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.app.frames import Recording
+from tricue.app.project import Project, Target
+from tricue.camera.frame import Frame
+from tricue.data.streams import Images
+from tricue.draw.canvas import STATUS_COLORS, Image, choose_scale, draw_box, enlarge, put_text, to_bgr
+from tricue.draw.depth_pictures import depth_picture
+from tricue.track.base.track import Status, Track
+
+COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")
+COLUMNS = (
+    *("frame", "id", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
+    *COVARIANCE,
+    "depth_m",
+)
+WORLD_COLUMNS = tuple(f"world_{name}" for name in ("X_m", "Y_m", "Z_m", *COVARIANCE))
+
+
+@dataclass(frozen=True)
+class Tracked:
+    """What an export is made of: the targets' tracks, and the recording that they were tracked in.
+
+    about: what the JSON says of the run. world: whether the camera's pose is known.
+    """
+
+    project: Project
+    recording: Recording
+    about: dict[str, Any]
+    world: bool = False
+
+    def tracks(self) -> Iterator[tuple[int, Target, Track]]:
+        """Frame, target and track, by frame and then by id."""
+        rows = [(at, target.id) for target in self.project.targets for at in target.tracks]
+        by_id = {target.id: target for target in self.project.targets}
+        for at, number in sorted(rows):
+            yield at, by_id[number], by_id[number].tracks[at]
+
+
+@dataclass(frozen=True)
+class Export:
+    """A kind of text that a project can be written as: the end of the file's name, its type, the function."""
+
+    suffix: str
+    media_type: str
+    write: Callable[[Tracked], str]
+
+
+def as_csv(tracked: Tracked) -> str:
+    """A header of COLUMNS, and WORLD_COLUMNS where the pose is known; a line per frame and target."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS + WORLD_COLUMNS * tracked.world)
+    writer.writerows(_row(tracked, *each) for each in tracked.tracks())
+    return text.getvalue()
+
+
+def as_json(tracked: Tracked) -> str:
+    """One object: what is known of the run, its targets, and "tracks", objects with COLUMNS as keys."""
+    targets = [
+        {"id": target.id, "name": target.name, "tracker": target.tracker}
+        for target in tracked.project.targets
+    ]
+    names = COLUMNS + WORLD_COLUMNS * tracked.world
+    head = json.dumps({**tracked.about, "targets": targets}, indent=1, allow_nan=False, ensure_ascii=False)
+    rows = (dict(zip(names, _row(tracked, *each), strict=True)) for each in tracked.tracks())
+    lines = ",\n".join(f"  {json.dumps(each, allow_nan=False)}" for each in rows)
+    return head.removesuffix("\n}") + f',\n "tracks": [\n{lines}\n ]\n}}\n'
+
+
+def as_mot(tracked: Tracked) -> str:
+    """The MOT challenge's lines: frame and pixels from 1, id, box, confidence, position or -1 in meters.
+
+    Frames in which a target is lost have no line.
+    """
+    lines = []
+    for at, target, track in tracked.tracks():
+        if track.status is Status.LOST:
+            continue
+        x, y, width, height = track.box
+        place = [-1, -1, -1] if track.position is None else [round(n, 4) for n in track.position.tolist()]
+        numbers = [round(n, 3) for n in (x + 1, y + 1, width, height, track.score)]
+        lines.append(",".join(f"{n:g}" for n in (at + 1, target.id, *numbers, *place)) + "\n")
+    return "".join(lines)
+
+
+def as_coco(tracked: Tracked) -> str:
+    """COCO's annotations with ``track_id``; a category is a target's name, an image a frame of the recording.
+
+    Frames in which a target is lost have no annotation.
+    """
+    width, height = tracked.recording.size
+    targets = tracked.project.targets
+    categories = {name: number for number, name in enumerate(dict.fromkeys(t.name for t in targets), 1)}
+    annotations: list[dict[str, Any]] = []
+    for at, target, track in tracked.tracks():
+        if track.status is Status.LOST:
+            continue
+        annotations.append(
+            {
+                "id": len(annotations) + 1,
+                "image_id": at + 1,
+                "category_id": categories[target.name],
+                "track_id": target.id,
+                "bbox": [round(n, 3) for n in track.box],
+                "area": round(track.box.area, 3),
+                "iscrowd": 0,
+                "score": round(track.score, 6),
+                "attributes": {"occluded": track.status is Status.OCCLUDED},
+            }
+        )
+    images = [
+        {"id": at + 1, "file_name": name, "frame": at, "width": width, "height": height}
+        for at, name in enumerate(_image_names(tracked.recording))
+    ]
+    named = [{"id": number, "name": name} for name, number in categories.items()]
+    content = {"info": {"description": tracked.about["source"]}, "images": images}
+    return json.dumps({**content, "categories": named, "annotations": annotations}, ensure_ascii=False)
+
+
+EXPORTS = {
+    "csv": Export(".csv", "text/csv", as_csv),
+    "json": Export(".json", "application/json", as_json),
+    "mot": Export(".mot.txt", "text/plain", as_mot),
+    "coco": Export(".coco.json", "application/json", as_coco),
+}
+
+
+def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool]) -> str:
+    """Write the overlay video of all frames; what OverlayWriter says about the file.
+
+    progress: called with the number of frames written; False from it ends the writing.
+    """
+    from tricue.draw.video import OverlayWriter
+
+    recording = tracked.recording
+    with OverlayWriter(path, recording.source.fps) as writer:
+        for number, frame in recording.frames(0, recording.length):
+            here = [(each, each.tracks[number]) for each in tracked.project.targets if number in each.tracks]
+            writer.write(draw_targets(frame, here))
+            if not progress(number + 1):
+                break
+    return writer.about
+
+
+def draw_targets(frame: Frame, tracks: Sequence[tuple[Target, Track]]) -> Image:
+    """The frame's image, enlarged if it is small, with each target's box and name, and what isn't tracked."""
+    image = picture(frame)
+    scale = choose_scale(image.shape[0])
+    canvas = enlarge(image, scale, cv2.INTER_CUBIC)
+    for target, track in tracks:
+        color = STATUS_COLORS[track.status]
+        draw_box(canvas, track.box, scale, color, 2)
+        label = f"{target.name}  {track.status}" if track.status is not Status.TRACKED else target.name
+        x, y = round(track.box.x * scale), round(track.box.y * scale) - 6
+        bottom = round((track.box.y + track.box.height) * scale) + 20
+        put_text(canvas, label, (max(0, x), y if y > 12 else min(bottom, canvas.shape[0] - 6)), color)
+    return canvas
+
+
+def picture(frame: Frame, channel: str | None = None, span: tuple[float, float] | None = None) -> Image:
+    """A channel of a frame as BGR; by default the one in whose pixels boxes are.
+
+    span: the depths of the nearest and the farthest color, meters. ValueError for a channel that isn't there.
+    """
+    name = channel or ("depth" if frame.color is None else "color")
+    image: NDArray[Any] | None = getattr(frame, name) if name in ("color", "depth", "right") else None
+    if image is None:
+        raise ValueError(f"channel: expected one of {', '.join(frame.channels)}, got {name}")
+    if name == "depth":
+        return depth_picture(image, *(span or (None, None)))
+    return to_bgr(image)
+
+
+def _row(tracked: Tracked, at: int, target: Target, track: Track) -> list[Any]:
+    """The values of COLUMNS, None if absent; six decimals, for covariances six digits."""
+    numbers = [tracked.recording.seconds(at), track.score, *track.box]
+    time, *others = [round(float(number), 6) for number in numbers]
+    depth = None if track.depth is None else round(track.depth, 6)
+    values = [at, target.id, time, str(track.status), *others]
+    values += [*_point(track.position), *_triangle(track.covariance), depth]
+    if not tracked.world:
+        return values
+    return [*values, *_point(track.world_position), *_triangle(track.world_covariance)]
+
+
+def _point(position: NDArray[np.float64] | None) -> list[float | None]:
+    return [None] * 3 if position is None else [round(value, 6) for value in position.tolist()]
+
+
+def _triangle(covariance: NDArray[np.float64] | None) -> list[float | None]:
+    if covariance is None:
+        return [None] * len(COVARIANCE)
+    return [float(f"{value:.6g}") for value in covariance[np.triu_indices(3)]]
+
+
+def _image_names(recording: Recording) -> list[str]:
+    """The images' names in a folder; of a video numbers, as tools that take it apart give them."""
+    stream = next(iter(recording.source.channels.values()))
+    if isinstance(stream, Images):
+        return [path.name for path in stream.paths]
+    return [f"{number + 1:06d}.jpg" for number in range(recording.length)]

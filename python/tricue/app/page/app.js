@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+// The page: its parts, what they do together, and the keys.
+
+import { Model, LOST, NONE, STATUS_NAMES, clock } from "./model.js";
+import { command, listen, Pictures } from "./link.js";
+import { Panel } from "./panel.js";
+import { Stage } from "./stage.js";
+import { Timeline } from "./timeline.js";
+
+const get = (id) => document.getElementById(id);
+const MAX_TOASTS = 3;
+const model = new Model();
+const pictures = new Pictures();
+const stage = new Stage(get("picture"), model, { drawn: draw, clicked: (id) => model.choose(id) });
+new Timeline(get("timeline"), model, go);
+const panel = new Panel(model, { act, went: go });
+let loading = false; // a picture is being fetched
+let playing = null; // {frame, time} since when the video plays
+let ran = null; // the run that was on
+let wanted = null; // where to go once it is paused
+
+// Commands
+
+async function act(name, values = {}) {
+  try {
+    const answer = await command(name, values);
+    if (name === "add") {
+      await known(answer.id);
+      model.choose(answer.id);
+    }
+    return answer;
+  } catch (error) {
+    complain(error.message);
+    return null;
+  }
+}
+
+/** Wait until the server has told of a target. */
+function known(id) {
+  return new Promise((resolve) => {
+    const look = () => {
+      if (!model.target(id)) return;
+      model.removeEventListener("state", look);
+      resolve();
+    };
+    model.addEventListener("state", look);
+    look();
+  });
+}
+
+function draw(frame, box) {
+  stopPlaying();
+  if (model.target()) return act("draw", { target: model.chosen, frame, box });
+  return act("add", { frame, box, tracker: panel.tracker });
+}
+
+function track(step) {
+  stopPlaying();
+  const all = get("who").value === "all" || !model.target();
+  return act("track", { frame: model.frame, step, ...(all ? {} : { targets: [model.chosen] }) });
+}
+
+// Frames
+
+function go(frame) {
+  stopPlaying();
+  if (model.state.run) {
+    wanted = frame;
+    return act("pause");
+  }
+  return model.go(frame);
+}
+
+/** Show the picture of the frame that is looked at, and of those looked at meanwhile only the last. */
+async function load() {
+  if (loading || !model.state || model.state.run) return;
+  loading = true;
+  while ((stage.shown !== model.frame || stage.coarse) && !model.state.run) {
+    const frame = model.frame;
+    try {
+      const image = await pictures.get(frame);
+      if (!model.state.run) stage.show(frame, image);
+      say(`shown ${frame}`);
+    } catch (error) {
+      stopPlaying();
+      complain(error.message);
+      break;
+    }
+  }
+  loading = false;
+}
+
+function say(text) {
+  document.documentElement.dataset.page = text; // for tests
+}
+
+async function play() {
+  if (model.frame === model.state.frames - 1) model.go(0);
+  const mine = (playing = { frame: model.frame, began: performance.now() });
+  updateControls();
+  while (playing === mine) {
+    const passed = (performance.now() - mine.began) / 1000;
+    const due = mine.frame + Math.floor(passed * model.state.fps);
+    const next = Math.min(Math.max(due, model.frame + 1), model.state.frames - 1);
+    try {
+      const image = await pictures.get(next);
+      const wait = ((next - mine.frame) / model.state.fps) * 1000 - (performance.now() - mine.began);
+      if (next + 1 < model.state.frames) pictures.get(next + 1).catch(() => {});
+      if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
+      if (playing !== mine) return;
+      stage.show(next, image);
+      model.go(next);
+    } catch (error) {
+      complain(error.message);
+      break;
+    }
+    if (next === model.state.frames - 1) break;
+  }
+  if (playing === mine) stopPlaying();
+}
+
+function stopPlaying() {
+  if (!playing) return;
+  playing = null;
+  updateControls();
+}
+
+function playOrPause() {
+  if (model.state.run) return act("pause");
+  return playing ? stopPlaying() : play();
+}
+
+function nextTrouble() {
+  const ids = model.target() ? [model.chosen] : model.state.targets.map((each) => each.id);
+  const starts = ids.flatMap((id) => model.troubles(id).map(([first]) => first)).sort((a, b) => a - b);
+  if (!starts.length) return announce("nothing is lost");
+  return go(starts.find((at) => at > model.frame) ?? starts[0]);
+}
+
+function nextDrawn() {
+  const chosen = model.target() ? [model.target()] : model.state.targets;
+  const frames = chosen.flatMap((each) => each.drawn).sort((a, b) => a - b);
+  if (frames.length) go(frames.find((at) => at > model.frame) ?? frames[0]);
+}
+
+// What the server tells
+
+listen({
+  hear(message) {
+    if (message.type === "state") hearState(message);
+    else if (message.type === "times") model.times = message.times;
+    else if (message.type === "tracks") model.setTracks(message.target, message.tracks, true);
+    else if (message.type === "run") hearRun(message);
+    else if (message.type === "error") complain(message.error);
+  },
+  async show(frame, blob) {
+    const image = await createImageBitmap(blob);
+    if (!model.state?.run) return;
+    stage.show(frame, image, true);
+    model.go(frame);
+  },
+  status(there) {
+    get("gone").hidden = there;
+    get("gone-file").textContent = model.state?.file ? `The work is in ${model.state.file}.` : "";
+  },
+});
+
+function hearState(state) {
+  document.documentElement.dataset.version = state.version; // for tests
+  const first = !model.state;
+  const tracker = model.state?.tracker;
+  if (tracker) state.tracker = tracker;
+  model.setState(state);
+  if (first && state.targets.length) model.choose(state.targets[0].id);
+  if (ran && !state.run) runEnded(ran);
+  ran = state.run ? { ...state.run } : null;
+}
+
+function hearRun({ frame, speed, tracks }) {
+  for (const [id, rows] of Object.entries(tracks)) model.setTracks(Number(id), rows, false);
+  get("speed").textContent = speed ? `${Math.round(speed).toLocaleString("en")} updates/s` : "";
+  say(`tracking ${frame}`);
+}
+
+function runEnded(run) {
+  get("speed").textContent = "";
+  const { reached } = model.state;
+  const lost = run.targets.filter((id) => model.status(id, reached) === LOST).map((id) => model.target(id)?.name);
+  announce(`Tracking ended in frame ${reached}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
+  model.go(wanted ?? reached ?? model.frame);
+  wanted = null;
+  load();
+}
+
+function complain(text) {
+  const toast = document.createElement("div"), words = document.createElement("span"), close = document.createElement("button");
+  toast.className = "toast";
+  words.textContent = text;
+  close.setAttribute("aria-label", "Dismiss");
+  close.innerHTML = '<svg><use href="#i-close"/></svg>';
+  close.addEventListener("click", () => toast.remove());
+  toast.append(words, close);
+  get("toasts").append(toast);
+  while (get("toasts").children.length > MAX_TOASTS) get("toasts").firstChild.remove();
+  setTimeout(() => toast.remove(), 20000);
+}
+
+function announce(text) {
+  get("said").textContent = text;
+}
+
+// The page's parts
+
+function updateControls() {
+  const { state } = model;
+  const run = Boolean(state.run);
+  get("name").textContent = state.name;
+  document.title = `${state.name} - tricue`;
+  get("saved").textContent = savedText(state);
+  get("saved").title = state.file ?? "";
+  get("undo").disabled = !state.undo;
+  get("redo").disabled = !state.redo;
+  get("export").disabled = !state.targets.length;
+  get("export").hidden = state.selecting;
+  get("pause").hidden = !run;
+  for (const id of ["track", "track-back"]) {
+    get(id).hidden = run || state.selecting;
+    get(id).disabled = !state.targets.length;
+  }
+  get("who").parentElement.hidden = state.targets.length < 2 || state.selecting;
+  const active = playing || run;
+  get("play").setAttribute("aria-label", active ? "Pause" : "Play");
+  get("play").querySelector("use").setAttribute("href", active ? "#i-pause" : "#i-play");
+  get("frame").max = state.frames - 1;
+  get("changed").hidden = !state.changed_video.length;
+  get("changed-how").textContent = state.changed_video.join(", ");
+  get("help-file").textContent = state.file ? `The work is kept in ${state.file}.` : "";
+  document.documentElement.style.setProperty("--aspect", state.size[0] / state.size[1]);
+  updateHint();
+  updateVideo(state.video);
+}
+
+function savedText(state) {
+  if (!state.file) return "";
+  if (state.changed_video.length) return "not saved";
+  const where = state.beside ? "" : ` in ${state.file}`;
+  return state.saved && !state.run ? `saved${where}` : `saving${where}`;
+}
+
+function updateHint() {
+  const { state } = model;
+  const target = model.target();
+  let text = "";
+  if (state.run) text = "";
+  else if (!state.targets.length) text = "Drag a box around what to follow";
+  else if (!target) text = "Drag a box around the next target, or choose one";
+  else if (!state.selecting && target.drawn.length === 1 && target.drawn[0] === model.frame && onlyDrawn(target)) {
+    text = "Press Track, or drag the box to make it fit better";
+  } else if (model.status(target.id, model.frame) === LOST) text = `${target.name} is lost here: drag a box to correct it`;
+  get("hint").textContent = text;
+}
+
+function onlyDrawn(target) {
+  const status = model.tracks.get(target.id)?.status;
+  return !status || status.reduce((count, each) => count + (each !== NONE), 0) <= 1;
+}
+
+function updateVideo(video) {
+  const bar = get("video-progress");
+  const writing = Boolean(video) && !video.done && !video.error;
+  bar.hidden = !writing;
+  get("video").textContent = writing ? "Cancel" : "Video";
+  if (!video) return;
+  bar.value = video.written / video.total;
+  get("video-state").textContent = video.error || (video.done ? "written" : `writing, ${Math.floor(100 * bar.value)} %`);
+  if (video.done && get("video").dataset.asked) {
+    delete get("video").dataset.asked;
+    const link = document.createElement("a");
+    link.href = "export/video";
+    link.download = "";
+    link.click();
+  }
+}
+
+function updateFrame() {
+  if (document.activeElement !== get("frame")) get("frame").value = model.frame;
+  get("time").textContent = clock(model.seconds(model.frame));
+  updateHint();
+  if (!playing) load();
+}
+
+model.addEventListener("state", () => {
+  updateControls();
+  updateFrame();
+});
+model.addEventListener("frame", updateFrame);
+model.addEventListener("choice", () => {
+  updateHint();
+  const target = model.target();
+  if (target) announce(`${target.name} chosen, ${STATUS_NAMES[model.status(target.id, model.frame)] || "no box here"}`);
+});
+
+const CLICKS = {
+  undo: () => act("undo"),
+  redo: () => act("redo"),
+  first: () => go(0),
+  last: () => go(model.state.frames - 1),
+  back: () => go(model.frame - 1),
+  next: () => go(model.frame + 1),
+  play: playOrPause,
+  pause: () => act("pause"),
+  track: () => track(1),
+  "track-back": () => track(-1),
+  new: () => model.choose(null),
+  export: () => get("export-dialog").showModal(),
+  help: () => get("help-dialog").showModal(),
+  "changed-keep": () => act("keep", { keep: true }),
+  "changed-anew": () => act("keep", { keep: false }),
+  video() {
+    if (!get("video-progress").hidden) return act("cancel-video");
+    get("video").dataset.asked = "yes";
+    return act("video");
+  },
+  async done() {
+    await act("select");
+    get("selecting").firstElementChild.textContent = "Done. This page can be closed.";
+    get("done").hidden = true;
+  },
+};
+for (const [id, click] of Object.entries(CLICKS)) get(id).addEventListener("click", click);
+for (const button of document.querySelectorAll("[data-close]")) {
+  button.addEventListener("click", () => button.closest("dialog").close());
+}
+get("frame").addEventListener("change", (event) => go(event.target.valueAsNumber));
+
+// Keys
+
+const KEYS = {
+  ArrowLeft: (event) => go(model.frame - (event.shiftKey ? 10 : 1)),
+  ArrowRight: (event) => go(model.frame + (event.shiftKey ? 10 : 1)),
+  Home: () => go(0),
+  End: () => go(model.state.frames - 1),
+  " ": playOrPause,
+  t: () => track(1),
+  b: () => track(-1),
+  n: () => model.choose(null),
+  l: nextTrouble,
+  d: nextDrawn,
+  Delete: () => model.target() && act("delete", { target: model.chosen }),
+  "?": () => get("help-dialog").showModal(),
+  "+": () => stage.zoomBy(1.5),
+  "=": () => stage.zoomBy(1.5),
+  "-": () => stage.zoomBy(1 / 1.5),
+  0: () => stage.zoomBy(0),
+  Escape() {
+    stage.cancel();
+    model.choose(null);
+  },
+};
+for (let number = 1; number <= 9; number++) {
+  KEYS[number] = () => {
+    const target = model.state.targets[number - 1];
+    if (target) model.choose(target.id);
+  };
+}
+
+document.addEventListener("keydown", (event) => {
+  if (!model.state || document.querySelector("dialog[open]") || event.altKey) return;
+  const { target, key } = event;
+  const typing = target.matches("input, select, textarea");
+  if (event.ctrlKey || event.metaKey) {
+    const undo = { z: event.shiftKey ? "redo" : "undo", y: "redo" }[key.toLowerCase()];
+    if (!undo || typing) return;
+    event.preventDefault();
+    act(undo);
+    return;
+  }
+  if (typing || (target.matches("button, a") && (key === " " || key === "Enter"))) return;
+  const action = KEYS[key] ?? KEYS[key.toLowerCase()];
+  if (!action) return;
+  event.preventDefault();
+  action(event);
+});

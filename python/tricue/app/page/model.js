@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// What the page knows: the server's state, the tracks of each target, and what is looked at.
+
+export const TRACKED = 0, OCCLUDED = 1, LOST = 2, NONE = 255;
+const COLORS = ["#4cc38a", "#58a6ff", "#f2b04c", "#d387e8", "#56d4dd", "#f78166", "#c9d152", "#ff9bce"];
+
+/** The tracks of one target, by frame. */
+class Tracks {
+  constructor(frames) {
+    this.status = new Uint8Array(frames).fill(NONE);
+    this.score = new Float32Array(frames);
+    this.boxes = new Float32Array(4 * frames);
+    this.places = new Float32Array(3 * frames).fill(NaN);
+    this.placed = false; // whether any has a position
+  }
+
+  put(rows) {
+    for (const [at, status, score, x, y, width, height, ...place] of rows) {
+      this.status[at] = status;
+      this.score[at] = score;
+      this.boxes.set([x, y, width, height], 4 * at);
+      this.placed ||= place.length > 0 && place[0] !== null;
+      this.places.set(place.length ? place.map((value) => value ?? NaN) : [NaN, NaN, NaN], 3 * at);
+    }
+  }
+
+  box(at) {
+    return this.status[at] === NONE ? null : this.boxes.subarray(4 * at, 4 * at + 4);
+  }
+
+  place(at) {
+    const place = this.places.subarray(3 * at, 3 * at + 3);
+    return Number.isNaN(place[0]) ? null : place;
+  }
+}
+
+/** Tells by the events "state", "tracks", "frame" and "choice" what has changed. */
+export class Model extends EventTarget {
+  state = null;
+  frame = 0;
+  chosen = null; // a target's id
+  times = [];
+  tracks = new Map();
+
+  tell(name) {
+    this.dispatchEvent(new Event(name));
+  }
+
+  setState(state) {
+    this.state = state;
+    for (const id of this.tracks.keys()) if (!state.targets.some((each) => each.id === id)) this.tracks.delete(id);
+    if (this.chosen !== null && !this.target()) this.chosen = null;
+    this.tell("state");
+  }
+
+  setTracks(id, rows, whole) {
+    if (whole || !this.tracks.has(id)) this.tracks.set(id, new Tracks(this.state.frames));
+    this.tracks.get(id).put(rows);
+    this.tell("tracks");
+  }
+
+  go(frame) {
+    const last = this.state.frames - 1;
+    const to = Math.min(Math.max(Math.round(frame) || 0, 0), last);
+    if (to === this.frame) return;
+    this.frame = to;
+    this.tell("frame");
+  }
+
+  choose(id) {
+    if (this.chosen === id) return;
+    this.chosen = id;
+    this.tell("choice");
+  }
+
+  target(id = this.chosen) {
+    return this.state?.targets.find((each) => each.id === id) ?? null;
+  }
+
+  color(id) {
+    return COLORS[(id - 1) % COLORS.length];
+  }
+
+  seconds(frame) {
+    return this.times[frame] ?? frame / this.state.fps;
+  }
+
+  box(id, frame) {
+    return this.tracks.get(id)?.box(frame) ?? null;
+  }
+
+  status(id, frame) {
+    return this.tracks.get(id)?.status[frame] ?? NONE;
+  }
+
+  score(id, frame) {
+    return this.tracks.get(id)?.score[frame] ?? 0;
+  }
+
+  /** The ranges [first, last, status] in which a target is lost or occluded. */
+  troubles(id) {
+    const status = this.tracks.get(id)?.status ?? [];
+    const found = [];
+    for (let at = 0; at < status.length; at++) {
+      if (status[at] !== LOST && status[at] !== OCCLUDED) continue;
+      const last = found[found.length - 1];
+      if (last && last[1] === at - 1 && last[2] === status[at]) last[1] = at;
+      else found.push([at, at, status[at]]);
+    }
+    return found;
+  }
+}
+
+export const STATUS_NAMES = { [TRACKED]: "tracked", [OCCLUDED]: "occluded", [LOST]: "lost", [NONE]: "" };
+
+/** Seconds as 1:02.35. */
+export function clock(seconds) {
+  const whole = Math.max(0, Math.round(seconds * 100));
+  const minutes = Math.floor(whole / 6000), rest = whole % 6000;
+  return `${minutes}:${String(Math.floor(rest / 100)).padStart(2, "0")}.${String(rest % 100).padStart(2, "0")}`;
+}

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: MIT
+"""A project: targets with their drawn boxes and tracks, as a value, and the history that undo walks."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
+
+from tricue.camera.box import Box, as_box
+from tricue.track.base.track import Status, Track
+
+MAX_NAME = 80  # characters
+MAX_UNDO = 200  # steps
+
+
+@dataclass(frozen=True)
+class Target:
+    """One target: ``drawn`` has the boxes that the user drew, ``tracks`` what is known, by frame.
+
+    A drawn box is also in ``tracks``, with score 1, until the tracker that starts on it gives its own.
+    """
+
+    id: int
+    name: str
+    tracker: str
+    drawn: Mapping[int, Box] = field(default_factory=dict)
+    tracks: Mapping[int, Track] = field(default_factory=dict)
+
+    def next_drawn(self, frame: int, step: int) -> int | None:
+        """The nearest frame after this one (step 1), or before it (step -1), that has a drawn box."""
+        beyond = [at for at in self.drawn if (at - frame) * step > 0]
+        return min(beyond, key=lambda at: abs(at - frame), default=None)
+
+
+@dataclass(frozen=True)
+class Project:
+    """The targets, in order of their ids, and the id that the next one gets: ids are never used again."""
+
+    targets: tuple[Target, ...] = ()
+    next_id: int = 1
+
+    def target(self, number: int) -> Target:
+        """The target of an id; ValueError where there is none."""
+        for target in self.targets:
+            if target.id == number:
+                return target
+        raise ValueError(f"target: expected one of {[each.id for each in self.targets]}, got {number!r}")
+
+
+def add_target(project: Project, frame: int, box: Any, tracker: str) -> Project:
+    """A new target, with a box drawn in a frame; BoxError for no box."""
+    new = Target(project.next_id, f"Target {project.next_id}", tracker)
+    return Project((*project.targets, _with_drawn(new, frame, as_box(box))), project.next_id + 1)
+
+
+def draw_box(project: Project, number: int, frame: int, box: Any) -> Project:
+    """The box of a target in a frame, drawn or drawn anew."""
+    return _changed(project, number, lambda target: _with_drawn(target, frame, as_box(box)))
+
+
+def erase_box(project: Project, number: int, frame: int) -> Project:
+    """A target without its drawn box, and track, in a frame; ValueError where it has none."""
+
+    def without(target: Target) -> Target:
+        if frame not in target.drawn and frame not in target.tracks:
+            raise ValueError(f"{target.name}: expected a box in frame {frame}, there is none")
+        drawn = {at: box for at, box in target.drawn.items() if at != frame}
+        tracks = {at: track for at, track in target.tracks.items() if at != frame}
+        return replace(target, drawn=_frozen(drawn), tracks=_frozen(tracks))
+
+    return _changed(project, number, without)
+
+
+def delete_target(project: Project, number: int) -> Project:
+    """The project without a target."""
+    gone = project.target(number)
+    return replace(project, targets=tuple(each for each in project.targets if each is not gone))
+
+
+def rename_target(project: Project, number: int, name: Any) -> Project:
+    """The target by another name, of 1 to MAX_NAME characters."""
+    words = " ".join(name.split()) if isinstance(name, str) else ""
+    if not 0 < len(words) <= MAX_NAME:
+        raise ValueError(f"name: expected 1 to {MAX_NAME} characters, got {name!r:.100}")
+    return _changed(project, number, lambda target: replace(target, name=words))
+
+
+def choose_tracker(project: Project, number: int, tracker: str) -> Project:
+    """The target followed by another tracker from its next run on."""
+    return _changed(project, number, lambda target: replace(target, tracker=tracker))
+
+
+def add_tracks(project: Project, found: Mapping[int, Mapping[int, Track]]) -> Project:
+    """The project with these tracks, by target and frame, in place of those before."""
+    return replace(
+        project,
+        targets=tuple(
+            replace(target, tracks=_frozen({**target.tracks, **found[target.id]}))
+            if found.get(target.id)
+            else target
+            for target in project.targets
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class History:
+    """The present project, and those that undo and redo lead to."""
+
+    present: Project = field(default_factory=Project)
+    past: tuple[Project, ...] = ()
+    future: tuple[Project, ...] = ()
+
+    def do(self, project: Project) -> "History":
+        """A step to this project; the same one is no step."""
+        if project == self.present:
+            return self
+        return self.step().amend(project)
+
+    def step(self) -> "History":
+        """A step whose project comes bit by bit, by :meth:`amend`."""
+        return History(self.present, (*self.past, self.present)[-MAX_UNDO:])
+
+    def amend(self, project: Project) -> "History":
+        """The same step, to this project."""
+        return History(project, self.past)
+
+    def undo(self) -> "History":
+        """A step back, if there is one."""
+        if not self.past:
+            return self
+        return History(self.past[-1], self.past[:-1], (self.present, *self.future))
+
+    def redo(self) -> "History":
+        """The step that was undone last, again."""
+        if not self.future:
+            return self
+        return History(self.future[0], (*self.past, self.present), self.future[1:])
+
+
+def _with_drawn(target: Target, frame: int, box: Box) -> Target:
+    track = Track(box, 1.0, Status.TRACKED)
+    return replace(
+        target,
+        drawn=_frozen({**target.drawn, frame: box}),
+        tracks=_frozen({**target.tracks, frame: track}),
+    )
+
+
+def _changed(project: Project, number: int, change: Callable[[Target], Target]) -> Project:
+    before = project.target(number)
+    after = change(before)
+    return replace(project, targets=tuple(after if each is before else each for each in project.targets))
+
+
+def _frozen(values: Mapping[int, Any]) -> Mapping[int, Any]:
+    return MappingProxyType(dict(values))

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: MIT
+"""The file of a project, beside its video: read, written whole, and tied to the video it was made for."""
+
+import hashlib
+import json
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from tricue.app.project import Project, Target
+from tricue.camera.box import Box, as_box
+from tricue.camera.pose import Pose
+from tricue.data.files import image_paths
+from tricue.track.base.track import Status, Track
+
+SUFFIX = ".tricue.json"
+FORMAT = 1
+SAMPLES, SAMPLE_BYTES = 16, 1 << 16  # of a video, that tell it from another of the same length
+COLUMNS = "frame status score x y width height [X Y Z] [XX XY XZ YY YZ ZZ] depth"
+
+
+@dataclass(frozen=True)
+class Footprint:
+    """What tells a recording from another: its bytes, samples of them, its frames and their size."""
+
+    name: str
+    bytes: int
+    modified: float
+    sample: str
+    frames: int
+    width: int
+    height: int
+
+    def differences(self, before: "Footprint") -> list[str]:
+        """How it differs from what it was, in words; a copy with another time of change doesn't."""
+        found = []
+        if self.frames != before.frames:
+            found.append(f"{before.frames} frames then, {self.frames} now")
+        if (self.width, self.height) != (before.width, before.height):
+            found.append(f"{before.width}x{before.height} px then, {self.width}x{self.height} now")
+        if self.bytes != before.bytes:
+            found.append(f"{before.bytes:,} bytes then, {self.bytes:,} now")
+        elif self.sample != before.sample:
+            found.append("other contents of the same size")
+        return found
+
+
+def footprint(place: Path, frames: int, size: tuple[int, int]) -> Footprint:
+    """The footprint of a video file or a folder; a folder's sample are its images' names and sizes."""
+    stat = place.stat()
+    if place.is_dir():
+        files = image_paths(place) or sorted(each for each in place.rglob("*") if each.is_file())
+        listed = [(file.name, file.stat().st_size) for file in files if not file.name.endswith(SUFFIX)]
+        total, digest = sum(length for _, length in listed), hashlib.sha256(repr(listed).encode())
+    else:
+        total, digest = stat.st_size, hashlib.sha256()
+        with place.open("rb") as file:
+            for index in range(SAMPLES):
+                file.seek(max(0, total - SAMPLE_BYTES) * index // (SAMPLES - 1))
+                digest.update(file.read(SAMPLE_BYTES))
+    return Footprint(
+        place.resolve().name, total, stat.st_mtime, digest.hexdigest()[:32], frames, size[0], size[1]
+    )
+
+
+def project_path(place: Path) -> Path:
+    """Where a recording's project is: beside it, or in the user's data folder where that can't be written."""
+    place = place.resolve()
+    beside = place.with_name(place.name + SUFFIX)
+    if os.access(beside if beside.exists() else beside.parent, os.W_OK) and os.access(beside.parent, os.W_OK):
+        return beside
+    key = hashlib.sha256(str(place).encode(errors="surrogateescape")).hexdigest()[:12]
+    return data_folder() / f"{place.name}-{key}{SUFFIX}"
+
+
+def data_folder() -> Path:
+    """The user's folder for data of tricue, made if it isn't there."""
+    if sys.platform == "win32":
+        base = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        base = Path.home() / "Library" / "Application Support"
+    else:
+        base = Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share")
+    folder = base / "tricue"
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def load(path: Path, pose: Pose | None = None) -> tuple[Project, Footprint]:
+    """A project and the footprint of its video; ValueError for a file that isn't one.
+
+    pose: of the camera, which tracks with a position get.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if content["format"] > FORMAT:
+            raise ValueError(f"{path}: written by a newer tricue ({content['tricue']}); update this one")
+        targets = tuple(_target(each, pose) for each in content["targets"])
+        return Project(targets, int(content["next_id"])), Footprint(**content["video"])
+    except (KeyError, TypeError, IndexError, UnicodeError, json.JSONDecodeError) as error:
+        raise ValueError(
+            f"{path}: expected a project of tricue open, can't read it; rename it to begin anew ({error!r})"
+        ) from None
+
+
+def save(path: Path, project: Project, video: Footprint) -> None:
+    """Write the project: the file has all of it, or all of what it was before."""
+    part = path.with_name(f".{path.name}.part")
+    with part.open("w", encoding="utf-8") as file:
+        file.writelines(_lines(project, video))
+        file.flush()
+        os.fsync(file.fileno())
+    part.replace(path)
+
+
+def put_aside(path: Path) -> Path:
+    """Rename a project that isn't to be overwritten; its new path."""
+    count = 1
+    while (kept := path.with_name(path.name.removesuffix(SUFFIX) + f".{count}{SUFFIX}")).exists():
+        count += 1
+    return path.rename(kept)
+
+
+def _lines(project: Project, video: Footprint) -> Iterator[str]:
+    """The file's text: an entry a line, a track a line."""
+    import tricue
+
+    yield f'{{\n "tricue": {json.dumps(tricue.__version__)},\n "format": {FORMAT},\n'
+    yield f' "video": {json.dumps(asdict(video), ensure_ascii=False)},\n'
+    yield f' "next_id": {project.next_id},\n "columns": {json.dumps(COLUMNS)},\n "targets": ['
+    for index, target in enumerate(project.targets):
+        name = json.dumps(target.name, ensure_ascii=False)
+        yield f'{"," * (index > 0)}\n  {{"id": {target.id}, "name": {name}'
+        yield f', "tracker": {json.dumps(target.tracker)},\n   "drawn": {{'
+        yield ", ".join(f'"{at}": {json.dumps(_rounded(box))}' for at, box in sorted(target.drawn.items()))
+        yield '},\n   "tracks": ['
+        rows = (json.dumps(row(at, track)) for at, track in sorted(target.tracks.items()))
+        yield ",".join(f"\n    {text}" for text in rows) + "\n   ]}"
+    yield "\n ]\n}\n"
+
+
+def row(frame: int, track: Track) -> list[Any]:
+    """A track as in the file; what was not measured is left out at the end."""
+    values: list[Any] = [frame, str(track.status), round(track.score, 6), *_rounded(track.box)]
+    if track.position is None and track.depth is None:
+        return values
+    position = None if track.position is None else _rounded(track.position.tolist())
+    triangle = None
+    if track.covariance is not None:
+        triangle = [float(f"{value:.6g}") for value in track.covariance[np.triu_indices(3)]]
+    return [*values, position, triangle, None if track.depth is None else round(track.depth, 6)]
+
+
+def _rounded(numbers: Any) -> list[float]:
+    return [round(float(number), 6) for number in numbers]
+
+
+def _target(entry: Mapping[str, Any], pose: Pose | None) -> Target:
+    drawn = {int(at): as_box(box) for at, box in entry["drawn"].items()}
+    tracks = {int(values[0]): _track(values, pose) for values in entry["tracks"]}
+    return Target(
+        int(entry["id"]),
+        str(entry["name"]),
+        str(entry["tracker"]),
+        MappingProxyType(drawn),
+        MappingProxyType(tracks),
+    )
+
+
+def _track(values: list[Any], pose: Pose | None) -> Track:
+    _, status, score, *box = values[:7]
+    position, triangle, depth = values[7:10] if len(values) > 7 else (None, None, None)
+    covariance = None
+    if triangle is not None:
+        covariance = np.zeros((3, 3))
+        covariance[np.triu_indices(3)] = triangle
+        covariance = covariance + np.triu(covariance, 1).T
+    return Track(
+        Box(*map(float, box)),
+        float(score),
+        Status(status),
+        None if position is None else np.array(position, np.float64),
+        covariance,
+        depth,
+        pose,
+    )

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: MIT
+"""Serves a session on 127.0.0.1 until it is ended; a second server of one project finds the first."""
+
+import errno
+import hashlib
+import json
+import os
+import socket
+import sys
+import tempfile
+import webbrowser
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+
+import uvicorn
+
+from tricue.app.frames import Recording
+from tricue.app.project_file import data_folder, project_path
+from tricue.app.server import Serving, make_app
+from tricue.app.session import Session
+from tricue.camera.box import Box
+from tricue.data.open_source import Source, open_source
+
+ADDRESS = "127.0.0.1"
+DEFAULT_PORT, MAX_PORT = 8765, 65535
+CLOSING_TIME = 2  # seconds that open connections get at the end
+
+
+def serve_project(
+    source: Source,
+    place: Path,
+    *,
+    port: int | None = None,
+    browser: bool = True,
+    cameras: Mapping[str, Any] | None = None,
+    tracker: str = "",
+    seed: int = 0,
+    notes: tuple[str, ...] = (),
+    say: Callable[[str], None] = print,
+) -> None:
+    """Serve a recording's project until Ctrl-C; if it is served already, open that page and return.
+
+    port: None for DEFAULT_PORT, or a free one where that is in use. cameras: the trackers' keywords
+    intrinsics or rig. tracker: what new targets begin with. say: gets the lines for the user.
+    OSError where the port is in use.
+    """
+    path = project_path(place)
+    with _only_server(path) as own:
+        if own.url:
+            say(f"{place.name} is open already at {own.url}")
+            _show(own.url, browser)
+            return
+        with closing(Session(Recording(source), place, path, cameras, seed)) as session:
+            if tracker:
+                session.check_tracker(tracker)
+            kept = (
+                path if path.parent == place.resolve().parent else f"{path}, as its folder can't be written"
+            )
+            say(f"the work is kept in {kept}")
+            _serve(Serving(session, tracker=tracker, notes=notes), port, browser, say, own.announce)
+
+
+def serve_selection(
+    place: Path, port: int | None, browser: bool, opening: Mapping[str, Any]
+) -> list[tuple[int, Box]]:
+    """The boxes drawn in a page without a project; see :func:`tricue.app.select_boxes`."""
+    source = open_source(place, **opening)
+    with closing(Session(Recording(source), place, None)) as session:
+        serving = Serving(session, selecting=True)
+        _serve(serving, port, browser, lambda text: print(text, file=sys.stderr))
+        return serving.boxes
+
+
+def _serve(
+    serving: Serving,
+    port: int | None,
+    browser: bool,
+    say: Callable[[str], None],
+    announce: Callable[[str], None] = lambda url: None,
+) -> None:
+    with _listening(port) as listener, tempfile.TemporaryDirectory(prefix="tricue-") as folder:
+        serving.folder = Path(folder)
+        url = f"http://{ADDRESS}:{listener.getsockname()[1]}/{serving.token}/"
+        config = uvicorn.Config(
+            make_app(serving),
+            log_level="error",
+            ws="websockets-sansio",
+            lifespan="off",
+            proxy_headers=False,
+            timeout_graceful_shutdown=CLOSING_TIME,
+        )
+        server = uvicorn.Server(config)
+        serving.finish = lambda: setattr(server, "should_exit", True)
+        announce(url)
+        say(f"open {url}  (Ctrl-C ends it)")
+        _show(url, browser)
+        server.run(sockets=[listener])
+
+
+def _listening(port: int | None) -> socket.socket:
+    """A socket at this port; without a wish at the default one, or at a free one if that is in use."""
+    if port is not None and not 0 <= port <= MAX_PORT:
+        raise ValueError(f"--port {port}: expected a port from 0 to {MAX_PORT}")
+    try:
+        return socket.create_server((ADDRESS, DEFAULT_PORT if port is None else port))
+    except OSError as error:
+        if port is None:
+            return socket.create_server((ADDRESS, 0))
+        why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "the port isn't open to you"}
+        reason = why.get(error.errno or 0, error.strerror)
+        raise OSError(f"--port {port}: {reason}; give another, or leave it out") from None
+
+
+def _show(url: str, browser: bool) -> None:
+    if browser:
+        webbrowser.open(url)
+
+
+class _Place:
+    """The place of a project's server among those of this user: ``url`` is that of another one, or ""."""
+
+    def __init__(self, file: Any, url: str) -> None:
+        self._file, self.url = file, url
+
+    def announce(self, url: str) -> None:
+        """Tell others where the project is served."""
+        self._file.seek(0)
+        self._file.truncate()
+        self._file.write(json.dumps({"url": url, "process": os.getpid()}))
+        self._file.flush()
+
+
+@contextmanager
+def _only_server(project: Path) -> Iterator[_Place]:
+    """Be a project's only server; the system lets go of the lock even if the process is killed."""
+    key = hashlib.sha256(str(project).encode(errors="surrogateescape")).hexdigest()[:16]
+    path = data_folder() / f"{key}.lock"
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    with os.fdopen(descriptor, "r+", encoding="utf-8") as file:
+        if _lock(file):
+            place = _Place(file, "")
+            place.announce("")
+            yield place
+            return
+        try:
+            url = str(json.loads(file.read())["url"])
+        except (ValueError, KeyError):
+            url = ""
+        if not url:
+            raise RuntimeError(f"{project}: another tricue open is starting on it; try again")
+        yield _Place(file, url)
+
+
+def _lock(file: Any) -> bool:
+    """Lock a file while it is open; False where another process has."""
+    if sys.platform == "win32":
+        import msvcrt
+
+        try:
+            file.seek(1 << 20)  # beyond the text, which others have to read
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+        except OSError:
+            return False
+        finally:
+            file.seek(0)
+        return True
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True

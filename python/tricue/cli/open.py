@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""``tricue open INPUT``: a page on this machine to draw boxes in a video, track, correct and export."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from tricue import app
+from tricue.cli.arguments import angles, tracker_name
+from tricue.cli.calibrations import find_calibration
+from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
+from tricue.data.open_source import Source, open_source
+from tricue.track.base.registry import traits
+
+EXAMPLES = """\
+examples:
+  tricue open video.mp4                                       opens the browser; Ctrl-C ends it
+  tricue open video.mp4 --no-browser --port 9000              prints the address
+  tricue open images/ --fps 25
+  tricue open pair/ --calibration stereo.yml                  positions in meters, the path from above
+  tricue open video.mp4 --depth depth/ --depth-scale 0.001 --calibration camera.yml
+"""
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """Add the command's options to its parser."""
+    command.add_argument("input", metavar="INPUT", help="video file, folder of images, sequence folder")
+    command.add_argument("--port", type=int, metavar="N", help="of the server on 127.0.0.1; 0 for a free one")
+    command.add_argument("--no-browser", action="store_true", help="only print the address")
+    command.add_argument(
+        "--tracker",
+        type=tracker_name,
+        metavar="NAME",
+        help="what new targets begin with; the page has a choice",
+    )
+    command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
+    command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
+    command.add_argument("--right", metavar="PLACE", help="the right camera's video or folder")
+    command.add_argument("--rectify", action="store_true", help="rectify raw pairs by OpenCV's --calibration")
+    command.add_argument("--unit", type=float, metavar="M", help="meters per unit of OpenCV's --calibration")
+    command.add_argument("--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images")
+    command.add_argument("--depth-scale", type=float, metavar="M", help="meters per unit of depth")
+    camera = command.add_mutually_exclusive_group()
+    camera.add_argument(
+        "--calibration",
+        type=Path,
+        metavar="FILE",
+        help="of the camera or stereo pair, as tricue track takes it",
+    )
+    camera.add_argument("--fov", type=angles, metavar="H[,V]", help="the camera's angles of view, in degrees")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Serve the page until Ctrl-C; the exit code."""
+    app.require()
+    from tricue.app.serve import serve_project
+
+    source = open_source(
+        options.input,
+        depth=options.depth,
+        depth_scale=options.depth_scale,
+        fps=options.fps,
+        right=options.right,
+    )
+    source, cameras, notes = _calibrated(options, source)
+    for note in notes:
+        print(note)
+    serve_project(
+        source,
+        Path(options.input),
+        port=options.port,
+        browser=not options.no_browser,
+        cameras=cameras,
+        tracker=options.tracker or "",
+        seed=options.seed,
+        notes=notes,
+        say=lambda text: print(text, flush=True),
+    )
+    return 0
+
+
+def _calibrated(
+    options: argparse.Namespace, source: Source
+) -> tuple[Source, dict[str, Any], tuple[str, ...]]:
+    """The source as trackers need it, what is known of its cameras, and notes for the user.
+
+    The tracker that takes the most kinds of camera stands for all of them: the choice is made in the page.
+    """
+    given = {name: value for name, value in vars(options).items() if name != "tracker"}
+    general = DEFAULT_TRACKER
+    if traits(general).best(source.channels) is None:
+        general = depth_tracker()
+    found = find_calibration(argparse.Namespace(**given, tracker=general), source)
+    notes = (*source.notes, *([found.note] if found.note else []))
+    return found.prepare(source), found.keywords, notes

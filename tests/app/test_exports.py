@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: MIT
+"""Exports: CSV, JSON, MOT and COCO are read back by other code, and the overlay video shows the boxes."""
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tricue import Box, Pose, Status, Track
+from tricue.app import exports
+from tricue.app import project as edits
+from tricue.app.exports import Tracked
+from tricue.app.frames import Recording
+from tricue.app.project import Project
+from tricue.app.session import Session
+from tricue.cli.outputs import COLUMNS, WORLD_COLUMNS
+from tricue.data.open_source import open_source
+from tricue.data.streams import Video
+
+from tests.app.conftest import FRAMES, START, moving
+
+POSE = Pose(np.eye(3), (1.0, 0.0, 0.0))
+
+
+@pytest.fixture
+def tracked(video: Path) -> Tracked:
+    """Two targets: one tracked, occluded and lost in frames 0 to 2, with a position, one in frame 1 alone."""
+    project = edits.add_target(Project(), 0, START, "fused")
+    project = edits.rename_target(edits.add_target(project, 1, Box(5, 6, 7, 8), "flow-depth"), 2, "Anna")
+    place = np.array([0.1, -0.2, 2.5])
+    found = {
+        1: Track(START, 0.5, Status.OCCLUDED, place, np.diag([0.01, 0.01, 0.09]), 2.5, POSE),
+        2: Track(START, 0.0, Status.LOST),
+    }
+    return Tracked(
+        edits.add_tracks(project, {1: found}), Recording(open_source(video)), {"source": "video"}, world=True
+    )
+
+
+def test_columns_are_those_of_track() -> None:
+    """The same names as ``tricue track`` writes, with ``id`` after ``frame``."""
+    assert ("frame", "id", *COLUMNS[1:]) == exports.COLUMNS
+    assert exports.WORLD_COLUMNS == WORLD_COLUMNS
+
+
+def test_csv_has_a_line_per_frame_and_target(tracked: Tracked) -> None:
+    """Lines are ordered by frame, then id; what wasn't measured is empty."""
+    rows = list(csv.DictReader(io.StringIO(exports.as_csv(tracked))))
+    assert [(row["frame"], row["id"], row["status"]) for row in rows] == [
+        ("0", "1", "tracked"),
+        ("1", "1", "occluded"),
+        ("1", "2", "tracked"),
+        ("2", "1", "lost"),
+    ]
+    assert rows[1]["time_s"] == "0.033333"
+    assert [rows[1][name] for name in ("x", "Z_m", "ZZ_m2", "world_X_m")] == ["20.0", "2.5", "0.09", "1.1"]
+    assert rows[2]["Z_m"] == rows[2]["world_X_m"] == ""
+
+
+def test_json_has_the_same_and_the_names(tracked: Tracked) -> None:
+    """The numbers of the CSV, and what the ids stand for."""
+    content = json.loads(exports.as_json(tracked))
+    assert content["targets"][1] == {"id": 2, "name": "Anna", "tracker": "flow-depth"}
+    rows = csv.DictReader(io.StringIO(exports.as_csv(tracked)))
+    for mine, row in zip(content["tracks"], rows, strict=True):
+        assert {name: "" if value is None else str(value) for name, value in mine.items()} == row
+
+
+def test_mot_counts_from_one(tracked: Tracked) -> None:
+    """The challenge counts frames and pixels from 1; a lost target isn't there, unknown positions are -1."""
+    lines = exports.as_mot(tracked).splitlines()
+    assert lines == [
+        "1,1,21,41,40,40,1,-1,-1,-1",
+        "2,1,21,41,40,40,0.5,0.1,-0.2,2.5",
+        "2,2,6,7,7,8,1,-1,-1,-1",
+    ]
+
+
+def test_coco_points_to_its_images(tracked: Tracked) -> None:
+    """Every annotation's image and category exist; lost targets have none; ids are unique."""
+    content = json.loads(exports.as_coco(tracked))
+    images = {image["id"]: image for image in content["images"]}
+    categories = {each["id"]: each["name"] for each in content["categories"]}
+    assert len(images) == FRAMES
+    found = [
+        (images[each["image_id"]]["frame"], each["track_id"], categories[each["category_id"]], each["bbox"])
+        for each in content["annotations"]
+    ]
+    assert found == [
+        (0, 1, "Target 1", [20, 40, 40, 40]),
+        (1, 1, "Target 1", [20, 40, 40, 40]),
+        (1, 2, "Anna", [5, 6, 7, 8]),
+    ]
+    assert len({each["id"] for each in content["annotations"]}) == 3
+
+
+def test_coco_names_the_files_of_a_folder(tmp_path: Path) -> None:
+    """Images of a folder are named as they are."""
+    for at, image in enumerate(moving(2)):
+        cv2.imwrite(str(tmp_path / f"img{at}.png"), image)
+    project = edits.add_target(Project(), 0, START, "fused")
+    content = json.loads(exports.as_coco(Tracked(project, Recording(open_source(tmp_path)), {"source": "x"})))
+    assert [image["file_name"] for image in content["images"]] == ["img0.png", "img1.png"]
+
+
+def test_video_shows_the_boxes(tracked: Tracked, tmp_path: Path) -> None:
+    """The overlay video has all frames; those with a box differ along it from those without."""
+    counted: list[int] = []
+    exports.write_video(tmp_path / "out.mp4", tracked, lambda count: counted.append(count) is None)
+    assert counted == list(range(1, FRAMES + 1))
+    frames = [image for _, image in Video(tmp_path / "out.mp4")]
+    assert len(frames) == FRAMES
+    scale = frames[0].shape[0] // 120
+    edge = np.array([image[60 * scale, 20 * scale - 2 : 20 * scale + 3].max(axis=0) for image in frames[:6]])
+    green = edge[:, 1].astype(int) - edge[:, 0]
+    assert green[0] > 60 > green[4]
+
+
+def test_video_can_be_given_up(tracked: Tracked, tmp_path: Path) -> None:
+    """Writing ends when it is told to, with a whole file."""
+    exports.write_video(tmp_path / "out.mp4", tracked, lambda count: count < 10)
+    assert len(list(Video(tmp_path / "out.mp4"))) == 10
+
+
+def test_nothing_tracked_is_nothing_written(video: Path) -> None:
+    """Exports of an empty project are valid and empty."""
+    empty = Tracked(Project(), Recording(open_source(video)), {"source": "video"})
+    assert exports.as_csv(empty).splitlines() == [",".join(exports.COLUMNS)]
+    assert json.loads(exports.as_json(empty))["tracks"] == []
+    assert exports.as_mot(empty) == ""
+    assert json.loads(exports.as_coco(empty))["annotations"] == []
+
+
+def test_session_exports_what_it_shows(video: Path, session_of: Callable[..., Session]) -> None:
+    """What a session hands out is its present project."""
+    session = session_of(video)
+    session.add(0, START, "fused")
+    assert exports.as_csv(session.tracked()).splitlines()[1].startswith("0,1,0.0,tracked,1.0,20.0,40.0")

@@ -1,0 +1,440 @@
+# SPDX-License-Identifier: MIT
+"""The page in Chromium: draw, track, correct, undo, export, reload, kill and reopen; keys, touch, labels."""
+
+import csv
+import io
+import os
+import re
+import shutil
+import signal
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH
+from tests.app.test_serve import Server, saved
+
+playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
+CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
+LAPTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
+PATIENCE = 60_000  # milliseconds that a busy machine may take
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """A headless Chromium; TRICUE_CHROMIUM names another than that on the path."""
+    found = os.environ.get("TRICUE_CHROMIUM") or next(filter(None, map(shutil.which, CHROMIUMS)), None)
+    if found is None:
+        pytest.skip("needs chromium: apt-get install chromium")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+def asks_to_track(response: Any) -> bool:
+    """Whether it answers the command to track."""
+    return '"do":"track"' in (response.request.post_data or "")
+
+
+class Tab:
+    """A page of the server, and what a user does in it."""
+
+    def __init__(self, browser: Any, url: str, size: dict[str, int], touch: bool = False) -> None:
+        self.context = browser.new_context(viewport=size, has_touch=touch, is_mobile=touch)
+        self.page = self.context.new_page()
+        self.page.set_default_timeout(PATIENCE)
+        self.troubles: list[str] = []
+        self.page.on("pageerror", lambda error: self.troubles.append(str(error)))
+        self.page.on("console", self._console)
+        self.url = url
+        self.page.goto(url)
+        self.shows(0)
+
+    def _console(self, message: Any) -> None:
+        if message.type == "error" and "status of 400" not in message.text:
+            self.troubles.append(message.text)
+
+    def shows(self, frame: int) -> None:
+        """Wait until the page shows a frame."""
+        self.page.locator(f"html[data-page='shown {frame}']").wait_for(state="attached")
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Where a pixel of the frame is in the page."""
+        left, top, width, height = self.page.locator("#picture").bounding_box().values()
+        scale = min(width / WIDTH, height / HEIGHT)
+        return (
+            left + (width - WIDTH * scale) / 2 + x * scale,
+            top + (height - HEIGHT * scale) / 2 + y * scale,
+        )
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        mouse = self.page.mouse
+        mouse.move(*self.place(*start))
+        mouse.down()
+        mouse.move(*self.place((start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+        mouse.move(*self.place(*end))
+        mouse.up()
+
+    def draw(self, x: float, y: float, width: float, height: float) -> None:
+        self.drag((x, y), (x + width, y + height))
+
+    def key(self, name: str) -> None:
+        self.page.keyboard.press(name)
+
+    def track(self, button: str = "#track") -> None:
+        """Press the button, and wait until the run has ended."""
+        with self.page.expect_response(asks_to_track):
+            self.page.click(button)
+        self.settled()
+
+    def settled(self) -> None:
+        """Wait until no run is on, all is saved, and the page knows."""
+        until = time.monotonic() + PATIENCE / 1000
+        while (state := self.page.request.get(self.url + "state").json())["run"] or not state["saved"]:
+            assert time.monotonic() < until
+            time.sleep(0.02)
+        self.page.locator(f"html[data-version='{state['version']}']").wait_for(state="attached")
+
+    def rows(self) -> list[dict[str, str]]:
+        """The exported CSV."""
+        with self.page.expect_download() as download:
+            self.page.click("#export")
+            self.page.click("text=CSV")
+        self.key("Escape")
+        text = Path(download.value.path()).read_text()
+        return list(csv.DictReader(io.StringIO(text)))
+
+
+@pytest.fixture
+def server(video: Path) -> Iterator[Server]:
+    """The video, opened."""
+    server = Server(str(video), "--port", "0")
+    yield server
+    if server.process.poll() is None:
+        server.end()
+
+
+@pytest.fixture
+def open_tab(chromium: Any) -> Iterator[Callable[..., Tab]]:
+    """``open_tab(url)``: a tab, in which nothing may go wrong unseen."""
+    made: list[Tab] = []
+
+    def make(url: str, size: dict[str, int] = LAPTOP, touch: bool = False) -> Tab:
+        made.append(Tab(chromium, url, size, touch))
+        return made[-1]
+
+    yield make
+    for tab in made:
+        tab.context.close()
+    assert [tab.troubles for tab in made if tab.troubles] == []
+
+
+@pytest.fixture
+def followed(server: Server, open_tab: Callable[..., Tab]) -> Tab:
+    """A tab in which the square was drawn and tracked."""
+    tab = open_tab(server.url)
+    assert tab.page.locator("#hint").inner_text() == "Drag a box around what to follow"
+    tab.draw(*START)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.track()
+    tab.shows(FRAMES - 1)
+    return tab
+
+
+def test_from_a_video_to_a_csv(followed: Tab) -> None:
+    """Draw, track, export: the square is where it is."""
+    rows = followed.rows()
+    assert [int(row["frame"]) for row in rows] == list(range(FRAMES))
+    assert abs(float(rows[0]["x"]) - START.x) < 2
+    assert abs(float(rows[20]["x"]) - START.x - 20) < 5
+
+
+def test_lost_target_is_corrected(server: Server, followed: Tab) -> None:
+    """A key goes to what is lost; a box drawn later is tracked back to the first; a reload has it all."""
+    tab, rows = followed, followed.rows()
+    tab.key("l")
+    tab.shows(next(int(row["frame"]) for row in rows if row["status"] != "tracked"))
+    tab.page.locator("#lost-ranges button").first.wait_for()
+    tab.key("End")
+    for _ in range(10):
+        tab.key("ArrowLeft")
+    tab.shows(FRAMES - 11)
+    tab.draw(START.x + 45, START.y - 4, 46, 46)  # beside its box, which a drag would move
+    tab.page.locator("#saved", has_text="saved").wait_for()
+    assert server.state()["targets"][0]["drawn"] == [0, FRAMES - 11]
+    tab.track("#track-back")
+    tab.shows(1)
+    corrected = tab.rows()
+    assert abs(float(corrected[FRAMES - 11]["x"]) - START.x - 45) < 2
+    assert corrected != rows
+    tab.page.reload()
+    tab.shows(0)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    assert tab.rows() == corrected
+
+
+def test_undo_and_redo(followed: Tab) -> None:
+    """Two undos take back the run and the box, two redos bring them again."""
+    rows = followed.rows()
+    target = followed.page.locator("#targets button")
+    followed.key("Control+z")
+    followed.page.locator("#redo:enabled").wait_for()
+    followed.key("Control+z")
+    target.wait_for(state="detached")
+    assert followed.page.locator("#undo").is_disabled()
+    followed.key("Control+Shift+z")
+    target.wait_for()
+    followed.key("Control+Shift+z")
+    followed.page.locator("#redo:disabled").wait_for(state="attached")
+    followed.settled()
+    assert followed.rows() == rows
+
+
+def test_killed_and_opened_again(video: Path, open_tab: Callable[..., Tab]) -> None:
+    """A page says that its server has ended and where the work is; a new one has all of it."""
+    server = Server(str(video), "--port", "0")
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    tab.track()
+    rows = tab.rows()
+    saved(server)
+    server.end(signal.SIGKILL)
+    tab.page.locator("#gone").wait_for()
+    assert "video.mp4.tricue.json" in tab.page.locator("#gone").inner_text()
+    tab.context.close()
+    assert all("ERR_CONNECTION_REFUSED" in each for each in tab.troubles)
+    tab.troubles.clear()
+    again = Server(str(video), "--port", "0")
+    try:
+        assert open_tab(again.url).rows() == rows
+    finally:
+        again.end()
+
+
+def test_several_targets(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """A second target, another tracker, a name, all followed together, one deleted."""
+    tab = open_tab(server.url)
+    page = tab.page
+    tab.draw(*START)
+    page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.key("n")
+    page.select_option("#target-tracker", "color-particle")
+    tab.draw(100, 10, 30, 25)
+    page.locator("#targets button", has_text="Target 2").wait_for()
+    page.fill("#target-name", "Corner")
+    page.keyboard.press("Enter")
+    page.locator("#targets button", has_text="Corner").wait_for()
+    page.select_option("#who", "all")
+    tab.track()
+    state = server.state()
+    assert [(each["name"], each["tracker"]) for each in state["targets"]] == [
+        ("Target 1", "fused"),
+        ("Corner", "color-particle"),
+    ]
+    assert {row["id"] for row in tab.rows() if row["frame"] == "59"} == {"1", "2"}
+    page.locator("#picture").focus()
+    tab.key("1")
+    tab.key("Delete")
+    page.locator("#targets button", has_text="Target 1").wait_for(state="detached")
+    assert {row["id"] for row in tab.rows()} == {"2"}
+
+
+def test_box_is_moved_and_resized(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Dragging inside the chosen box moves it, dragging a corner changes its size."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.drag((40, 60), (50, 65))
+    tab.page.wait_for_timeout(200)
+    tab.drag((70, 85), (80, 95))
+    tab.page.wait_for_timeout(200)
+    tab.settled()
+    (row,) = tab.rows()
+    assert [float(row[name]) for name in ("x", "y", "width", "height")] == pytest.approx(
+        [30, 45, 50, 50], abs=2
+    )
+
+
+def test_keyboard_alone(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """Without a pointer: a box by numbers, tracking, steps, playing; focus is always seen."""
+    tab = open_tab(server.url)
+    page = tab.page
+    page.locator("#box summary").focus()
+    tab.key("Enter")
+    for name, value in zip("xywh", START, strict=True):
+        page.locator(f"#box-{name}").focus()
+        page.keyboard.type(f"{value:g}")
+    tab.key("Enter")
+    page.locator("#targets button", has_text="Target 1").wait_for()
+    with page.expect_response(asks_to_track):
+        tab.key("t")
+    tab.settled()
+    tab.shows(FRAMES - 1)
+    for key, frame in (
+        ("Home", 0),
+        ("Shift+ArrowRight", 10),
+        ("ArrowRight", 11),
+        ("ArrowLeft", 10),
+        ("d", 0),
+    ):
+        tab.key(key)
+        tab.shows(frame)
+    tab.key("Space")
+    page.locator("#play[aria-label=Pause]").wait_for()
+    page.wait_for_timeout(400)
+    tab.key("Space")
+    page.locator("#play[aria-label=Play]").wait_for()
+    assert int(page.input_value("#frame")) > 3
+    tab.key("?")
+    page.locator("#help-dialog[open]").wait_for()
+    tab.key("Escape")
+    unseen = page.evaluate(
+        """() => [...document.querySelectorAll("button, input, select, canvas[tabindex], summary, a")]
+          .filter((each) => each.checkVisibility() && !each.disabled).filter((each) => {
+            each.focus({focusVisible: true});
+            return document.activeElement !== each || getComputedStyle(each).outlineStyle === "none";
+          }).map((each) => each.outerHTML)"""
+    )
+    assert unseen == []
+
+
+def test_timeline_is_a_slider(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """A click on the timeline goes there; a screen reader hears frame, time and status."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.track()
+    line = tab.page.locator("#timeline")
+    width = line.bounding_box()["width"]
+    line.click(position={"x": width * 0.5, "y": 25})
+    tab.shows(FRAMES // 2)
+    assert line.get_attribute("aria-valuenow") == str(FRAMES // 2)
+    assert re.match(r"frame 30 of 59, 0:01\.00, Target 1: \w+", line.get_attribute("aria-valuetext"))
+
+
+@pytest.mark.parametrize("size", [LAPTOP, PHONE], ids=["laptop", "phone"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_page_fits_and_reads(
+    server: Server, open_tab: Callable[..., Tab], size: dict[str, int], scheme: str
+) -> None:
+    """Nothing is wider than the screen, every control has a name, and text stands out by 4.5 to 1."""
+    tab = open_tab(server.url, size, touch=size is PHONE)
+    tab.page.emulate_media(color_scheme=scheme)
+    tab.draw(*START)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+    picture = tab.page.locator("#picture").bounding_box()
+    assert picture["width"] >= 0.75 * size["width"]
+    nameless = tab.page.evaluate(
+        """() => [...document.querySelectorAll("button, input, select, canvas, a, img")]
+          .filter((each) => each.checkVisibility())
+          .filter((each) => !(each.ariaLabel || each.textContent.trim() || each.alt || each.labels?.length))
+          .map((each) => each.outerHTML)"""
+    )
+    assert nameless == []
+    assert tab.page.evaluate(CONTRASTS) == []
+
+
+CONTRASTS = """() => {
+  const parse = (color) => color.match(/[\\d.]+/g).map(Number);
+  const light = ([r, g, b]) => [r, g, b].map((v) => v / 255)
+    .map((v) => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, index) => sum + v * [0.2126, 0.7152, 0.0722][index], 0);
+  const ground = (each) => {
+    for (let at = each; at; at = at.parentElement) {
+      const color = parse(getComputedStyle(at).backgroundColor);
+      if (color.length === 3 || color[3] > 0.7) return color;
+    }
+    return [255, 255, 255];
+  };
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), weak = [];
+  while (walker.nextNode()) {
+    const node = walker.currentNode, each = node.parentElement;
+    if (!node.data.trim() || !each.checkVisibility() || each.closest(":disabled, .unseen, script")) continue;
+    const [a, b] = [light(parse(getComputedStyle(each).color)), light(ground(each))].sort((x, y) => y - x);
+    if ((a + 0.05) / (b + 0.05) < 4.5) weak.push(node.data.trim());
+  }
+  return weak;
+}"""
+
+
+def test_touch_draws(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """A finger draws a box, and the page doesn't scroll away under it."""
+    tab = open_tab(server.url, PHONE, touch=True)
+    start, end = tab.place(20, 40), tab.place(60, 80)
+    finger = tab.context.new_cdp_session(tab.page)
+
+    def touch(kind: str, *points: tuple[float, float]) -> None:
+        places = [{"x": x, "y": y} for x, y in points]
+        finger.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+
+    touch("touchStart", start)
+    touch("touchMove", ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2))
+    touch("touchMove", end)
+    touch("touchEnd")
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.settled()
+    (row,) = tab.rows()
+    assert [float(row[name]) for name in ("x", "y", "width", "height")] == pytest.approx(list(START), abs=3)
+    assert tab.page.evaluate("scrollY") == 0
+
+
+def test_zoom_draws_where_it_looks(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """In an enlarged picture a box is where it is drawn."""
+    tab = open_tab(server.url)
+    page = tab.page
+    x, y = tab.place(40, 60)
+    page.mouse.move(x, y)
+    page.mouse.wheel(0, -400)  # by e
+    page.wait_for_timeout(100)
+    page.mouse.move(x - 60, y - 60)
+    page.mouse.down()
+    page.mouse.move(x, y)
+    page.mouse.move(x + 60, y + 60)
+    page.mouse.up()
+    page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.settled()
+    (row,) = tab.rows()
+    half = 60 / ((tab.place(1, 0)[0] - tab.place(0, 0)[0]) * 2.71828)
+    expected = [40 - half, 60 - half, 2 * half, 2 * half]
+    assert [float(row[name]) for name in ("x", "y", "width", "height")] == pytest.approx(expected, abs=0.5)
+
+
+def test_errors_are_said(server: Server, open_tab: Callable[..., Tab], video: Path) -> None:
+    """What can't be done is said in the page, in one line."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    video.unlink()
+    tab.key("t")
+    said = tab.page.locator(".toast")
+    said.wait_for()
+    assert said.inner_text().strip() == f"{video}: there is no such file or folder any more"
+    said.get_by_role("button").click()
+    said.wait_for(state="detached")
+
+
+def test_two_tabs_show_the_same(server: Server, open_tab: Callable[..., Tab]) -> None:
+    """What is done in one tab is seen in the other."""
+    one, other = open_tab(server.url), open_tab(server.url)
+    one.draw(*START)
+    one.track()
+    other.page.locator("#targets button", has_text="Target 1").wait_for()
+    other.page.locator("#saved", has_text=re.compile("^saved")).wait_for()
+    assert other.rows() == one.rows()
+
+
+def test_overlay_video_is_downloaded(server: Server, open_tab: Callable[..., Tab], tmp_path: Path) -> None:
+    """The button writes the video and the browser gets it when it is whole."""
+    tab = open_tab(server.url)
+    tab.draw(*START)
+    tab.page.locator("#targets button", has_text="Target 1").wait_for()
+    tab.page.click("#export")
+    with tab.page.expect_download() as download:
+        tab.page.click("#video")
+    assert download.value.suggested_filename == "video.overlay.mp4"
+    assert Path(download.value.path()).read_bytes()[4:8] == b"ftyp"

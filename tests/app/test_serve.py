@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: MIT
+"""Serving on 127.0.0.1: ports, one server a project, and what a killed one leaves."""
+
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tricue.app
+from tricue.app import serve
+from tricue.app.frames import Recording
+from tricue.cli import program
+from tricue.data.source import Source
+from tricue.data.streams import Camera
+
+from tests.app.conftest import START
+
+PATIENCE = 60.0  # seconds that a busy machine may take
+
+
+class Server:
+    """``tricue open`` in a process of its own."""
+
+    def __init__(self, *arguments: str) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "tricue", "open", *arguments, "--no-browser"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        )
+        self.lines: list[str] = []
+        self.url = ""
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.append(line.strip())
+            if found := re.search(r"http://\S+", line):
+                self.url = found[0]
+                break
+
+    def get(self, path: str) -> bytes:
+        with urllib.request.urlopen(self.url + path, timeout=PATIENCE) as answer:
+            return bytes(answer.read())
+
+    def state(self) -> dict[str, Any]:
+        return dict(json.loads(self.get("state")))
+
+    def do(self, name: str, **values: Any) -> None:
+        body = json.dumps({"do": name, **values}).encode()
+        urllib.request.urlopen(urllib.request.Request(self.url + "do", body), timeout=PATIENCE).close()
+
+    def end(self, number: int = signal.SIGTERM) -> tuple[int, str]:
+        """The exit code and what it wrote to stderr."""
+        self.process.send_signal(number)
+        _, errors = self.process.communicate(timeout=PATIENCE)
+        return self.process.returncode, errors
+
+
+@pytest.fixture
+def server_of() -> Iterator[Any]:
+    """``server_of(video)``: a server, which ends with the test."""
+    made: list[Server] = []
+
+    def make(*arguments: str) -> Server:
+        made.append(Server(*arguments))
+        return made[-1]
+
+    yield make
+    for server in made:
+        if server.process.poll() is None:
+            server.end()
+        for stream in (server.process.stdout, server.process.stderr):
+            if stream is not None:
+                stream.close()
+
+
+def saved(server: Server) -> None:
+    """Wait until the work is in the file."""
+    until = time.monotonic() + PATIENCE
+    while not server.state()["saved"]:
+        assert time.monotonic() < until
+        time.sleep(0.02)
+
+
+def test_killed_server_loses_nothing(video: Path, server_of: Any) -> None:
+    """After kill -9 what the page called saved is there, and nothing else is left beside the video."""
+    server = server_of(str(video), "--port", "0")
+    server.do("add", frame=2, box=list(START), tracker="fused")
+    saved(server)
+    assert server.end(signal.SIGKILL)[0] == -signal.SIGKILL
+    again = server_of(str(video), "--port", "0")
+    assert again.state()["targets"] == [{"id": 1, "name": "Target 1", "tracker": "fused", "drawn": [2]}]
+    assert sorted(each.name for each in video.parent.iterdir()) == ["video.mp4", "video.mp4.tricue.json"]
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_ended_server_saves_and_says_little(video: Path, server_of: Any, number: int, code: int) -> None:
+    """Ctrl-C and kill end it at once, with the exit codes of other commands and no traceback."""
+    server = server_of(str(video), "--port", "0")
+    server.do("add", frame=2, box=list(START), tracker="fused")
+    found, errors = server.end(number)
+    assert found == code
+    assert "Traceback" not in errors
+    assert '"drawn": {"2"' in video.with_name("video.mp4.tricue.json").read_text()
+
+
+def test_second_server_joins_the_first(video: Path, server_of: Any) -> None:
+    """A second tricue open on one project says where it is open, and ends."""
+    first = server_of(str(video), "--port", "0")
+    second = server_of(str(video), "--port", "0")
+    assert second.lines == [f"video.mp4 is open already at {first.url}"]
+    assert second.process.wait(PATIENCE) == 0
+    other = server_of(shutil.copy(video, video.with_name("other.mp4")), "--port", "0")
+    assert other.url != first.url
+
+
+def test_address_is_for_this_user_alone(video: Path, server_of: Any, data_home: Path) -> None:
+    """The file that tells the address, and so the token, can be read by nobody else."""
+    server_of(str(video), "--port", "0")
+    (lock,) = (data_home / "tricue").glob("*.lock")
+    assert lock.stat().st_mode & 0o077 == 0
+
+
+def test_server_listens_to_this_machine_alone(video: Path, server_of: Any) -> None:
+    """The address is 127.0.0.1, and so is the socket's."""
+    server = server_of(str(video), "--port", "0")
+    assert server.url.startswith("http://127.0.0.1:")
+    with serve._listening(0) as listener:
+        assert listener.getsockname()[0] == "127.0.0.1"
+
+
+def test_port_in_use_is_one_line(video: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A port that was asked for and is in use is an error that says what to do."""
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        assert program.main(["open", str(video), "--no-browser", "--port", str(port)]) == 2
+    assert capsys.readouterr().err == (
+        f"tricue open: --port {port}: the port is in use; give another, or leave it out\n"
+    )
+
+
+def test_default_port_in_use_is_no_matter(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a wish, another page that is open takes another port."""
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        monkeypatch.setattr(serve, "DEFAULT_PORT", taken.getsockname()[1])
+        with serve._listening(None) as listener:
+            assert listener.getsockname()[1] != serve.DEFAULT_PORT
+
+
+@pytest.mark.parametrize("port", ["70000", "-5"])
+def test_impossible_port_is_one_line(video: Path, port: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """Numbers that are no ports are named."""
+    assert program.main(["open", str(video), "--no-browser", f"--port={port}"]) == 2
+    assert capsys.readouterr().err == f"tricue open: --port {port}: expected a port from 0 to 65535\n"
+
+
+@pytest.mark.parametrize("missing", tricue.app.NEEDED)
+def test_missing_extra_is_named(
+    missing: str, video: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without a package of the extra, one line says how to get it."""
+    monkeypatch.setattr("tricue.app.NEEDED", ("json", f"no_{missing}"))
+    assert program.main(["open", str(video)]) == 2
+    assert (
+        capsys.readouterr().err == f"tricue open: tricue open needs no_{missing}: pip install 'tricue[app]'\n"
+    )
+
+
+def test_camera_is_no_recording() -> None:
+    """One can't go back in a live camera; what to do instead is said."""
+    camera = object.__new__(Camera)
+    camera.fps = 30.0
+    with pytest.raises(ValueError, match="expected a recording, got a live camera"):
+        Recording(Source("camera 0", {"color": camera}))
+
+
+def test_select_boxes_returns_what_was_drawn(video: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The function behind ``--select`` waits for Done, and leaves no project behind."""
+    found: list[Any] = []
+    waiting = threading.Thread(
+        target=lambda: found.append(tricue.app.select_boxes(video, port=0, browser=False)), daemon=True
+    )
+    waiting.start()
+    until, text = time.monotonic() + PATIENCE, ""
+    while not (url := re.search(r"http://\S+", text)):
+        assert time.monotonic() < until
+        time.sleep(0.05)
+        text += capsys.readouterr().err
+    server = object.__new__(Server)
+    server.url = url[0]
+    server.do("add", frame=4, box=list(START), tracker="fused")
+    server.do("select")
+    waiting.join(PATIENCE)
+    assert found == [[(4, START)]]
+    assert [each.name for each in video.parent.iterdir()] == ["video.mp4"]
