@@ -15,7 +15,7 @@ KERNELS = sorted(name for name in dir(_core) if not name.startswith("_"))
 HELPERS = {"base", "detail"}
 """Folders whose files serve kernels and are none."""
 TRACKERS = {"color_particle", "depth_particle", "flow_depth", "fused", "stereo_head"}
-UPPER = {"track", "evaluation", "papers", "scenes", "draw", "app", "cli"}
+UPPER = {"track", "evaluation", "papers", "scenes", "draw", "export", "app", "cli"}
 FORBIDDEN = {
     "camera": UPPER | {"data"},
     "data": UPPER,
@@ -23,6 +23,7 @@ FORBIDDEN = {
     "track": UPPER - {"track"} | {"data"},
     "scenes": UPPER - {"scenes"},
     "draw": UPPER - {"draw", "track"} | {"data"},
+    "export": UPPER - {"export", "track"} | {"data"},
     "evaluation": {"papers", "scenes", "app", "cli"},
     "papers": {"app", "cli"},
     "app": {"papers", "cli"},

@@ -17,9 +17,9 @@ from tricue.app.exports import Tracked
 from tricue.app.frames import Recording
 from tricue.app.project import Project
 from tricue.app.session import Session
-from tricue.cli.outputs import COLUMNS, WORLD_COLUMNS
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
+from tricue.export.table import columns
 
 from tests.app.conftest import FRAMES, START, moving
 
@@ -39,12 +39,6 @@ def tracked(video: Path) -> Tracked:
     return Tracked(
         edits.add_tracks(project, {1: found}), Recording(open_source(video)), {"source": "video"}, world=True
     )
-
-
-def test_columns_are_those_of_track() -> None:
-    """The same names as ``tricue track`` writes, with ``id`` after ``frame``."""
-    assert ("frame", "id", *COLUMNS[1:]) == exports.COLUMNS
-    assert exports.WORLD_COLUMNS == WORLD_COLUMNS
 
 
 def test_csv_has_a_line_per_frame_and_target(tracked: Tracked) -> None:
@@ -75,7 +69,7 @@ def test_mot_counts_from_one(tracked: Tracked) -> None:
     lines = exports.as_mot(tracked).splitlines()
     assert lines == [
         "1,1,21,41,40,40,1,-1,-1,-1",
-        "2,1,21,41,40,40,0.5,0.1,-0.2,2.5",
+        "2,1,21,41,40,40,0.5,1.1,-0.2,2.5",
         "2,2,6,7,7,8,1,-1,-1,-1",
     ]
 
@@ -87,7 +81,12 @@ def test_coco_points_to_its_images(tracked: Tracked) -> None:
     categories = {each["id"]: each["name"] for each in content["categories"]}
     assert len(images) == FRAMES
     found = [
-        (images[each["image_id"]]["frame"], each["track_id"], categories[each["category_id"]], each["bbox"])
+        (
+            images[each["image_id"]]["frame_id"],
+            each["track_id"],
+            categories[each["category_id"]],
+            each["bbox"],
+        )
         for each in content["annotations"]
     ]
     assert found == [
@@ -129,7 +128,7 @@ def test_video_can_be_given_up(tracked: Tracked, tmp_path: Path) -> None:
 def test_nothing_tracked_is_nothing_written(video: Path) -> None:
     """Exports of an empty project are valid and empty."""
     empty = Tracked(Project(), Recording(open_source(video)), {"source": "video"})
-    assert exports.as_csv(empty).splitlines() == [",".join(exports.COLUMNS)]
+    assert exports.as_csv(empty).splitlines() == [",".join(columns(several=True))]
     assert json.loads(exports.as_json(empty))["tracks"] == []
     assert exports.as_mot(empty) == ""
     assert json.loads(exports.as_coco(empty))["annotations"] == []

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Status, Track
-from tricue.cli.outputs import COLUMNS, CsvOutput, JsonOutput, Step, VideoOutput
+from tricue.cli.outputs import CsvOutput, JsonOutput, Step, VideoOutput
+from tricue.export.table import COLUMNS
 from tricue.draw.canvas import STATUS_COLORS
 
 IMAGE = np.zeros((8, 8, 3), np.uint8)

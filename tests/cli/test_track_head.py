@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from tricue import Box
 from tricue.cli import main
-from tricue.cli.outputs import COVARIANCE
+from tricue.export.table import COVARIANCE
 from tricue.scenes import StereoScene, head
 
 FRAMES = 12

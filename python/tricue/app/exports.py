@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import cv2
-import numpy as np
 from numpy.typing import NDArray
 
 from tricue.app.frames import Recording
@@ -19,15 +18,10 @@ from tricue.camera.frame import Frame
 from tricue.data.streams import Images
 from tricue.draw.canvas import STATUS_COLORS, Image, choose_scale, draw_box, enlarge, put_text, to_bgr
 from tricue.draw.depth_pictures import depth_picture
+from tricue.export.coco import CocoTracks
+from tricue.export.mot import mot_line
+from tricue.export.table import columns, row
 from tricue.track.base.track import Status, Track
-
-COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")
-COLUMNS = (
-    *("frame", "id", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
-    *COVARIANCE,
-    "depth_m",
-)
-WORLD_COLUMNS = tuple(f"world_{name}" for name in ("X_m", "Y_m", "Z_m", *COVARIANCE))
 
 
 @dataclass(frozen=True)
@@ -60,75 +54,40 @@ class Export:
 
 
 def as_csv(tracked: Tracked) -> str:
-    """A header of COLUMNS, and WORLD_COLUMNS where the pose is known; a line per frame and target."""
+    """A header and a line per frame and target, see :mod:`tricue.export.table`."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS + WORLD_COLUMNS * tracked.world)
-    writer.writerows(_row(tracked, *each) for each in tracked.tracks())
+    writer.writerow(columns(tracked.world, several=True))
+    writer.writerows(_rows(tracked))
     return text.getvalue()
 
 
 def as_json(tracked: Tracked) -> str:
-    """One object: what is known of the run, its targets, and "tracks", objects with COLUMNS as keys."""
+    """One object: what is known of the run, its targets, and "tracks", objects with the columns as keys."""
     targets = [
         {"id": target.id, "name": target.name, "tracker": target.tracker}
         for target in tracked.project.targets
     ]
-    names = COLUMNS + WORLD_COLUMNS * tracked.world
+    names = columns(tracked.world, several=True)
     head = json.dumps({**tracked.about, "targets": targets}, indent=1, allow_nan=False, ensure_ascii=False)
-    rows = (dict(zip(names, _row(tracked, *each), strict=True)) for each in tracked.tracks())
+    rows = (dict(zip(names, values, strict=True)) for values in _rows(tracked))
     lines = ",\n".join(f"  {json.dumps(each, allow_nan=False)}" for each in rows)
     return head.removesuffix("\n}") + f',\n "tracks": [\n{lines}\n ]\n}}\n'
 
 
 def as_mot(tracked: Tracked) -> str:
-    """The MOT challenge's lines: frame and pixels from 1, id, box, confidence, position or -1 in meters.
-
-    Frames in which a target is lost have no line.
-    """
-    lines = []
-    for at, target, track in tracked.tracks():
-        if track.status is Status.LOST:
-            continue
-        x, y, width, height = track.box
-        place = [-1, -1, -1] if track.position is None else [round(n, 4) for n in track.position.tolist()]
-        numbers = [round(n, 3) for n in (x + 1, y + 1, width, height, track.score)]
-        lines.append(",".join(f"{n:g}" for n in (at + 1, target.id, *numbers, *place)) + "\n")
-    return "".join(lines)
+    """MOTChallenge's text, see :func:`tricue.export.mot.mot_line`."""
+    return "".join(mot_line(at, target.id, track) for at, target, track in tracked.tracks())
 
 
 def as_coco(tracked: Tracked) -> str:
-    """COCO's annotations with ``track_id``; a category is a target's name, an image a frame of the recording.
-
-    Frames in which a target is lost have no annotation.
-    """
-    width, height = tracked.recording.size
+    """COCO's JSON, see :class:`tricue.export.coco.CocoTracks`: a category is a target's name."""
+    source, size = tracked.recording.source, tracked.recording.size
     targets = tracked.project.targets
-    categories = {name: number for number, name in enumerate(dict.fromkeys(t.name for t in targets), 1)}
-    annotations: list[dict[str, Any]] = []
-    for at, target, track in tracked.tracks():
-        if track.status is Status.LOST:
-            continue
-        annotations.append(
-            {
-                "id": len(annotations) + 1,
-                "image_id": at + 1,
-                "category_id": categories[target.name],
-                "track_id": target.id,
-                "bbox": [round(n, 3) for n in track.box],
-                "area": round(track.box.area, 3),
-                "iscrowd": 0,
-                "score": round(track.score, 6),
-                "attributes": {"occluded": track.status is Status.OCCLUDED},
-            }
-        )
-    images = [
-        {"id": at + 1, "file_name": name, "frame": at, "width": width, "height": height}
-        for at, name in enumerate(_image_names(tracked.recording))
-    ]
-    named = [{"id": number, "name": name} for name, number in categories.items()]
-    content = {"info": {"description": tracked.about["source"]}, "images": images}
-    return json.dumps({**content, "categories": named, "annotations": annotations}, ensure_ascii=False)
+    found = CocoTracks(source.name, source.fps, {target.id: target.name for target in targets})
+    for at, name in enumerate(_image_names(tracked.recording)):
+        found.add(at, size, {each.id: each.tracks[at] for each in targets if at in each.tracks}, name)
+    return json.dumps(found.content(), allow_nan=False, ensure_ascii=False)
 
 
 EXPORTS = {
@@ -185,26 +144,9 @@ def picture(frame: Frame, channel: str | None = None, span: tuple[float, float] 
     return to_bgr(image)
 
 
-def _row(tracked: Tracked, at: int, target: Target, track: Track) -> list[Any]:
-    """The values of COLUMNS, None if absent; six decimals, for covariances six digits."""
-    numbers = [tracked.recording.seconds(at), track.score, *track.box]
-    time, *others = [round(float(number), 6) for number in numbers]
-    depth = None if track.depth is None else round(track.depth, 6)
-    values = [at, target.id, time, str(track.status), *others]
-    values += [*_point(track.position), *_triangle(track.covariance), depth]
-    if not tracked.world:
-        return values
-    return [*values, *_point(track.world_position), *_triangle(track.world_covariance)]
-
-
-def _point(position: NDArray[np.float64] | None) -> list[float | None]:
-    return [None] * 3 if position is None else [round(value, 6) for value in position.tolist()]
-
-
-def _triangle(covariance: NDArray[np.float64] | None) -> list[float | None]:
-    if covariance is None:
-        return [None] * len(COVARIANCE)
-    return [float(f"{value:.6g}") for value in covariance[np.triu_indices(3)]]
+def _rows(tracked: Tracked) -> Iterator[list[Any]]:
+    for at, target, track in tracked.tracks():
+        yield row(at, tracked.recording.seconds(at), track, tracked.world, target.id)
 
 
 def _image_names(recording: Recording) -> list[str]:

@@ -15,8 +15,9 @@ from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
+from tricue.data.live import LiveStream
 from tricue.data.source import Source
-from tricue.data.streams import Camera, Image, Stream, Video, plausible_fps
+from tricue.data.streams import Image, Stream, Video, plausible_fps
 
 KEPT_BYTES = 128 << 20  # of decoded frames, in YUV: what stepping back and tracking backwards fall back on
 MIN_KEPT = 4  # frames, however large
@@ -186,7 +187,7 @@ class Recording:
 
     def __init__(self, source: Source) -> None:
         for stream in source.channels.values():
-            if isinstance(stream, Camera):
+            if isinstance(stream, LiveStream):
                 raise ValueError(
                     f"{source.name}: expected a recording, got a live camera; "
                     "tricue track records one with --output"

@@ -22,16 +22,10 @@ from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.stereo import stereo_overlay
 from tricue.draw.targets import targets_overlay
 from tricue.draw.video import OverlayWriter
+from tricue.export.table import columns, row
 from tricue.track.base.track import Track
 
 RANGE_SMOOTHING = 0.1  # weight of a new frame in the depth range of the video
-COVARIANCE = ("XX_m2", "XY_m2", "XZ_m2", "YY_m2", "YZ_m2", "ZZ_m2")  # the upper triangle, row by row
-COLUMNS = (
-    *("frame", "time_s", "status", "score", "x", "y", "width", "height", "X_m", "Y_m", "Z_m"),
-    *COVARIANCE,
-    "depth_m",
-)
-WORLD_COLUMNS = tuple(f"world_{name}" for name in ("X_m", "Y_m", "Z_m", *COVARIANCE))
 
 
 class Step(NamedTuple):
@@ -69,39 +63,10 @@ class Output(AbstractContextManager[Any], Protocol):
     def write(self, step: Step) -> None: ...
 
 
-def columns(world: bool = False, several: bool = False) -> tuple[str, ...]:
-    """The columns of a table. world: with those of WORLD_COLUMNS. several: with the target's id."""
-    frame, *others = COLUMNS + WORLD_COLUMNS * world
-    return (frame, *(["id"] * several), *others)
-
-
 def rows(step: Step, world: bool = False, several: bool = False) -> Iterator[list[Any]]:
-    """The values of :func:`columns` for each target, None if absent; six decimals, covariances six digits."""
+    """The values of ``columns`` for each target."""
     for target, track in step.targets.items():
-        frame, *others = _row(step, track)
-        values = [frame, *([target] * several), *others]
-        if world:
-            values += [*_point(track.world_position), *_triangle(track.world_covariance)]
-        yield values
-
-
-def _row(step: Step, track: Track) -> list[Any]:
-    """The values of COLUMNS."""
-    meters, covariance = _point(track.position), _triangle(track.covariance)
-    numbers = [step.frame.timestamp, track.score, *track.box]
-    time, *others = [None if number is None else round(float(number), 6) for number in numbers]
-    depth = None if track.depth is None else round(track.depth, 6)
-    return [step.number, time, str(track.status), *others, *meters, *covariance, depth]
-
-
-def _point(position: NDArray[np.float64] | None) -> list[float | None]:
-    return [None] * 3 if position is None else [round(value, 6) for value in position.tolist()]
-
-
-def _triangle(covariance: NDArray[np.float64] | None) -> list[float | None]:
-    if covariance is None:
-        return [None] * len(COVARIANCE)
-    return [float(f"{value:.6g}") for value in covariance[np.triu_indices(3)]]
+        yield row(step.number, step.frame.timestamp, track, world, target if several else None)
 
 
 class CsvOutput(TextFile):
@@ -136,9 +101,9 @@ class JsonOutput(TextFile):
 
     def write(self, step: Step) -> None:
         names = columns(self._world, self._several)
-        for row in rows(step, self._world, self._several):
-            values = dict(zip(names, row, strict=True))
-            self.put(f"{self._separator}  {json.dumps(values, allow_nan=False)}")
+        for values in rows(step, self._world, self._several):
+            named = dict(zip(names, values, strict=True))
+            self.put(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
             self._separator = ",\n"
 
     def finish(self) -> None:

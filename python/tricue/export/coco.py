@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""COCO's JSON with what TAO and CocoVID add: videos, tracks, and in each annotation its track."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from tricue.track.base.track import Status, Track
+
+
+class CocoTracks:
+    """Collects the frames and tracks of one video.
+
+    Images have ids from 1, and frame_index and frame_id from 0; boxes are in pixels from 0. A target that is
+    LOST in a frame has no annotation there. video: its name. fps: frames per second. names: of the targets,
+    by their ids; targets of one name are one category, "target" without names.
+    """
+
+    def __init__(self, video: str, fps: float, names: Mapping[int, str] | None = None) -> None:
+        self._video: dict[str, Any] = {"id": 1, "name": video, "fps": fps}
+        self._names = dict(names or {})
+        self._categories = {
+            name: number for number, name in enumerate(dict.fromkeys(self._names.values()), 1)
+        }
+        self._images: list[dict[str, Any]] = []
+        self._annotations: list[dict[str, Any]] = []
+
+    def add(
+        self, number: int, size: tuple[int, int], tracks: Mapping[int, Track], file_name: str = ""
+    ) -> None:
+        """Add a frame by its number from 0, its size (width, height), and its tracks by their targets' ids.
+
+        file_name: the image's; without it the one that ``ffmpeg -i VIDEO %06d.jpg`` gives.
+        """
+        shape = {"width": size[0], "height": size[1]}
+        self._video |= shape
+        name = file_name or f"{number + 1:06}.jpg"
+        ids = {"id": number + 1, "video_id": 1, "file_name": name}
+        self._images.append({**ids, **shape, "frame_index": number, "frame_id": number})
+        for target, track in tracks.items():
+            if track.status is not Status.LOST:
+                self._annotations.append(self._annotation(number + 1, target, track))
+
+    def content(self) -> dict[str, Any]:
+        """All of it, for ``json.dumps``."""
+        targets = sorted({each["track_id"] for each in self._annotations})
+        categories = self._categories or {"target": 1}
+        return {
+            "info": {"description": "tracks by tricue"},
+            "licenses": [],
+            "videos": [self._video],
+            "images": self._images,
+            "tracks": [{"id": each, "category_id": self._category(each), "video_id": 1} for each in targets],
+            "annotations": self._annotations,
+            "categories": [
+                {"id": number, "name": name, "supercategory": "target"} for name, number in categories.items()
+            ],
+        }
+
+    def _category(self, target: int) -> int:
+        return self._categories.get(self._names.get(target, ""), 1)
+
+    def _annotation(self, image: int, target: int, track: Track) -> dict[str, Any]:
+        return {
+            "id": len(self._annotations) + 1,
+            "image_id": image,
+            "video_id": 1,
+            "category_id": self._category(target),
+            "track_id": target,
+            "instance_id": target,
+            "bbox": [round(value, 6) for value in track.box],
+            "area": round(track.box.area, 6),
+            "iscrowd": 0,
+            "score": round(track.score, 6),
+            "occluded": track.status is Status.OCCLUDED,
+        }
