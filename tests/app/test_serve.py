@@ -21,8 +21,8 @@ import tricue.app
 from tricue.app import serve
 from tricue.app.frames import Recording
 from tricue.cli import program
+from tricue.data.live import LiveStream
 from tricue.data.source import Source
-from tricue.data.streams import Camera
 
 from tests.app.conftest import START
 
@@ -177,12 +177,19 @@ def test_missing_extra_is_named(
     )
 
 
+class StandIn(LiveStream):
+    """A live channel without a camera."""
+
+    fps, length, timed = 30.0, None, True
+
+    def __init__(self) -> None:
+        pass
+
+
 def test_camera_is_no_recording() -> None:
     """One can't go back in a live camera; what to do instead is said."""
-    camera = object.__new__(Camera)
-    camera.fps = 30.0
     with pytest.raises(ValueError, match="expected a recording, got a live camera"):
-        Recording(Source("camera 0", {"color": camera}))
+        Recording(Source("camera 0", {"color": StandIn()}))
 
 
 def test_select_boxes_returns_what_was_drawn(video: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, Frame, Status, Track
 from tricue.cli.outputs import CsvOutput, JsonOutput, Step, VideoOutput
-from tricue.export.table import COLUMNS
 from tricue.draw.canvas import STATUS_COLORS
+from tricue.export.table import COLUMNS
 
 IMAGE = np.zeros((8, 8, 3), np.uint8)
 FLAT = Step(0, Frame(IMAGE), Track(Box(1, 2, 3, 4), 0.5, Status.LOST), 0.1)
