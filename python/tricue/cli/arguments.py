@@ -4,6 +4,7 @@
 import argparse
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 from tricue.camera.box import Box, as_box
 from tricue.errors import one_line
@@ -44,6 +45,28 @@ def box(text: str) -> Box:
             else f"expected four numbers x,y,width,height, got {text!r}"
         )
         raise argparse.ArgumentTypeError(reason.removeprefix("box: ")) from None
+
+
+class StartBox(NamedTuple):
+    """A box to start on, and the number of its frame from 0; None for the first one."""
+
+    box: Box
+    frame: int | None = None
+
+
+def start_box(text: str) -> StartBox:
+    """A box x,y,width,height, or of another frame than the first FRAME:x,y,width,height."""
+    number, colon, numbers = text.rpartition(":")
+    if colon and not number.isdecimal():
+        raise argparse.ArgumentTypeError(f"expected FRAME:x,y,width,height, got {text!r}")
+    return StartBox(box(numbers), int(number) if colon else None)
+
+
+def frame_number(text: str) -> int:
+    """A whole number from 0 on."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"expected a frame's number from 0 on, got {text!r}")
+    return int(text)
 
 
 def angles(text: str) -> tuple[float, ...]:

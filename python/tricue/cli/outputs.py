@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
+from tricue.cli.lost_ranges import LostRanges, as_json
 from tricue.cli.text_file import TextFile
 from tricue.draw.canvas import Image
 from tricue.draw.depth_pictures import depth_picture, depth_range
@@ -87,13 +88,22 @@ class CsvOutput(TextFile):
 
 
 class JsonOutput(TextFile):
-    """One object: the entries of ``about``, and "tracks", a list of objects with the columns as keys.
+    """One object: the entries of ``about``; "tracks", a list of objects with the columns as keys; "lost", the
+    ranges of frames in which a target is.
 
-    world, several: see ``columns``.
+    fps: frames per second, for frames without times. world, several: see ``columns``.
     """
 
-    def __init__(self, path: Path, about: dict[str, Any], world: bool = False, several: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path,
+        about: dict[str, Any],
+        fps: float = 30.0,
+        world: bool = False,
+        several: bool = False,
+    ) -> None:
         super().__init__(path)
+        self._fps, self._lost = fps, dict[int, LostRanges]()
         self._world, self._several = world, several
         head = json.dumps(about, indent=1, allow_nan=False)
         self.put(head.removesuffix("\n}") + ',\n "tracks": [')
@@ -105,9 +115,17 @@ class JsonOutput(TextFile):
             named = dict(zip(names, values, strict=True))
             self.put(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
             self._separator = ",\n"
+        for target, track in step.targets.items():
+            seconds = step.number / self._fps if step.frame.timestamp is None else step.frame.timestamp
+            self._lost.setdefault(target, LostRanges()).add(step.number, seconds, track.status)
 
     def finish(self) -> None:
-        self.put("\n ]\n}\n")
+        lost = [
+            each
+            for target, found in self._lost.items()
+            for each in as_json(found.ranges, target if self._several else None)
+        ]
+        self.put(f'\n ],\n "lost": {json.dumps(lost)}\n}}\n')
 
 
 class VideoOutput:

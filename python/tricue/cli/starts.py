@@ -24,7 +24,7 @@ def default_tracker(options: Namespace, source: Source) -> str:
     one that detects people.
     """
     has_start = options.box is not None or options.detect == "face"
-    has_start = has_start or (options.detect is None and source.first_box is not None)
+    has_start = has_start or (options.detect is None and source.true_box(options.start) is not None)
     return depth_tracker() if "depth" in source.channels and not has_start else DEFAULT_TRACKER
 
 
@@ -46,7 +46,8 @@ def choose_start(
         )
     if options.detect == "face":
         return lambda frame: _face(frame, load(options.kernels), rig)
-    box = options.box[0] if options.box else None if options.detect else source.first_box
+    given = options.box[0].box if options.box else None
+    box = given if given or options.detect else source.true_box(options.start)
     return None if box is None else lambda _: box
 
 

@@ -37,13 +37,16 @@ class RunClock:
         return f"{tracking}decoding {self.decoded / max(self.decoding, 1e-9):,.0f} frames/s"
 
 
-def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: RunClock) -> Iterator[Step]:
+def steps(
+    tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock: RunClock, first: int = 0
+) -> Iterator[Step]:
     """Start the tracker on the first box that ``start`` gives, and track.
 
-    Without ``start`` the tracker starts in the first frame in which it detects a target.
+    Without ``start`` the tracker starts in the first frame in which it detects a target. first: the number of
+    the first frame.
     """
     started = False
-    for index, frame in enumerate(_decoded(frames, clock)):
+    for index, frame in enumerate(_decoded(frames, clock), first):
         box = start(frame) if start and not started else None
         if start and not started and box is None:
             continue
@@ -62,22 +65,28 @@ def steps(tracker: Tracker, frames: Iterable[Frame], start: Start | None, clock:
 
 
 def steps_of_targets(
-    targets: MultiTracker, frames: Iterable[Frame], boxes: Sequence[Box], clock: RunClock
+    targets: MultiTracker,
+    frames: Iterable[Frame],
+    boxes: Sequence[tuple[int, Box]],
+    clock: RunClock,
+    first: int = 0,
 ) -> Iterator[Step]:
-    """Start a target on each box in the first frame, and track all."""
-    for index, frame in enumerate(_decoded(frames, clock)):
+    """Start a target on each box in the frame of its number, and track all, from the first start on."""
+    for index, frame in enumerate(_decoded(frames, clock), first):
+        starting = [box for number, box in boxes if number == index]
         before = perf_counter()
         tracks = targets.update(frame)
-        if not index:
-            for box in boxes:
+        if starting:
+            for box in starting:
                 targets.add(frame, box)
             tracks = targets.tracks
         seconds = perf_counter() - before
         for track in tracks.values():
             clock.statuses[track.status] += 1
-        if index:
+        if not starting:
             clock.tracking, clock.updates = clock.tracking + seconds, clock.updates + 1
-        yield Step(index, frame, next(iter(tracks.values())), seconds, tracks=tracks)
+        if tracks:
+            yield Step(index, frame, next(iter(tracks.values())), seconds, tracks=tracks)
 
 
 def _started(tracker: Tracker, frame: Frame, box: Box | None, clock: RunClock) -> Track | None:

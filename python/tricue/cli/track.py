@@ -7,7 +7,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack
-from itertools import takewhile
+from itertools import islice, takewhile
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,9 +16,19 @@ import numpy as np
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.cli.arguments import add_common, add_topics, angles, box, count, tracker_name
+from tricue.cli.arguments import (
+    StartBox,
+    add_common,
+    add_topics,
+    angles,
+    count,
+    frame_number,
+    start_box,
+    tracker_name,
+)
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.exports import CocoOutput, MotOutput
+from tricue.cli.lost_ranges import LostRanges
 from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
@@ -72,15 +82,24 @@ def add_options(command: argparse.ArgumentParser) -> None:
     start = command.add_mutually_exclusive_group()
     start.add_argument(
         "--box",
-        type=box,
+        type=start_box,
         action="append",
-        metavar="X,Y,W,H",
-        help="the box to start on, in pixels; once for each target",
+        metavar="[FRAME:]X,Y,W,H",
+        help="the box to start on, in pixels, and its frame if that isn't the first; once for each target",
+    )
+    start.add_argument(
+        "--select", action="store_true", help="draw the boxes to start on in the browser (extra app)"
     )
     start.add_argument(
         "--detect",
         choices=("face", "person"),
         help="start on the first face (stereo: head), or on the first person that a depth tracker detects",
+    )
+    command.add_argument(
+        "--start", type=frame_number, default=0, metavar="N", help="the first frame, from 0; default 0"
+    )
+    command.add_argument(
+        "--end", type=frame_number, metavar="N", help="the last frame; by default that of all"
     )
     command.add_argument(
         "--fps",
@@ -157,7 +176,9 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
 class TrackRun(NamedTuple):
     """The source, the tracker, how it starts, and the known intrinsics or stereo rig.
 
-    targets, boxes: of several targets, for each of which there is such a tracker; None for one.
+    targets, boxes: of several targets, for each of which there is such a tracker, and the numbers of their
+        first frames; None for one.
+    first, end: the numbers of the first frame and of the one after the last, None for all.
     """
 
     source: Source
@@ -166,7 +187,19 @@ class TrackRun(NamedTuple):
     start: Start | None
     rig: StereoRig | None = None
     targets: MultiTracker | None = None
-    boxes: Sequence[Box] = ()
+    boxes: Sequence[tuple[int, Box]] = ()
+    first: int = 0
+    end: int | None = None
+
+    def seconds(self, step: Step) -> float:
+        """The time of a step's frame."""
+        return step.number / self.source.fps if step.frame.timestamp is None else step.frame.timestamp
+
+    @property
+    def frames(self) -> int | None:
+        """How many there are; None where that isn't known."""
+        ends = [each for each in (self.source.length, self.end) if each is not None]
+        return max(min(ends) - self.first, 0) if ends else None
 
 
 def run(options: argparse.Namespace) -> int:
@@ -174,26 +207,29 @@ def run(options: argparse.Namespace) -> int:
     run, notes = _prepare(options)
     clock = RunClock()
     tracks: dict[int, dict[int, Track]] = {}
+    lost: dict[int, LostRanges] = {}
     with ExitStack() as files:
         outputs = [files.enter_context(output) for output in _outputs(options, run)]
         stop = files.enter_context(catch_signals())
-        progress = files.enter_context(Progress(run.source.length))
-        frames = takewhile(lambda _: not stop(), run.source)
+        progress = files.enter_context(Progress(run.frames))
+        frames = takewhile(lambda _: not stop(), islice(run.source, run.first, run.end))
         if run.targets is None:
-            found = steps(run.tracker, frames, run.start, clock)
+            found = steps(run.tracker, frames, run.start, clock, run.first)
         else:
-            found = steps_of_targets(files.enter_context(run.targets), frames, run.boxes, clock)
+            targets = files.enter_context(run.targets)
+            found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
         for step in _with_start_hint(found, run, clock):
             for output in outputs:
                 output.write(step)
             for target, track in step.targets.items():
                 tracks.setdefault(target, {})[step.number] = track
-            progress(step.number + 1, clock.speeds)
+                lost.setdefault(target, LostRanges()).add(step.number, run.seconds(step), track.status)
+            progress(step.number + 1 - run.first, clock.speeds)
         signal_number = stop()
     interrupted = signal_number != 0
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
-    _report(run.source, clock, tracks, interrupted)
+    _report(run, clock, tracks, lost, interrupted)
     notes += run.source.remarks
     notes += [f"wrote {output.about}" for output in outputs]
     if options.plot:
@@ -218,7 +254,10 @@ def _check_different(outputs: Sequence[Path]) -> None:
 
 def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     """Open the source and make the tracker; notes for the user."""
-    several = options.box is not None and len(options.box) > 1
+    if options.select:
+        options.box = _selected(options)
+    boxes = _numbered(options)
+    several = len(boxes) > 1
     if options.plot:
         from tricue.draw.paths import check_format
 
@@ -252,10 +291,36 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     )
     rig = found.rig
     known = rig.intrinsics if rig else found.intrinsics
-    run = TrackRun(source, tracker, known, choose_start(options, source, tracker, rig), rig)
+    first, end = min([frame for frame, _ in boxes], default=options.start), options.end
+    start = choose_start(options, source, tracker, rig)
+    run = TrackRun(source, tracker, known, start, rig, first=first, end=None if end is None else end + 1)
     if several:
-        run = run._replace(targets=_targets(options, found.keywords), boxes=options.box)
+        run = run._replace(targets=_targets(options, found.keywords), boxes=boxes)
     return run, [*source.notes, *([found.note] if found.note else [])]
+
+
+def _selected(options: argparse.Namespace) -> list[StartBox]:
+    """The boxes that the user draws in the browser; ValueError where there is none."""
+    from tricue.app import select_boxes
+
+    opening = {name: getattr(options, name) for name in ("depth", "depth_scale", "fps", "right", "topics")}
+    given = {name: value for name, value in opening.items() if value is not None}
+    found = [StartBox(box, frame) for frame, box in select_boxes(options.input, **given)]
+    if not found:
+        raise ValueError("--select: expected a box, none was drawn")
+    return found
+
+
+def _numbered(options: argparse.Namespace) -> list[tuple[int, Box]]:
+    """The boxes to start on with the numbers of their frames; ValueError for a frame that isn't tracked."""
+    last = math.inf if options.end is None else options.end
+    if last < options.start:
+        raise ValueError(f"--end {options.end}: expected {options.start}, of --start, or more")
+    found = [(options.start if frame is None else frame, box) for box, frame in options.box or ()]
+    for frame, _ in found:
+        if not options.start <= frame <= last:
+            raise ValueError(f"--box {frame}:...: expected a frame from --start to --end")
+    return found
 
 
 def _targets(options: argparse.Namespace, camera: Mapping[str, Any]) -> MultiTracker:
@@ -273,7 +338,7 @@ def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     if options.csv:
         yield CsvOutput(options.csv, world, several)
     if options.json:
-        yield JsonOutput(options.json, _about(options, run), world, several)
+        yield JsonOutput(options.json, _about(options, run), run.source.fps, world, several)
     if options.mot:
         yield MotOutput(options.mot)
     if options.coco:
@@ -291,6 +356,10 @@ def _with_start_hint(found: Iterator[Step], run: TrackRun, clock: RunClock) -> I
 
 
 def _not_started(run: TrackRun, clock: RunClock) -> str:
+    if run.first and not clock.decoded:
+        length = run.source.length
+        has = "" if length is None else f"; {run.source.name} has {length}"
+        return f"frame {run.first}: expected a frame to start in{has}"
     if clock.not_found_reason:
         reason = f"the tracker started in none of {clock.decoded} frames: {clock.not_found_reason}"
     else:
@@ -329,38 +398,46 @@ def _plain(value: Any) -> Any:
 
 
 def _report(
-    source: Source, clock: RunClock, tracks: Mapping[int, Mapping[int, Track]], interrupted: bool
+    run: TrackRun,
+    clock: RunClock,
+    tracks: Mapping[int, Mapping[int, Track]],
+    lost: Mapping[int, LostRanges],
+    interrupted: bool,
 ) -> None:
-    frames = f"{source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}"
+    frames = f"{run.source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}"
     if len(tracks) > 1:
         print(frames)
         for target, found in tracks.items():
-            print(f"target {target}: {_counts(Counter(track.status for track in found.values()))}")
+            counts = _counts(Counter(track.status for track in found.values()))
+            print("; ".join(filter(None, (f"target {target}: {counts}", str(lost[target])))))
         print(clock.speeds)
         return
     print(f"{frames}, {_counts(clock.statuses)}")
+    for line in filter(None, map(str, lost.values())):
+        print(line)
     print(clock.speeds)
     found = tracks.get(1, {})
     if first := min(found, default=0):
         print(f"started in frame {first}")
-    if source.truth is not None and np.isfinite(source.truth[1:]).any():
-        print(_score(source.truth, found, clock.decoded))
+    truth = run.source.truth
+    if truth is not None and np.isfinite(truth[run.first + 1 :]).any():
+        print(_score(truth, found, run.first, clock.decoded))
 
 
 def _counts(statuses: Mapping[Status, int]) -> str:
     return ", ".join(f"{statuses[status]} {status}" for status in Status)
 
 
-def _score(truth: Any, tracks: Mapping[int, Track], frames: int) -> str:
+def _score(truth: Any, tracks: Mapping[int, Track], first: int, frames: int) -> str:
     """AUC and precision over the frames that were read and have a true box."""
     from tricue.evaluation import metrics
 
-    count = min(len(truth), frames)
-    found = np.full((count, 4), np.nan)
-    for index, track in tracks.items():
-        if index < count:
-            found[index] = track.box
-    score = metrics.score(found, truth[:count])
+    truth = truth[first : first + frames]
+    found = np.full((len(truth), 4), np.nan)
+    for number, track in tracks.items():
+        if number - first < len(truth):
+            found[number - first] = track.box
+    score = metrics.score(found, truth)
     return f"against the true boxes: AUC {score.auc:.3f}, precision at 20 px {score.precision:.3f}"
 
 

@@ -101,9 +101,13 @@ class Source:
     @property
     def first_box(self) -> Box | None:
         """The true box in the first frame; None where it isn't known."""
-        if self.truth is None or len(self.truth) == 0 or np.isnan(self.truth[0]).any():
+        return self.true_box(0)
+
+    def true_box(self, number: int) -> Box | None:
+        """The true box in a frame by its number from 0; None where it isn't known."""
+        if self.truth is None or len(self.truth) <= number or np.isnan(self.truth[number]).any():
             return None
-        return Box(*self.truth[0].tolist())
+        return Box(*self.truth[number].tolist())
 
     def __iter__(self) -> Iterator[Frame]:
         return self._frames(self._moments(), count())

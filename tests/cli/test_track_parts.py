@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""``tricue track`` from a frame to a frame, with boxes of any frame, or drawn in the browser."""
+
+import csv
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import tricue.app
+from tricue import Box
+from tricue.cli.program import main
+
+from tests.cli.test_track_several import images, rows
+
+__all__ = ["images"]
+
+FIRST, OTHER = "17,20,24,32", "86,60,24,32"  # where two of the things are in frames 3 and 4
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, list[str], str]:
+    """Exit code, printed lines and errors of ``tricue track``."""
+    code = main(["track", *words])
+    out, err = capsys.readouterr()
+    return code, out.splitlines(), err
+
+
+def test_a_part_is_tracked(images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that --start and --end are the first and the last frame, whose numbers stay."""
+    words = ["--box", FIRST, "--start", "3", "--end", "5", "--csv", str(tmp_path / "o.csv")]
+    code, printed, _ = run(capsys, str(images), *words)
+    assert (code, printed[0].split(": ")[1].startswith("3 frames, 3 tracked")) == (0, True)
+    assert "started in frame 3" in printed
+    found = rows(tmp_path / "o.csv")
+    assert [row["frame"] for row in found] == ["3", "4", "5"]
+    assert [float(row["x"]) for row in found] == pytest.approx([17, 16, 15], abs=1.5)
+    assert float(found[0]["time_s"]) == pytest.approx(0.1)
+
+
+def test_a_box_of_a_later_frame(images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that FRAME:x,y,w,h starts there, one target or several, each in its own frame."""
+    words = ["--box", f"3:{FIRST}", "--csv", str(tmp_path / "one.csv")]
+    assert run(capsys, str(images), *words)[0] == 0
+    assert [row["frame"] for row in rows(tmp_path / "one.csv")] == ["3", "4", "5", "6", "7"]
+    words = ["--box", f"4:{OTHER}", "--box", f"3:{FIRST}", "--csv", str(tmp_path / "two.csv")]
+    assert run(capsys, str(images), *words)[0] == 0
+    found = [(row["frame"], row["id"]) for row in rows(tmp_path / "two.csv")]
+    assert found[:4] == [("3", "1"), ("4", "1"), ("4", "2"), ("5", "1")]
+
+
+@pytest.mark.parametrize(
+    ("words", "error"),
+    [
+        (["--box", f"2:{FIRST}", "--start", "3"], "--box 2:...: expected a frame from --start to --end"),
+        (["--box", FIRST, "--start", "3", "--end", "2"], "--end 2: expected 3, of --start, or more"),
+        (["--box", FIRST, "--start", "99"], "frame 99: expected a frame to start in; img has 8"),
+    ],
+)
+def test_frames_that_are_not_there(
+    images: Path, words: list[str], error: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a start that can't be is told in a line."""
+    assert run(capsys, str(images), *words) == (2, [], f"tricue track: {error}\n")
+
+
+def test_true_boxes_count_from_the_start(
+    images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a recording with true boxes starts on that of --start, and is scored from there on."""
+    place = tmp_path / "walk"
+    (place / "img").mkdir(parents=True)
+    for path in images.iterdir():
+        (place / "img" / path.name).symlink_to(path)
+    boxes = [f"{21 - index},21,24,32\n" for index in range(8)]
+    (place / "groundtruth_rect.txt").write_text("".join(boxes))
+    code, printed, _ = run(capsys, str(place), "--start", "3")
+    assert code == 0
+    assert printed[-1].endswith("precision at 20 px 1.000")
+    assert "5 frames, 5 tracked" in printed[0]
+
+
+def test_lost_ranges_are_told(
+    images: Path, drift_tracker: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that where a target is lost is printed, and stands in the JSON."""
+    for index in range(6):
+        shade = 0 if index in (2, 3) else 200
+        cv2.imwrite(str(tmp_path / f"{index}.png"), np.full((48, 64, 3), shade, np.uint8))
+    words = [
+        "--tracker",
+        drift_tracker,
+        "--box",
+        "1,2,30,30",
+        "--fps",
+        "10",
+        "--json",
+        str(tmp_path / "o.json"),
+    ]
+    code, printed, _ = run(capsys, str(tmp_path), *words)
+    assert (code, printed[1]) == (0, "lost in frames 2-3 (0:00.20-0:00.30)")
+    lost = json.loads((tmp_path / "o.json").read_text())["lost"]
+    assert lost == [{"first": 2, "last": 3, "start_s": 0.2, "end_s": 0.3}]
+
+
+def test_boxes_from_the_browser(
+    images: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that --select starts on what was drawn, and that nothing drawn is told."""
+    drawn = [(3, Box(17, 20, 24, 32))]
+    monkeypatch.setattr(tricue.app, "select_boxes", lambda place, **_: drawn)
+    words = [str(images), "--select", "--csv", str(tmp_path / "o.csv")]
+    assert run(capsys, *words)[0] == 0
+    with (tmp_path / "o.csv").open() as file:
+        assert next(csv.DictReader(file))["frame"] == "3"
+    drawn.clear()
+    assert run(capsys, *words) == (2, [], "tricue track: --select: expected a box, none was drawn\n")
