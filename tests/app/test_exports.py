@@ -19,7 +19,7 @@ from tricue.app.project import Project
 from tricue.app.session import Session
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
-from tricue.export.table import columns
+from tricue.export.table import TableForm, columns
 
 from tests.app.conftest import FRAMES, START, moving
 
@@ -128,7 +128,7 @@ def test_video_can_be_given_up(tracked: Tracked, tmp_path: Path) -> None:
 def test_nothing_tracked_is_nothing_written(video: Path) -> None:
     """Exports of an empty project are valid and empty."""
     empty = Tracked(Project(), Recording(open_source(video)), {"source": "video"})
-    assert exports.as_csv(empty).splitlines() == [",".join(columns(several=True))]
+    assert exports.as_csv(empty).splitlines() == [",".join(columns(TableForm(several=True)))]
     assert json.loads(exports.as_json(empty))["tracks"] == []
     assert exports.as_mot(empty) == ""
     assert json.loads(exports.as_coco(empty))["annotations"] == []

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from tricue import Frame, Intrinsics
 from tricue.camera.box import Box
 from tricue.cli import main
-from tricue.track.base.registry import names, traits
+from tricue.track.base.registry import names
 
 FRAMES = 4
 PAIR, RGBD = ("fused", "flow-depth", "stereo-head"), ("fused", "flow-depth", "depth-particle")
@@ -81,16 +81,14 @@ def test_every_tracker_in_meters_is_tried_below() -> None:
 def test_what_an_unknown_pair_costs_is_true(
     pair: Path, tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves that the warning says whether positions are missing or from a default stereo pair."""
+    """It proves that the warning says that positions are missing, and what to give."""
     content = tracked(pair, "--tracker", tracker)
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert error.startswith("tricue track: warning: the pair's calibration isn't known; ")
-    assert has_positions(content) == traits(tracker).guesses
-    if traits(tracker).guesses:
-        assert "rough: a default stereo pair is assumed, 60 degrees wide and 0.12 m apart" in error
-    else:
-        assert "tracks will have no position in meters" in error
+    assert not has_positions(content)
+    assert "tracks will have no position in meters" in error
+    assert "--assume-fov" in error
     assert "give --calibration FILE" in error
     assert content["intrinsics"] is None
     assert content["baseline"] is None
@@ -101,30 +99,50 @@ def test_what_an_unknown_pair_costs_is_true(
 def test_what_an_unknown_depth_camera_costs_is_true(
     rgbd: Path, tracker: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """It proves the same of color and depth: a guess is warned of, the lack of positions said at the end."""
+    """It proves that the lack of positions is said at the end, and that the measured depth is there."""
     content = tracked(rgbd, "--tracker", tracker, *MM)
     printed = capsys.readouterr()
-    assert has_positions(content) == traits(tracker).guesses
-    if traits(tracker).guesses:
-        assert printed.err.count("\n") == 1
-        assert "the depth camera's intrinsics aren't known; the lateral part of positions in meters is" in (
-            printed.err
-        )
-        assert (
-            "rough: a default camera is assumed, 60 degrees wide; give --calibration FILE or --fov"
-            in printed.err
-        )
-    else:
-        assert not printed.err
-        assert "intrinsics aren't known; tracks have no position in meters; give --calib" in printed.out
+    assert not has_positions(content)
+    assert not printed.err
+    assert "intrinsics aren't known; tracks have no position in meters; give --calib" in printed.out
+    assert content["tracks"][-1]["depth_m"] is not None
 
 
-@pytest.mark.filterwarnings("default")  # they are to be printed
-def test_the_guess_is_what_is_said(rgbd: Path) -> None:
-    """It proves that a camera of the 60 degrees that the warning tells gives the very same positions."""
-    guessed = tracked(rgbd, "--tracker", "fused", *MM)
-    told = tracked(rgbd, "--tracker", "fused", *MM, "--fov", "60")
-    assert told["tracks"] == guessed["tracks"]
+@pytest.mark.parametrize("tracker", RGBD)
+def test_assumed_meters_say_so(rgbd: Path, tracker: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that --assume-fov gives the positions of --fov, under names that say so."""
+    assumed = tracked(rgbd, "--tracker", tracker, *MM, "--assume-fov", "60")
+    assert "assumed, by --assume-fov" in capsys.readouterr().out
+    known = tracked(rgbd, "--tracker", tracker, *MM, "--fov", "60")
+    assert (assumed["intrinsics_assumed"], "intrinsics_assumed" in known) == (True, False)
+    for mine, theirs in zip(assumed["tracks"], known["tracks"], strict=True):
+        assert "X_m" not in mine
+        assert mine["X_m_assumed"] == theirs["X_m"]
+        assert mine["depth_m"] == theirs["depth_m"]
+
+
+@pytest.mark.parametrize("tracker", PAIR)
+def test_an_assumed_pair(pair: Path, tracker: str) -> None:
+    """It proves that a pair is assumed by its angles, and that it is said."""
+    content = tracked(pair, "--tracker", tracker, "--assume-fov", "60")
+    assert (content["intrinsics_assumed"], content["baseline"]) == (True, 0.12)
+    assert content["tracks"][-1]["Z_m_assumed"] is not None
+
+
+def test_color_particle_assumes_nothing(rgbd: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that a tracker without a camera refuses one."""
+    box = (rgbd / "groundtruth.txt").read_text()
+    words = [
+        "track",
+        str(rgbd / "color"),
+        "--tracker",
+        "color-particle",
+        f"--box={box}",
+        "--assume-fov",
+        "60",
+    ]
+    assert main(words) == 2
+    assert "--assume-fov: color-particle takes no camera; leave it out" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("tracker", ["fused", "flow-depth", "color-particle"])

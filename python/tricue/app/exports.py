@@ -20,7 +20,7 @@ from tricue.draw.canvas import STATUS_COLORS, Image, choose_scale, draw_box, enl
 from tricue.draw.depth_pictures import depth_picture
 from tricue.export.coco import CocoTracks
 from tricue.export.mot import mot_line
-from tricue.export.table import columns, row
+from tricue.export.table import TableForm, columns, row
 from tricue.track.base.track import Status, Track
 
 
@@ -35,6 +35,11 @@ class Tracked:
     recording: Recording
     about: dict[str, Any]
     world: bool = False
+
+    @property
+    def form(self) -> TableForm:
+        """Of its tables."""
+        return TableForm(self.world, several=True)
 
     def tracks(self) -> Iterator[tuple[int, Target, Track]]:
         """Frame, target and track, by frame and then by id."""
@@ -57,7 +62,7 @@ def as_csv(tracked: Tracked) -> str:
     """A header and a line per frame and target, see :mod:`tricue.export.table`."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns(tracked.world, several=True))
+    writer.writerow(columns(tracked.form))
     writer.writerows(_rows(tracked))
     return text.getvalue()
 
@@ -68,7 +73,7 @@ def as_json(tracked: Tracked) -> str:
         {"id": target.id, "name": target.name, "tracker": target.tracker}
         for target in tracked.project.targets
     ]
-    names = columns(tracked.world, several=True)
+    names = columns(tracked.form)
     head = json.dumps({**tracked.about, "targets": targets}, indent=1, allow_nan=False, ensure_ascii=False)
     rows = (dict(zip(names, values, strict=True)) for values in _rows(tracked))
     lines = ",\n".join(f"  {json.dumps(each, allow_nan=False)}" for each in rows)
@@ -146,7 +151,7 @@ def picture(frame: Frame, channel: str | None = None, span: tuple[float, float] 
 
 def _rows(tracked: Tracked) -> Iterator[list[Any]]:
     for at, target, track in tracked.tracks():
-        yield row(at, tracked.recording.seconds(at), track, tracked.world, target.id)
+        yield row(at, tracked.recording.seconds(at), track, target.id, tracked.form)
 
 
 def _image_names(recording: Recording) -> list[str]:

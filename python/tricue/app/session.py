@@ -272,6 +272,8 @@ class Session:
             self._paused.pop(target.id, None)
             self._report(error, f"{target.name}, {target.tracker}, frame {number}: ")
             return
+        if not self.cameras:
+            track = track.in_image()  # in a default camera, positions would be no meters
         run.seconds += time.perf_counter() - before
         run.updates += 1
         run.found.append((target.id, number, track))

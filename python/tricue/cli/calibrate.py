@@ -62,7 +62,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     noise.add_argument("--calibration", type=Path, metavar="FILE", help="of the stereo pair")
     noise.add_argument("--rectify", action="store_true", help="rectify raw pairs by OpenCV's --calibration")
     noise.add_argument("--unit", type=float, metavar="M", help="meters per unit of its board")
-    noise.set_defaults(measure=_stereo_noise, tracker="stereo-head", fov=None)
+    noise.set_defaults(measure=_stereo_noise, tracker="stereo-head", fov=None, assume_fov=None)
     for kind in (skin, head, noise):
         kind.add_argument(
             "--params", type=Path, metavar="FILE", help="parameters to measure with and to keep, TOML"

@@ -14,9 +14,10 @@ from tricue.camera.registration import Registration
 from tricue.camera.rig import Intrinsics, StereoRig
 from tricue.data.open_source import Source
 from tricue.track.base.registry import traits
-from tricue.track.base.validation import DEFAULT_BASELINE, DEFAULT_FIELD_OF_VIEW
+from tricue.track.base.validation import DEFAULT_BASELINE
 
 STEREO_FILE = "--calibration FILE, by OpenCV, KITTI or in TOML"
+ASSUME = "--assume-fov H,V for assumed ones"
 OWN_CALIBRATION = "calibration: the recording's or the camera's own"
 
 
@@ -24,7 +25,8 @@ class Calibration(NamedTuple):
     """Intrinsics, None if unknown, and a note about their origin.
 
     rig: of a stereo pair, instead of intrinsics. rectify: the rectification of a raw stereo pair. register:
-    the registration of depth to the color image; the intrinsics then are the color camera's.
+    the registration of depth to the color image; the intrinsics then are the color camera's. assumed: whether
+    the camera is one that the user only supposes.
     """
 
     intrinsics: Intrinsics | None = None
@@ -32,6 +34,7 @@ class Calibration(NamedTuple):
     rig: StereoRig | None = None
     rectify: Rectification | None = None
     register: Registration | None = None
+    assumed: bool = False
 
     @property
     def keywords(self) -> dict[str, Any]:
@@ -55,12 +58,14 @@ class Calibration(NamedTuple):
 
 
 def find_calibration(options: Namespace, source: Source) -> Calibration:
-    """The calibration of --calibration or --fov; without them, of the file beside the sequence.
+    """The calibration of --calibration, --fov or --assume-fov; without them, of the file beside the sequence.
 
     ValueError for an option that the tracker doesn't use, and for a file for another image size. A file
-    beside the sequence is left out then, with a note. Warns (UserWarning) if positions are missing or rough.
+    beside the sequence is left out then, with a note. Warns (UserWarning) if positions will be missing.
     """
     cameras = traits(options.tracker).camera
+    if options.assume_fov:
+        return _assume(options, source, cameras)
     if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
         return _find_stereo(options, source)
     for option, value in (("--rectify", options.rectify), ("--unit", options.unit is not None)):
@@ -75,7 +80,7 @@ def find_calibration(options: Namespace, source: Source) -> Calibration:
         return Calibration(_intrinsics_from_angles(source, options.fov))
     if options.calibration:
         return _read_file(options.calibration, source, cameras)
-    return _find_intrinsics(options.tracker, source, cameras)
+    return _find_intrinsics(source, cameras)
 
 
 def _find_stereo(options: Namespace, source: Source) -> Calibration:
@@ -95,10 +100,10 @@ def _find_stereo(options: Namespace, source: Source) -> Calibration:
         return Calibration(rig=rectification.rig, rectify=rectification)
     if options.calibration:
         return Calibration(rig=read_rig(options.calibration, source.size, options.unit))
-    return _find_rig(options.tracker, source)
+    return _find_rig(source)
 
 
-def _find_rig(tracker: str, source: Source) -> Calibration:
+def _find_rig(source: Source) -> Calibration:
     """The rig of the file beside the images. Nobody asked for it, so an unusable file is no error."""
     reason = "the pair's calibration isn't known"
     if source.calibration is not None:
@@ -111,20 +116,27 @@ def _find_rig(tracker: str, source: Source) -> Calibration:
     elif isinstance(source.camera, StereoRig):
         return Calibration(rig=source.camera, note=OWN_CALIBRATION)
     if "right" in source.channels:  # else the missing right images are reported first
-        consequence = "tracks will have no position in meters"
-        if traits(tracker).guesses:
-            size = f"{DEFAULT_FIELD_OF_VIEW:g} degrees wide and {DEFAULT_BASELINE:g} m apart"
-            assumed = f"a default stereo pair is assumed, {size}"
-            consequence = f"positions in meters are rough: {assumed}"
-        warnings.warn(f"{reason}; {consequence}; give {STEREO_FILE}", stacklevel=2)
+        give = f"give {STEREO_FILE}, or {ASSUME}"
+        warnings.warn(f"{reason}; tracks will have no position in meters; {give}", stacklevel=2)
     return Calibration()
 
 
-def _intrinsics_from_angles(source: Source, fov: tuple[float, ...]) -> Intrinsics:
+def _assume(options: Namespace, source: Source, cameras: Collection[str]) -> Calibration:
+    """The camera of --assume-fov, or a pair of such cameras at a usual distance."""
+    if not cameras:
+        raise ValueError(f"--assume-fov: {options.tracker} takes no camera; leave it out")
+    camera = _intrinsics_from_angles(source, options.assume_fov, "--assume-fov")
+    if "rig" in cameras and ("right" in source.channels or "intrinsics" not in cameras):
+        note = f"meters are assumed: cameras {DEFAULT_BASELINE:g} m apart, as --assume-fov says"
+        return Calibration(rig=StereoRig(camera, DEFAULT_BASELINE), note=note, assumed=True)
+    return Calibration(camera, "meters to the right and down are assumed, by --assume-fov", assumed=True)
+
+
+def _intrinsics_from_angles(source: Source, fov: tuple[float, ...], option: str = "--fov") -> Intrinsics:
     try:
         return Intrinsics.from_fov(*source.size, *fov)
     except ValueError as error:
-        raise ValueError(f"--fov: {error}") from None
+        raise ValueError(f"{option}: {error}") from None
 
 
 def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibration:
@@ -138,7 +150,7 @@ def _read_file(path: Path, source: Source, cameras: Collection[str]) -> Calibrat
     return Calibration(read_intrinsics(path, source.size, "depth" if "depth" in streams else "color"))
 
 
-def _find_intrinsics(tracker: str, source: Source, cameras: Collection[str]) -> Calibration:
+def _find_intrinsics(source: Source, cameras: Collection[str]) -> Calibration:
     """The camera of the file beside the images. Nobody asked for it, so an unusable file is no error."""
     reason = "the depth camera's intrinsics aren't known"
     if source.calibration is not None:
@@ -154,10 +166,5 @@ def _find_intrinsics(tracker: str, source: Source, cameras: Collection[str]) -> 
         return Calibration(own.intrinsics if isinstance(own, StereoRig) else own, OWN_CALIBRATION)
     if "depth" not in source.channels:
         return Calibration(note="" if source.calibration is None else reason)
-    give = "give --calibration FILE or --fov H,V"
-    if not traits(tracker).guesses:
-        return Calibration(note=f"{reason}; tracks have no position in meters; {give}")
-    assumed = f"a default camera is assumed, {DEFAULT_FIELD_OF_VIEW:g} degrees wide"
-    consequence = "the lateral part of positions in meters is rough"
-    warnings.warn(f"{reason}; {consequence}: {assumed}; {give}", stacklevel=2)
-    return Calibration()
+    give = f"give --calibration FILE or --fov H,V, or {ASSUME}"
+    return Calibration(note=f"{reason}; tracks have no position in meters; {give}")

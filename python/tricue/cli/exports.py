@@ -11,10 +11,15 @@ from tricue.export.mot import mot_line
 
 
 class MotOutput(TextFile):
-    """MOTChallenge's text, see :func:`tricue.export.mot.mot_line`."""
+    """MOTChallenge's text, see :func:`tricue.export.mot.mot_line`. positions: whether those are written."""
+
+    def __init__(self, path: Path, positions: bool = True) -> None:
+        super().__init__(path)
+        self._positions = positions
 
     def write(self, step: Step) -> None:
-        self.put("".join(mot_line(step.number, target, track) for target, track in step.targets.items()))
+        for target, track in step.targets.items():
+            self.put(mot_line(step.number, target, track if self._positions else track.in_image()))
 
 
 class CocoOutput(TextFile):

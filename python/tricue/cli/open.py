@@ -48,6 +48,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="of the camera or stereo pair, as tricue track takes it",
     )
     camera.add_argument("--fov", type=angles, metavar="H[,V]", help="the camera's angles of view, in degrees")
+    command.set_defaults(assume_fov=None)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -23,7 +23,7 @@ from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.stereo import stereo_overlay
 from tricue.draw.targets import targets_overlay
 from tricue.draw.video import OverlayWriter
-from tricue.export.table import columns, row
+from tricue.export.table import PLAIN, TableForm, columns, row
 from tricue.track.base.track import Track
 
 RANGE_SMOOTHING = 0.1  # weight of a new frame in the depth range of the video
@@ -64,22 +64,22 @@ class Output(AbstractContextManager[Any], Protocol):
     def write(self, step: Step) -> None: ...
 
 
-def rows(step: Step, world: bool = False, several: bool = False) -> Iterator[list[Any]]:
+def rows(step: Step, form: TableForm) -> Iterator[list[Any]]:
     """The values of ``columns`` for each target."""
     for target, track in step.targets.items():
-        yield row(step.number, step.frame.timestamp, track, world, target if several else None)
+        yield row(step.number, step.frame.timestamp, track, target, form)
 
 
 class CsvOutput(TextFile):
-    """A header and a line per frame and target; absent values are empty. world, several: see ``columns``."""
+    """A header and a line per frame and target; absent values are empty."""
 
-    def __init__(self, path: Path, world: bool = False, several: bool = False) -> None:
+    def __init__(self, path: Path, form: TableForm = PLAIN) -> None:
         super().__init__(path)
-        self._world, self._several = world, several
-        self._put_rows([columns(world, several)])
+        self._form = form
+        self._put_rows([columns(form)])
 
     def write(self, step: Step) -> None:
-        self._put_rows(rows(step, self._world, self._several))
+        self._put_rows(rows(step, self._form))
 
     def _put_rows(self, lines: Iterable[Iterable[Any]]) -> None:
         text = io.StringIO()
@@ -91,7 +91,7 @@ class JsonOutput(TextFile):
     """One object: the entries of ``about``; "tracks", a list of objects with the columns as keys; "lost", the
     ranges of frames in which a target is.
 
-    fps: frames per second, for frames without times. world, several: see ``columns``.
+    fps: frames per second, for frames without times.
     """
 
     def __init__(
@@ -99,19 +99,18 @@ class JsonOutput(TextFile):
         path: Path,
         about: dict[str, Any],
         fps: float = 30.0,
-        world: bool = False,
-        several: bool = False,
+        form: TableForm = PLAIN,
     ) -> None:
         super().__init__(path)
         self._fps, self._lost = fps, dict[int, LostRanges]()
-        self._world, self._several = world, several
+        self._form = form
         head = json.dumps(about, indent=1, allow_nan=False)
         self.put(head.removesuffix("\n}") + ',\n "tracks": [')
         self._separator = "\n"
 
     def write(self, step: Step) -> None:
-        names = columns(self._world, self._several)
-        for values in rows(step, self._world, self._several):
+        names = columns(self._form)
+        for values in rows(step, self._form):
             named = dict(zip(names, values, strict=True))
             self.put(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
             self._separator = ",\n"
@@ -123,7 +122,7 @@ class JsonOutput(TextFile):
         lost = [
             each
             for target, found in self._lost.items()
-            for each in as_json(found.ranges, target if self._several else None)
+            for each in as_json(found.ranges, target if self._form.several else None)
         ]
         self.put(f'\n ],\n "lost": {json.dumps(lost)}\n}}\n')
 
@@ -134,10 +133,11 @@ class VideoOutput:
     Several targets are drawn on the color, or on the depth without it.
 
     rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
-    tracker has one.
+    tracker has one. assumed: whether its camera is only supposed, which each picture says.
     """
 
-    def __init__(self, path: Path, fps: float, rig: StereoRig | None = None) -> None:
+    def __init__(self, path: Path, fps: float, rig: StereoRig | None = None, assumed: bool = False) -> None:
+        self._assumed = "   assumed camera" if assumed else ""
         self._writer = OverlayWriter(path, fps)
         self._rig = rig
         self._range: tuple[float, float] | None = None
@@ -153,7 +153,7 @@ class VideoOutput:
 
     def write(self, step: Step) -> None:
         speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
-        self._writer.write(self._picture(step, f"frame {step.number}{speed}"))
+        self._writer.write(self._picture(step, f"frame {step.number}{speed}{self._assumed}"))
 
     def _picture(self, step: Step, note: str) -> Image:
         color, depth = step.frame.color, step.frame.depth

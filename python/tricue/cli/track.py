@@ -42,6 +42,7 @@ from tricue.cli.starts import (
 )
 from tricue.cli.steps import RunClock, Start, steps, steps_of_targets
 from tricue.data.open_source import Source, open_source
+from tricue.export.table import TableForm
 from tricue.track.base.registry import names
 from tricue.track.base.settings import PAPER, make_tracker, read_settings
 from tricue.track.base.track import Status, Track, Tracker
@@ -171,6 +172,12 @@ def _add_depth(command: argparse.ArgumentParser) -> None:
     camera.add_argument(
         "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
     )
+    camera.add_argument(
+        "--assume-fov",
+        type=angles,
+        metavar="H[,V]",
+        help="angles to assume where they aren't known; positions are then marked as assumed",
+    )
 
 
 class TrackRun(NamedTuple):
@@ -179,6 +186,7 @@ class TrackRun(NamedTuple):
     targets, boxes: of several targets, for each of which there is such a tracker, and the numbers of their
         first frames; None for one.
     first, end: the numbers of the first frame and of the one after the last, None for all.
+    assumed: whether the camera is only supposed.
     """
 
     source: Source
@@ -190,6 +198,14 @@ class TrackRun(NamedTuple):
     boxes: Sequence[tuple[int, Box]] = ()
     first: int = 0
     end: int | None = None
+    assumed: bool = False
+
+    def known(self, step: Step) -> Step:
+        """The step, without positions where no camera is known by which they would be meters."""
+        if self.intrinsics is not None:
+            return step
+        tracks = step.tracks and {target: track.in_image() for target, track in step.tracks.items()}
+        return step._replace(track=step.track.in_image(), tracks=tracks)
 
     def seconds(self, step: Step) -> float:
         """The time of a step's frame."""
@@ -218,7 +234,7 @@ def run(options: argparse.Namespace) -> int:
         else:
             targets = files.enter_context(run.targets)
             found = steps_of_targets(targets, frames, run.boxes, clock, run.first)
-        for step in _with_start_hint(found, run, clock):
+        for step in map(run.known, _with_start_hint(found, run, clock)):
             for output in outputs:
                 output.write(step)
             for target, track in step.targets.items():
@@ -294,6 +310,7 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
     first, end = min([frame for frame, _ in boxes], default=options.start), options.end
     start = choose_start(options, source, tracker, rig)
     run = TrackRun(source, tracker, known, start, rig, first=first, end=None if end is None else end + 1)
+    run = run._replace(assumed=found.assumed)
     if several:
         run = run._replace(targets=_targets(options, found.keywords), boxes=boxes)
     return run, [*source.notes, *([found.note] if found.note else [])]
@@ -332,15 +349,15 @@ def _targets(options: argparse.Namespace, camera: Mapping[str, Any]) -> MultiTra
 def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     """Open the outputs one by one, so that the first is closed if the second can't be opened."""
     if options.output:
-        yield VideoOutput(options.output, run.source.fps, run.rig)
+        yield VideoOutput(options.output, run.source.fps, run.rig, run.assumed)
     world = run.intrinsics is not None and run.intrinsics.pose is not None
-    several = run.targets is not None
+    form = TableForm(world, run.targets is not None, run.assumed)
     if options.csv:
-        yield CsvOutput(options.csv, world, several)
+        yield CsvOutput(options.csv, form)
     if options.json:
-        yield JsonOutput(options.json, _about(options, run), run.source.fps, world, several)
+        yield JsonOutput(options.json, _about(options, run), run.source.fps, form)
     if options.mot:
-        yield MotOutput(options.mot)
+        yield MotOutput(options.mot, positions=not run.assumed)
     if options.coco:
         yield CocoOutput(options.coco, Path(run.source.name).name, run.source.fps)
 
@@ -377,6 +394,7 @@ def _about(options: argparse.Namespace, run: TrackRun) -> dict[str, Any]:
         "kernels": options.kernels,
         "params": {name: _plain(value) for name, value in _params(run.tracker).items()},
         "intrinsics": None if run.intrinsics is None else _camera(run.intrinsics),
+        **({"intrinsics_assumed": True} if run.assumed else {}),
         "baseline": None if run.rig is None else run.rig.baseline,
     }
 
@@ -448,4 +466,4 @@ def _plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
     if all(track.position is None for track in tracks.values()):
         return f"{path}: not written, no track has a position in meters"
     save_path(path, tracks.values(), run.intrinsics)
-    return f"wrote {path}"
+    return f"wrote {path}{', in assumed meters' if run.assumed else ''}"

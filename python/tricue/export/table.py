@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The columns of tables of tracks, in CSV and JSON."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,28 +14,45 @@ COLUMNS = (
     *COVARIANCE,
     "depth_m",
 )
-WORLD_COLUMNS = tuple(f"world_{name}" for name in ("X_m", "Y_m", "Z_m", *COVARIANCE))
+POINT = ("X_m", "Y_m", "Z_m", *COVARIANCE)
+WORLD_COLUMNS = tuple(f"world_{name}" for name in POINT)
+POSITION = frozenset((*POINT, *WORLD_COLUMNS))
 
 
-def columns(world: bool = False, several: bool = False) -> tuple[str, ...]:
-    """The columns of a table. world: with those of WORLD_COLUMNS. several: with the target's id."""
-    frame, *others = COLUMNS + WORLD_COLUMNS * world
-    return (frame, *(["id"] * several), *others)
+class TableForm(NamedTuple):
+    """What a table has beside COLUMNS: those of WORLD_COLUMNS; the target's id, where there are several; and
+    ``_assumed`` in the names of positions whose camera is only supposed.
+    """
+
+    world: bool = False
+    several: bool = False
+    assumed: bool = False
+
+
+PLAIN = TableForm()
+
+
+def columns(form: TableForm = PLAIN) -> tuple[str, ...]:
+    """The columns of a table."""
+    frame, *others = COLUMNS + WORLD_COLUMNS * form.world
+    if form.assumed:
+        others = [name if name not in POSITION else f"{name}_assumed" for name in others]
+    return (frame, *(["id"] * form.several), *others)
 
 
 def row(
-    number: int, seconds: float | None, track: Track, world: bool = False, target: int | None = None
+    number: int, seconds: float | None, track: Track, target: int = 1, form: TableForm = PLAIN
 ) -> list[Any]:
     """The values of :func:`columns`, None if absent; six decimals, for covariances six digits.
 
-    number: the frame's, from 0. seconds: its time. target: its id, where there are several.
+    number: the frame's, from 0. seconds: its time. target: its id.
     """
     numbers = [seconds, track.score, *track.box]
     time, *others = [None if value is None else round(float(value), 6) for value in numbers]
     depth = None if track.depth is None else round(track.depth, 6)
-    values = [number, *([] if target is None else [target]), time, str(track.status), *others]
+    values = [number, *([target] * form.several), time, str(track.status), *others]
     values += [*_point(track.position), *_triangle(track.covariance), depth]
-    if world:
+    if form.world:
         values += [*_point(track.world_position), *_triangle(track.world_covariance)]
     return values
 

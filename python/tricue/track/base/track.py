@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The interface of all trackers: Track, Status and the Tracker protocol."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import Any, ClassVar, Protocol
 
@@ -59,6 +59,10 @@ class Track:
         if self.covariance is None or self.pose is None:
             return None
         return self.pose.covariance_to_world(self.covariance)
+
+    def in_image(self) -> "Track":
+        """The same without position and covariance, where the camera isn't known."""
+        return replace(self, position=None, covariance=None)
 
     __hash__ = None  # type: ignore[assignment]  # arrays have none
 

@@ -33,7 +33,6 @@ class Traits:
 
     channels: the sets of channels it runs on, best first; the first set that a frame has is used.
     camera: the camera keywords of its constructor: "intrinsics", "rig".
-    guesses: whether it assumes a default camera where none is known; otherwise tracks have no position.
     detects: what ``init`` detects without a box; None if it needs an initial box.
     random: whether it draws random numbers, so that its tracks depend on ``seed``.
     disparity_range: names of its parameters for the nearest and farthest stereo distance, meters.
@@ -45,7 +44,6 @@ class Traits:
 
     channels: tuple[Channels, ...]
     camera: frozenset[Literal["intrinsics", "rig"]] = frozenset()
-    guesses: bool = False
     detects: Literal["head", "person"] | None = None
     random: bool = False
     disparity_range: tuple[str, str] | None = None

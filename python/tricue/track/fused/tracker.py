@@ -62,7 +62,6 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             Channels.of("depth"),
         ),
         camera=frozenset({"rig", "intrinsics"}),
-        guesses=True,
         follows="any target in a box, by every cue that the frames have",
         source="ours, of [published parts](docs/fused.md#sources)",
     )
