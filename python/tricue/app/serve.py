@@ -8,7 +8,6 @@ import os
 import socket
 import sys
 import tempfile
-import threading
 import webbrowser
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -27,7 +26,6 @@ from tricue.data.open_source import Source, open_source
 ADDRESS = "127.0.0.1"
 DEFAULT_PORT, MAX_PORT = 8765, 65535
 CLOSING_TIME = 2  # seconds that open connections get at the end
-JOIN_INTERVAL = 0.5  # seconds; where a join can't be interrupted, so late is Ctrl-C
 
 
 def serve_project(
@@ -98,20 +96,7 @@ def _serve(
         announce(url)
         say(f"open {url}  (Ctrl-C ends it)")
         _show(url, browser)
-        _run(server, listener)
-
-
-def _run(server: uvicorn.Server, listener: socket.socket) -> None:
-    """Run in a thread: signals stay the caller's, and a notebook has a loop of its own."""
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, name="server")
-    try:
-        thread.start()
-        while thread.is_alive():
-            thread.join(JOIN_INTERVAL)
-    finally:
-        server.should_exit = True
-        if thread.ident is not None:  # unless it was interrupted before it began
-            thread.join()
+        server.run(sockets=[listener])
 
 
 def _listening(port: int | None) -> socket.socket:
