@@ -143,9 +143,9 @@ def test_pause_goes_on_where_it_was(video: Path, session_of: SessionOf, counting
     wait(lambda: session.run is None or session.run.stop.is_set())
     counting.gate.set()
     stopping.join()
-    reached = session.reached
-    assert reached == 5
-    run(session, reached, 1)
+    assert session.last_run is not None
+    assert session.last_run.reached == 5
+    run(session, 5, 1)
     assert counts(session) == {at: at for at in range(FRAMES)}
     session.draw(1, 20, START)
     run(session, 20, 1)

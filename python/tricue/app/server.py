@@ -365,7 +365,7 @@ def state(serving: Serving) -> dict[str, Any]:
     """All that a page shows but tracks: the recording, the targets, the run, what can be done."""
     session = serving.session
     recording, history, run, job = session.recording, session.history, session.run, session.job
-    source = recording.source
+    source, last = recording.source, session.last_run
     return {
         "name": session.place.name,
         "frames": recording.length,
@@ -383,7 +383,9 @@ def state(serving: Serving) -> dict[str, Any]:
         "undo": bool(history.past),
         "redo": bool(history.future),
         "run": None if run is None else {"step": run.step, "targets": list(run.followed)},
-        "reached": session.reached,
+        "ended": None
+        if last is None
+        else {"run": session.runs, "frame": last.reached, "targets": list(last.followed)},
         "version": session.version,
         "video": None
         if job is None

@@ -5,7 +5,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,6 +15,7 @@ from tricue.app.exports import Tracked, write_video
 from tricue.app.frames import Recording
 from tricue.app.project import History, Project, Target
 from tricue.camera.frame import Frame
+from tricue.camera.rig import Intrinsics
 from tricue.data.prefetch import prefetch
 from tricue.errors import one_line
 from tricue.track.base.registry import create, names, traits
@@ -38,6 +39,11 @@ class Run:
     began: float = field(default_factory=time.perf_counter)
     updates: int = 0
     seconds: float = 0.0  # spent in trackers
+
+    @property
+    def reached(self) -> int:
+        """The last frame in which it has found a target."""
+        return self.found[-1][1] if self.found else self.start
 
     def tracks(self, first: int = 0, end: int | None = None) -> dict[int, dict[int, Track]]:
         """Those found, from the ``first`` to before the ``end``, by target and frame."""
@@ -92,7 +98,8 @@ class Session:
         self.run: Run | None = None
         self.job: VideoJob | None = None
         self.errors: list[str] = []
-        self.reached: int | None = None  # the last frame of the last run
+        self.last_run: Run | None = None
+        self.runs = 0  # those that have ended
         self.changed_video: list[str] = []
         self.version, self.saved = 0, True
         self._written_at: int | None = None  # the file's time of change after our last saving
@@ -115,18 +122,26 @@ class Session:
             return edits.add_tracks(present, run.tracks()) if run else present
 
     @property
-    def world(self) -> bool:
-        """Whether the camera's pose is known."""
-        camera = self.cameras.get("intrinsics") or getattr(self.cameras.get("rig"), "intrinsics", None)
-        return camera is not None and camera.pose is not None
+    def camera(self) -> Intrinsics | None:
+        """The camera, or the left one of a stereo pair, where it is known."""
+        rig = self.cameras.get("rig")
+        return self.cameras.get("intrinsics") if rig is None else rig.intrinsics
 
     def tracked(self) -> Tracked:
         """What exports are made of."""
         import tricue
 
-        source = self.recording.source
-        about = {"tricue": tricue.__version__, "source": source.name, "fps": source.fps, "seed": self.seed}
-        return Tracked(self.project, self.recording, about, self.world)
+        source, rig = self.recording.source, self.cameras.get("rig")
+        about = {
+            "tricue": tricue.__version__,
+            "source": source.name,
+            "fps": source.fps,
+            "seed": self.seed,
+            "intrinsics": None if self.camera is None else _numbers(self.camera),
+            "baseline": None if rig is None else rig.baseline,
+        }
+        world = self.camera is not None and self.camera.pose is not None
+        return Tracked(self.project, self.recording, about, world)
 
     # Edits. Each stops a run first, which then can be undone.
 
@@ -237,7 +252,7 @@ class Session:
             with self._lock:
                 found = edits.add_tracks(self.history.present, run.tracks())
                 self.history = self.history.amend(found) if run.found else self.history.undo()
-                self.run, self.reached = None, run.found[-1][1] if run.found else run.start
+                self.run, self.last_run, self.runs = None, run, self.runs + 1
             self._changed()
 
     def _run(self, run: Run, targets: Sequence[Target], stop: int) -> None:
@@ -340,8 +355,7 @@ class Session:
         self._saver.join()
 
     def _load(self, path: Path) -> None:
-        intrinsics = self.cameras.get("intrinsics") or getattr(self.cameras.get("rig"), "intrinsics", None)
-        project, before = project_file.load(path, getattr(intrinsics, "pose", None))
+        project, before = project_file.load(path, None if self.camera is None else self.camera.pose)
         self.history = History(project)
         self.changed_video = self.footprint.differences(before)
         self._written_at = path.stat().st_mtime_ns
@@ -422,6 +436,11 @@ def fitting_trackers(recording: Recording) -> dict[str, str]:
         if kind.best(recording.source.channels) is not None:
             fitting[name] = kind.follows
     return fitting
+
+
+def _numbers(camera: Intrinsics) -> dict[str, Any]:
+    """The camera's numbers; its pose only if it has one."""
+    return {name: value for name, value in asdict(camera).items() if value is not None}
 
 
 def has_box(target: Target, frame: int) -> bool:

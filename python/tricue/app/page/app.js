@@ -16,7 +16,6 @@ new Timeline(get("timeline"), model, go);
 const panel = new Panel(model, { act, went: go });
 let loading = false; // a picture is being fetched
 let playing = null; // {frame, time} since when the video plays
-let ran = null; // the run that was on
 let wanted = null; // where to go once it is paused
 
 // Commands
@@ -167,13 +166,12 @@ listen({
 
 function hearState(state) {
   document.documentElement.dataset.version = state.version; // for tests
-  const first = !model.state;
+  const first = !model.state, runs = model.state?.ended?.run;
   const tracker = model.state?.tracker;
   if (tracker) state.tracker = tracker;
   model.setState(state);
   if (first && state.targets.length) model.choose(state.targets[0].id);
-  if (ran && !state.run) runEnded(ran);
-  ran = state.run ? { ...state.run } : null;
+  if (!first && !state.run && state.ended?.run !== runs) runEnded(state.ended);
 }
 
 function hearRun({ frame, speed, tracks }) {
@@ -182,12 +180,11 @@ function hearRun({ frame, speed, tracks }) {
   say(`tracking ${frame}`);
 }
 
-function runEnded(run) {
+function runEnded({ frame, targets }) {
   get("speed").textContent = "";
-  const { reached } = model.state;
-  const lost = run.targets.filter((id) => model.status(id, reached) === LOST).map((id) => model.target(id)?.name);
-  announce(`Tracking ended in frame ${reached}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
-  model.go(wanted ?? reached ?? model.frame);
+  const lost = targets.filter((id) => model.status(id, frame) === LOST).map((id) => model.target(id)?.name);
+  announce(`Tracking ended in frame ${frame}${lost.length ? `; lost: ${lost.join(", ")}` : ""}`);
+  model.go(wanted ?? frame);
   wanted = null;
   load();
 }
@@ -294,6 +291,7 @@ model.addEventListener("state", () => {
   updateFrame();
 });
 model.addEventListener("frame", updateFrame);
+model.addEventListener("tracks", updateHint);
 model.addEventListener("choice", () => {
   updateHint();
   const target = model.target();

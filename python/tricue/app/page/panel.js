@@ -31,6 +31,7 @@ export class Panel {
   update() {
     const { model } = this;
     get("selecting").hidden = !model.state.selecting;
+    for (const part of [get("target-tracker").parentElement, get("tracker-about")]) part.hidden = model.state.selecting;
     this.#updateList();
     const target = model.target();
     get("target-name").closest("div").hidden = !target;
