@@ -32,7 +32,7 @@ class Combination(NamedTuple):
 
 
 COMBINATIONS = {
-    "oldest": Combination("3.10", "g++", ("numpy==1.23.*", "opencv-python-headless==4.8.*")),
+    "oldest": Combination("3.10", "g++", ("numpy==1.24.*", "opencv-python-headless==4.8.*")),
     "numpy-1": Combination("3.11", "g++", ("numpy==1.26.*", "opencv-python-headless==4.9.*")),
     "clang": Combination("3.11", "clang++", ("opencv-python-headless==4.*",)),
     "python-3.12": Combination("3.12", "g++", ("opencv-python-headless==4.*",)),

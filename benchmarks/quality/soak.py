@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Trackers that run for a long time, and are disturbed: memory, latency, drift.
 
-python -m benchmarks.quality.soak [--updates 1000000] [--trackers NAME...] [--jobs 2]
+    python -m benchmarks.quality.soak [--updates 1000000] [--trackers NAME...] [--jobs 2]
 
 Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in its own process.
 In one of a hundred passes something covers the target for some frames; in another, frames are blank;
@@ -14,6 +14,7 @@ milliseconds of an update, and the overlap with the true boxes in the first and 
 import argparse
 import pickle
 import resource
+import sys
 from collections.abc import Sequence
 from functools import partial
 from multiprocessing import get_context
@@ -183,7 +184,7 @@ def soaked_row(name: str, updates: int) -> str:
         return row(soak(case, updates))
 
 
-def main() -> None:
+def main() -> int:
     """A process a tracker."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -198,7 +199,8 @@ def main() -> None:
     with context.Pool(options.jobs, maxtasksperchild=1) as pool:
         for line in pool.imap(partial(soaked_row, updates=options.updates), names):
             print(line, flush=True)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

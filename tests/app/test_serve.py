@@ -28,13 +28,19 @@ from tests.app.conftest import START
 
 PATIENCE = 60.0  # seconds that a busy machine may take
 
+HEARING = (
+    "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
+    "from tricue.cli import main; sys.exit(main())"
+)
+"""``tricue``, which hears Ctrl-C where these tests run in the background, too."""
+
 
 class Server:
     """``tricue open`` in a process of its own."""
 
     def __init__(self, *arguments: str) -> None:
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "tricue", "open", *arguments, "--no-browser"],
+            [sys.executable, "-c", HEARING, "open", *arguments, "--no-browser"],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,

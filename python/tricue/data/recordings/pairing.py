@@ -3,13 +3,15 @@
 
 from collections import Counter, deque
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Generic, NamedTuple, TypeVar
+from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 T = TypeVar("T")
 MAX_WAITING = 30  # images of a channel that wait for another one's; what comes later isn't paired
 
 
-class Timed(NamedTuple, Generic[T]):
+@dataclass(frozen=True)
+class Timed(Generic[T]):
     """An item of a channel with its time, in nanoseconds."""
 
     channel: str
