@@ -38,7 +38,7 @@ def cells_of(shape: tuple[int, ...], seed: int = 0) -> Floats:
 def filters_of(shape: tuple[int, ...], count: int = 1, seed: int = 1) -> Complexes:
     """Any filters of real weights."""
     weights = np.random.default_rng(seed).uniform(-1, 1, (count, *shape))
-    return np.fft.rfft2(weights).astype(np.complex64)
+    return np.ascontiguousarray(np.fft.rfft2(weights), np.complex64)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
@@ -86,7 +86,7 @@ def test_is_scipys_correlation(kernels: Kernels, shape: tuple[int, int, int]) ->
         correlate(np.tile(cell, (2, 2))[:-1, :-1], weight, "valid", method="direct")
         for cell, weight in zip(cells, weights, strict=True)
     )
-    filters = np.fft.rfft2(weights).conj().astype(np.complex64)[None]
+    filters = np.ascontiguousarray(np.fft.rfft2(weights).conj()[None], np.complex64)
     (found,) = kernels.correlation_response(cells.astype(np.float32), filters)
     assert_allclose(np.fft.ifftshift(found), direct, atol=2e-5)
 
@@ -97,7 +97,7 @@ def test_finds_a_shift(kernels: Kernels) -> None:
         cells = cells_of((11, rows, columns))
         offsets = (np.fft.fftfreq(n, 1 / n) for n in (rows, columns))
         y, x = np.meshgrid(*offsets, indexing="ij")
-        label = np.fft.rfft2(np.exp(-(x**2 + y**2) / 4)).astype(np.complex64)
+        label = np.ascontiguousarray(np.fft.rfft2(np.exp(-(x**2 + y**2) / 4)), np.complex64)
         none = np.zeros((11, *label.shape), np.complex64), np.zeros(label.shape, np.float32)
         upper, lower = kernels.correlation_train(cells, label, *none, 1.0)
         filters = (upper / (lower + 1e-4 * lower.mean()))[None]

@@ -35,7 +35,7 @@ def case(shape: tuple[int, int, int], seed: int = 0) -> dict[str, Any]:
     half = (shape[1], shape[2] // 2 + 1)
     return {
         "cells": rng.uniform(-1, 1, shape).astype(np.float32),
-        "label": np.fft.rfft2(rng.random(shape[1:])).astype(np.complex64),
+        "label": np.ascontiguousarray(np.fft.rfft2(rng.random(shape[1:])), np.complex64),
         "numerator": (rng.random((shape[0], *half)) + 1j * rng.random((shape[0], *half))).astype(
             np.complex64
         ),

@@ -39,7 +39,7 @@ def box_mask(rows: int, columns: int, size: float) -> Floats:
 def label_of(rows: int, columns: int) -> Complexes:
     """A Gaussian of a cell's width at (0, 0)."""
     y, x = np.meshgrid(*(np.fft.fftfreq(n, 1 / n) for n in (rows, columns)), indexing="ij")
-    return np.fft.rfft2(np.exp(-(x**2 + y**2) / 2)).astype(np.complex64)
+    return np.ascontiguousarray(np.fft.rfft2(np.exp(-(x**2 + y**2) / 2)), np.complex64)
 
 
 def case(shape: tuple[int, int, int], seed: int = 0) -> dict[str, Any]:
@@ -49,7 +49,7 @@ def case(shape: tuple[int, int, int], seed: int = 0) -> dict[str, Any]:
         "cells": rng.uniform(-1, 1, shape).astype(np.float32),
         "mask": rng.random(shape[1:]).astype(np.float32) * box_mask(*shape[1:], 0.6),
         "label": label_of(*shape[1:]),
-        "previous": np.fft.rfft2(rng.uniform(-0.002, 0.002, shape)).astype(np.complex64),
+        "previous": np.ascontiguousarray(np.fft.rfft2(rng.uniform(-0.002, 0.002, shape)), np.complex64),
         "temporal_weight": 3.0,
         "penalty": 1.0,
     }

@@ -191,7 +191,7 @@ def test_example_by_hand(kernels: Kernels) -> None:
 def test_reach_is_half_open(kernels: Kernels) -> None:
     """A depth of Z - reach counts, inside and round it; Z + reach doesn't."""
     camera, state = np.array([1.0, 1, 2, 2]), np.array([[0.0, 0, 2, 4, 4]])
-    for z, counts in ((1.5, 1), (np.nextafter(np.float32(1.5), 0), 0), (2.5, 0), (2.4375, 1)):
+    for z, counts in ((1.5, 1), (np.nextafter(np.float32(1.5), np.float32(0)), 0), (2.5, 0), (2.4375, 1)):
         depth = np.full((5, 5), z, np.float32)
         ((_, inside, front, around),) = kernels.depth_contrast(
             depth, camera, state, np.ones(1), (3, 3), (1.5, 3), 0.5, 0.5

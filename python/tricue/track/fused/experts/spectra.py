@@ -41,4 +41,5 @@ def label_spectrum(width: float) -> Spectra:
     """The spectrum of the desired response: a Gaussian at (0, 0) with that standard deviation in cells."""
     offset = np.fft.fftfreq(WINDOW_CELLS, 1 / WINDOW_CELLS)
     profile = np.exp(-0.5 * (offset / width) ** 2)
-    return np.fft.rfft2(np.outer(profile, profile)).astype(np.complex64)
+    spectrum = np.fft.rfft2(np.outer(profile, profile))
+    return np.ascontiguousarray(spectrum, np.complex64)  # of NumPy 1 it is transposed
