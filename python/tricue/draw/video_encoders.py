@@ -34,8 +34,8 @@ class Encoder(Protocol):
 class PyAVEncoder:
     """H.264 or VP9, a key frame at least every second, and each second on the disk once it is encoded.
 
-    An .mp4 is made of fragments while it grows, so that one cut off plays, and made an ordinary one at its
-    end, so that one can seek in it everywhere.
+    An .mp4 is made of fragments while it grows, so that one cut off plays, and at its end is copied into an
+    ordinary one, so that one can seek in it everywhere.
     """
 
     @staticmethod
@@ -49,7 +49,7 @@ class PyAVEncoder:
         codec, options = CODECS[suffix]
         container = {"flush_packets": "1"}
         if suffix == ".mp4":
-            container["movflags"] = "hybrid_fragmented+default_base_moof"
+            container["movflags"] = "frag_keyframe+empty_moov+default_base_moof"
         self._file: Any = av.open(str(path), "w", options=container)
         rate = max(Fraction(fps).limit_denominator(MAX_DENOMINATOR), Fraction(1, MAX_DENOMINATOR))
         self._stream: Any = self._file.add_stream(codec, rate=rate)
@@ -65,6 +65,28 @@ class PyAVEncoder:
     def close(self) -> None:
         with _naming(self._path), self._file:  # which closes the file
             self._file.mux(self._stream.encode())
+        if self._path.suffix.lower() == ".mp4" and self._path.is_file():
+            _defragment(self._path)
+
+
+def _defragment(path: Path) -> None:
+    """Copy the packets of a fragmented .mp4 into an ordinary one, which takes its place if that succeeds."""
+    av: Any = importlib.import_module("av")
+    whole = path.with_name(f"{path.name}.part")
+    try:
+        with (
+            av.open(str(path)) as source,
+            av.open(str(whole), "w", format="mp4", options={"movflags": "faststart"}) as copy,
+        ):
+            video = source.streams.video[0]
+            stream = copy.add_stream_from_template(video)
+            for packet in source.demux(video):
+                if packet.dts is not None:  # the last one is empty
+                    packet.stream = stream
+                    copy.mux(packet)
+        whole.replace(path)
+    except OSError:  # such as of a full disk: the fragments play, too
+        whole.unlink(missing_ok=True)
 
 
 class OpenCVEncoder:

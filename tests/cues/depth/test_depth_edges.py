@@ -17,7 +17,9 @@ GAP, SLOPE = 0.1, 0.02
 HOLES = [np.nan, 0, -0.0, -1, np.inf, -np.inf]
 
 shapes = st.tuples(st.integers(0, 4), st.integers(0, 70))
-levels = st.sampled_from([1.0, 1.1, 1.125, 1.25, 2.0, *HOLES])  # few, so that thresholds are met exactly
+levels = st.sampled_from(
+    np.array([1.0, 1.1, 1.125, 1.25, 2.0, *HOLES], np.float32).tolist()
+)  # few, so that thresholds are met exactly
 steps = st.sampled_from([0.0, 0.1, 0.125, 1e30]) | st.floats(0, 1)
 
 

@@ -19,9 +19,8 @@ GAP, SLOPE, RAGGED = 0.1, 0.02, 0.035
 HOLES = [np.nan, 0, -0.0, -1, np.inf, -np.inf]
 
 shapes = st.tuples(st.integers(0, 5), st.integers(0, 70))
-levels = st.sampled_from(
-    [1.0, 1.1, 1.125, 1.25, 2.0, 3e38, *HOLES]
-)  # few, so that thresholds are met exactly
+LEVELS = np.array([1.0, 1.1, 1.125, 1.25, 2.0, 3e38, *HOLES], np.float32).tolist()
+levels = st.sampled_from(LEVELS)  # few, so that thresholds are met exactly
 steps = st.sampled_from([0.0, 0.1, 0.125, 1e30]) | st.floats(0, 1)
 
 

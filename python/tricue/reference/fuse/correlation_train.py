@@ -21,9 +21,9 @@ def correlation_train(
         refuse("label", f"shape {denominator.shape}", label.shape)
     spectra = np.fft.rfft2(cells.astype(np.float64))
     energy = (abs(spectra) ** 2).sum(axis=0)
-    return (
-        (numerator + rate * (label * spectra.conj() - numerator)).astype(np.complex64),
-        (denominator + rate * (energy - denominator)).astype(np.float32),
+    return (  # contiguous, which the transforms of NumPy 1 are not
+        np.ascontiguousarray(numerator + rate * (label * spectra.conj() - numerator), np.complex64),
+        np.ascontiguousarray(denominator + rate * (energy - denominator), np.float32),
     )
 
 

@@ -30,7 +30,7 @@ def regularized_filter(
         cropped = np.fft.rfft2(np.fft.irfft2(free + dual, mask.shape) * mirrored)
         dual = dual + free - cropped
         step *= 10
-    return cropped.astype(np.complex64)
+    return np.ascontiguousarray(cropped, np.complex64)  # NumPy 1 transforms into transposed arrays
 
 
 def _require_arguments(
