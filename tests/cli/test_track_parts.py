@@ -115,3 +115,16 @@ def test_boxes_from_the_browser(
         assert next(csv.DictReader(file))["frame"] == "3"
     drawn.clear()
     assert run(capsys, *words) == (2, [], "tricue track: --select: expected a box, none was drawn\n")
+
+
+def test_json_lines_for_other_programs(
+    images: Path, drift_tracker: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that --json - writes an object a line and nothing else, and the report beside it."""
+    words = [str(images), "--tracker", drift_tracker, "--box", FIRST, "--json", "-"]
+    code, printed, err = run(capsys, *words)
+    found = [json.loads(line) for line in printed]
+    assert (code, [each["frame"] for each in found]) == (0, list(range(8)))
+    assert found[2]["x"] == pytest.approx(found[0]["x"] + 2)
+    assert "img: 8 frames" in err
+    assert "wrote" not in err

@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -20,12 +21,14 @@ from tricue.draw.canvas import Image
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
 from tricue.draw.overlays import depth_overlay, overlay
+from tricue.draw.status_strip import StatusStrip
 from tricue.draw.stereo import stereo_overlay
 from tricue.draw.targets import targets_overlay
 from tricue.draw.video import OverlayWriter
 from tricue.export.table import PLAIN, TableForm, columns, row
 from tricue.track.base.track import Track
 
+STANDARD_OUTPUT = Path("-")  # in place of a file
 RANGE_SMOOTHING = 0.1  # weight of a new frame in the depth range of the video
 
 
@@ -127,16 +130,48 @@ class JsonOutput(TextFile):
         self.put(f'\n ],\n "lost": {json.dumps(lost)}\n}}\n')
 
 
+class JsonLines:
+    """An object a line on standard output, with the columns as keys, for other programs."""
+
+    about = ""
+
+    def __init__(self, form: TableForm = PLAIN) -> None:
+        self.path = STANDARD_OUTPUT
+        self._form, self._stream = form, sys.stdout
+
+    def write(self, step: Step) -> None:
+        names = columns(self._form)
+        for values in rows(step, self._form):
+            line = json.dumps(dict(zip(names, values, strict=True)), allow_nan=False)
+            self._stream.write(f"{line}\n")
+        self._stream.flush()
+
+    def __enter__(self) -> "JsonLines":  # noqa: PYI034 (typing.Self is newer than Python 3.10)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+
 class VideoOutput:
     """The overlay video, drawn on depth if the tracker segments depth or there is no color.
 
     Several targets are drawn on the color, or on the depth without it.
 
     rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
-    tracker has one. assumed: whether its camera is only supposed, which each picture says.
+    tracker has one. assumed: whether its camera is only supposed, which each picture says. length: how many
+    frames there will be; a strip for each target shows when it was tracked, occluded and lost.
     """
 
-    def __init__(self, path: Path, fps: float, rig: StereoRig | None = None, assumed: bool = False) -> None:
+    def __init__(
+        self,
+        path: Path,
+        fps: float,
+        rig: StereoRig | None = None,
+        assumed: bool = False,
+        length: int | None = None,
+    ) -> None:
+        self._length, self._strips = length, dict[int, StatusStrip]()
         self._assumed = "   assumed camera" if assumed else ""
         self._writer = OverlayWriter(path, fps)
         self._rig = rig
@@ -153,7 +188,12 @@ class VideoOutput:
 
     def write(self, step: Step) -> None:
         speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
-        self._writer.write(self._picture(step, f"frame {step.number}{speed}{self._assumed}"))
+        picture = self._picture(step, f"frame {step.number}{speed}{self._assumed}")
+        for line, (target, track) in enumerate(step.targets.items()):
+            strip = self._strips.setdefault(target, StatusStrip(self._length))
+            strip.add(track.status)
+            strip.draw(picture, line)
+        self._writer.write(picture)
 
     def _picture(self, step: Step, note: str) -> Image:
         color, depth = step.frame.color, step.frame.depth

@@ -4,9 +4,10 @@
 import argparse
 import dataclasses
 import math
+import sys
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, redirect_stdout
 from itertools import islice, takewhile
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -29,7 +30,7 @@ from tricue.cli.arguments import (
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.exports import CocoOutput, MotOutput
 from tricue.cli.lost_ranges import LostRanges
-from tricue.cli.outputs import CsvOutput, JsonOutput, Output, Step, VideoOutput
+from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
 from tricue.cli.starts import (
@@ -117,7 +118,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
     command.add_argument(
-        "--json", type=Path, metavar="FILE", help="the same, with the tracker and its parameters"
+        "--json",
+        type=Path,
+        metavar="FILE",
+        help="the same, with the tracker and its parameters; - for an object a line on standard output",
     )
     command.add_argument("--mot", type=Path, metavar="FILE", help="the tracks as MOTChallenge's text")
     command.add_argument("--coco", type=Path, metavar="FILE", help="the tracks as COCO's JSON of a video")
@@ -245,13 +249,14 @@ def run(options: argparse.Namespace) -> int:
     interrupted = signal_number != 0
     if not tracks and not interrupted:
         raise ValueError(_not_started(run, clock))
-    _report(run, clock, tracks, lost, interrupted)
-    notes += run.source.remarks
-    notes += [f"wrote {output.about}" for output in outputs]
-    if options.plot:
-        notes.append(_plot(options.plot, run, tracks.get(1, {})))
-    for note in notes:
-        print(note)
+    with redirect_stdout(sys.stderr if options.json == STANDARD_OUTPUT else sys.stdout):
+        _report(run, clock, tracks, lost, interrupted)
+        notes += run.source.remarks
+        notes += [f"wrote {output.about}" for output in outputs if output.about]
+        if options.plot:
+            notes.append(_plot(options.plot, run, tracks.get(1, {})))
+        for note in notes:
+            print(note)
     return 128 + signal_number if interrupted else 0
 
 
@@ -349,12 +354,14 @@ def _targets(options: argparse.Namespace, camera: Mapping[str, Any]) -> MultiTra
 def _outputs(options: argparse.Namespace, run: TrackRun) -> Iterator[Output]:
     """Open the outputs one by one, so that the first is closed if the second can't be opened."""
     if options.output:
-        yield VideoOutput(options.output, run.source.fps, run.rig, run.assumed)
+        yield VideoOutput(options.output, run.source.fps, run.rig, run.assumed, run.frames)
     world = run.intrinsics is not None and run.intrinsics.pose is not None
     form = TableForm(world, run.targets is not None, run.assumed)
     if options.csv:
         yield CsvOutput(options.csv, form)
-    if options.json:
+    if options.json == STANDARD_OUTPUT:
+        yield JsonLines(form)
+    elif options.json:
         yield JsonOutput(options.json, _about(options, run), run.source.fps, form)
     if options.mot:
         yield MotOutput(options.mot, positions=not run.assumed)

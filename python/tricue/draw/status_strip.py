@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+"""A strip along the bottom of an overlay: when a target was tracked, occluded and lost, up to now."""
+
+import numpy as np
+
+from tricue.draw.canvas import STATUS_COLORS, Image
+from tricue.track.base.track import Status
+
+MIN_HEIGHT = 6  # pixels
+SHARE = 80  # of the image's height
+AHEAD = (40, 40, 40)  # BGR of frames that are still to come
+
+_CODES = {status: code for code, status in enumerate(Status, 1)}
+_PALETTE = np.array([AHEAD, *(STATUS_COLORS[status] for status in Status)], np.uint8)
+
+
+class StatusStrip:
+    """The statuses of a target, frame by frame, drawn as one strip.
+
+    length: how many frames there will be; None where that isn't known, and the strip always is full.
+    """
+
+    def __init__(self, length: int | None = None) -> None:
+        self._length = length or 0
+        self._codes = bytearray()
+
+    def add(self, status: Status) -> None:
+        """The status in the next frame."""
+        self._codes.append(_CODES[status])
+
+    def draw(self, canvas: Image, line: int = 0) -> None:
+        """Draw it into the canvas (H, W, 3), lines from the bottom counted from 0."""
+        height = max(MIN_HEIGHT, canvas.shape[0] // SHARE)
+        count = max(self._length, len(self._codes), 1)
+        codes = np.zeros(count, np.uint8)
+        codes[: len(self._codes)] = np.frombuffer(self._codes, np.uint8)
+        bottom = canvas.shape[0] - line * (height + 1)
+        columns = np.arange(canvas.shape[1]) * count // canvas.shape[1]
+        canvas[max(bottom - height, 0) : max(bottom, 0)] = _PALETTE[codes[columns]]
