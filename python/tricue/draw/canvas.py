@@ -81,10 +81,15 @@ def choose_font_scale(canvas: Image) -> float:
 
 
 def put_text(canvas: Image, text: str, position: tuple[int, int], color: Color) -> None:
-    """Write outlined text whose baseline begins at (x, y), pixels, or farther left so that it fits."""
+    """Write outlined text whose baseline begins at (x, y), pixels, or farther left so that it fits.
+
+    The picture is darker behind it, so that it can be read on clutter, too.
+    """
     size = choose_font_scale(canvas)
-    (width, _), _ = cv2.getTextSize(text, _FONT, size, 1)
+    (width, height), below = cv2.getTextSize(text, _FONT, size, 1)
     x, y = max(0, min(position[0], canvas.shape[1] - width - 2)), position[1]
+    plate = canvas[max(y - height - 3, 0) : max(y + below, 0), max(x - 3, 0) : x + width + 3]
+    plate[...] = plate // 3
     # A thick line for the outline would be a bolder, wider font in cv2 5, whose letters lie elsewhere.
     around = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if (dx, dy) != (0, 0)]
     for (dx, dy), ink in [*((step, BLACK) for step in around), ((0, 0), color)]:
