@@ -22,9 +22,11 @@ from tricue.app import serve
 from tricue.app.frames import Recording
 from tricue.cli import program
 from tricue.data.live import LiveStream
+from tricue.data.open_source import open_source
 from tricue.data.source import Source
 
 from tests.app.conftest import START
+from tests.data.recordings.written import walk, write_bag1
 
 PATIENCE = 60.0  # seconds that a busy machine may take
 
@@ -196,6 +198,13 @@ def test_camera_is_no_recording() -> None:
     """One can't go back in a live camera; what to do instead is said."""
     with pytest.raises(ValueError, match="expected a recording, got a live camera"):
         Recording(Source("camera 0", {"color": StandIn()}))
+
+
+def test_a_robots_recording_is_refused(tmp_path: Path) -> None:
+    """One can't go to and fro in a bag; which command reads it is said."""
+    bag = write_bag1(tmp_path / "a.bag", walk())
+    with pytest.raises(ValueError, match=r"a: expected a video or images, .*; tricue track reads this"):
+        Recording(open_source(bag))
 
 
 def test_select_boxes_returns_what_was_drawn(video: Path, capsys: pytest.CaptureFixture[str]) -> None:

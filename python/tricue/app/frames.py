@@ -182,7 +182,8 @@ class SeekableVideo:
 class Recording:
     """The frames of a source in any order, with their number known. One thread uses it at a time.
 
-    ValueError for a live camera, and where the channels differ in length.
+    ValueError for a live camera, for a recording that can only be read from its start on, as robots' are, and
+    where the channels differ in length.
     """
 
     def __init__(self, source: Source) -> None:
@@ -193,7 +194,12 @@ class Recording:
                     "tricue track records one with --output"
                 )
         self.source = replace(source, channels=dict(map(_seekable, source.channels.items())))
-        self.length: int = self.source.length or 0
+        if self.source.length is None:
+            raise ValueError(
+                f"{source.name}: expected a video or images, whose frames can be read in any order; "
+                "tricue track reads this recording"
+            )
+        self.length: int = self.source.length
         if not self.length:
             raise ValueError(f"{source.name}: expected a recording with frames, this one has none")
         image = image_of(self.frame(0))

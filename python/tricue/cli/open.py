@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from tricue import app
-from tricue.cli.arguments import angles, tracker_name
+from tricue.cli.arguments import tracker_name
 from tricue.cli.calibrations import find_calibration
+from tricue.cli.source_options import add_source_options, open_input
 from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
-from tricue.data.open_source import Source, open_source
+from tricue.data.open_source import Source
 from tricue.track.base.registry import traits
 
 EXAMPLES = """\
@@ -34,21 +35,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="what new targets begin with; the page has a choice",
     )
     command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
-    command.add_argument("--fps", type=float, metavar="N", help="frames a second of images without times")
-    command.add_argument("--right", metavar="PLACE", help="the right camera's video or folder")
-    command.add_argument("--rectify", action="store_true", help="rectify raw pairs by OpenCV's --calibration")
-    command.add_argument("--unit", type=float, metavar="M", help="meters per unit of OpenCV's --calibration")
-    command.add_argument("--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images")
-    command.add_argument("--depth-scale", type=float, metavar="M", help="meters per unit of depth")
-    camera = command.add_mutually_exclusive_group()
-    camera.add_argument(
-        "--calibration",
-        type=Path,
-        metavar="FILE",
-        help="of the camera or stereo pair, as tricue track takes it",
-    )
-    camera.add_argument("--fov", type=angles, metavar="H[,V]", help="the camera's angles of view, in degrees")
-    command.set_defaults(assume_fov=None)
+    add_source_options(command)
+    command.set_defaults(assume_fov=None, topics=None)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -56,13 +44,7 @@ def run(options: argparse.Namespace) -> int:
     app.require()
     from tricue.app.serve import serve_project
 
-    source = open_source(
-        options.input,
-        depth=options.depth,
-        depth_scale=options.depth_scale,
-        fps=options.fps,
-        right=options.right,
-    )
+    source = open_input(options)
     source, cameras, notes = _calibrated(options, source)
     for note in notes:
         print(note)

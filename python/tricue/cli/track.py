@@ -33,6 +33,7 @@ from tricue.cli.lost_ranges import LostRanges
 from tricue.cli.outputs import STANDARD_OUTPUT, CsvOutput, JsonLines, JsonOutput, Output, Step, VideoOutput
 from tricue.cli.progress import Progress
 from tricue.cli.signals import catch_signals
+from tricue.cli.source_options import add_source_options, open_input, opening
 from tricue.cli.starts import (
     BOX_HINT,
     DEFAULT_TRACKER,
@@ -42,7 +43,7 @@ from tricue.cli.starts import (
     start_hint,
 )
 from tricue.cli.steps import RunClock, Start, steps, steps_of_targets
-from tricue.data.open_source import Source, open_source
+from tricue.data.open_source import Source
 from tricue.export.table import TableForm
 from tricue.track.base.registry import names
 from tricue.track.base.settings import PAPER, make_tracker, read_settings
@@ -103,16 +104,13 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument(
         "--end", type=frame_number, metavar="N", help="the last frame; by default that of all"
     )
-    command.add_argument(
-        "--fps",
-        type=float,
-        metavar="N",
-        help="frames a second of images without times (default 30); videos, cameras, VOT, TUM and "
-        "Princeton have their own",
-    )
     add_topics(command)
-    _add_stereo(command)
-    _add_depth(command)
+    add_source_options(command).add_argument(
+        "--assume-fov",
+        type=angles,
+        metavar="H[,V]",
+        help="angles to assume where they aren't known; positions are then marked as assumed",
+    )
     command.add_argument(
         "--output", type=Path, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
     )
@@ -145,43 +143,6 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="the tracker as its paper prints it, without stages of ours",
     )
     add_common(command)
-
-
-def _add_stereo(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--right", metavar="PLACE", help="the right camera's video, folder or number; INPUT is the left one's"
-    )
-    command.add_argument(
-        "--rectify", action="store_true", help="rectify raw stereo pairs by OpenCV's --calibration"
-    )
-    command.add_argument(
-        "--unit", type=float, metavar="M", help="meters per unit of the board in OpenCV's --calibration"
-    )
-
-
-def _add_depth(command: argparse.ArgumentParser) -> None:
-    command.add_argument(
-        "--depth", type=Path, metavar="PLACE", help="folder of 16-bit depth images beside a color INPUT"
-    )
-    command.add_argument(
-        "--depth-scale", type=float, metavar="M", help="meters per unit of depth, 0.001 for millimeters"
-    )
-    camera = command.add_mutually_exclusive_group()
-    camera.add_argument(
-        "--calibration",
-        type=Path,
-        metavar="FILE",
-        help="of the camera or stereo pair, by OpenCV, KITTI, Princeton or in TOML",
-    )
-    camera.add_argument(
-        "--fov", type=angles, metavar="H[,V]", help="the camera's angles of view instead, in degrees"
-    )
-    camera.add_argument(
-        "--assume-fov",
-        type=angles,
-        metavar="H[,V]",
-        help="angles to assume where they aren't known; positions are then marked as assumed",
-    )
 
 
 class TrackRun(NamedTuple):
@@ -285,14 +246,7 @@ def _prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
         if several:
             raise ValueError(f"--plot: expected one --box, got {len(options.box)}")
         check_format(options.plot)
-    source = open_source(
-        options.input,
-        depth=options.depth,
-        depth_scale=options.depth_scale,
-        fps=options.fps,
-        right=options.right,
-        topics=options.topics,
-    )
+    source = open_input(options)
     options.tracker = options.tracker or default_tracker(options, source)
     right = Path(options.right) if options.right else None
     files = options.output, options.csv, options.json, options.mot, options.coco, options.plot
@@ -325,9 +279,7 @@ def _selected(options: argparse.Namespace) -> list[StartBox]:
     """The boxes that the user draws in the browser; ValueError where there is none."""
     from tricue.app import select_boxes
 
-    opening = {name: getattr(options, name) for name in ("depth", "depth_scale", "fps", "right", "topics")}
-    given = {name: value for name, value in opening.items() if value is not None}
-    found = [StartBox(box, frame) for frame, box in select_boxes(options.input, **given)]
+    found = [StartBox(box, frame) for frame, box in select_boxes(options.input, **opening(options))]
     if not found:
         raise ValueError("--select: expected a box, none was drawn")
     return found
