@@ -43,4 +43,23 @@ void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::
     for (std::size_t k = 0; k < n; ++k) out[k] = table[indices[k]];
 }
 
+const char* instructions_in_use() {
+#if TRICUE_SIMD_LEVEL >= 4
+    if (__builtin_cpu_supports("x86-64-v4")) return "x86-64-v4";
+#endif
+#if TRICUE_SIMD_LEVEL >= 3
+    if (__builtin_cpu_supports("x86-64-v3")) return "x86-64-v3";
+#endif
+#if TRICUE_SIMD_LEVEL >= 2
+    if (__builtin_cpu_supports("x86-64-v2")) return "x86-64-v2";
+#endif
+#if defined(__x86_64__) || defined(_M_X64)
+    return "x86-64";
+#elif defined(__aarch64__) || defined(_M_ARM64)
+    return "NEON";
+#else
+    return "one version";
+#endif
+}
+
 }  // namespace tricue

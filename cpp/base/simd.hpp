@@ -150,4 +150,7 @@ TRICUE_INLINE void prefetch_bytes(const void* address, std::ptrdiff_t n) {
 /// time; `out` must not overlap the others.
 void look_up_bytes(const std::uint8_t* table, const std::uint8_t* indices, std::size_t n, std::uint8_t* out);
 
+/// By which of their versions functions run on this machine, to tell users: "x86-64" to "x86-64-v4", "NEON", or "one version".
+const char* instructions_in_use();
+
 }  // namespace tricue

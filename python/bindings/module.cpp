@@ -3,6 +3,7 @@
 
 namespace tricue::bindings {
 void define_bayes(pybind11::module_& m);
+void define_build_info(pybind11::module_& m);
 void define_color(pybind11::module_& m);
 void define_color_search(pybind11::module_& m);
 void define_correlation(pybind11::module_& m);
@@ -34,4 +35,5 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_kalman(m);
     tricue::bindings::define_bayes(m);
     tricue::bindings::define_imgproc(m);
+    tricue::bindings::define_build_info(m);
 }

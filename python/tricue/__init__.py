@@ -4,25 +4,29 @@
 import importlib
 from typing import TYPE_CHECKING, Any
 
-try:
-    importlib.import_module("tricue._core")
-except ImportError as error:
-    raise ImportError(
-        f"tricue: the native kernels can't be loaded ({error}); build them: pip install ."
-    ) from error
+from tricue.doctor.called import is_called as doctor_is_called
 
-from tricue import former_names
-from tricue.camera.box import Box
-from tricue.camera.frame import Frame
-from tricue.camera.pose import Pose
-from tricue.camera.rig import Intrinsics, StereoRig
-from tricue.track.base.opencv import as_opencv
-from tricue.track.base.registry import create, tracker_class
-from tricue.track.base.track import Status, Track
-from tricue.track.multi.tracker import MultiTracker
-from tricue.track.pan_tilt import PanTilt
+if not doctor_is_called():  # it says what is wrong where nothing of this can be imported
+    try:
+        importlib.import_module("tricue._core")
+    except ImportError as error:
+        raise ImportError(
+            f"tricue: the native kernels can't be loaded ({error}); build them: pip install .; "
+            "python -m tricue doctor tells more"
+        ) from error
 
-former_names.install()
+    from tricue import former_names
+    from tricue.camera.box import Box
+    from tricue.camera.frame import Frame
+    from tricue.camera.pose import Pose
+    from tricue.camera.rig import Intrinsics, StereoRig
+    from tricue.track.base.opencv import as_opencv
+    from tricue.track.base.registry import create, tracker_class
+    from tricue.track.base.track import Status, Track
+    from tricue.track.multi.tracker import MultiTracker
+    from tricue.track.pan_tilt import PanTilt
+
+    former_names.install()
 
 if TYPE_CHECKING:
     from tricue.data.open_source import open_source

@@ -7,6 +7,7 @@ from typing import Protocol, type_check_only
 import numpy
 import numpy.typing
 
+_build_info: dict[str, str]
 _imgproc: typing.Any  # tricue.imgproc says what is in it
 
 def above_floor(

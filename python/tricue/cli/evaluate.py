@@ -13,6 +13,7 @@ from tricue.cli.progress import Progress
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
+from tricue.evaluation.raw_results import check_folder, write_raw
 from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import perform
@@ -25,6 +26,7 @@ examples:
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
   tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimeters, no times
+  tricue evaluate sequences/ --raw boxes                      as OTB's, GOT-10k's and VOT's files, too
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
 FAILED = 1
@@ -73,6 +75,12 @@ def add_options(command: argparse.ArgumentParser) -> None:
         "--output", type=Path, default=Path("evaluation"), metavar="FOLDER", help="default %(default)s/"
     )
     command.add_argument(
+        "--raw",
+        type=Path,
+        metavar="FOLDER",
+        help="write all boxes in the forms of OTB, GOT-10k and VOT, with a manifest",
+    )
+    command.add_argument(
         "--depth-scale",
         type=float,
         metavar="M",
@@ -94,6 +102,8 @@ def run(options: argparse.Namespace) -> int:
     read.
     """
     svg.require()  # now, not after hours
+    if options.raw is not None:
+        check_folder(options.raw)
     folder: Path = options.output
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
@@ -139,6 +149,8 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
 def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
     about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs)
     written = [*tables.write(evaluation, folder, about), write_report(evaluation, folder, about)]
+    if options.raw is not None:
+        written.append(write_raw(evaluation, folder, options.raw, about))
     print(tables.markdown(evaluation))
     for each in evaluation.results:
         if each.row.trouble:

@@ -31,6 +31,7 @@ COMMANDS = {
     "calibrate": "measure a tracker's parameters on own images",
     "reproduce": "repeat an experiment of the papers",
     "vot-workspace": "let the VOT toolkit run trackers",
+    "doctor": "tell what is installed, what works, and what is missing",
 }
 
 

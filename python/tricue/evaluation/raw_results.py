@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: MIT
+"""An evaluation's boxes as files that other people's tools read, and a manifest of what made them.
+
+OTB's form is a file of boxes a sequence, with times as the GOT-10k toolkit writes them; GOT-10k's is a file a
+repetition; VOT's, of its long-term experiment, has confidences, too. Sources: Wu, Lim, Yang, "Object Tracking
+Benchmark", PAMI 2015; Huang, Zhao, Huang, "GOT-10k", PAMI 2021; the VOT toolkit 0.7.
+"""
+
+import json
+import re
+import shutil
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.doctor.install import commit
+from tricue.evaluation.dataset import OpenedSequence
+from tricue.evaluation.evaluate import RUNS, Evaluation, RunResult
+from tricue.evaluation.one_pass import Run
+from tricue.evaluation.record import Record
+from tricue.evaluation.store import Store
+from tricue.evaluation.tasks import code_digest
+
+MANIFEST, FORMAT = "manifest.json", 1
+OTB, GOT10K, VOT = "otb", "got10k", "vot"  # the forms' folders
+EXPERIMENT = "longterm"  # VOT's name of one pass with confidences
+VOT_UNKNOWN, VOT_START = "0", "1"
+CONVENTIONS = {
+    "boxes": "x,y,width,height in pixels; (0, 0) is the top-left corner of the image: files that count"
+    " pixels from 1, as OTB's truth does, have x and y larger by 1; nan where there is no box",
+    "times": "seconds of each update, without decoding; 0 in frames without one, such as the first",
+    OTB: "TRACKER/SEQUENCE.txt, TRACKER/times/SEQUENCE_time.txt, from the first seed",
+    GOT10K: "TRACKER/SEQUENCE/SEQUENCE_00N.txt from seed N - 1, SEQUENCE_time.txt with a column a seed",
+    VOT: f"TRACKER/{EXPERIMENT}/SEQUENCE/SEQUENCE_00N.txt, _confidence.value, _time.value, from seed N - 1;"
+    f" {VOT_START} is the frame of the start, {VOT_UNKNOWN} one without a box",
+}
+
+
+@dataclass(frozen=True)
+class _Repetition:
+    """One run of a tracker on a sequence, and where it started."""
+
+    number: int
+    """From 1 on."""
+    run: Run
+    start: int
+
+    @property
+    def boxes(self) -> list[str]:
+        return [",".join(f"{value:.4f}" for value in box) for box in self.run.boxes.tolist()]
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """(M,) seconds by frame."""
+        times = np.zeros(len(self.run.boxes))
+        times[self.start + 1 : self.start + 1 + len(self.run.seconds)] = self.run.seconds
+        return times
+
+
+def check_folder(folder: Path) -> None:
+    """ValueError if the folder has other files than raw results, which are replaced."""
+    if folder.exists() and not (folder.is_dir() and (_is_ours(folder) or not any(folder.iterdir()))):
+        raise ValueError(f"{folder}: expected a new or empty folder, or one of raw results to replace")
+
+
+def write_raw(
+    evaluation: Evaluation, finished: Path, folder: Path, about: Mapping[str, Any], terms: str = ""
+) -> Path:
+    """Write all one-pass runs into a folder in the three forms; the path of the manifest.
+
+    finished: the evaluation's folder. about: versions, machine and parameters, as ``tables.settings`` gives
+    them. terms: the results' license. ValueError as :func:`check_folder`.
+    """
+    check_folder(folder)
+    unfinished = folder.with_name(f"{folder.name}.part")
+    shutil.rmtree(unfinished, ignore_errors=True)
+    store = Store(finished / RUNS)
+    trackers = file_names(each.name for each in evaluation.trackers)
+    sequences = file_names(each.entry.name for each in evaluation.opened)
+    frames: dict[str, int] = {}
+    for (tracker, sequence), results in _grouped(evaluation.results).items():
+        repetitions = [_repetition(store, number, each) for number, each in enumerate(results, 1)]
+        frames[sequence] = len(repetitions[0].run.boxes)
+        _write_otb(unfinished / OTB / trackers[tracker], sequences[sequence], repetitions[0])
+        _write_got10k(unfinished / GOT10K / trackers[tracker], sequences[sequence], repetitions)
+        _write_vot(unfinished / VOT / trackers[tracker], sequences[sequence], repetitions)
+    manifest = {
+        "format": FORMAT,
+        "license": terms or "not stated",
+        "conventions": CONVENTIONS,
+        **{name: value for name, value in about.items() if name != "dataset"},  # whose path is the user's
+        "commit": commit() or None,
+        "code": code_digest(),
+        "trackers": {trackers[each.name]: each.name for each in evaluation.trackers},
+        "sequences": {
+            sequences[each.entry.name]: _describe(each, frames[each.entry.name])
+            for each in evaluation.opened
+            if each.entry.name in frames
+        },
+        "errors": [
+            {"tracker": row.tracker, "sequence": row.sequence, "seed": row.seed, "error": row.trouble}
+            for row in (each.row for each in evaluation.results)
+            if row.trouble
+        ],
+    }
+    unfinished.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(manifest, indent=1, default=str)
+    (unfinished / MANIFEST).write_text(f"{text}\n", encoding="utf-8")
+    if folder.exists():
+        shutil.rmtree(folder)
+    unfinished.replace(folder)
+    return folder / MANIFEST
+
+
+def file_names(names: Iterable[str]) -> dict[str, str]:
+    """A short file name for each name: its last part, or all of it where two names end alike."""
+    known = list(dict.fromkeys(names))
+    last = [_plain(name.rpartition("/")[2]) for name in known]
+    found: dict[str, str] = {}
+    for name, short in zip(known, last, strict=True):
+        wished = short if last.count(short) == 1 else _plain(name.replace("/", "-"))
+        taken, number, chosen = set(found.values()), 1, wished
+        while chosen in taken:
+            number += 1
+            chosen = f"{wished}-{number}"
+        found[name] = chosen
+    return found
+
+
+def _plain(name: str) -> str:
+    return re.sub(r"[^\w.+-]", "_", name).lstrip(".") or "_"
+
+
+def _is_ours(folder: Path) -> bool:
+    try:
+        return "conventions" in json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def _grouped(results: Sequence[RunResult]) -> dict[tuple[str, str], list[RunResult]]:
+    """The runs from all seeds by tracker and sequence."""
+    found: dict[tuple[str, str], list[RunResult]] = {}
+    for each in sorted(results, key=lambda each: each.task.seed):
+        found.setdefault((each.task.tracker.name, each.task.entry.name), []).append(each)
+    return found
+
+
+def _repetition(store: Store, number: int, result: RunResult) -> _Repetition:
+    record = Record.from_json(store.path(result.task).read_text(encoding="utf-8"))
+    return _Repetition(number, record.run, record.starts[0])
+
+
+def _describe(opened: OpenedSequence, frames: int) -> dict[str, Any]:
+    return {
+        "name": opened.entry.name,
+        "frames": frames,
+        "start": opened.start,
+        "channels": opened.channels,
+        "boxes in": opened.channel,
+        "size": opened.size,
+        "digest": opened.digest,
+    }
+
+
+def _write_otb(folder: Path, sequence: str, repetition: _Repetition) -> None:
+    _write_lines(folder / f"{sequence}.txt", repetition.boxes)
+    _write_lines(folder / "times" / f"{sequence}_time.txt", [f"{value:.8f}" for value in repetition.times])
+
+
+def _write_got10k(folder: Path, sequence: str, repetitions: Sequence[_Repetition]) -> None:
+    for each in repetitions:
+        _write_lines(folder / sequence / f"{sequence}_{each.number:03d}.txt", each.boxes)
+    times = np.stack([each.times for each in repetitions], axis=1)
+    lines = [",".join(f"{value:.8f}" for value in row) for row in times.tolist()]
+    _write_lines(folder / sequence / f"{sequence}_time.txt", lines)
+
+
+def _write_vot(folder: Path, sequence: str, repetitions: Sequence[_Repetition]) -> None:
+    for each in repetitions:
+        boxes = [VOT_UNKNOWN if "nan" in box else box for box in each.boxes]
+        boxes[each.start] = VOT_START
+        stem = folder / EXPERIMENT / sequence / f"{sequence}_{each.number:03d}"
+        _write_lines(stem.with_name(f"{stem.name}.txt"), boxes)
+        scores = [f"{value:.6f}" for value in each.run.scores.tolist()]
+        _write_lines(stem.with_name(f"{stem.name}_confidence.value"), scores)
+        times = [f"{value:.8f}" for value in each.times.tolist()]
+        _write_lines(stem.with_name(f"{stem.name}_time.value"), times)
+
+
+def _write_lines(path: Path, lines: Sequence[str]) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
