@@ -16,6 +16,7 @@ HELPERS = {"base", "detail"}
 """Folders whose files serve kernels and are none."""
 TRACKERS = {"color_particle", "depth_particle", "flow_depth", "fused", "stereo_head"}
 UPPER = {"track", "evaluation", "papers", "scenes", "draw", "export", "app", "cli"}
+PARTS = {"camera", "data", "errors", "former_names", "imgproc", "kernels", "reference", "rerun", "_core"}
 FORBIDDEN = {
     "camera": UPPER | {"data"},
     "data": UPPER,
@@ -27,6 +28,7 @@ FORBIDDEN = {
     "evaluation": {"papers", "scenes", "app", "cli"},
     "papers": {"app", "cli"},
     "app": {"papers", "cli"},
+    "doctor": UPPER | PARTS,
 }
 """What of the package a folder may not import: a frame goes camera, data, track, then to those who use it."""
 

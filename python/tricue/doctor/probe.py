@@ -11,8 +11,9 @@ from typing import Any
 SECONDS = 60.0
 """After which an import hangs, also on a slow and busy machine."""
 _FRAME = """\
-import json, sys
+import sys
 sys.path[:] = {path!r}
+import json
 def report(**values):
     print({mark!r} + json.dumps(values), flush=True)
 try:
