@@ -12,7 +12,7 @@ VOT := build/vot
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments sanitize levels vot clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments results sanitize levels vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -45,6 +45,10 @@ stubs: $(VENV)/dev
 # Runs the papers' experiments again, hours of processor time, and puts their tables into docs/experiments.md.
 experiments: $(VENV)/demo
 	$(BIN)/python tools/experiment_tables.py --jobs 2
+
+# Our trackers' boxes on the recorded sequences, for others (docs/results.md).
+results: $(VENV)/dev
+	$(BIN)/python tools/published_results.py --jobs 2
 
 kernel-docs:
 	$(PYTHON) tools/kernel_docs.py --markdown
