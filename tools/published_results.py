@@ -2,8 +2,8 @@
 """Run our trackers on the recorded sequences, and pack their boxes for others: ``make results``.
 
 Writes benchmarks/results/tricue-VERSION.tar.xz, GOT-10k's form with a manifest, and the table of
-docs/results.md. The sequences are in the folder TRICUE_DATA, by default ../shared/data. Runs that are finished
-are kept in build/published, so that the same command goes on after an interruption.
+docs/results.md. The sequences are in the folder TRICUE_DATA, by default ../shared/data. Finished runs are kept in
+build/published, so that the same command goes on after an interruption.
 """
 
 import argparse

@@ -14,7 +14,7 @@ MODULES = {
     "vot-trax": "trax",
 }
 """Modules by their packages, where the names differ by more than hyphens."""
-FOR_DEVELOPERS = {"dev"}
+FOR_DEVELOPERS = {"dev", "docs"}
 _REQUIREMENT = re.compile(
     r"(?P<name>[A-Za-z0-9][\w.-]*)\s*(\[(?P<extras>[^\]]*)\])?\s*(?P<versions>[^;]*)(;(?P<marker>.*))?"
 )
