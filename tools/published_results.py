@@ -28,7 +28,7 @@ FOLDER, PAGE = ROOT / "benchmarks" / "results", ROOT / "docs" / "results.md"
 TRACKERS = ("color-particle", "depth-particle", "flow-depth", "fused", "stereo-head")
 SEEDS = 3
 TERMS = "MIT, as tricue; boxes alone, no images and no true boxes"
-TABLE = re.compile(r"(?<=<!-- by make results -->\n\n).*(?=\n<!-- end -->)", re.DOTALL)
+TABLE = re.compile(r"(?<=<!-- by make results -->\n).*?(?=<!-- end -->)", re.DOTALL)
 
 
 def pack(raw: Path, archive: Path) -> None:
