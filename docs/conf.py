@@ -18,7 +18,6 @@ release = version = tricue.__version__
 extensions = [
     "myst_nb",
     "sphinx.ext.autodoc",
-    "sphinx.ext.viewcode",
     "sphinx_design",
     "sphinx_copybutton",
     "docstrings",
@@ -39,6 +38,7 @@ nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_ipywidgets_js: dict[str, dict[str, str]] = {}  # the site fetches nothing from elsewhere
 
+highlight_language = "text"
 autodoc_member_order = "bysource"
 autodoc_class_signature = "mixed"
 default_role = "code"

@@ -7,6 +7,7 @@ evaluated types of NumPy take lines.
 """
 
 import ast
+import contextlib
 import dataclasses
 import importlib.util
 import inspect
@@ -20,13 +21,18 @@ from typing import Any, Union, get_args, get_origin
 
 import numpy as np
 from docutils import nodes
+from sphinx.addnodes import desc_annotation
 from sphinx.application import Sphinx
 from tricue.track.base.params import Params
 
 KEPT_ALIASES = {"ArrayLike", "BoxLike", "FrameLike", "NDArray"}
 """Aliases that readers know, or find in the reference; others are spelled out."""
 _ERRORS = (
-    r"(?:Raises? |Warns|(?:\w*(?:Error|Warning)(?:,? (?:or|and) |, )?)+ (?:for|where|names|on|if|before)\b)"
+    r"(?:Raises?\s|Warns|(?:\w*(?:Error|Warning)(?:,?\s(?:or|and)\s|,\s)?)+\s"
+    r"(?:for|where|names|on|if|before|without|of|as|unless)\b)"
+)
+_EVALUATED_ARRAY = (
+    r"(?:numpy\.)?ndarray\[tuple\[(?:\w+\.)?Any, \.\.\.\], (?:numpy\.)?dtype\[(?:numpy\.)?(\w+)\]\]"
 )
 _VALUE = r'^("[^"]+"): '
 
@@ -39,8 +45,8 @@ def restructure(lines: list[str], names: set[str]) -> list[str]:
     text: list[str] = []
     for paragraph in _paragraphs(lines):
         if all(line.startswith("    ") for line in paragraph):
-            text += ["", *(["::", ""] if not (text and text[-1].endswith("::")) else []), *paragraph]
-        elif paragraph[0].startswith("- "):
+            text += ["", ".. code-block:: python", "", *paragraph]
+        elif paragraph[0].startswith("- ") or _is_definition(paragraph, names):
             text += ["", *paragraph]
         else:
             text += ["", *_paragraph(paragraph, names)]
@@ -57,6 +63,12 @@ def _paragraphs(lines: list[str]) -> Iterator[list[str]]:
             found = []
 
 
+def _is_definition(paragraph: list[str], names: set[str]) -> bool:
+    """Whether it is a term, with indented lines that explain it."""
+    names_one = paragraph[0].partition(":")[0].split(", ")[0] in names
+    return len(paragraph) > 1 and paragraph[1].startswith("    ") and not names_one
+
+
 def _paragraph(lines: list[str], names: set[str]) -> list[str]:
     """Its sentences; those that say what a name is as items of a list, those on errors by themselves."""
     text: list[str] = []
@@ -64,12 +76,20 @@ def _paragraph(lines: list[str], names: set[str]) -> list[str]:
         name, colon, rest = part.partition(": ")
         if colon and set(name.split(", ")) <= names:
             what = ", ".join(f"``{each}``" for each in name.split(", "))
-            text += ["", *f"- {what}: {_choices(rest)}".split("\n")]
-        elif re.match(_ERRORS, part):
-            text += ["", *re.sub(r"(?<!`)\b(\w+(?:Error|Warning))\b(?!`)", r"``\1``", part).split("\n")]
+            item = f"- {what}: {_choices(rest)}"
         else:
-            text += ["", *part.split("\n")]
+            item = part
+        text += ["", *_mark_errors(item).split("\n")]
     return text
+
+
+def _mark_errors(text: str) -> str:
+    """The text with the names of exceptions as code."""
+    parts = re.split(r"(``.*?``)", text, flags=re.DOTALL)
+    return "".join(
+        part if index % 2 else re.sub(r"(?<![`.])\b([A-Z]\w*(?:Error|Warning))\b(?!`)", r"``\1``", part)
+        for index, part in enumerate(parts)
+    )
 
 
 def _parts(lines: list[str], names: set[str]) -> list[str]:
@@ -101,10 +121,8 @@ def _names(what: str, value: Any) -> set[str]:
     if inspect.isclass(value):
         found |= {name for name in dir(value) if not name.startswith("_")}
         found |= {name for each in value.__mro__ for name in vars(each).get("__annotations__", ())}
-    try:
+    with contextlib.suppress(TypeError, ValueError):
         found |= set(inspect.signature(value).parameters)
-    except (TypeError, ValueError):
-        pass
     return found
 
 
@@ -144,16 +162,11 @@ def _class_signature(cls: Any) -> tuple[str, None]:
         return "(**parameters: Any)", None
     if issubclass(cls, (Enum, BaseException)) or getattr(cls, "_is_protocol", False):
         return "", None
-    if dataclasses.is_dataclass(cls) and cls.__init__.__qualname__.partition(".")[2] == "__init__":
-        hand_written = "__init__" in ast.unparse(_definition(cls) or ast.Pass())
-        if not hand_written:
-            return _fields(cls), None
-    if issubclass(cls, tuple) and hasattr(cls, "_fields"):
-        return _fields(cls), None
-    tree = _definition(cls.__init__)
-    if not isinstance(tree, ast.FunctionDef):
-        return "", None
-    return _function_signature(tree, cls.__init__, bound=True)[0], None
+    init = vars(cls).get("__init__") or inspect.getattr_static(cls, "__init__")
+    tree = _definition(init)
+    if isinstance(tree, ast.FunctionDef):  # written by hand; a dataclass's has no source
+        return _function_signature(tree, init, bound=True)[0], None
+    return _fields(cls) if dataclasses.is_dataclass(cls) or issubclass(cls, tuple) else "", None
 
 
 def _fields(cls: Any) -> str:
@@ -203,7 +216,8 @@ def _annotation(node: ast.expr, module: Any) -> str:
         def visit_Constant(self, constant: ast.Constant) -> ast.AST:
             if not isinstance(constant.value, str) or not constant.value.isidentifier():
                 return constant
-            return self.visit(ast.parse(constant.value, mode="eval").body)
+            spelled: ast.AST = self.visit(ast.parse(constant.value, mode="eval").body)
+            return spelled
 
         def visit_Subscript(self, subscript: ast.Subscript) -> ast.AST:
             if ast.unparse(subscript.value) == "Literal":
@@ -249,6 +263,20 @@ def spell(kind: Any) -> str:
     return f"{name}[{', '.join(map(spell, inside))}]"
 
 
+def shorten_arrays(_: Sphinx, domain: str, kind: str, content: nodes.Element) -> None:
+    """Types of attributes, which autodoc evaluates, as ``NDArray[float64]``."""
+    for node in content.parent[0].findall(desc_annotation):
+        text = re.sub(_EVALUATED_ARRAY, r"NDArray[\1]", node.astext())
+        if text != node.astext():
+            node.clear()
+            node.append(nodes.Text(text))
+
+
+def skip_field_numbers(_: Sphinx, what: str, name: str, value: Any, skip: bool, options: Any) -> bool | None:
+    """Leave out what Python says of the fields of a named tuple."""
+    return True if str(getattr(value, "__doc__", "")).startswith("Alias for field number") else None
+
+
 def resolve_by_last_name(
     app: Sphinx, env: Any, node: nodes.Element, content: nodes.Element
 ) -> nodes.Element | None:
@@ -280,5 +308,7 @@ def setup(app: Sphinx) -> dict[str, bool]:
     """Sphinx calls this."""
     app.connect("autodoc-process-docstring", process_docstring)
     app.connect("autodoc-process-signature", process_signature)
+    app.connect("autodoc-skip-member", skip_field_numbers)
+    app.connect("object-description-transform", shorten_arrays)
     app.connect("missing-reference", resolve_by_last_name)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

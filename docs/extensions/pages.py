@@ -31,6 +31,8 @@ _PAGE_OF = {ROOT / file: DOCS / f"{page}.md" for page, file in SHOWN.items()} | 
     ROOT / "README.md": DOCS / "index.md"
 }
 _LINK = re.compile(r"(\]\()([^)\s#]+)([^)\s]*\))")
+_NAMED_LIKE_FILE = re.compile(r"\[[\w./-]+\.md\]\(")
+"""Links that code hosts show by the name of a page's file; here they get the page's title."""
 _PATTERN = re.compile(r"^([\w/]+\*)\n", re.MULTILINE)
 """Of a toctree: pages that a tree may not have, such as notebooks."""
 _BLOCK = re.compile(r"^```\{(readme|parameters|kernels)\} (.+)\n```$", re.MULTILINE)
@@ -45,6 +47,7 @@ def fill(app: Sphinx, page: str, source: list[str]) -> None:
         source[0] = relink(file.read_text(encoding="utf-8"), file, place)
     elif place.is_file():
         text = relink(source[0], place, place)
+        app.env.note_dependency(__file__)
         makers = {"readme": _readme, "parameters": _parameters, "kernels": _kernels}
         text = _BLOCK.sub(lambda found: makers[found[1]](app, found[2], place), text)
         source[0] = _PATTERN.sub(lambda found: found[0] if list(DOCS.glob(found[1])) else "", text)
@@ -60,6 +63,7 @@ def relink(text: str, file: Path, page: Path) -> str:
         target = _PAGE_OF.get(target, target)
         return f"{found[1]}{Path(os.path.relpath(target, page.parent)).as_posix()}{found[3]}"
 
+    text = _NAMED_LIKE_FILE.sub("[](", text)
     parts = re.split(r"(^```.*?^```$)", text, flags=re.DOTALL | re.MULTILINE)
     return "".join(part if index % 2 else _LINK.sub(moved, part) for index, part in enumerate(parts))
 
@@ -81,26 +85,17 @@ def _parameters(app: Sphinx, tracker: str, page: Path) -> str:
 
     kind = tracker_class(tracker).Params
     printed = kind.paper() if hasattr(kind, "paper") else None
-    heads = [
-        "parameter",
-        "default",
-        *(["in the paper"] if printed else []),
-        "unit",
-        "range",
-        "meaning",
-        "source",
-    ]
-    rows = [heads, ["---"] * len(heads)]
+    rows = [["parameter", "default", "unit, range", "meaning, and source"], ["---"] * 4]
     for field in dataclasses.fields(kind):
         default = f"`{field.default!r}`"
-        paper = [] if printed is None else [_other(getattr(printed, field.name), field.default)]
-        words = [_cell(str(field.metadata.get(key, ""))) for key in ("unit", "doc", "source")]
-        rows.append([f"`{field.name}`", default, *paper, words[0], _bounds(field), *words[1:]])
+        if printed is not None and getattr(printed, field.name) != field.default:
+            default += f"<br>in the paper `{getattr(printed, field.name)!r}`"
+        unit, meaning, origin = (_cell(str(field.metadata.get(key, ""))) for key in ("unit", "doc", "source"))
+        limits = ", ".join(part for part in (unit, _bounds(field)) if part not in ("", "-"))
+        source = f"<small>{origin}</small>"
+        text = f"{meaning}<br>{source}" if meaning else source
+        rows.append([f"`{field.name}`", default, limits, text])
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
-
-
-def _other(printed: Any, default: Any) -> str:
-    return "" if printed == default else f"`{printed!r}`"
 
 
 def _bounds(field: "dataclasses.Field[Any]") -> str:
