@@ -12,7 +12,7 @@ VOT := build/vot
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments results sanitize levels vot clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments docs linkcheck results sanitize levels vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -52,6 +52,21 @@ results: $(VENV)/dev
 
 kernel-docs:
 	$(PYTHON) tools/kernel_docs.py --markdown
+
+# The site, in build/site: warnings are errors, links lead somewhere, and nothing is fetched from elsewhere.
+SPHINX := $(BIN)/python -m sphinx -q -E --doctree-dir build/doctrees
+docs: $(VENV)/dev build/gallery.made
+	$(SPHINX) -b html -W --keep-going docs build/site
+	$(BIN)/python tools/check_site.py build/site
+
+build/gallery.made: tools/gallery.py $(SOURCES) | $(VENV)/dev
+	$(BIN)/python tools/gallery.py build/gallery
+	touch $@
+
+# The links to other sites, which CI doesn't ask for.
+linkcheck: $(VENV)/dev
+	mkdir -p build/gallery
+	$(SPHINX) -b linkcheck docs build/linkcheck
 
 # The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
 # Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.

@@ -32,7 +32,7 @@ class Stream(Protocol):
 
     @property
     def fps(self) -> float:
-        """Frames per second; :data:`DEFAULT_FPS` where the input doesn't say."""
+        """Frames per second; 30 where the input doesn't say."""
 
     @property
     def timed(self) -> bool:

@@ -102,8 +102,9 @@ def evaluate(
 ) -> Evaluation:
     """Run all that is missing in ``folder`` of the data set at ``root``, and score all runs.
 
-    jobs, scheduler: as :func:`schedule.completed` takes them. fresh: whether to run all again. on_progress:
-    called after each run. ValueError or OSError for a data set or options that can't be used.
+    jobs, scheduler: as :func:`tricue.evaluation.schedule.run_tasks` takes them. fresh: whether to run all
+    again. on_progress: called after each run. ValueError or OSError for a data set or options that can't
+    be used.
     """
     plan = _Plan(root, options)
     store = Store(folder / RUNS)
