@@ -79,6 +79,11 @@ class Evaluation:
         """The results of one tracker on the sequences of a group."""
         return [each for each in self.results if (each.row.group, each.row.tracker) == (group, tracker)]
 
+    def _repr_html_(self) -> str:
+        from tricue.notebook.results import evaluation_html
+
+        return evaluation_html(self)
+
 
 class ProgressUpdate(NamedTuple):
     """Progress after each run: finished and total runs, and the last task."""

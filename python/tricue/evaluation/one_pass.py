@@ -53,6 +53,11 @@ class Run:
         """Share of the frames with status LOST."""
         return self.statuses.count(Status.LOST) / len(self.statuses)
 
+    def _repr_html_(self) -> str:
+        from tricue.notebook.results import run_html
+
+        return run_html(self)
+
 
 def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) -> Run:
     """Track through ``frames``, from ``box`` in frame ``start``, with OpenCV limited to one thread.
