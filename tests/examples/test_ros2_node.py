@@ -131,9 +131,14 @@ def color(scene: WalkScene, index: int) -> SimpleNamespace:
 
 def depth(scene: WalkScene, index: int) -> SimpleNamespace:
     """The depth in millimeters."""
+    return image(millimeters(scene, index), "16UC1", index)
+
+
+def millimeters(scene: WalkScene, index: int) -> np.ndarray:
+    """The depth as cameras give it."""
     meters = scene.frames[index].depth
     assert meters is not None
-    return image(np.rint(np.nan_to_num(meters) * 1000).astype(np.uint16), "16UC1", index)
+    return np.rint(np.nan_to_num(meters) * 1000).astype(np.uint16)
 
 
 def info(scene: WalkScene) -> SimpleNamespace:
@@ -162,13 +167,13 @@ def test_color_and_depth_give_a_pose(node: Callable[..., Any], scene: WalkScene)
     assert np.array_equal(covariance[3:, 3:], 1e6 * np.eye(3))
     tracker = FusedTracker(intrinsics=scene.rig.intrinsics)
     for index in range(8):
-        seconds = 5 + 0.066 * index
-        frame = Frame(scene.frames[index].color, scene.frames[index].depth, timestamp=seconds)
+        depths = millimeters(scene, index)
+        frame = Frame(scene.frames[index].color, depths, timestamp=5 + 0.066 * index, depth_scale=0.001)
         track = tracker.update(frame) if index else tracker.init(frame, scene.boxes[0])
     found = made.published["detection"][-1]
     center = found.bbox.center.position
     box = Box.from_ellipse(center.x, center.y, found.bbox.size_x / 2, found.bbox.size_y / 2)
-    assert tuple(box) == pytest.approx(tuple(track.box), abs=0.5)  # depth was rounded to millimeters
+    assert tuple(box) == pytest.approx(tuple(track.box), abs=1e-6)
     assert found.results[0].hypothesis.score > 0.3
 
 
