@@ -12,7 +12,7 @@ VOT := build/vot
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments sanitize levels vot clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments sanitize levels vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -48,6 +48,10 @@ experiments: $(VENV)/demo
 
 kernel-docs:
 	$(PYTHON) tools/kernel_docs.py --markdown
+
+# Runs docs/notebooks and writes them to build/notebooks, with what they show.
+notebooks: $(VENV)/dev
+	$(BIN)/python tools/notebooks.py
 
 # The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
 # Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.

@@ -153,7 +153,7 @@ def test_imports_go_one_way(folder: str) -> None:
 
 
 def test_only_values_in_a_notebook_import_its_pictures() -> None:
-    """tricue.notebook is imported in ``_repr_html_`` methods, when a notebook calls them, and nowhere else."""
+    """tricue.notebook is imported in ``_repr_html_`` methods and nowhere else."""
     wrong = []
     for file in MODULES:
         if NOTEBOOK in file.relative_to(PACKAGE).parts or NOTEBOOK not in file.read_text():

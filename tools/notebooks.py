@@ -13,13 +13,10 @@ import time
 from pathlib import Path
 
 import jupytext
-import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 
 ROOT = Path(__file__).parents[1]
-SOURCES = ROOT / "docs" / "notebooks"
-OUTPUT = ROOT / "build" / "notebooks"
 MAX_SECONDS = 600  # of a cell
 
 
@@ -27,19 +24,21 @@ def main() -> int:
     """Run them one after the other; each error is told, and the others go on."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("names", nargs="*", help="by default all")
-    names = parser.parse_args().names or sorted(path.stem for path in SOURCES.glob("*.md"))
-    OUTPUT.mkdir(parents=True, exist_ok=True)
+    parser.add_argument("--folder", type=Path, default=ROOT / "docs" / "notebooks")
+    parser.add_argument("--output", type=Path, default=ROOT / "build" / "notebooks")
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
     failed = 0
-    for name in names:
+    for name in options.names or sorted(path.stem for path in options.folder.glob("*.md")):
         start = time.perf_counter()
-        error = run(SOURCES / f"{name}.md", OUTPUT / f"{name}.ipynb")
+        error = run(options.folder / f"{name}.md", options.output / f"{name}.ipynb")
         failed += bool(error)
         print(f"{name}: {error or f'{time.perf_counter() - start:.0f} s'}", flush=True)
     return 1 if failed else 0
 
 
 def run(source: Path, target: Path) -> str:
-    """Run a notebook and write it, also where it fails; the error, or "" """
+    """Run a notebook and write it, also where it fails; its error, "" if there is none."""
     notebook = jupytext.read(source)
     client = NotebookClient(notebook, timeout=MAX_SECONDS, kernel_name="python3")
     try:
@@ -47,7 +46,7 @@ def run(source: Path, target: Path) -> str:
     except CellExecutionError as error:
         return str(error)
     finally:
-        nbformat.write(notebook, target)
+        jupytext.write(notebook, target)
     return ""
 
 

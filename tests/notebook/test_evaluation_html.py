@@ -27,6 +27,7 @@ def test_an_evaluation_shows_the_trackers_numbers(evaluation: Evaluation) -> Non
     assert f"<strong>{best.row.auc:.3f}</strong>" in html
     assert "color, 1 sequence<" in html
     assert html.count("<tr>") == 3
+    assert repr(evaluation) == "Evaluation(opened=<1>, trackers=<2>, results=<2>, failed=<0>)"
 
 
 def test_what_failed_is_told(evaluation: Evaluation) -> None:

@@ -195,6 +195,7 @@ def test_plain_text_is_one_line() -> None:
     assert repr(Track(Box(1, 2, 3, 4), 0.5, Status.LOST)) == (
         "Track(Box(x=1, y=2, width=3, height=4), score=0.5, status='lost')"
     )
+    assert repr(RUN) == "Run(<4 frames>, lost=0.25)"
     assert "\n" not in repr(TRACK)
     assert "position=[0.1, -0.2, 2.0]" in repr(TRACK)
 

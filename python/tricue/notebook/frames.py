@@ -48,7 +48,8 @@ def _depth(depth: NDArray[np.float32]) -> tuple[NDArray[np.uint8], Html]:
     far = max(far, near + 1e-3)
     width, height = SCALE_SIZE
     ramp = np.repeat(np.linspace(near, far, height, dtype=np.float32)[:, None], width, axis=1)
-    column = "display:inline-flex;flex-direction:column;align-items:flex-start;vertical-align:middle;margin-left:0.5em"
+    column = "display:inline-flex;flex-direction:column;align-items:flex-start"
+    column += ";vertical-align:middle;margin-left:0.5em"
     labels = f"<span>{near:.2f} m</span>{picture(depth_picture(ramp, near, far), 'scale of depth')}"
     return depth_picture(depth, near, far), Html(
         f'<span style="{column}">{labels}<span>{far:.2f} m</span></span>'
