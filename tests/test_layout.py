@@ -250,7 +250,7 @@ def test_files_carry_their_license() -> None:
     """Every source file begins with one SPDX line."""
     sources = [
         file
-        for tree in ("cpp", "python", "tests", "benchmarks", "tools")
+        for tree in ("cpp", "python", "tests", "benchmarks", "tools", "examples")
         for file in (ROOT / tree).rglob("*")
     ]
     texts = [file for file in sources if file.suffix in {".py", ".pyi", ".cpp", ".hpp"}]
