@@ -12,7 +12,7 @@ VOT := build/vot
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs experiments docs linkcheck results sanitize levels vot clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results sanitize levels vot clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -67,6 +67,10 @@ build/gallery.made: tools/gallery.py $(SOURCES) | $(VENV)/dev
 linkcheck: $(VENV)/dev
 	mkdir -p build/gallery
 	$(SPHINX) -b linkcheck docs build/linkcheck
+
+# Runs docs/notebooks and writes them to build/notebooks, with what they show.
+notebooks: $(VENV)/dev
+	$(BIN)/python tools/notebooks.py
 
 # The tests of native kernels, and those that feed trackers what is bad, on a build with the sanitizers, which must be loaded before
 # Python, and whose last words pytest must not capture. What Python itself leaks is not looked at.

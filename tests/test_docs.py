@@ -18,7 +18,14 @@ from tricue import _core
 from tricue.cli import program
 
 ROOT = Path(__file__).parents[1]
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md"), *(ROOT / "benchmarks").rglob("*.md")])
+PAGES = sorted(
+    [
+        *ROOT.glob("*.md"),
+        *(ROOT / "docs").glob("*.md"),
+        *(ROOT / "examples").glob("*.md"),
+        *(ROOT / "benchmarks").rglob("*.md"),
+    ]
+)
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 KERNELS = sorted(name for name in dir(_core) if not name.startswith("_"))
 FORMER = {"tricue.trax"}
@@ -136,7 +143,7 @@ def test_named_files_exist(page: Path) -> None:
     if page.name == "CHANGELOG.md":
         pytest.skip("it names what was moved")
     text = "\n".join(line for _, line in prose(page))
-    folders = "cpp|python|tests|benchmarks|docs|tools"
+    folders = "cpp|python|tests|benchmarks|docs|tools|examples"
     named = re.findall(rf"`((?:{folders})/[\w/.*-]+)`", text)
     missing = [name for name in named if not list(ROOT.glob(name.rstrip("/")))]
     assert not missing

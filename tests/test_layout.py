@@ -17,6 +17,8 @@ HELPERS = {"base", "detail"}
 TRACKERS = {"color_particle", "depth_particle", "flow_depth", "fused", "stereo_head"}
 UPPER = {"track", "evaluation", "papers", "scenes", "draw", "export", "app", "cli"}
 PARTS = {"camera", "data", "errors", "former_names", "imgproc", "kernels", "reference", "rerun", "_core"}
+NOTEBOOK = "notebook"
+"""The folder of what ``_repr_html_`` methods return, which these alone import."""
 FORBIDDEN = {
     "camera": UPPER | {"data"},
     "data": UPPER,
@@ -26,6 +28,7 @@ FORBIDDEN = {
     "draw": UPPER - {"draw", "track"} | {"data"},
     "export": UPPER - {"export", "track"} | {"data"},
     "evaluation": {"papers", "scenes", "app", "cli"},
+    NOTEBOOK: UPPER - {"track", "draw", "evaluation"} | {"data"},
     "papers": {"app", "cli"},
     "app": {"papers", "cli"},
     "doctor": UPPER | PARTS,
@@ -151,6 +154,26 @@ def test_imports_go_one_way(folder: str) -> None:
     assert not wrong, sorted(wrong)
 
 
+def test_only_values_in_a_notebook_import_its_pictures() -> None:
+    """tricue.notebook is imported in ``_repr_html_`` methods and nowhere else."""
+    wrong = []
+    for file in MODULES:
+        if NOTEBOOK in file.relative_to(PACKAGE).parts or NOTEBOOK not in file.read_text():
+            continue
+        tree = ast.parse(file.read_text())
+        methods = [
+            node
+            for node in ast.walk(tree)
+            if isinstance(node, ast.FunctionDef) and node.name == "_repr_html_"
+        ]
+        allowed = {id(node) for method in methods for node in ast.walk(method)}
+        for node in ast.walk(tree):
+            named = isinstance(node, ast.ImportFrom) and (node.module or "").startswith(f"tricue.{NOTEBOOK}")
+            if named and id(node) not in allowed:
+                wrong.append(f"{file.relative_to(PACKAGE)}:{node.lineno}")
+    assert not wrong
+
+
 @pytest.mark.parametrize("tracker", sorted(TRACKERS))
 def test_a_tracker_knows_no_other(tracker: str) -> None:
     """What two trackers need is in track/base or a folder of its own."""
@@ -229,7 +252,7 @@ def test_files_carry_their_license() -> None:
     """Every source file begins with one SPDX line."""
     sources = [
         file
-        for tree in ("cpp", "python", "tests", "benchmarks", "tools")
+        for tree in ("cpp", "python", "tests", "benchmarks", "tools", "examples")
         for file in (ROOT / tree).rglob("*")
     ]
     texts = [file for file in sources if file.suffix in {".py", ".pyi", ".cpp", ".hpp"}]

@@ -82,6 +82,11 @@ class Box(NamedTuple):
         # Differences of large coordinates may round to slightly above the union.
         return min(1.0, wide * high / (self.area + other.area - wide * high))
 
+    def _repr_html_(self) -> str:
+        from tricue.notebook.tracks import box_html
+
+        return box_html(self)
+
 
 def as_box(value: BoxLike, name: str = "box") -> Box:
     """A checked :class:`Box` from any sequence or array of four numbers (x, y, width, height).

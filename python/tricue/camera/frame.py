@@ -19,7 +19,7 @@ _UINT8 = np.dtype(np.uint8)
 _CHANNELS = ("color", "depth", "right")
 
 
-@dataclass(frozen=True, slots=True, eq=False, init=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False, repr=False)
 class Frame:
     """The images of one moment; color or depth, or both.
 
@@ -80,6 +80,20 @@ class Frame:
                 raise MissingChannelError(
                     f"frame: expected the channel {name}, which this tracker needs, got {got}", name
                 )
+
+    def __repr__(self) -> str:
+        words = [f"{name}=<{_described(getattr(self, name))}>" for name in self.channels]
+        words += [
+            f"{name}={value!r}"
+            for name in ("timestamp", "pose")
+            if (value := getattr(self, name)) is not None
+        ]
+        return f"Frame({', '.join(words)})"
+
+    def _repr_html_(self) -> str:
+        from tricue.notebook.frames import frame_html
+
+        return frame_html(self)
 
 
 FrameLike = Frame | NDArray[Any]

@@ -105,6 +105,11 @@ class Intrinsics:
         z = np.where(z > 0, z, np.nan)
         return np.stack([self.fx * x / z + self.cx, self.fy * y / z + self.cy], axis=-1)
 
+    def _repr_html_(self) -> str:
+        from tricue.notebook.cameras import intrinsics_html
+
+        return intrinsics_html(self)
+
 
 @dataclass(frozen=True, slots=True)
 class StereoRig:
@@ -163,6 +168,11 @@ class StereoRig:
         """Depth z = fx b / d in meters, of the disparity's shape; NaN where the disparity isn't above 0."""
         disparity = np.asarray(disparity, np.float64)
         return self.intrinsics.fx * self.baseline / np.where(disparity > 0, disparity, np.nan)
+
+    def _repr_html_(self) -> str:
+        from tricue.notebook.cameras import rig_html
+
+        return rig_html(self)
 
 
 def _focal_length(pixels: Any, angle: Any, size_name: str, angle_name: str) -> float:

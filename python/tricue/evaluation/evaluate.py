@@ -57,7 +57,7 @@ class RunResult(NamedTuple):
     speed: Speed
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Evaluation:
     """The outcome of an evaluation. left_out: why a tracker didn't run on a sequence, by both names. failed:
     the errors of sequences or tasks that couldn't be read, by name.
@@ -78,6 +78,15 @@ class Evaluation:
     def of(self, group: str, tracker: str) -> list[RunResult]:
         """The results of one tracker on the sequences of a group."""
         return [each for each in self.results if (each.row.group, each.row.tracker) == (group, tracker)]
+
+    def __repr__(self) -> str:
+        counts = {name: len(getattr(self, name)) for name in ("opened", "trackers", "results", "failed")}
+        return f"Evaluation({', '.join(f'{name}=<{count}>' for name, count in counts.items())})"
+
+    def _repr_html_(self) -> str:
+        from tricue.notebook.results import evaluation_html
+
+        return evaluation_html(self)
 
 
 class ProgressUpdate(NamedTuple):

@@ -27,7 +27,7 @@ class AnyTracker(Protocol):
     def update(self, frame: Frame) -> Track: ...
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Run:
     """A tracker's output in each of M frames, the first included, and its update times."""
 
@@ -52,6 +52,14 @@ class Run:
     def lost(self) -> float:
         """Share of the frames with status LOST."""
         return self.statuses.count(Status.LOST) / len(self.statuses)
+
+    def __repr__(self) -> str:
+        return f"Run(<{len(self.statuses)} frames>, lost={self.lost:.3g})"
+
+    def _repr_html_(self) -> str:
+        from tricue.notebook.results import run_html
+
+        return run_html(self)
 
 
 def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) -> Run:

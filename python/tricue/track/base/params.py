@@ -92,6 +92,11 @@ class Params(metaclass=_AcceptsFormerNames):
             if value is not None or f.default is not None:
                 object.__setattr__(self, f.name, _check_value(value, kinds[f.name], f))
 
+    def _repr_html_(self) -> str:
+        from tricue.notebook.parameters import params_html
+
+        return params_html(self)
+
     def to_toml(self, path: str | Path) -> None:
         """Write each parameter on a line, with its unit and source as a comment; None is left out."""
         values = {name: value for name, value in dataclasses.asdict(self).items() if value is not None}

@@ -25,7 +25,7 @@ class Status(str, Enum):
         return self.value
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Track:
     """Where the target is in one frame.
 
@@ -74,6 +74,19 @@ class Track:
         if mine != theirs:
             return False
         return _same(self.position, other.position) and _same(self.covariance, other.covariance)
+
+    def __repr__(self) -> str:
+        words = [repr(self.box), f"score={self.score!r}", f"status={str(self.status)!r}"]
+        arrays = {"position": self.position, "covariance": self.covariance}
+        words += [f"{name}={array.tolist()}" for name, array in arrays.items() if array is not None]
+        others = {"depth": self.depth, "pose": self.pose}
+        words += [f"{name}={value!r}" for name, value in others.items() if value is not None]
+        return f"Track({', '.join(words)})"
+
+    def _repr_html_(self) -> str:
+        from tricue.notebook.tracks import track_html
+
+        return track_html(self)
 
 
 class Tracker(Protocol):

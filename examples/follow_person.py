@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: MIT
+"""A robot that follows a person at a distance, with a depth camera or a recording of one.
+
+    python examples/follow_person.py realsense:                      # a live camera; also oak:
+    python examples/follow_person.py walk.bag --distance 2           # a recording: prints what it would do
+    python examples/follow_person.py sequence/ --box 60,30,25,74     # a box in the first frame
+    python examples/follow_person.py walk.bag --pan-tilt             # turns a camera's head instead
+
+Without a box it waits for a person who stands free. The robot drives while the person is seen, only turns
+while somebody hides them, and stops when they are lost. Put your motors into ``drive`` and ``turn_head``.
+"""
+
+import argparse
+import math
+
+import tricue
+from tricue.camera.read_calibration import read_intrinsics
+from tricue.data.source import Source
+from tricue.errors import TargetNotFoundError
+from tricue.track.pan_tilt import PanTiltCommand
+
+MAX_SPEED, MAX_TURN = 0.8, 1.0  # m/s, rad/s
+GAIN, TURN_GAIN = 0.8, 1.5  # 1/s
+
+
+def drive(forward: float, turn: float) -> None:
+    """Your motors. forward: m/s. turn: rad/s, to the right."""
+    print(f"  forward {forward:+.2f} m/s, turn {turn:+.2f} rad/s")
+
+
+def turn_head(command: PanTiltCommand) -> None:
+    """Your camera's head."""
+    print(f"  pan {command.pan_speed:+.2f} rad/s, tilt {command.tilt_speed:+.2f} rad/s")
+
+
+def follow(track: tricue.Track, distance: float) -> tuple[float, float]:
+    """Speed forward and turn to the right that bring the target ahead, so many meters away."""
+    if track.status is tricue.Status.LOST or track.position is None:
+        return 0.0, 0.0
+    x, _, z = track.position
+    turn = min(max(TURN_GAIN * math.atan2(x, z), -MAX_TURN), MAX_TURN)
+    if track.status is tricue.Status.OCCLUDED:  # the position is a prediction: don't drive into who hides it
+        return 0.0, turn
+    return min(max(GAIN * (z - distance), -MAX_SPEED), MAX_SPEED), turn
+
+
+def camera_of(source: Source, fov: float | None) -> tricue.Intrinsics:
+    """The depth camera: as the device or recording tells it, of a file beside the images, or by its angle."""
+    if isinstance(source.camera, tricue.Intrinsics):
+        return source.camera
+    if source.calibration is not None:
+        return read_intrinsics(source.calibration, source.size, "depth")
+    if fov is None:
+        raise ValueError("the camera isn't known; give its horizontal angle of view: --fov 57")
+    return tricue.Intrinsics.from_fov(*source.size, fov)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Follow, and print a line a frame."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("source")
+    parser.add_argument("--box", help="x,y,width,height in the first frame")
+    parser.add_argument("--distance", type=float, default=1.5, help="meters")
+    parser.add_argument("--depth-scale", type=float, help="meters per unit")
+    parser.add_argument("--fov", type=float, help="degrees, horizontal")
+    parser.add_argument("--pan-tilt", action="store_true")
+    options = parser.parse_args(arguments)
+    box = None if options.box is None else [float(number) for number in options.box.split(",")]
+    try:
+        source = tricue.open_source(options.source, depth_scale=options.depth_scale)
+        tracker = tricue.DepthParticleTracker(intrinsics=camera_of(source, options.fov))
+        head, started = tricue.PanTilt(), False
+        for number, frame in enumerate(source):
+            frame.require("depth")
+            try:
+                track = tracker.update(frame) if started else tracker.init(frame, box)
+            except TargetNotFoundError:
+                print(f"{number}: nobody there")
+                continue
+            started = True
+            print(f"{number}: {track.status}, score {track.score:.2f}")
+            if options.pan_tilt and track.position is not None:
+                turn_head(head.command(track, timestamp=frame.timestamp))
+            elif not options.pan_tilt:
+                drive(*follow(track, options.distance))
+    except (OSError, ValueError) as error:
+        parser.error(str(error))
+
+
+if __name__ == "__main__":
+    main()

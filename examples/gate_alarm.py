@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: MIT
+"""An alarm when a target leaves a region of the image, or is lost.
+
+    python examples/gate_alarm.py rtsp://camera.local/stream --box 128,79,64,78 --region 60,20,200,200
+    python examples/gate_alarm.py video.mp4 --box 128,79,64,78 --box 40,90,60,80 --region 60,20,200,200
+
+The region and the boxes are x,y,width,height, pixels. A target is in the region while its box's center is.
+Put your siren, message or relay into ``alarm``.
+"""
+
+import argparse
+import sys
+
+import tricue
+from tricue.camera.box import as_box
+from tricue.data.source import Source
+
+
+def alarm(seconds: float, text: str) -> None:
+    """Your siren."""
+    print(f"{seconds:8.2f} s  ALARM: {text}")
+
+
+def watch(source: Source, boxes: list[tricue.Box], region: tricue.Box) -> int:
+    """Follow all targets through the source; how many alarms there were."""
+    alarms, now = 0, 0.0
+
+    def raise_alarm(text: str) -> None:
+        nonlocal alarms
+        alarms += 1
+        alarm(now, text)
+
+    with tricue.MultiTracker(on_lost=lambda target, _: raise_alarm(f"target {target} is lost")) as several:
+        inside: dict[int, bool] = {}
+        for number, frame in enumerate(source):
+            now = number / source.fps if frame.timestamp is None else frame.timestamp
+            if number == 0:
+                for box in boxes:
+                    inside[several.add(frame, box)] = region.contains(*box.center)
+                continue
+            for target, track in several.update(frame).items():
+                if track.status is not tricue.Status.TRACKED:
+                    continue  # where it is is a guess
+                here = region.contains(*track.box.center)
+                if inside[target] and not here:
+                    raise_alarm(f"target {target} has left the region")
+                inside[target] = here
+    return alarms
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Watch; the exit code is 1 where there was an alarm."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("source", help="a camera's number, a URL, or a file")
+    parser.add_argument("--box", action="append", required=True, help="of each target")
+    parser.add_argument("--region", required=True)
+    options = parser.parse_args(arguments)
+    try:
+        numbers = [[float(number) for number in text.split(",")] for text in [options.region, *options.box]]
+        region, *boxes = (as_box(each) for each in numbers)
+        alarms = watch(tricue.open_source(options.source), boxes, region)
+    except (OSError, TypeError, ValueError) as error:
+        parser.error(str(error))
+    print(f"{alarms} alarms")
+    return 1 if alarms else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""The examples that take videos: several targets, a folder of them, an alarm."""
+
+import csv
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import cv2
+import pytest
+from tricue import Box, open_source
+from tricue.scenes import Scene
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+Program = Callable[[str], ModuleType]
+
+
+def test_several_targets_and_their_overlay(
+    face_video: Path, face_box: str, tmp_path: Path, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that all boxes are followed, and that the overlay has every frame."""
+    output = tmp_path / "overlay.avi"
+    boxes = ["--box", face_box, "--box", "10,10,60,60"]
+    program("webcam_targets").main([str(face_video), *boxes, "--output", str(output), "--no-window"])
+    out = capsys.readouterr().out
+    assert "1: tracked at the end" in out
+    assert "2: " in out
+    assert sum(1 for _ in open_source(output)) == 25
+
+
+def test_boxes_are_drawn_where_there_is_a_window(
+    face_video: Path, face: Scene, program: Program, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    """It proves that the boxes drawn with the mouse are those that are followed, until q is pressed."""
+    module = program("webcam_targets")
+    shown: list[Any] = []
+    monkeypatch.setattr(cv2, "namedWindow", lambda title: None)
+    monkeypatch.setattr(cv2, "selectROIs", lambda title, image: [[round(n) for n in face.boxes[0]]])
+    monkeypatch.setattr(cv2, "imshow", lambda title, image: shown.append(image))
+    monkeypatch.setattr(cv2, "waitKey", lambda wait: ord("q") if len(shown) == 10 else -1)
+    module.main([str(face_video)])
+    assert len(shown) == 10
+    assert capsys.readouterr().out.startswith("1: tracked")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [([], "give --box"), (["--box", "a"], "'a'"), (["--box", "1,2,3"], "four numbers")],
+)
+def test_a_wrong_box_is_one_line(
+    arguments: list[str], message: str, face_video: Path, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a missing or wrong box is told, with exit code 2."""
+    with pytest.raises(SystemExit) as stop:
+        program("webcam_targets").main([str(face_video), "--no-window", *arguments])
+    assert stop.value.code == 2
+    assert message in capsys.readouterr().err.splitlines()[-1]
+
+
+def test_a_folder_of_videos(face_video: Path, face_box: str, tmp_path: Path) -> None:
+    """It proves that each video gets its CSV, and that one that can't be read leaves the others."""
+    folder, output = tmp_path / "videos", tmp_path / "tracks"
+    folder.mkdir()
+    for name in ("a.avi", "b.avi"):
+        (folder / name).write_bytes(face_video.read_bytes())
+    (folder / "broken.mp4").write_bytes(b"no video")
+    (tmp_path / "boxes.csv").write_text(f"a.avi,{face_box}\nb.avi,{face_box}\n")
+    program = EXAMPLES / "batch_folder.py"
+    command = [sys.executable, program, folder, "--boxes", tmp_path / "boxes.csv", "--output", output]
+    told = subprocess.run([*command, "--jobs", "1"], capture_output=True, text=True, check=False)
+    assert told.returncode == 1
+    assert "a.avi: 25 frames, 25 tracked, 0 occluded, 0 lost" in told.stdout
+    assert "2 of 3 videos" in told.stdout
+    assert "broken.mp4: " in told.stderr
+    assert "Traceback" not in told.stderr
+    with (output / "b.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 25
+    assert rows[-1]["status"] == "tracked"
+
+
+def test_the_alarm(
+    face_video: Path, face: Scene, face_box: str, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that the alarm comes in the frame in which the target's center leaves the region."""
+    centers = [box.center for box in face.boxes]
+    far = max(range(25), key=lambda index: abs(centers[index][0] - centers[0][0]))
+    half = abs(centers[far][0] - centers[0][0]) / 2
+    region = Box(centers[0][0] - half, -500, 2 * half, 2000)
+    left = next(index for index, center in enumerate(centers) if not region.contains(*center))
+    arguments = [str(face_video), "--box", face_box, f"--region={','.join(map(str, region))}"]
+    assert program("gate_alarm").main(arguments) == 1
+    first = capsys.readouterr().out.splitlines()[0]
+    assert first.endswith("ALARM: target 1 has left the region")
+    assert float(first.split()[0]) == pytest.approx(left / 30, abs=1.5 / 30)
+
+
+def test_no_alarm_where_nothing_happens(
+    face_video: Path, face_box: str, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a target that stays inside raises none."""
+    arguments = [str(face_video), "--box", face_box, "--region=-500,-500,2000,2000"]
+    assert program("gate_alarm").main(arguments) == 0
+    assert capsys.readouterr().out == "0 alarms\n"
+
+
+def test_the_alarm_of_a_lost_target(
+    face: Scene, face_box: str, tmp_path: Path, program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a target that disappears raises one."""
+    video = tmp_path / "gone.avi"
+    writer = cv2.VideoWriter(str(video), cv2.VideoWriter.fourcc(*"MJPG"), 30, (320, 240))
+    for index in range(20):
+        image = face.frames[min(index, 7)].color
+        assert image is not None
+        writer.write(image if index < 8 else image * 0)
+    writer.release()
+    arguments = [str(video), "--box", face_box, "--region=-500,-500,2000,2000"]
+    assert program("gate_alarm").main(arguments) == 1
+    assert "ALARM: target 1 is lost" in capsys.readouterr().out
