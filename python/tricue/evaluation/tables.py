@@ -60,11 +60,14 @@ def summary(evaluation: Evaluation) -> list[Line]:
 
 
 def speeds(evaluation: Evaluation) -> list[Line]:
-    """The same lines with medians over the runs: updates per second and percentiles of the update time."""
+    """The same lines with medians over the runs: updates per second and percentiles of the update time. NaN
+    where no run has times.
+    """
     lines = []
     for group, tracker, results in _compare(evaluation):
         times = [(each.speed.fps, each.speed.p50_ms, each.speed.p99_ms) for each in results]
-        fps, p50, p99 = np.median(times, axis=0).tolist()
+        timed = [each for each in times if not math.isnan(each[0])] or times
+        fps, p50, p99 = np.median(timed, axis=0).tolist()
         lines.append({"group": group, "tracker": tracker, "fps": fps, "p50_ms": p50, "p99_ms": p99})
     return lines
 
@@ -162,7 +165,8 @@ def _group_table(group: str, lines: Sequence[Line], speeds_by_tracker: Mapping[t
     for line in lines:
         speed = speeds_by_tracker[group, line["tracker"]]
         numbers = ["-" if math.isnan(line[name]) else f"{line[name]:.2f}" for name in columns]
-        times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"]
+        timed = not math.isnan(speed["fps"])
+        times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"] if timed else ["-", "-"]
         rows.append([line["tracker"], str(line["sequences"]), *numbers, *times])
     return _align(rows)
 
