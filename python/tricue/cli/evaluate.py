@@ -47,8 +47,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=any_tracker_names,
         action="extend",
         metavar="NAMES",
-        help="tricue's, the baselines', module:Class, file.py:Class, cv2:Name, trax:COMMAND, with NAME= before it"
-        " to name it; separated by commas, or several times; default all that are installed",
+        help="tricue's, the baselines', module:Class, file.py:Class, cv2:Name, trax:COMMAND, each with NAME="
+        " before it to name it; separated by commas, or several times; default all that are installed",
     )
     command.add_argument(
         "--results",
@@ -63,7 +63,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=seconds,
         default=DEFAULT_TIME_LIMIT,
         metavar="SECONDS",
-        help="for a frame of a tracker that isn't ours, and for making it, default %(default)g",
+        help="for a frame of a tracker that isn't ours, default %(default)g; to load it, it has a minute or more",
     )
     command.add_argument(
         "--set",

@@ -5,6 +5,7 @@ Finished runs are stored in a folder. An evaluation can be stopped at any time; 
 the missing runs and ends with the same numbers.
 """
 
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
@@ -151,6 +152,7 @@ class _Plan:
         self.opened = dict(self._open_all(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
         self.scored: dict[Task, Any] = {}
+        self._read: defaultdict[TrackerSpec, Counter[str]] = defaultdict(Counter)
         self._described = {spec: spec.description for spec in self.trackers}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
         self.tasks = [task for opened in self.opened.values() for task in self._list_tasks(opened)]
@@ -183,14 +185,15 @@ class _Plan:
     def _add_results(self, spec: ResultsSpec, opened: OpenedSequence) -> list[Task]:
         """Score others' runs on a sequence, each as that of a seed; their tasks, which are done."""
         try:
-            records, supervised = spec.read(opened)
+            found = spec.read(opened)
         except (OSError, ResultError) as error:
             self.left_out[spec.name, opened.entry.name] = one_line(error)
             return []
-        tasks = [Task(spec, opened.entry, seed) for seed in range(len(records))]
-        for task, record in zip(tasks, records, strict=True):
+        self._read[spec][found.about] += 1
+        tasks = [Task(spec, opened.entry, seed) for seed in range(len(found.records))]
+        for task, record in zip(tasks, found.records, strict=True):
             self.add(task, record)
-            if supervised:
+            if found.supervised:
                 run, speed = self.scored[task]
                 self.scored[task] = without_truth(run), speed
                 self.add(replace(task, kind=RESTARTS), record)
@@ -223,17 +226,18 @@ class _Plan:
         """The results so far, in the order of the tasks."""
         results = tuple(self._results())
         opened = tuple(self.opened.values())
-        notes = (missing_note(self.options.trackers), *self._results_notes(results))
+        notes = (missing_note(self.options.trackers), *self._results_notes())
         return Evaluation(
             self.options, opened, self.trackers, results, self.left_out, failed, tuple(filter(None, notes))
         )
 
-    def _results_notes(self, results: Sequence[RunResult]) -> Iterator[str]:
+    def _results_notes(self) -> Iterator[str]:
         """How each folder of results was read, and on how many sequences."""
         for spec in self.trackers:
             if isinstance(spec, ResultsSpec):
-                count = len({each.row.sequence for each in results if each.row.tracker == spec.name})
-                yield f"{spec.name}: read in {spec.form} form, {count} of {len(self.opened)} sequences"
+                count, total = self._read[spec].total(), len(self.opened)
+                how = "; or ".join(self._read[spec])
+                yield f"{spec.name}: results in {spec.form} form, {count} of {total} sequences, {how}"
 
     def _results(self) -> Iterator[RunResult]:
         for task in self.tasks:

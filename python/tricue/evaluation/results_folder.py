@@ -77,19 +77,26 @@ class ResultsSpec(TrackerSpec):
     def read(self, opened: OpenedSequence) -> "Results":
         """The runs on a sequence. ResultError, or OSError for a file that can't be read."""
         found = _find_files(self, opened)
-        records = [
+        read = [
             _read_run(self, opened, path, times) for path, times in zip(found.runs, found.times, strict=True)
         ]
-        return Results(records, found.supervised)
+        return Results([record for record, _ in read], found.supervised, read[0][1])
 
 
 class Results(NamedTuple):
     """Runs, a record each. supervised: whether they were started again after failures, as in VOT's supervised
-    experiment, so that they say nothing of one pass.
+    experiment, so that they say nothing of one pass. first_pixel: the first pixel's coordinate in them.
     """
 
     records: list[Record]
     supervised: bool
+    first_pixel: float
+
+    @property
+    def about(self) -> str:
+        """How they were read."""
+        supervised = ", started again after failures, so without the numbers of one pass" * self.supervised
+        return f"pixels counted from {self.first_pixel:.0f}{supervised}"
 
 
 class _Files(NamedTuple):
@@ -218,7 +225,10 @@ def _numbers(line: str) -> list[float]:
         return []
 
 
-def _read_run(spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Array | None) -> Record:
+def _read_run(
+    spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Array | None
+) -> tuple[Record, float]:
+    """The run in a file, and the first pixel's coordinate in it."""
     frames = opened.source.length or len(opened.boxes)
     lines = read_lines(path)
     skipped = {frames: 0, frames - opened.start: opened.start}.get(len(lines))
@@ -234,9 +244,10 @@ def _read_run(spec: ResultsSpec, opened: OpenedSequence, path: Path, times: Arra
         elif code == START:
             boxes[skipped + index] = truth[skipped + index]
             starts.append(skipped + index)
-    boxes[:, :2] -= _first_pixel(spec, opened, boxes)
+    first_pixel = _first_pixel(spec, opened, boxes)
+    boxes[:, :2] -= first_pixel
     record = _record(spec, path, boxes, starts or [opened.start], times, skipped)
-    return replace(record, error="") if _is_supervised(path) else record
+    return replace(record, error="") if _is_supervised(path) else record, first_pixel
 
 
 def _read_box(line: str, path: Path, number: int) -> Sequence[float]:

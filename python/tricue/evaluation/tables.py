@@ -175,7 +175,8 @@ def _sequence_table(evaluation: Evaluation, group: str, names: Sequence[str]) ->
     """AUC, the mean over seeds; "-" where a tracker didn't run."""
     rows = [[f"{group}: AUC", *(Path(name).name for name in names)], ["---"] * (len(names) + 1)]
     for _, tracker, results in (each for each in _compare(evaluation) if each[0] == group):
-        found = [[each.row.auc for each in results if each.row.sequence == name] for name in names]
+        known = [each.row for each in results if not math.isnan(each.row.auc)]
+        found = [[row.auc for row in known if row.sequence == name] for name in names]
         rows.append([tracker, *(f"{np.mean(values):.2f}" if values else "-" for values in found)])
     return _align(rows)
 

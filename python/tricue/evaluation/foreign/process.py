@@ -18,6 +18,9 @@ from tricue.evaluation.foreign.host import from_plain
 from tricue.evaluation.foreign.worker import PATIENCE
 from tricue.track.base.track import Track
 
+LOADING_LIMIT = (
+    60.0  # seconds to start a process and to make a tracker in it, where the time limit is shorter
+)
 MAX_OUTPUT = 2000  # bytes of what a tracker prints that are kept, the last ones
 MAX_LINE = 200  # characters of it that are told
 
@@ -28,7 +31,8 @@ class WorkerError(RuntimeError):
 
 class WorkerProcess:
     """A process for one tracker, which ends with this object, with the process that made it, or by a request
-    that takes longer than ``limit`` seconds. place: as :class:`Host` takes it.
+    that takes longer than ``limit`` seconds, or LOADING_LIMIT where something is loaded. place: as
+    :class:`Host` takes it.
     """
 
     def __init__(self, place: str, limit: float) -> None:
@@ -37,7 +41,7 @@ class WorkerProcess:
         """How it ended, "" while it runs."""
         code = (
             f"import sys; sys.path[:] = {sys.path}; from tricue.evaluation.foreign.worker import main; "
-            f"main({place!r}, {limit!r})"
+            f"main({place!r}, {max(limit, LOADING_LIMIT)!r})"
         )
         self._process = subprocess.Popen(
             [sys.executable, "-c", code],
@@ -51,16 +55,23 @@ class WorkerProcess:
         self._output = _Tail(self._process.stderr)
         self.close = weakref.finalize(self, _end, self._process)
 
+    def load(self, method: str, *arguments: Any) -> Any:
+        """As :meth:`ask`, with the time that imports and models may take."""
+        return self._ask(max(self.limit, LOADING_LIMIT), method, *arguments)
+
     def ask(self, method: str, *arguments: Any) -> Any:
         """The value that a method of ``Host`` returns; WorkerError for what it raises, and at the end of the
         process.
         """
+        return self._ask(self.limit, method, *arguments)
+
+    def _ask(self, limit: float, method: str, *arguments: Any) -> Any:
         if self.end:
             raise WorkerError(self.end)
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         too_slow = threading.Event()
-        timer = threading.Timer(self.limit, _kill_late, (self._process, too_slow))
+        timer = threading.Timer(limit, _kill_late, (self._process, too_slow))
         timer.daemon = True
         timer.start()
         try:
@@ -68,7 +79,8 @@ class WorkerProcess:
             self._process.stdin.flush()
             succeeded, value = pickle.load(self._process.stdout)
         except (EOFError, OSError, pickle.UnpicklingError):
-            self.end = self._how_it_ended(too_slow.is_set())
+            ended = self._how_it_ended()
+            self.end = no_answer(limit) if too_slow.is_set() else ended
             raise WorkerError(self.end) from None
         finally:
             timer.cancel()
@@ -76,12 +88,10 @@ class WorkerProcess:
             raise WorkerError(value)
         return value
 
-    def _how_it_ended(self, too_slow: bool) -> str:
+    def _how_it_ended(self) -> str:
         _kill(self._process)  # what it has started may still be there
         code = self._process.wait()
         self.close()
-        if too_slow:
-            return no_answer(self.limit)
         if code < 0:
             with suppress(ValueError):
                 return self._with_output(f"its process was ended by {signal.Signals(-code).name}")
@@ -106,7 +116,7 @@ class RemoteTracker:
     def __init__(self, process: WorkerProcess, keywords: Mapping[str, Any], seed: int) -> None:
         self._process = process
         self.seconds = 0.0
-        process.ask("make", keywords, seed)
+        process.load("make", keywords, seed)
 
     def init(self, frame: Frame, box: Box) -> Track:
         """Start on a box."""

@@ -14,7 +14,7 @@ from tricue.evaluation.tracker_spec import Make, SafeTracker, SequenceInfo, Trac
 from tricue.track.base import registry
 from tricue.track.base.traits import Traits
 
-DEFAULT_TIME_LIMIT = 60.0  # seconds for an update, and for making a tracker
+DEFAULT_TIME_LIMIT = 60.0  # seconds for an update
 _NAMED = re.compile(r"([^=:/\\]+)=(.+:.+)", re.DOTALL)
 """NAME=place"""
 
@@ -22,7 +22,7 @@ _NAMED = re.compile(r"([^=:/\\]+)=(.+:.+)", re.DOTALL)
 @dataclass(frozen=True)
 class ForeignSpec(TrackerSpec):
     """A tracker that runs in a process of its own. place: where it is, see :class:`Host`. time_limit: seconds
-    for an update, and for making it.
+    for an update.
     """
 
     place: str = ""
@@ -95,7 +95,7 @@ def foreign_spec(text: str, settings: Mapping[str, Any], time_limit: float) -> F
     name, place = split_name(text)
     with closing(WorkerProcess(place, time_limit)) as process:
         try:
-            found: Description = process.ask("describe", dict(settings))
+            found: Description = process.load("describe", dict(settings))
         except WorkerError as error:
             message = str(error)
             raise ValueError(message if message.startswith(place) else f"{place}: {message}") from None

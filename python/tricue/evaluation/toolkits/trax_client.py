@@ -178,7 +178,7 @@ class _Connection:
 
 
 def program_channels(command: str) -> frozenset[str]:
-    """The channels that a program asks for; it is started for that. ValueError for one that can't get them."""
+    """The channels that a program asks for; it is started for that. ValueError if it can't get them."""
     connection = _Connection(command_words(command))
     channels = connection.channels
     connection.close()

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT
+"""What odd_trackers.py imports from beside it."""
+
+
+def same(value):
+    return value
