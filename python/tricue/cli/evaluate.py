@@ -63,7 +63,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         type=seconds,
         default=DEFAULT_TIME_LIMIT,
         metavar="SECONDS",
-        help="for a frame of a tracker that isn't ours, default %(default)g; to load it, it has a minute or more",
+        help="for a frame of a tracker that isn't ours, default %(default)g; to load, it has a minute",
     )
     command.add_argument(
         "--set",

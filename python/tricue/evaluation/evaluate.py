@@ -185,7 +185,7 @@ class _Plan:
     def _add_results(self, spec: ResultsSpec, opened: OpenedSequence) -> list[Task]:
         """Score others' runs on a sequence, each as that of a seed; their tasks, which are done."""
         try:
-            found = spec.read(opened)
+            found = spec.read(opened, self.opened)
         except (OSError, ResultError) as error:
             self.left_out[spec.name, opened.entry.name] = one_line(error)
             return []

@@ -5,7 +5,7 @@ Nothing is run for them; they are compared on the sequences that they have.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from tricue.data.otb import has_otb_truth
 from tricue.data.truth import read_box, read_lines
-from tricue.evaluation.dataset import OpenedSequence
+from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
 from tricue.evaluation.tracker_spec import SequenceInfo, TrackerSpec
@@ -74,9 +74,11 @@ class ResultsSpec(TrackerSpec):
         """Nothing is known before the files are read."""
         return ""
 
-    def read(self, opened: OpenedSequence) -> "Results":
-        """The runs on a sequence. ResultError, or OSError for a file that can't be read."""
-        found = _find_files(self, opened)
+    def read(self, opened: OpenedSequence, among: Collection[str] = ()) -> "Results":
+        """The runs on a sequence. among: the names of all sequences. ResultError, or OSError for a file that
+        can't be read.
+        """
+        found = _find_files(self, sequence_names(opened.entry, among))
         read = [
             _read_run(self, opened, path, times) for path, times in zip(found.runs, found.times, strict=True)
         ]
@@ -154,26 +156,30 @@ def _result_files(folder: Path) -> list[Path]:
     return [path for path in folder.iterdir() if path.suffix in SUFFIXES and not path.stem.endswith("_time")]
 
 
-def sequence_names(opened: OpenedSequence) -> list[str]:
-    """How toolkits may name a sequence, the most telling first; in lower case, with _ for blanks."""
-    parts = opened.entry.name.split("/")
-    named = len(parts) - (1 if opened.entry.target is None else 2)
+def sequence_names(entry: Entry, among: Collection[str] = ()) -> list[str]:
+    """How toolkits may name a sequence, the most telling first; in lower case, with _ for blanks.
+
+    among: the names of all sequences. What would be the name of several is left out.
+    """
+    parts = entry.name.split("/")
+    named = len(parts) - (1 if entry.target is None else 2)
     tails = [parts[first:] for first in range(named + 1)]
+    telling = [tail for tail in tails if sum(other.split("/")[-len(tail) :] == tail for other in among) <= 1]
     return [
         name
-        for tail in tails
+        for tail in telling
         for name in dict.fromkeys(mark.join(tail).lower().replace(" ", "_") for mark in "/-._")
     ]
 
 
-def _find(opened: OpenedSequence, there: Mapping[str, Path]) -> Path | None:
-    return next((there[name] for name in sequence_names(opened) if name in there), None)
+def _find(names: Sequence[str], there: Mapping[str, Path]) -> Path | None:
+    return next((there[name] for name in names if name in there), None)
 
 
-def _find_files(spec: ResultsSpec, opened: OpenedSequence) -> _Files:
+def _find_files(spec: ResultsSpec, names: Sequence[str]) -> _Files:
     if spec.form == OTB:
         there = {path.stem.lower().replace(" ", "_"): path for path in sorted(_result_files(spec.folder))}
-        path = _find(opened, there)
+        path = _find(names, there)
         if path is None:
             raise ResultError(f"no result in {spec.folder}")
         return _Files([path], _read_times(path.parent, path.stem, 1), False)
@@ -182,7 +188,7 @@ def _find_files(spec: ResultsSpec, opened: OpenedSequence) -> _Files:
         there = {
             path.name.lower().replace(" ", "_"): path for path in sorted(folder.iterdir()) if path.is_dir()
         }
-        place = _find(opened, there)
+        place = _find(names, there)
         if place is None:
             continue
         runs = sorted(path for path in _result_files(place) if _REPETITION.fullmatch(path.stem))

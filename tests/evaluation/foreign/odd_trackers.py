@@ -11,7 +11,6 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-
 import odd_helper
 
 print("printed while it is imported")
@@ -64,7 +63,7 @@ class LikeOpenCv(Still):
 
 
 class Scores(Still):
-    """(box, score)"""
+    """(box, score)."""
 
     def update(self, image):
         self.updates += 1
