@@ -279,7 +279,7 @@ def runs(file):
 
 
 def test_what_does_not_run_is_told_below_the_table(dataset, tmp_path, capsys):
-    """A baseline that was asked for and isn't there, with the package that has it; results that are missing."""
+    """A baseline that was asked for and isn't there, with the package; results that aren't there."""
     (tmp_path / "results").mkdir()
     (tmp_path / "results" / "one.txt").write_text("1,2,3,4\n" * 40)
     arguments = ["evaluate", str(dataset), "--trackers", "still-box,CSRT", "--no-restarts"]
