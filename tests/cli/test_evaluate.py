@@ -14,6 +14,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue.cli import main
+from tricue.cli.arguments import any_tracker_names
 from tricue.evaluation import tables
 from tricue.track.base import registry
 
@@ -152,6 +153,13 @@ def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
         (["--set", "particles=3"], "--set: expected tracker.name=value, got 'particles=3'"),
         (["--set", "color-particle.particels=3"], "particels"),
         (["--trackers", "CRST"], "got 'CRST'"),
+        (["--trackers", "nobody.py:Nobody"], "nobody.py: there is no such file"),
+        (
+            ["--trackers", "fractions:Fraction"],
+            "fractions:Fraction: TypeError: Fraction: expected a class with",
+        ),
+        (["--results", "theirs"], "--results: expected NAME=FOLDER, got 'theirs'"),
+        (["--time-limit", "-3"], "expected seconds, a number above 0, got '-3'"),
         (["--jobs", "0"], "expected a whole number above 0, got '0'"),
         (["--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"], "not allowed with"),
         (["--depth-scale", "-1"], "depth_scale"),
@@ -197,25 +205,108 @@ def test_a_missing_extra_is_told_before_anything_runs(
     assert not list(tmp_path.rglob("*.json"))
 
 
-def test_a_class_of_a_module_in_the_working_folder_is_evaluated(folders, tmp_path, monkeypatch, capsys):
-    """``--trackers NAME,module:Class`` runs any class with init and update, also in other processes, again
-    when its code has changed.
-    """
-    code = """
+OWN = """
+import os, time
+from pathlib import Path
+print("imported")
+
 class Mine:
     def init(self, frame, box): self.box = box
-    def update(self, frame): return self.box
+    def update(self, frame):
+        print("| a | line | like | the table's |")
+        return self.box
+
+class Stays(Mine):
+    def update(self, frame):
+        Path("processes", str(os.getpid())).touch()
+        time.sleep(1000)
 """
-    (tmp_path / "own_tracker.py").write_text(code)
+
+
+@pytest.fixture
+def own(tmp_path, monkeypatch):
+    """A working folder with trackers of one's own in it."""
+    (tmp_path / "own_tracker.py").write_text(OWN)
+    (tmp_path / "processes").mkdir()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "path", [path for path in sys.path if path])
-    chosen = "still-box,own_tracker:Mine"
+    return tmp_path
+
+
+def test_trackers_of_the_working_folder_are_evaluated(folders, own, capfd):
+    """``--trackers NAME,module:Class,file.py:Class`` runs any class with init and update, also in other
+    processes; what it prints is in no output.
+    """
+    chosen = "still-box,own_tracker:Mine,mine=./own_tracker.py:Mine"
     words = ["evaluate", str(folders), "--trackers", chosen, "--jobs", "2", "--no-restarts"]
     assert main(words) == 0
-    rows = [line.split("|") for line in capsys.readouterr().out.splitlines() if line.startswith("|")]
+    printed = capfd.readouterr().out
+    assert "like" not in printed
+    assert "imported" not in printed
+    rows = [line.split("|") for line in printed.splitlines() if line.startswith("|")]
     found = {row[1].strip(): row[2:] for row in rows}
-    assert found["own_tracker:Mine"][0] == found["still-box"][0]
+    assert found["own_tracker:Mine"][0] == found["mine"][0] == found["still-box"][0]
+    assert "own_tracker:Mine" in (own / "evaluation" / "report.html").read_text(encoding="utf-8")
     before = registry.code_digest("own_tracker:Mine")
-    (tmp_path / "own_tracker.py").write_text(code + "\n")
+    (own / "own_tracker.py").write_text(OWN + "\n")
     assert registry.code_digest("own_tracker:Mine") != before
-    assert "own_tracker:Mine" in (tmp_path / "evaluation" / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_ctrl_c_leaves_no_process_of_a_tracker(folders, own, jobs):
+    """Interrupted in an update that lasts, the command ends with 130, and so do the trackers' processes."""
+    words = [str(folders), "--trackers", "own_tracker:Stays", "--no-restarts", "--jobs", jobs]
+    child = subprocess.Popen([*COMMAND, *words], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    deadline = time.monotonic() + 120
+    while not (started := list((own / "processes").iterdir())) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    os.killpg(child.pid, signal.SIGINT)
+    _, error = child.communicate(timeout=120)
+    assert child.returncode == 130
+    assert "Traceback" not in error
+    assert started
+    while any(map(runs, started)) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not any(map(runs, started))
+
+
+def runs(file):
+    """Whether a process with the number that a file is named by is there, and no zombie."""
+    try:
+        return Path("/proc", file.name, "stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_what_does_not_run_is_told_below_the_table(dataset, tmp_path, capsys):
+    """A baseline that was asked for and isn't there, with the package; results that aren't there."""
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "one.txt").write_text("1,2,3,4\n" * 40)
+    arguments = ["evaluate", str(dataset), "--trackers", "still-box,CSRT", "--no-restarts"]
+    arguments += ["--results", f"theirs={tmp_path / 'results'}", "--output", str(tmp_path / "out")]
+    assert main(arguments) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert [line for line in printed if line.startswith("| theirs ")]
+    missing = f"not run: theirs on four, three, two: no result in {tmp_path / 'results'}"
+    assert missing in printed
+    assert "theirs: results in otb form, 1 of 4 sequences, pixels counted from 1" in printed
+    if not hasattr(cv2, "TrackerCSRT"):
+        (told,) = [line for line in printed if line.startswith("not run: CSRT")]
+        assert "opencv-contrib-python-headless" in told
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "theirs: results in otb form" in page
+    assert f"theirs={tmp_path / 'results'}" in page
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("a, b:C", ["a", "b:C"]),
+        ("a,trax:./theirs --x=1,2", ["a", "trax:./theirs --x=1,2"]),
+        ("mine=trax:python -m theirs,b", ["mine=trax:python -m theirs,b"]),
+    ],
+)
+def test_names_of_trackers(text, names, monkeypatch):
+    """Commas separate names, but for those in the command of a TraX program, which is the last."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    assert any_tracker_names(text) == names

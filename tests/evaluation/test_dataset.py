@@ -11,7 +11,8 @@ from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
 from tricue.evaluation.rows import make_row, score_run
 from tricue.evaluation.tasks import Task, perform
-from tricue.evaluation.tracker_spec import TrackerSpec, tracker_specs
+from tricue.evaluation.tracker_spec import TrackerSpec
+from tricue.evaluation.trackers import tracker_specs
 from tricue.track.base.track import Status
 
 BOX = "8,6,16,20\n"

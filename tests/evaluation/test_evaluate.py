@@ -143,7 +143,7 @@ def test_a_broken_sequence_does_not_stop_the_others(folders, tmp_path):
 
 
 def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monkeypatch):
-    """Its error stands in the row, its boxes count as misses, and the evaluation goes on."""
+    """Its error stands in the row with its frame, its boxes count as misses, and the evaluation goes on."""
 
     def update(self, frame):
         raise ValueError("frame: not\nthis one")
@@ -151,7 +151,7 @@ def test_a_tracker_that_breaks_finds_nothing_from_there(folders, tmp_path, monke
     monkeypatch.setattr(StillBox, "update", update)
     evaluation = evaluate(folders, tmp_path, Options(("still-box", "meanShift"), restarts=False))
     rows = {(each.row.tracker, each.row.sequence): each.row for each in evaluation.results}
-    assert rows["still-box", "there"].trouble == "frame: not this one"
+    assert rows["still-box", "there"].trouble == "frame 1: frame: not this one"
     assert rows["still-box", "there"].auc == pytest.approx(1 / 20 * 20 / 21, abs=1e-9)
     assert rows["meanShift", "there"].trouble == ""
 

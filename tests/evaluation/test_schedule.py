@@ -59,6 +59,17 @@ def test_a_cluster_says_what_one_process_says_though_a_worker_dies(cluster, fold
     assert not evaluation.failed
 
 
+def test_a_cluster_runs_trackers_that_are_not_ours(cluster, folders, tmp_path):
+    """One that crashes its process doesn't end the worker: the others of its kind and of ours have rows."""
+    odd = Path(__file__).parent / "foreign" / "odd_trackers.py"
+    options = Options(("still-box", f"{odd}:Crashes", f"{odd}:Still"), restarts=False)
+    evaluation = evaluate(folders, tmp_path, options, scheduler=cluster)
+    assert len(evaluation.results) == 3 * 3
+    assert not evaluation.failed
+    troubles = {each.row.tracker for each in evaluation.results if each.row.trouble}
+    assert troubles == {"odd_trackers.py:Crashes"}
+
+
 def test_errors_of_a_sequence_come_back_from_the_cluster(cluster, tmp_path):
     """A task whose sequence isn't there is told; the others have their records."""
     (tmp_path / "empty").mkdir()

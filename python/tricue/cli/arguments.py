@@ -2,6 +2,7 @@
 """Options and argument types shared by several commands."""
 
 import argparse
+import re
 import sys
 from pathlib import Path
 from typing import NamedTuple
@@ -98,13 +99,21 @@ def add_topics(command: argparse.ArgumentParser) -> None:
     )
 
 
-def tracker_name(text: str) -> str:
-    """A tracker's name, or ``module:Class`` of a module that is installed or in the working folder."""
-    if ":" in text and "" not in sys.path and (here := str(Path.cwd())) not in sys.path:
+def find_modules_here() -> None:
+    """Let modules of the working folder be imported, as Python does for a script there."""
+    if "" not in sys.path and (here := str(Path.cwd())) not in sys.path:
         sys.path.insert(0, here)
+
+
+def tracker_name(text: str) -> str:
+    """A tracker's name, ``module:Class`` of a module that is installed or in the working folder, or
+    ``path/to/file.py:Class``.
+    """
+    if ":" in text:
+        find_modules_here()
     try:
         tracker_class(text)
-    except (ImportError, TypeError, ValueError) as error:
+    except (ImportError, OSError, SyntaxError, TypeError, ValueError) as error:
         raise argparse.ArgumentTypeError(one_line(error).removeprefix("name: ")) from None
     return text
 
@@ -112,3 +121,23 @@ def tracker_name(text: str) -> str:
 def tracker_names(text: str) -> list[str]:
     """Tracker names separated by commas; those of the form ``module:Class`` are imported now."""
     return [tracker_name(name) if ":" in name else name for name in words(text)]
+
+
+def any_tracker_names(text: str) -> list[str]:
+    """Names of any trackers, separated by commas. A TraX program's command is all the rest, with commas."""
+    find_modules_here()
+    found = re.search(r"(?:^|,)\s*((?:[^,:=]+=)?trax:.*)", text, re.DOTALL)
+    if found is None:
+        return words(text)
+    return [*(words(text[: found.start()]) if found.start() else ()), found[1]]
+
+
+def seconds(text: str) -> float:
+    """A number of seconds above 0."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = 0.0
+    if not 0 < found < float("inf"):
+        raise argparse.ArgumentTypeError(f"expected seconds, a number above 0, got {text!r}")
+    return found

@@ -8,16 +8,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import count, tracker_names
+from tricue.cli.arguments import any_tracker_names, count, seconds
 from tricue.cli.progress import Progress
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
+from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT, is_foreign
 from tricue.evaluation.raw_results import check_folder, write_raw
 from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
+from tricue.evaluation.results_folder import FORMS
 from tricue.evaluation.tasks import perform
-from tricue.track.base.settings import read_settings
+from tricue.track.base.registry import names
+from tricue.track.base.settings import parse_settings, read_settings
 
 EXAMPLES = """\
 examples:
@@ -25,11 +28,15 @@ examples:
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
+  tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerVit     your class, any of cv2's
+  tricue evaluate sequences/ --trackers 'fused,theirs=trax:./theirs --fast'   a TraX program
+  tricue evaluate sequences/ --trackers fused --results SiamFC=results/SiamFC others' result files
   tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimeters, no times
   tricue evaluate sequences/ --raw boxes                      as OTB's, GOT-10k's and VOT's files, too
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
 FAILED = 1
+MAX_NAMES = 6  # of sequences in a line
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -39,9 +46,26 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--trackers",
-        type=tracker_names,
+        type=any_tracker_names,
+        action="extend",
         metavar="NAMES",
-        help="tricue's, cv2's or module:Class, separated by commas; default all that are installed",
+        help="tricue's, the baselines', module:Class, file.py:Class, cv2:Name, trax:COMMAND, each with NAME="
+        " before it to name it; separated by commas, or several times; default all that are installed",
+    )
+    command.add_argument(
+        "--results",
+        action="append",
+        default=[],
+        metavar="NAME=FOLDER",
+        help=f"others' results, compared on the same sequences; :FORM after it, of {', '.join(FORMS)}, where "
+        "it isn't what the folder looks like",
+    )
+    command.add_argument(
+        "--time-limit",
+        type=seconds,
+        default=DEFAULT_TIME_LIMIT,
+        metavar="SECONDS",
+        help="for a frame of a tracker that isn't ours, default %(default)g; to load, it has a minute",
     )
     command.add_argument(
         "--set",
@@ -111,6 +135,8 @@ def run(options: argparse.Namespace) -> int:
         seeds=options.seeds,
         restarts=not options.no_restarts,
         reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
+        results=tuple(options.results),
+        time_limit=options.time_limit,
     )
     with Progress() as progress:
 
@@ -139,11 +165,17 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
     """Parameters by tracker from strings tracker.name=value."""
     found: dict[str, list[str]] = {}
     for setting in settings:
-        tracker, dot, rest = setting.partition(".")
-        if not dot or "=" in tracker:
+        place, equals, value = setting.partition("=")
+        tracker, dot, name = place.rpartition(".")
+        if not dot:
             raise ValueError(f"--set: expected tracker.name=value, got {setting!r}")
-        found.setdefault(tracker, []).append(rest)
-    return {tracker: read_settings(tracker, None, each) for tracker, each in found.items()}
+        found.setdefault(tracker, []).append(f"{name}{equals}{value}")
+    return {
+        tracker: read_settings(tracker, None, each)
+        if tracker in names() and not is_foreign(tracker)
+        else parse_settings(each)
+        for tracker, each in found.items()
+    }
 
 
 def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
@@ -155,11 +187,29 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
     for each in evaluation.results:
         if each.row.trouble:
             print(f"{each.row.tracker} on {each.row.sequence}, seed {each.row.seed}: {each.row.trouble}")
+    for line in [*_left_out(evaluation), *evaluation.notes]:
+        print(line)
     for name, error in evaluation.failed.items():
         print(f"failed: {name}: {error}", file=sys.stderr)
     for path in written:
         print(f"wrote {path}")
     return FAILED if evaluation.failed else 0
+
+
+def _left_out(evaluation: Evaluation) -> list[str]:
+    """What didn't run of what was asked for by its name, and why."""
+    options = evaluation.options
+    asked = {each.name for each in evaluation.trackers} if options.trackers else set()
+    asked |= {text.partition("=")[0].strip() for text in options.results}
+    sequences: dict[tuple[str, str], list[str]] = {}
+    for (tracker, sequence), why in evaluation.left_out.items():
+        if tracker in asked:
+            sequences.setdefault((tracker, why), []).append(sequence)
+    return [f"not run: {tracker} on {_some(found)}: {why}" for (tracker, why), found in sequences.items()]
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(names[:MAX_NAMES]) + (" and others" if len(names) > MAX_NAMES else "")
 
 
 def _remaining_note(update: ProgressUpdate) -> str:

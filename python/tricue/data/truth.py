@@ -91,7 +91,7 @@ def read_truth_file(path: Path, count: int | None = None) -> Truth:
     anything else.
     """
     numbered = enumerate(read_lines(path), 1)
-    truth = truth_from_rows([_box(line, f"{path}, line {number}", count) for number, line in numbered])
+    truth = truth_from_rows([read_box(line, f"{path}, line {number}", count) for number, line in numbered])
     if path.name == OTB_TRUTH or _OTB_TARGET_TRUTH.fullmatch(path.name):
         return truth._replace(boxes=truth.boxes - [1, 1, 0, 0])
     return truth
@@ -122,7 +122,8 @@ def check_target(target: str, known: Sequence[str], folder: Path) -> None:
         raise ValueError(f"{folder}: expected target to be {listed}, got {target!r}")
 
 
-def _box(line: str, place: str, count: int | None) -> tuple[float, ...]:
+def read_box(line: str, place: str, count: int | None = None) -> tuple[float, ...]:
+    """The box x, y, width, height around what a line says, NaN for none; see :func:`read_truth_file`."""
     words = re.split(r"[,;\s]+", line.strip().removeprefix("m"))
     words = words[: 4 if line.strip().startswith("m") else count]
     try:

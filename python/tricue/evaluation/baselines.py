@@ -24,6 +24,8 @@ NAMES = (
     *("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow"),  # of cv2, if the installed version has them
     *("CamShift", "meanShift", "script-pf", "still-box"),
 )
+CONTRIB = "opencv-contrib-python-headless"  # the package whose cv2 has them all
+_IN_CONTRIB = ("CSRT", "KCF", "KCF-0.1", "MIL", "MOSSE", "MedianFlow", "Boosting", "TLD")
 Maker = Callable[[int], AnyTracker]
 """Makes a tracker from a seed."""
 
@@ -153,6 +155,16 @@ def _opencv_makers() -> dict[str, Callable[[], Any]]:
         if hasattr(legacy, f"Tracker{name}"):
             makers[name] = getattr(legacy, f"Tracker{name}").create
     return makers
+
+
+def missing_reason(name: str) -> str:
+    """Why the installed cv2 can't run a tracker, by its name here or in cv2, and which package can."""
+    plain = name.removesuffix("_create").removeprefix("legacy.").removeprefix("Tracker")
+    missing = f"cv2 {cv2.__version__} has no {name}"
+    if plain in _IN_CONTRIB:
+        return f"{missing}; {CONTRIB} has (uninstall the other opencv packages first: all of them are cv2)"
+    there = [each for each in dir(cv2) if each.startswith("Tracker") and "_" not in each]
+    return f"{missing}; it has {', '.join(there)}"
 
 
 def seed(value: int) -> None:

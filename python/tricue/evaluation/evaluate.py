@@ -5,6 +5,7 @@ Finished runs are stored in a folder. An evaluation can be stopped at any time; 
 the missing runs and ends with the same numbers.
 """
 
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
@@ -14,7 +15,9 @@ from typing import Any, NamedTuple
 from tricue.errors import one_line
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
 from tricue.evaluation.eta import RemainingTime
+from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT
 from tricue.evaluation.record import Record
+from tricue.evaluation.results_folder import ResultError, ResultsSpec, results_spec
 from tricue.evaluation.rows import (
     Row,
     ScoredRun,
@@ -23,11 +26,13 @@ from tricue.evaluation.rows import (
     measure_robustness,
     measure_speed,
     score_run,
+    without_truth,
 )
 from tricue.evaluation.schedule import Perform, run_tasks
 from tricue.evaluation.store import Store
 from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
-from tricue.evaluation.tracker_spec import TrackerSpec, tracker_specs
+from tricue.evaluation.tracker_spec import TrackerSpec
+from tricue.evaluation.trackers import missing_note, require_unique, tracker_specs
 
 RUNS = "runs"  # the folder of finished runs in an evaluation's
 
@@ -36,9 +41,11 @@ RUNS = "runs"  # the folder of finished runs in an evaluation's
 class Options:
     """What to run.
 
-    trackers: names of ours and of the baselines, None for all. settings: parameters that aren't the defaults,
-    by our trackers' names. seeds: runs of those that draw random numbers. restarts: whether to run each
-    with restarts, too. reading: how the data set's files are read.
+    trackers: names of ours, of the baselines and of others, such as ``mine.py:Mine``; None for all that are
+    installed. settings: parameters that aren't the defaults, by trackers' names. seeds: runs of those that
+    draw random numbers. restarts: whether to run each with restarts, too. reading: how the data set's files
+    are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a tracker
+    that isn't ours.
     """
 
     trackers: tuple[str, ...] | None = None
@@ -46,6 +53,8 @@ class Options:
     seeds: int = 1
     restarts: bool = True
     reading: ReadOptions = field(default_factory=ReadOptions)
+    results: tuple[str, ...] = ()
+    time_limit: float = DEFAULT_TIME_LIMIT
 
 
 class RunResult(NamedTuple):
@@ -60,7 +69,7 @@ class RunResult(NamedTuple):
 @dataclass(frozen=True, repr=False)
 class Evaluation:
     """The outcome of an evaluation. left_out: why a tracker didn't run on a sequence, by both names. failed:
-    the errors of sequences or tasks that couldn't be read, by name.
+    the errors of sequences or tasks that couldn't be read, by name. notes: lines about trackers and results.
     """
 
     options: Options
@@ -69,6 +78,7 @@ class Evaluation:
     results: tuple[RunResult, ...]
     left_out: Mapping[tuple[str, str], str]
     failed: Mapping[str, str]
+    notes: tuple[str, ...] = ()
 
     @property
     def groups(self) -> tuple[str, ...]:
@@ -118,10 +128,11 @@ def evaluate(
     plan = _Plan(root, options)
     store = Store(folder / RUNS)
     failed = dict(plan.failed)
-    for task in () if fresh else plan.tasks:
-        if record := store.load(task, plan.fingerprint(task)):
+    for task in () if fresh else plan.missing:
+        record = store.load(task, plan.fingerprint(task))
+        if record and not task.tracker.outdated(record.error):
             plan.add(task, record)
-    missing = sorted((task for task in plan.tasks if task not in plan.scored), key=plan.weight, reverse=True)
+    missing = sorted(plan.missing, key=plan.weight, reverse=True)
     remaining = RemainingTime(plan.weight, missing)
     done = len(plan.scored)
     on_progress(ProgressUpdate(done, len(plan.tasks), None, None))
@@ -143,11 +154,15 @@ class _Plan:
 
     def __init__(self, root: Path, options: Options) -> None:
         self.options = options
-        self.trackers = tuple(tracker_specs(options.trackers, options.settings))
+        results = [results_spec(text) for text in options.results]
+        specs = tracker_specs(options.trackers, options.settings, options.time_limit)
+        self.trackers: tuple[TrackerSpec, ...] = (*specs, *results)
+        require_unique(each.name for each in self.trackers)
         self.failed: dict[str, str] = {}
         self.opened = dict(self._open_all(find_entries(root, options.reading)))
         self.left_out: dict[tuple[str, str], str] = {}
         self.scored: dict[Task, Any] = {}
+        self._read: defaultdict[TrackerSpec, Counter[str]] = defaultdict(Counter)
         self._described = {spec: spec.description for spec in self.trackers}
         self._digests = {name: opened.digest for name, opened in self.opened.items()}
         self.tasks = [task for opened in self.opened.values() for task in self._list_tasks(opened)]
@@ -170,9 +185,34 @@ class _Plan:
             if reason := spec.unsupported_reason(opened):
                 self.left_out[spec.name, opened.entry.name] = reason
                 continue
+            if isinstance(spec, ResultsSpec):
+                tasks += self._add_results(spec, opened)
+                continue
             seeds = range(self.options.seeds if spec.random else 1)
             tasks += [Task(spec, opened.entry, seed, kind) for kind in kinds for seed in seeds]
         return tasks
+
+    def _add_results(self, spec: ResultsSpec, opened: OpenedSequence) -> list[Task]:
+        """Score others' runs on a sequence, each as that of a seed; their tasks, which are done."""
+        try:
+            found = spec.read(opened, self.opened)
+        except (OSError, ResultError) as error:
+            self.left_out[spec.name, opened.entry.name] = one_line(error)
+            return []
+        self._read[spec][found.about] += 1
+        tasks = [Task(spec, opened.entry, seed) for seed in range(len(found.records))]
+        for task, record in zip(tasks, found.records, strict=True):
+            self.add(task, record)
+            if found.supervised:
+                run, speed = self.scored[task]
+                self.scored[task] = without_truth(run), speed
+                self.add(replace(task, kind=RESTARTS), record)
+        return tasks
+
+    @property
+    def missing(self) -> list[Task]:
+        """The tasks whose runs aren't known."""
+        return [task for task in self.tasks if task not in self.scored]
 
     def fingerprint(self, task: Task) -> str:
         return task.fingerprint(self._digests[task.entry.name], self._described[task.tracker])
@@ -196,7 +236,18 @@ class _Plan:
         """The results so far, in the order of the tasks."""
         results = tuple(self._results())
         opened = tuple(self.opened.values())
-        return Evaluation(self.options, opened, self.trackers, results, self.left_out, failed)
+        notes = (missing_note(self.options.trackers), *self._results_notes())
+        return Evaluation(
+            self.options, opened, self.trackers, results, self.left_out, failed, tuple(filter(None, notes))
+        )
+
+    def _results_notes(self) -> Iterator[str]:
+        """How each folder of results was read, and on how many sequences."""
+        for spec in self.trackers:
+            if isinstance(spec, ResultsSpec):
+                count, total = self._read[spec].total(), len(self.opened)
+                how = "; or ".join(self._read[spec])
+                yield f"{spec.name}: results in {spec.form} form, {count} of {total} sequences, {how}"
 
     def _results(self) -> Iterator[RunResult]:
         for task in self.tasks:

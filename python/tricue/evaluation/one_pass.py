@@ -20,7 +20,11 @@ _NO_TRACK = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
 
 
 class AnyTracker(Protocol):
-    """What can be evaluated: every tricue tracker, and the baselines."""
+    """What can be evaluated: every tricue tracker, the baselines, and others' trackers.
+
+    One that runs in another process has an attribute ``seconds``, the time of its last update, measured
+    there. One that may fail has an attribute ``error``, "" until then.
+    """
 
     def init(self, frame: Frame, box: Box) -> Track: ...
 
@@ -41,12 +45,14 @@ class Run:
     covariances: NDArray[np.float64]
     """(M, 3, 3) of the positions, square meters; NaN where the tracker gave none."""
     seconds: NDArray[np.float64]
-    """(U,) one per update, M - 1 in one pass; without init and decoding."""
+    """(U,) one per update, M - 1 in one pass; without init and decoding. Fewer if the tracker failed, none
+    where no time is known.
+    """
 
     @property
     def frames_per_second(self) -> float:
-        """Updates per second of update time."""
-        return self.seconds.size / float(self.seconds.sum())
+        """Updates per second of update time; NaN without any time."""
+        return self.seconds.size / float(self.seconds.sum()) if self.seconds.any() else float("nan")
 
     @property
     def lost(self) -> float:
@@ -77,7 +83,7 @@ def run(tracker: AnyTracker, frames: Iterable[Frame], box: Box, start: int = 0) 
                 log.init(tracker, frame, box)
             else:
                 log.update(tracker, frame)
-    if not log.seconds:
+    if len(log.tracks) < start + 2:
         raise ValueError(f"frames: expected {start + 2} or more, got {len(log.tracks)}")
     return log.run
 
@@ -96,10 +102,13 @@ class RunLog:
         return track
 
     def update(self, tracker: AnyTracker, frame: Frame) -> Track:
-        """Update the tracker and measure the time."""
+        """Update the tracker and measure the time, which doesn't count once it has failed."""
         start = perf_counter()
         track = tracker.update(frame)
-        self.seconds.append(perf_counter() - start)
+        seconds = perf_counter() - start
+        if not getattr(tracker, "error", ""):
+            there = getattr(tracker, "seconds", None)
+            self.seconds.append(seconds if there is None else there)
         self.tracks.append(track)
         return track
 

@@ -15,6 +15,7 @@ from tricue.evaluation.record import Record
 from tricue.track.base.track import Status
 
 Array = NDArray[np.float64]
+_OF_TRUTH = ("truth", "overlaps", "position_errors")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -102,6 +103,12 @@ def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
     )
 
 
+def without_truth(run: ScoredRun) -> ScoredRun:
+    """The same run, of which no frame counts."""
+    unknown = {name: np.full_like(getattr(run, name), np.nan) for name in _OF_TRUTH}
+    return dataclasses.replace(run, absent=np.zeros_like(run.absent), **unknown)
+
+
 def clip_to_image(boxes: Array, opened: OpenedSequence) -> Array:
     """The boxes, clipped to the image if the true boxes are; NaN for one that is outside."""
     if not opened.clipped:
@@ -163,7 +170,9 @@ def pooled_auroc(runs: Sequence[ScoredRun]) -> float:
 
 
 def measure_speed(opened: OpenedSequence, tracker: str, seed: int, run: Run) -> Speed:
-    """The update times of a run."""
+    """The update times of a run; NaN where none are known."""
+    if not run.seconds.size:
+        return Speed(opened.entry.name, tracker, seed, *[float("nan")] * 3)
     p50, p99 = np.percentile(run.seconds * 1e3, [50, 99])
     return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99))
 

@@ -60,11 +60,14 @@ def summary(evaluation: Evaluation) -> list[Line]:
 
 
 def speeds(evaluation: Evaluation) -> list[Line]:
-    """The same lines with medians over the runs: updates per second and percentiles of the update time."""
+    """The same lines with medians over the runs: updates per second and percentiles of the update time. NaN
+    where no run has times.
+    """
     lines = []
     for group, tracker, results in _compare(evaluation):
         times = [(each.speed.fps, each.speed.p50_ms, each.speed.p99_ms) for each in results]
-        fps, p50, p99 = np.median(times, axis=0).tolist()
+        timed = [each for each in times if not math.isnan(each[0])] or times
+        fps, p50, p99 = np.median(timed, axis=0).tolist()
         lines.append({"group": group, "tracker": tracker, "fps": fps, "p50_ms": p50, "p99_ms": p99})
     return lines
 
@@ -162,7 +165,8 @@ def _group_table(group: str, lines: Sequence[Line], speeds_by_tracker: Mapping[t
     for line in lines:
         speed = speeds_by_tracker[group, line["tracker"]]
         numbers = ["-" if math.isnan(line[name]) else f"{line[name]:.2f}" for name in columns]
-        times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"]
+        timed = not math.isnan(speed["fps"])
+        times = [f"{speed['fps']:,.0f}", f"{speed['p99_ms']:.2f}"] if timed else ["-", "-"]
         rows.append([line["tracker"], str(line["sequences"]), *numbers, *times])
     return _align(rows)
 
@@ -171,7 +175,8 @@ def _sequence_table(evaluation: Evaluation, group: str, names: Sequence[str]) ->
     """AUC, the mean over seeds; "-" where a tracker didn't run."""
     rows = [[f"{group}: AUC", *(Path(name).name for name in names)], ["---"] * (len(names) + 1)]
     for _, tracker, results in (each for each in _compare(evaluation) if each[0] == group):
-        found = [[each.row.auc for each in results if each.row.sequence == name] for name in names]
+        known = [each.row for each in results if not math.isnan(each.row.auc)]
+        found = [[row.auc for row in known if row.sequence == name] for name in names]
         rows.append([tracker, *(f"{np.mean(values):.2f}" if values else "-" for values in found)])
     return _align(rows)
 

@@ -5,9 +5,9 @@ A task contains all that its result depends on, so that it can run in any proces
 """
 
 import hashlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import closing, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -18,12 +18,12 @@ from tricue.data.prefetch import prefetch
 from tricue.evaluation import one_pass, restarts
 from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.record import Record
-from tricue.evaluation.tracker_spec import SafeTracker, TrackerSpec
+from tricue.evaluation.tracker_spec import Make, SafeTracker, TrackerSpec
 
 ONE_PASS, RESTARTS = "one-pass", "restarts"
 _RESULT_SOURCES = (
     *("_core*.so", "_core*.pyd", "camera/**/*.py", "data/**/*.py", "reference/**/*.py", "track/**/*.py"),
-    *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts")),
+    *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts", "foreign/*")),
 )
 
 
@@ -58,30 +58,40 @@ def perform(task: Task, ahead: int = 0) -> Record:
     """
     opened = task.entry.open()
     frames = map(task.tracker.view(opened), opened.source)
-    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched:
-        return (
-            _run_with_restarts(task, opened, prefetched)
-            if task.kind == RESTARTS
-            else _run_one_pass(task, opened, prefetched)
-        )
+    with (
+        closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched,
+        task.tracker.session(opened) as make,
+    ):
+        run = _run_with_restarts if task.kind == RESTARTS else _run_one_pass
+        return run(make, task.seed, opened, prefetched)
 
 
-def _run_one_pass(task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
+def _run_one_pass(make: Make, seed: int, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
     """Start in the first frame with a true box, which needn't be the first image."""
-    tracker, start = task.tracker.make(opened, task.seed), opened.start
+    tracker, start = make(seed), opened.start
     run = one_pass.run(tracker, frames, Box(*opened.boxes[start].tolist()), start)
-    return Record(run, (start,), tracker.error)
+    return Record(run, (start,), _error([tracker], (start,)))
 
 
-def _run_with_restarts(task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
+def _run_with_restarts(make: Make, seed: int, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
     made: list[SafeTracker] = []
 
-    def make() -> SafeTracker:
-        made.append(task.tracker.make(opened, task.seed + len(made)))
+    def make_next() -> SafeTracker:
+        made.append(make(seed + len(made)))
         return made[-1]
 
-    record = restarts.run(make, frames, opened.boxes)
-    return replace(record, error=next((tracker.error for tracker in made if tracker.error), ""))
+    record = restarts.run(make_next, frames, opened.boxes)
+    return Record(record.run, record.starts, _error(made, record.starts))
+
+
+def _error(trackers: Sequence[SafeTracker], starts: Sequence[int]) -> str:
+    """The first error, with its frame; "" without any. starts: of each tracker."""
+    errors = (
+        f"frame {start + tracker.updates}: {tracker.error}"
+        for tracker, start in zip(trackers, starts, strict=True)
+        if tracker.error
+    )
+    return next(errors, "")
 
 
 @cache

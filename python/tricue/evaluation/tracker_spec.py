@@ -2,7 +2,8 @@
 """Tracker specs: which trackers are evaluated, with which parameters, and on which channels of a sequence."""
 
 import json
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from functools import partial
 from typing import Any, Protocol
@@ -29,7 +30,7 @@ MAX_DISPARITY_RATIO = 0.25  # of the image's width
 MIN_DISPARITY = 4.0  # pixels
 _RELATIVE_TIMES = {"CSRT": 60.0, "MIL": 60.0, "KCF": 10.0, "KCF-0.1": 10.0, "script-pf": 5.0}
 SEEDED_BASELINE = "script-pf"  # the baseline whose random numbers can be seeded
-BASELINE_TRAITS = Traits(channels=(Channels.of("color"), Channels.of("depth")))
+BASELINE_TRAITS = Traits(channels=(Channels.of("color"),))
 
 
 class SequenceInfo(Protocol):
@@ -53,7 +54,7 @@ class SequenceInfo(Protocol):
 
 @dataclass(frozen=True)
 class TrackerSpec:
-    """A tracker by its name: one of ours, of a package, of a module (``module:Class``), or a baseline.
+    """A tracker by its name: one of ours or a baseline, which run in this process.
 
     settings: parameters that aren't the defaults; baselines take none.
     """
@@ -63,7 +64,7 @@ class TrackerSpec:
 
     @property
     def ours(self) -> bool:
-        """Whether it has the interface of tricue's trackers; else it is one of the baselines."""
+        """Whether it is one of tricue's trackers; else it is one of the baselines."""
         return self.name not in baselines.NAMES
 
     @property
@@ -86,13 +87,15 @@ class TrackerSpec:
         """What a run depends on besides the sequence: parameters and versions, as JSON."""
         if not self.ours:
             return json.dumps({"cv2": cv2.__version__})
-        kind, settings = registry.tracker_class(self.name).Params, dict(self.settings)
-        if kind is None:
-            return json.dumps({"code": registry.code_digest(self.name), **settings}, default=str)
-        return json.dumps({"tricue": tricue.__version__, **asdict(kind(**settings))}, default=str)
+        params = registry.tracker_class(self.name).Params(**dict(self.settings))
+        return json.dumps({"tricue": tricue.__version__, **asdict(params)}, default=str)
 
     def unsupported_reason(self, opened: SequenceInfo) -> str:
         """Why it can't run on a sequence, "" if it can."""
+        if self.name in baselines.NAMES and self.name not in baselines.available():
+            return baselines.missing_reason(self.name)
+        if self.sees_a_picture(opened):
+            return ""
         present = _usable_channels(opened)
         if self.traits.best(present) is not None:
             return ""
@@ -109,14 +112,28 @@ class TrackerSpec:
         baselines.seed(seed)
         if not self.ours:
             return SafeTracker(baselines.available()[self.name](seed))
-        keywords = _keywords(self.traits, opened) | dict(self.settings)
-        return SafeTracker(tricue.create(self.name, seed=seed, **keywords))
+        return SafeTracker(tricue.create(self.name, seed=seed, **self.keywords(opened)))
+
+    @contextmanager
+    def session(self, opened: SequenceInfo) -> "Iterator[Make]":
+        """Yields the function that makes the tracker for a sequence from a seed, for one run."""
+        yield partial(self.make, opened)
+
+    def keywords(self, opened: SequenceInfo) -> dict[str, Any]:
+        """What the tracker is made with for a sequence: its camera or rig, and the parameters."""
+        return _keywords(self.traits, opened) | dict(self.settings)
+
+    def sees_a_picture(self, opened: SequenceInfo) -> bool:
+        """Whether it gets depth as a picture: baselines, if the true boxes are given in its pixels."""
+        return not self.ours and opened.channel == "depth"
+
+    def outdated(self, error: str) -> bool:
+        """Whether a finished run that ended with this error has to be run again."""
+        return False
 
     def view(self, opened: SequenceInfo) -> FrameView:
-        """Selects the channels that the tracker uses. Baselines get depth as a picture if the true boxes are
-        given in its pixels.
-        """
-        if not self.ours and opened.channel == "depth":
+        """Selects the channels that the tracker uses."""
+        if self.sees_a_picture(opened):
             return depth_as_picture()
         chosen = self.traits.best(_usable_channels(opened))
         return partial(_select_channels, frozenset({"color"}) if chosen is None else chosen.names)
@@ -124,28 +141,42 @@ class TrackerSpec:
 
 class SafeTracker:
     """A tracker that never raises: after its first error, kept in ``error``, it returns tracks without a
-    box.
+    box. error: one that happened before.
     """
 
-    def __init__(self, tracker: AnyTracker) -> None:
-        self.error = ""
+    def __init__(self, tracker: AnyTracker | None, error: str = "") -> None:
+        self.error = error
+        self.updates = 0
+        """How many there were until the error: 0 if ``init`` failed."""
         self._tracker = tracker
+
+    @property
+    def seconds(self) -> float | None:
+        """Of the last update, where the tracker measures them itself."""
+        return getattr(self._tracker, "seconds", None)
 
     def init(self, frame: Frame, box: Box) -> Track:
         """The tracker's, or a track without a box."""
-        return self._try(lambda: self._tracker.init(frame, box))
+        return self._try("init", frame, box)
 
     def update(self, frame: Frame) -> Track:
         """The tracker's, or a track without a box."""
-        return self._try(lambda: self._tracker.update(frame))
+        if not self.error:
+            self.updates += 1
+        return self._try("update", frame)
 
-    def _try(self, call: Callable[[], Track]) -> Track:
+    def _try(self, method: str, *arguments: Any) -> Track:
         if not self.error:
             try:
-                return call()
-            except (ValueError, RuntimeError, cv2.error) as error:
+                track: Track = getattr(self._tracker, method)(*arguments)
+                return track
+            except Exception as error:
                 self.error = one_line(error)
         return Track(Box(*[float("nan")] * 4), 0.0, Status.LOST)
+
+
+Make = Callable[[int], SafeTracker]
+"""Makes a tracker from a seed."""
 
 
 def depth_as_picture() -> FrameView:
@@ -160,36 +191,6 @@ def depth_as_picture() -> FrameView:
         return Frame(depth_picture(frame.depth, *depth_limits[0]), timestamp=frame.timestamp)
 
     return view
-
-
-def tracker_specs(
-    chosen: Sequence[str] | None, settings: Mapping[str, Mapping[str, Any]]
-) -> list[TrackerSpec]:
-    """The specs of the given names, by default of all installed trackers. settings: parameters by tracker
-    name.
-
-    ValueError for an unknown name lists the known ones.
-    """
-    known = [*registry.names(), *baselines.available()]
-    for name in [*(chosen or ()), *settings]:
-        if name not in known and ":" not in name:
-            expected = f"some of {', '.join(known)} or module:Class"
-            raise ValueError(f"--trackers: expected {expected}, got {name!r}")
-    found = [TrackerSpec(name, tuple(settings.get(name, {}).items())) for name in chosen or known]
-    for each in found:
-        _check(each)
-    return found
-
-
-def _check(spec: TrackerSpec) -> None:
-    """TypeError or ValueError for wrong parameters, before the first run."""
-    if not spec.ours:
-        if spec.settings:
-            raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {spec.name}")
-        return
-    kind = registry.tracker_class(spec.name).Params
-    if kind is not None:
-        kind(**dict(spec.settings))
 
 
 def _usable_channels(opened: SequenceInfo) -> frozenset[str]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tricue.evaluation.evaluate import Evaluation, Options
+from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT
 from tricue.evaluation.report.markup import Html, joined, scrolled, tag
 from tricue.track.base.registry import tracker_class
 
@@ -23,14 +24,14 @@ def troubles(evaluation: Evaluation) -> Html | None:
     stopped = [each.row for each in evaluation.results if each.row.trouble]
     lists = [
         _list(
-            "Not run: the sequence lacks what the tracker needs",
+            "Not run",
             [
                 [tag("b", tracker), f": {why}, {_count(names)}", _names(names)]
                 for (tracker, why), names in unsupported.items()
             ],
         ),
         _list(
-            "Stopped by an error; the run has no boxes from there on",
+            "Frames without a box, all from an error on; they count as missed",
             [
                 [tag("b", row.tracker), f" on {row.sequence}, seed {row.seed}: {row.trouble}"]
                 for row in stopped
@@ -41,6 +42,7 @@ def troubles(evaluation: Evaluation) -> Html | None:
             [[tag("b", name), f": {error}"] for name, error in evaluation.failed.items()],
         ),
     ]
+    lists.append(_list("Notes", [[note] for note in evaluation.notes]))
     return tag("section", tag("h2", "What didn't run"), lists, id="troubles") if any(lists) else None
 
 
@@ -75,8 +77,13 @@ def setup(evaluation: Evaluation, about: Mapping[str, Any]) -> Html:
 def command(options: Options, dataset: str) -> str:
     """The command line that repeats the evaluation."""
     words = ["tricue", "evaluate", dataset]
-    if options.trackers:
-        words += ["--trackers", ",".join(options.trackers)]
+    plain = [name for name in options.trackers or () if "," not in name and "trax:" not in name]
+    words += ["--trackers", ",".join(plain)] if plain else []
+    for name in options.trackers or ():
+        words += [] if name in plain else ["--trackers", name]
+    for results in options.results:
+        words += ["--results", results]
+    words += [] if options.time_limit == DEFAULT_TIME_LIMIT else ["--time-limit", f"{options.time_limit:g}"]
     words += ["--seeds", str(options.seeds)]
     words += [] if options.restarts else ["--no-restarts"]
     for tracker, values in options.settings.items():

@@ -1,17 +1,25 @@
 # SPDX-License-Identifier: MIT
 """Third-party tracker classes, adapted to the interface of tricue's trackers."""
 
+import inspect
+import math
 from collections.abc import Callable
+from dataclasses import replace
+from numbers import Real
 from typing import Any
+
+import numpy as np
 
 from tricue.camera.box import Box, BoxLike, as_box
 from tricue.camera.frame import Frame, FrameLike, as_frame
 from tricue.errors import BoxNeededError
+from tricue.track.base.frame_image import FrameImage
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
 ADAPTED_TRAITS = Traits(channels=(Channels.of("color"),), follows="what its class says", source="not ours")
 _ADAPTED: dict[Any, Any] = {}  # adapted classes by original class, so that each is adapted once
+_ANSWERS = "a Track, a box (x, y, width, height), (found, box), (box, score), or None for a lost target"
 
 
 def traits_of(tracker: Any) -> Traits:
@@ -23,17 +31,43 @@ def traits_of(tracker: Any) -> Traits:
 def adapt_class(cls: Any) -> Any:
     """The class itself if it has ``traits``; otherwise a class of the same name with tricue's interface.
 
-    A third-party class needs only ``init(frame, box)`` and ``update(frame)``: frame is a ``tricue.Frame``,
-    box (x, y, width, height). They may return a ``Track``, a box, or None for a lost target. The class is
-    assumed to need color and an initial box, and to draw no random numbers. TypeError if a method is missing.
+    A third party needs only ``init(image, box)`` and ``update(image)``, in a class or in what a function
+    makes. image: BGR (H, W, 3) uint8, on which a frame's other parts are attributes such as ``timestamp``;
+    a ``tricue.Frame`` where ``init`` is annotated so. box: (x, y, width, height). ``update`` returns a
+    ``Track``, a box, (found, box) as cv2's trackers, (box, score), or None for a lost target. It is assumed
+    to need color and an initial box, and to draw random numbers if it takes a ``seed``. TypeError if a
+    method is missing.
     """
     if traits_of(cls) is not ADAPTED_TRAITS:
         return cls
-    if not all(callable(getattr(cls, name, None)) for name in ("init", "update")):
+    if isinstance(cls, type) and not _is_tracker(cls):
         raise TypeError(f"{cls.__qualname__}: expected a class with init(frame, box) and update(frame)")
     if cls not in _ADAPTED:
-        _ADAPTED[cls] = type(cls.__name__, (_Adapted,), {"_cls": cls, "__doc__": cls.__doc__})
+        traits = replace(ADAPTED_TRAITS, random=takes_seed(cls))
+        members = {"_cls": staticmethod(cls), "__doc__": cls.__doc__, "traits": traits}
+        _ADAPTED[cls] = type(getattr(cls, "__name__", "Adapted"), (_Adapted,), members)
     return _ADAPTED[cls]
+
+
+def takes_seed(make: Callable[..., Any]) -> bool:
+    """Whether a class or a function has a keyword ``seed``."""
+    try:
+        return "seed" in inspect.signature(make).parameters
+    except (TypeError, ValueError):  # of some compiled ones
+        return False
+
+
+def check_track(track: Any, method: str) -> Track:
+    """A third party's track, if it is one whose box and score are what the interface says; ValueError
+    otherwise. The box of a lost target may be unknown.
+    """
+    if not isinstance(track, Track):
+        raise ValueError(f"{method}: expected a Track, got {track!r:.80}")
+    lost = track.status is Status.LOST and not all(map(math.isfinite, track.box))
+    box = track.box if lost else as_box(track.box, f"{method} returned a box")
+    if not (isinstance(track.score, Real) and math.isfinite(track.score)):
+        raise ValueError(f"{method}: expected a finite score, got {track.score!r:.80}")
+    return replace(track, box=box)
 
 
 class _Adapted:
@@ -45,7 +79,14 @@ class _Adapted:
 
     def __init__(self, *, seed: int = 0, kernels: str = "native", **params: Any) -> None:
         self.seed, self.kernels, self.params = seed, kernels, params
-        self.tracker = type(self)._cls(**params)
+        seeds = {"seed": seed} if self.traits.random else {}
+        self.tracker = type(self)._cls(**seeds, **params)
+        if not _is_tracker(self.tracker):
+            made = type(self.tracker).__name__
+            raise TypeError(
+                f"{type(self).__name__}: expected to make a tracker with init and update, got {made}"
+            )
+        self._takes_frame = _takes_frame(self.tracker.init)
         self._box = Box(0, 0, 0, 0)
 
     def init(self, frame: FrameLike, box: BoxLike | None = None) -> Track:
@@ -53,23 +94,36 @@ class _Adapted:
         if box is None:
             raise BoxNeededError("box: expected (x, y, width, height), got None")
         self._box = as_box(box)
-        given = self.tracker.init(_require_color(frame), self._box)
-        return self._track(self._box if given is None else given)
+        given = self.tracker.init(self._input(frame), self._box)
+        if given is None or isinstance(given, (bool, np.bool_)):
+            return Track(self._box, 1.0, Status.TRACKED)
+        return self._track(given, "init")
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame."""
-        return self._track(self.tracker.update(_require_color(frame)))
+        return self._track(self.tracker.update(self._input(frame)), "update")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restore, (type(self)._cls, self.__dict__)
 
-    def _track(self, given: Any) -> Track:
+    def _input(self, value: FrameLike) -> Frame | FrameImage:
+        frame = as_frame(value)
+        frame.require("color")
+        return frame if self._takes_frame else FrameImage.of(frame)
+
+    def _track(self, given: Any, method: str) -> Track:
         if isinstance(given, Track):
-            return given
-        if given is None:
+            return check_track(given, method)
+        found, box, score = _parts(given)
+        if not found or box is None or _is_empty(box):
             return Track(self._box, 0.0, Status.LOST)
-        self._box = as_box(given)
-        return Track(self._box, 1.0, Status.TRACKED)
+        try:
+            self._box = as_box(box, f"{method} returned a box")
+        except TypeError:
+            raise ValueError(f"{method}: expected {_ANSWERS}, got {given!r:.80}") from None
+        if not (isinstance(score, Real) and math.isfinite(score)):
+            raise ValueError(f"{method}: expected a finite score, got {score!r:.80}")
+        return Track(self._box, float(score), Status.TRACKED)
 
 
 def _restore(cls: type[Any], values: dict[str, Any]) -> Any:
@@ -78,7 +132,32 @@ def _restore(cls: type[Any], values: dict[str, Any]) -> Any:
     return tracker
 
 
-def _require_color(frame: FrameLike) -> Frame:
-    channels = as_frame(frame)
-    channels.require("color")
-    return channels
+def _is_tracker(value: Any) -> bool:
+    return all(callable(getattr(value, name, None)) for name in ("init", "update"))
+
+
+def _takes_frame(init: Callable[..., Any]) -> bool:
+    """Whether a method's first parameter is annotated as a frame."""
+    try:
+        first = next(iter(inspect.signature(init).parameters.values()))
+    except (StopIteration, TypeError, ValueError):
+        return False
+    return first.annotation is not first.empty and "Frame" in str(first.annotation)
+
+
+def _parts(given: Any) -> tuple[bool, Any, Any]:
+    """Whether the target was found, the box, and the score, of an answer that is no Track."""
+    if isinstance(given, (tuple, list)) and len(given) == 2:
+        first, second = given
+        if isinstance(first, (bool, np.bool_)):
+            return bool(first), second, 1.0
+        return True, first, second
+    return True, given, 1.0
+
+
+def _is_empty(box: Any) -> bool:
+    """Whether a box is 0 in width and height, by which some say that the target is lost."""
+    try:
+        return len(box) == 4 and not any(float(size) for size in box[2:])
+    except (TypeError, ValueError):
+        return False

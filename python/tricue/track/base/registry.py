@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""Trackers by name: built in, from installed packages, or any class as ``module:Class``."""
+"""Trackers by name: built in, of installed packages, or a class as ``module:Class`` or ``file.py:Class``."""
 
 import hashlib
 import importlib
+import importlib.util
 import inspect
+import sys
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
@@ -26,17 +28,22 @@ _BUILT_IN = {
 
 
 def names() -> tuple[str, ...]:
-    """The names that :func:`create` knows; it also takes ``module:Class``."""
+    """The names that :func:`create` knows; it also takes ``module:Class`` and ``path/to/file.py:Class``."""
     return *_BUILT_IN, *sorted(_installed_entry_points().keys() - _BUILT_IN.keys())
+
+
+def is_built_in(name: str) -> bool:
+    """Whether it is one of tricue's own trackers."""
+    return name in _BUILT_IN
 
 
 def tracker_class(name: str) -> Any:
     """The class of a name, imported on demand to keep ``import tricue`` fast.
 
-    A third-party class that has only ``init(frame, box)`` and ``update(frame)`` is wrapped, see
+    A third-party class that has only ``init(image, box)`` and ``update(image)`` is wrapped, see
     :func:`tricue.track.base.adapter.adapt_class`. ValueError for an unknown name.
     """
-    return adapt_class(_import_class(_location(name)))
+    return adapt_class(_import_class(location(name)))
 
 
 def traits(name: str) -> Traits:
@@ -46,23 +53,38 @@ def traits(name: str) -> Traits:
 
 
 def code_digest(name: str) -> str:
-    """SHA-256 of the source file of a third party's class, which tells its versions apart; "" without one."""
-    source = inspect.getsourcefile(_import_class(_location(name)))
-    return "" if source is None else hashlib.sha256(Path(source).read_bytes()).hexdigest()
+    """SHA-256 of a third party's source files, which tells its versions apart; "" without any.
+
+    They are the class's own, and those that were imported from its package or from beside it.
+    """
+    found = _import_class(location(name))
+    source = inspect.getsourcefile(inspect.unwrap(found))
+    if source is None:
+        return ""
+    own, package = Path(source).resolve(), found.__module__.partition(".")[0]
+    paths = {own} | {
+        path
+        for each, module in [*sys.modules.items()]
+        if (path := _python_file(module)) and (path.parent == own.parent or each.partition(".")[0] == package)
+    }
+    digest = hashlib.sha256()
+    for path in sorted(paths):
+        digest.update(path.name.encode() + path.read_bytes())
+    return digest.hexdigest()
 
 
 def create(name: str, **params: Any) -> Tracker:
     """A tracker by its name, such as ``create("color-particle", seed=0, particles=300)``.
 
-    name: one of :func:`names`, or ``module:Class``. The keywords are those of the tracker's class.
-    ValueError for an unknown name lists the known ones.
+    name: one of :func:`names`, ``module:Class`` or ``path/to/file.py:Class``. The keywords are those of the
+    tracker's class. ValueError for an unknown name lists the known ones.
     """
     tracker: Tracker = tracker_class(name)(**params)
     return tracker
 
 
-def _location(name: str) -> str:
-    """The ``module:Class`` of a name; ValueError for an unknown one."""
+def location(name: str) -> str:
+    """The ``module:Class`` or ``file.py:Class`` of a name; ValueError for an unknown one."""
     installed = _installed_entry_points()
     where = _BUILT_IN.get(name) or (installed[name].value if name in installed else name)
     if not isinstance(where, str) or ":" not in where:
@@ -78,10 +100,13 @@ def _installed_entry_points() -> dict[str, EntryPoint]:
 
 
 def _import_class(where: str) -> Any:
-    """The class at "module:attribute"; ValueError if it doesn't exist or isn't a class."""
-    module, _, attribute = where.partition(":")
+    """The class, or the function that makes trackers, at "module:attribute" or "file.py:attribute".
+
+    ValueError if it doesn't exist or is neither.
+    """
+    module, _, attribute = where.rpartition(":")
     try:
-        found = importlib.import_module(module)
+        found: Any = _import_file(Path(module)) if module.endswith(".py") else importlib.import_module(module)
         for part in attribute.split("."):
             found = getattr(found, part)
     except ModuleNotFoundError as error:
@@ -89,7 +114,42 @@ def _import_class(where: str) -> Any:
             raise  # of an import inside the module
         raise ValueError(f"{where}: there is no module {error.name}") from None
     except AttributeError:
-        raise ValueError(f"{where}: the module {module} has no {attribute}") from None
-    if not isinstance(found, type):
+        kind = "file" if module.endswith(".py") else "module"
+        raise ValueError(f"{where}: the {kind} {module} has no {attribute}") from None
+    if not callable(found):
         raise ValueError(f"{where}: expected a class with init and update, got {type(found).__name__}")
     return found
+
+
+def _import_file(path: Path) -> Any:
+    """The module in a file, imported once; files beside it can be imported, too. FileNotFoundError if there
+    is none.
+    """
+    path = path.resolve()
+    name = path.stem
+    if _python_file(sys.modules.get(name)) == path:
+        return sys.modules[name]
+    if not path.is_file():
+        raise FileNotFoundError(f"{path}: there is no such file")
+    if str(path.parent) not in sys.path:
+        sys.path.append(str(path.parent))
+    if name in sys.modules:  # somebody else's, which stays
+        name = f"{name}_{hashlib.sha256(str(path).encode()).hexdigest()[:8]}"
+        if name in sys.modules:
+            return sys.modules[name]
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+def _python_file(module: Any) -> Path | None:
+    """The source file of a module; None of one that has none."""
+    file = getattr(module, "__file__", None)
+    return Path(file).resolve() if isinstance(file, str) and file.endswith(".py") else None

@@ -1,0 +1,176 @@
+# SPDX-License-Identifier: MIT
+"""The process of somebody else's tracker, seen from here: asked within a time limit, ended for sure."""
+
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import weakref
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import IO, Any
+
+from tricue.camera.box import Box
+from tricue.camera.frame import Frame
+from tricue.evaluation.foreign.host import from_plain
+from tricue.evaluation.foreign.worker import PATIENCE
+from tricue.track.base.track import Track
+
+LOADING_LIMIT = (
+    60.0  # seconds to start a process and to make a tracker in it, where the time limit is shorter
+)
+MAX_OUTPUT = 2000  # bytes of what a tracker prints that are kept, the last ones
+MAX_LINE = 200  # characters of it that are told
+
+
+class WorkerError(RuntimeError):
+    """A request failed: what the tracker raised, or how its process ended."""
+
+
+class WorkerProcess:
+    """A process for one tracker, which ends with this object, with the process that made it, or by a request
+    that takes longer than ``limit`` seconds, or LOADING_LIMIT where something is loaded. place: as
+    :class:`Host` takes it.
+    """
+
+    def __init__(self, place: str, limit: float) -> None:
+        self.limit = limit
+        self.end = ""
+        """How it ended, "" while it runs."""
+        code = (
+            f"import sys; sys.path[:] = {sys.path}; from tricue.evaluation.foreign.worker import main; "
+            f"main({place!r}, {max(limit, LOADING_LIMIT)!r})"
+        )
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", code],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,  # Ctrl-C is for the evaluation, which then ends the whole group
+            env={**os.environ, "PYTHONHASHSEED": "0"},
+        )
+        assert self._process.stderr is not None
+        self._output = _Tail(self._process.stderr)
+        self.close = weakref.finalize(self, _end, self._process)
+
+    def load(self, method: str, *arguments: Any) -> Any:
+        """As :meth:`ask`, with the time that imports and models may take."""
+        return self._ask(max(self.limit, LOADING_LIMIT), method, *arguments)
+
+    def ask(self, method: str, *arguments: Any) -> Any:
+        """The value that a method of ``Host`` returns; WorkerError for what it raises, and at the end of the
+        process.
+        """
+        return self._ask(self.limit, method, *arguments)
+
+    def _ask(self, limit: float, method: str, *arguments: Any) -> Any:
+        if self.end:
+            raise WorkerError(self.end)
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        too_slow = threading.Event()
+        timer = threading.Timer(limit, _kill_late, (self._process, too_slow))
+        timer.daemon = True
+        timer.start()
+        try:
+            pickle.dump((method, *arguments), self._process.stdin, pickle.HIGHEST_PROTOCOL)
+            self._process.stdin.flush()
+            succeeded, value = pickle.load(self._process.stdout)
+        except (EOFError, OSError, pickle.UnpicklingError):
+            ended = self._how_it_ended()
+            self.end = no_answer(limit) if too_slow.is_set() else ended
+            raise WorkerError(self.end) from None
+        finally:
+            timer.cancel()
+        if not succeeded:
+            raise WorkerError(value)
+        return value
+
+    def _how_it_ended(self) -> str:
+        _kill(self._process)  # what it has started may still be there
+        code = self._process.wait()
+        self.close()
+        if code < 0:
+            with suppress(ValueError):
+                return self._with_output(f"its process was ended by {signal.Signals(-code).name}")
+        return self._with_output(f"its process ended with exit code {code}")
+
+    def _with_output(self, message: str) -> str:
+        line = self._output.last_line()
+        return f"{message}; its last words: {line[:MAX_LINE]}" if line else message
+
+
+def no_answer(limit: float) -> str:
+    """The message of a time limit that ended a process."""
+    return f"no answer within {limit:g} s (--time-limit)"
+
+
+class RemoteTracker:
+    """A tracker in a process, with the interface of those here. seconds: of the last update, measured there.
+
+    WorkerError for whatever goes wrong.
+    """
+
+    def __init__(self, process: WorkerProcess, keywords: Mapping[str, Any], seed: int) -> None:
+        self._process = process
+        self.seconds = 0.0
+        process.load("make", keywords, seed)
+
+    def init(self, frame: Frame, box: Box) -> Track:
+        """Start on a box."""
+        return from_plain(self._process.ask("init", frame, box))
+
+    def update(self, frame: Frame) -> Track:
+        """Follow the target into the next frame."""
+        plain, self.seconds = self._process.ask("update", frame)
+        return from_plain(plain)
+
+
+class _Tail:
+    """Reads a stream to its end, and keeps the last of it."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        self._kept = b""
+        self._thread = threading.Thread(target=self._read, args=(stream,), daemon=True)
+        self._thread.start()
+
+    def _read(self, stream: IO[bytes]) -> None:
+        with suppress(OSError, ValueError), stream:
+            while data := os.read(stream.fileno(), 1 << 16):
+                self._kept = (self._kept + data)[-MAX_OUTPUT:]
+
+    def last_line(self) -> str:
+        """The last line that isn't blank; "" without any."""
+        self._thread.join(PATIENCE)
+        lines = self._kept.decode(errors="replace").split("\n")
+        return next((" ".join(line.split()) for line in reversed(lines) if line.strip()), "")
+
+
+def _kill_late(process: "subprocess.Popen[bytes]", too_slow: threading.Event) -> None:
+    too_slow.set()
+    _kill(process)
+
+
+def _kill(process: "subprocess.Popen[bytes]") -> None:
+    """End a process at once, with what it has started."""
+    if sys.platform == "win32":
+        process.kill()
+        return
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGKILL)
+
+
+def _end(process: "subprocess.Popen[bytes]") -> None:
+    """End a process: in good order, as it does once its input is closed, or else at once."""
+    assert process.stdin is not None
+    assert process.stdout is not None
+    with suppress(OSError):
+        process.stdin.close()
+    try:
+        process.wait(PATIENCE)
+    except subprocess.TimeoutExpired:
+        _kill(process)
+        process.wait()
+    process.stdout.close()

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""Which trackers are evaluated: ours, baselines and others' by the names that users give."""
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from tricue.evaluation import baselines
+from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT, foreign_spec, is_foreign, split_name
+from tricue.evaluation.tracker_spec import TrackerSpec
+from tricue.track.base import registry
+
+
+def tracker_specs(
+    chosen: Sequence[str] | None,
+    settings: Mapping[str, Mapping[str, Any]],
+    time_limit: float = DEFAULT_TIME_LIMIT,
+) -> list[TrackerSpec]:
+    """The specs of the given names, by default of all installed trackers. settings: parameters by tracker
+    name. time_limit: seconds for an update of a tracker that isn't ours.
+
+    A baseline that the installed cv2 doesn't have can be chosen, but runs nowhere. ValueError for an unknown
+    name lists the known ones; ValueError, TypeError or OSError say what is wrong with a tracker or its
+    parameters.
+    """
+    known = [*registry.names(), *baselines.available()]
+    words = known if chosen is None else chosen
+    names = [split_name(word)[0] if is_foreign(word) else word for word in words]
+    for name in [*names, *settings]:
+        if name not in [*known, *baselines.NAMES, *names] or (
+            name in settings and name not in [*known, *names]
+        ):
+            places = "module:Class, file.py:Class, cv2:Name, trax:command"
+            raise ValueError(f"--trackers: expected some of {', '.join(known)}, {places}, got {name!r}")
+    require_unique(names)
+    for word, name in zip(words, names, strict=True):
+        if name in (*baselines.NAMES, *registry.names()) and word != name:
+            raise ValueError(f"--trackers: expected another name than {name!r}, which is taken, in {word!r}")
+    found = [
+        foreign_spec(word, settings.get(name, {}), time_limit)
+        if is_foreign(word)
+        else TrackerSpec(name, tuple(settings.get(name, {}).items()))
+        for word, name in zip(words, names, strict=True)
+    ]
+    for each in found:
+        _check(each)
+    if all(each.name in _missing() for each in found):
+        raise ValueError(f"--trackers: {baselines.missing_reason(found[0].name)}")
+    return found
+
+
+def require_unique(names: Iterable[str]) -> None:
+    """ValueError where two trackers have one name, or one that can't be a folder's."""
+    for name, count in Counter(names).items():
+        if count > 1:
+            raise ValueError(f"--trackers: expected different names, got {name!r} twice; NAME=... gives one")
+        if name in (".", "..") or "/" in name or "\\" in name:
+            raise ValueError(f"--trackers: expected a name without slashes, got {name!r}")
+
+
+def missing_note(chosen: Sequence[str] | None) -> str:
+    """Which baselines the installed cv2 lacks, where all were wanted; "" without any."""
+    missing = _missing() if chosen is None else []
+    if not missing:
+        return ""
+    *others, last = missing
+    return f"not run: {''.join(f'{name}, ' for name in others)}{last}: {baselines.missing_reason(last)}"
+
+
+def _missing() -> list[str]:
+    there = baselines.available()
+    return [name for name in baselines.NAMES if name not in there]
+
+
+def _check(spec: TrackerSpec) -> None:
+    """TypeError or ValueError for wrong parameters, before the first run."""
+    if spec.ours:
+        registry.tracker_class(spec.name).Params(**dict(spec.settings))
+    elif spec.settings and spec.name in baselines.NAMES:
+        raise ValueError(f"--set: expected a parameter of one of our trackers, got one of {spec.name}")

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""A frame for trackers that were written for images: its color image, with the frame's other parts on it."""
+
+from typing import Any
+
+import numpy as np
+
+from tricue.camera.frame import Frame
+from tricue.camera.pose import Pose
+
+
+class FrameImage(np.ndarray[Any, Any]):
+    """A color image, (H, W, 3) or (H, W) uint8, that also has a :class:`tricue.Frame`'s attributes.
+
+    cv2 and NumPy take it as the array that it is. What is computed of it, such as a crop, has no frame:
+    its attributes are None.
+    """
+
+    frame: Frame | None
+
+    @classmethod
+    def of(cls, frame: Frame) -> "FrameImage":
+        """A frame's color image, without a copy; MissingChannelError if there is none."""
+        frame.require("color")
+        assert frame.color is not None
+        image = frame.color.view(cls)
+        image.frame = frame
+        return image
+
+    def __array_finalize__(self, parent: Any) -> None:
+        self.frame = None
+
+    @property
+    def color(self) -> Any:
+        """The image itself, as a plain array."""
+        return np.asarray(self)
+
+    @property
+    def depth(self) -> Any:
+        """Meters, as in :class:`tricue.Frame`."""
+        return None if self.frame is None else self.frame.depth
+
+    @property
+    def right(self) -> Any:
+        """The right image of a stereo pair."""
+        return None if self.frame is None else self.frame.right
+
+    @property
+    def timestamp(self) -> float | None:
+        """Seconds."""
+        return None if self.frame is None else self.frame.timestamp
+
+    @property
+    def pose(self) -> Pose | None:
+        """Where the camera stands."""
+        return None if self.frame is None else self.frame.pose
