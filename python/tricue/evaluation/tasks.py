@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The unit of work: one tracker on one sequence from one seed, in one of two kinds of run.
+"""The unit of work: one tracker on one sequence from one seed, in one kind of run.
 
 A task contains all that its result depends on, so that it can run in any process and be found again.
 """
@@ -15,12 +15,12 @@ import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.data.prefetch import prefetch
-from tricue.evaluation import one_pass, restarts
+from tricue.evaluation import one_pass, protocols, restarts
 from tricue.evaluation.dataset import Entry, OpenedSequence
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS, Order
 from tricue.evaluation.record import Record
 from tricue.evaluation.tracker_spec import SafeTracker, TrackerSpec
 
-ONE_PASS, RESTARTS = "one-pass", "restarts"
 _RESULT_SOURCES = (
     *("_core*.so", "_core*.pyd", "camera/**/*.py", "data/**/*.py", "reference/**/*.py", "track/**/*.py"),
     *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts")),
@@ -29,7 +29,9 @@ _RESULT_SOURCES = (
 
 @dataclass(frozen=True)
 class Task:
-    """kind: ONE_PASS, from the first true box to the end, or RESTARTS, started again after each failure."""
+    """kind: RESTARTS, started again after each failure, or the name of a :class:`protocols.Order`, such as
+    ONE_PASS, from the first true box to the end.
+    """
 
     tracker: TrackerSpec
     entry: Entry
@@ -45,7 +47,8 @@ class Task:
         """A hash of all that the result depends on. digest: the opened entry's; description: the tracker
         spec's.
         """
-        parts = (self.name, digest, description, code_digest())
+        known = () if self.kind in (ONE_PASS, RESTARTS) else (_digest_of(Path(protocols.__file__)),)
+        parts = (self.name, digest, description, code_digest(), *known)
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -57,6 +60,8 @@ def perform(task: Task, ahead: int = 0) -> Record:
     a little.
     """
     opened = task.entry.open()
+    if task.kind not in (ONE_PASS, RESTARTS):
+        return _run_in_order(task, opened, ahead)
     frames = map(task.tracker.view(opened), opened.source)
     with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched:
         return (
@@ -73,6 +78,20 @@ def _run_one_pass(task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -
     return Record(run, (start,), tracker.error)
 
 
+def _run_in_order(task: Task, opened: OpenedSequence, ahead: int) -> Record:
+    """Start in the first of the order's frames with a true box; those before it aren't read."""
+    order = Order.named(task.kind)
+    numbers = order.seen(opened)
+    box = Box(*opened.boxes[numbers[0]].tolist())
+    if order.noise:
+        box = protocols.jittered(box, task.entry.name, order.noise)
+    frames = map(task.tracker.view(opened), protocols.read_frames(opened.source, numbers))
+    tracker = task.tracker.make(opened, task.seed)
+    with closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched:
+        run = one_pass.run(tracker, prefetched, box)
+    return Record(run, (0,), tracker.error, tuple(numbers.tolist()))
+
+
 def _run_with_restarts(task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
     made: list[SafeTracker] = []
 
@@ -82,6 +101,11 @@ def _run_with_restarts(task: Task, opened: OpenedSequence, frames: Iterable[Fram
 
     record = restarts.run(make, frames, opened.boxes)
     return replace(record, error=next((tracker.error for tracker in made if tracker.error), ""))
+
+
+@cache
+def _digest_of(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @cache
