@@ -4,15 +4,21 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import count, tracker_names
+from tricue.cli.arguments import count, tracker_names, words
 from tricue.cli.progress import Progress
 from tricue.evaluation import tables
+from tricue.evaluation.attributes.measure import measure_all
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
+from tricue.evaluation.figures import FOLDER as FIGURES
+from tricue.evaluation.figures import check_formats, write_figures
+from tricue.evaluation.latex import write_latex
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS
 from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
 from tricue.evaluation.tasks import perform
@@ -24,6 +30,8 @@ examples:
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
+  tricue evaluate sequences/ --protocols one-pass,restarts,starts,every-3,noisy-5 --attributes
+  tricue evaluate sequences/ --latex table.tex --figures pdf      for a paper
   tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimeters, no times
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
 """
@@ -56,7 +64,25 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="runs of trackers that draw random numbers, default %(default)s",
     )
     command.add_argument(
+        "--protocols",
+        type=words,
+        default=[ONE_PASS, RESTARTS],
+        metavar="NAMES",
+        help="one-pass (always), restarts, starts, backward, every-N, noisy-N; default one-pass,restarts",
+    )
+    command.add_argument(
         "--no-restarts", action="store_true", help="leave out the runs with restarts after failures"
+    )
+    command.add_argument(
+        "--attributes", action="store_true", help="measure what sequences show, and results by that"
+    )
+    command.add_argument("--latex", type=Path, metavar="FILE", help="also write the tables as LaTeX")
+    command.add_argument(
+        "--figures",
+        type=words,
+        default=[],
+        metavar="FORMATS",
+        help="also write figures for papers into OUTPUT/figures: pdf, svg, png",
     )
     where = command.add_mutually_exclusive_group()
     where.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
@@ -94,13 +120,15 @@ def run(options: argparse.Namespace) -> int:
     read.
     """
     svg.require()  # now, not after hours
+    check_formats(options.figures)
     folder: Path = options.output
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
         settings=settings_by_tracker(options.set),
         seeds=options.seeds,
-        restarts=not options.no_restarts,
+        restarts=RESTARTS in options.protocols and not options.no_restarts,
         reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
+        protocols=tuple(name for name in options.protocols if name not in (ONE_PASS, RESTARTS)),
     )
     with Progress() as progress:
 
@@ -137,8 +165,14 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
 
 
 def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
+    if options.attributes:
+        evaluation = _with_attributes(evaluation, folder)
     about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs)
     written = [*tables.write(evaluation, folder, about), write_report(evaluation, folder, about)]
+    if options.latex:
+        written.append(write_latex(evaluation, options.latex))
+    if options.figures:
+        written += write_figures(evaluation, folder / FIGURES, options.figures)
     print(tables.markdown(evaluation))
     for each in evaluation.results:
         if each.row.trouble:
@@ -148,6 +182,14 @@ def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -
     for path in written:
         print(f"wrote {path}")
     return FAILED if evaluation.failed else 0
+
+
+def _with_attributes(evaluation: Evaluation, folder: Path) -> Evaluation:
+    """The evaluation with what its sequences show, of which a second run reads what the first has stored."""
+    with Progress() as progress:
+        progress.total = len(evaluation.opened)
+        found = measure_all(evaluation.opened, folder, lambda done: progress(done, "attributes"))
+    return replace(evaluation, attributes=found)
 
 
 def _remaining_note(update: ProgressUpdate) -> str:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Bootstrap intervals of means over sequences (Efron 1979), and tests of paired differences.
 
-Whole recordings are drawn: seeds and starts of a sequence are averaged before, and sequences of one recording,
-such as its several targets, stay together. Percentile intervals of few values are too narrow; theirs are
+Whole recordings are drawn: seeds and starts of a sequence are averaged before, and sequences of one
+recording, such as its several targets, stay together. Percentile intervals of few values are too narrow; theirs are
 widened as Hesterberg (2015, "What teachers should know about the bootstrap", section 3.2) does, so that they
 are as wide as Student's t demands. With fewer than MIN_CLUSTERS recordings there is no interval and no test:
 of five differences with the same sign the exact test still has a p-value of 1/16.
@@ -10,6 +10,7 @@ of five differences with the same sign the exact test still has a p-value of 1/1
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import accumulate
 from statistics import NormalDist
 from typing import NamedTuple
@@ -54,8 +55,8 @@ def mean_interval(values: ArrayLike, clusters: Sequence[str]) -> Interval:
     mean, size = float(sums.sum() / counts.sum()), len(sums)
     if size < MIN_CLUSTERS:
         return Interval(mean, math.nan, math.nan)
-    drawn = np.random.default_rng(SEED).integers(size, size=(DRAWS, size))
-    means = sums[drawn].sum(axis=1) / counts[drawn].sum(axis=1)
+    drawn = _drawn(size)
+    means = (drawn @ sums) / (drawn @ counts)
     tail = _tail(size)
     low, high = np.quantile(means, [tail, 1 - tail]).tolist()
     return Interval(mean, low, high)
@@ -72,12 +73,8 @@ def sign_flip_p(differences: ArrayLike, clusters: Sequence[str]) -> float:
     size = len(sums)
     if size < MIN_CLUSTERS:
         return math.nan
-    if size <= MAX_EXACT:
-        signs = 1 - 2.0 * ((np.arange(2**size)[:, None] >> np.arange(size)) & 1)
-        drawn = 0
-    else:
-        signs = 1 - 2.0 * np.random.default_rng(SEED).integers(2, size=(SIGN_DRAWS, size))
-        drawn = 1  # the signs as they are count, too
+    signs = _signs(size)
+    drawn = int(size > MAX_EXACT)  # then the signs as they are count, too
     observed = abs(float(sums.sum()))
     as_far = np.abs(signs @ sums) >= observed - 1e-12 * np.abs(sums).sum()
     return float((as_far.sum() + drawn) / (len(signs) + drawn))
@@ -94,13 +91,30 @@ def holm(p_values: Sequence[float]) -> list[float]:
     return adjusted
 
 
-def _by_cluster(values: ArrayLike, clusters: Sequence[str]) -> tuple[Array, NDArray[np.int64]]:
+@lru_cache(maxsize=4)
+def _drawn(size: int) -> Array:
+    """(DRAWS, size) how often each of the clusters is in each draw."""
+    indices = np.random.default_rng(SEED).integers(size, size=(DRAWS, size))
+    return np.array([np.bincount(each, minlength=size) for each in indices], dtype=np.float64)
+
+
+@lru_cache(maxsize=4)
+def _signs(size: int) -> Array:
+    """(N, size) all signs of so many differences, or SIGN_DRAWS draws of them."""
+    if size <= MAX_EXACT:
+        bits = (np.arange(2**size)[:, None] >> np.arange(size)) & 1
+    else:
+        bits = np.random.default_rng(SEED).integers(2, size=(SIGN_DRAWS, size))
+    return (1 - 2 * bits).astype(np.float64)
+
+
+def _by_cluster(values: ArrayLike, clusters: Sequence[str]) -> tuple[Array, Array]:
     """The sum of each cluster's values, and their number."""
     value = np.asarray(values, np.float64)
     if not value.size or value.shape != (len(clusters),):
         raise ValueError(f"values: expected a number for each of {len(clusters)} names, got {value.shape}")
     _, index = np.unique(np.asarray(clusters), return_inverse=True)
-    return np.bincount(index, value), np.bincount(index)
+    return np.bincount(index, value).astype(np.float64), np.bincount(index).astype(np.float64)
 
 
 def _tail(size: int) -> float:

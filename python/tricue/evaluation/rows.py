@@ -172,9 +172,7 @@ def pooled_auroc(runs: Sequence[ScoredRun]) -> float:
     return confidence.auroc(overlaps, scores, absent)
 
 
-def measure_speed(
-    opened: OpenedSequence, tracker: str, seed: int, run: Run, kind: str = ONE_PASS
-) -> Speed:
+def measure_speed(opened: OpenedSequence, tracker: str, seed: int, run: Run, kind: str = ONE_PASS) -> Speed:
     """The update times of a run."""
     p50, p99 = np.percentile(run.seconds * 1e3, [50, 99])
     return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99), kind)

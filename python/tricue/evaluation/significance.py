@@ -71,7 +71,7 @@ class Comparison:
         can be told. better: 1 if higher is better, -1 if lower.
         """
         known = {name: each.mean for name, each in self.means.items() if not math.isnan(each.mean)}
-        if not self.telling or not known:
+        if not self.telling or len(known) < 2:
             return frozenset()
         best = max(known, key=lambda name: better * known[name])
         equals = {each for each in known if (pair := self.pair(best, each)) and not pair.different}
@@ -120,14 +120,10 @@ def _pair(
 
 
 def _with_adjusted(pair: Pair, adjusted: float) -> Pair:
-    return Pair(
-        pair.first, pair.second, pair.sequences, pair.recordings, pair.difference, pair.p, adjusted
-    )
+    return Pair(pair.first, pair.second, pair.sequences, pair.recordings, pair.difference, pair.p, adjusted)
 
 
 def _swapped(pair: Pair) -> Pair:
     mean, low, high = pair.difference
     turned = Interval(-mean, -high, -low)
-    return Pair(
-        pair.second, pair.first, pair.sequences, pair.recordings, turned, pair.p, pair.adjusted
-    )
+    return Pair(pair.second, pair.first, pair.sequences, pair.recordings, turned, pair.p, pair.adjusted)

@@ -113,8 +113,8 @@ ATTRIBUTES = (
     Attribute(
         "blur",
         "blur",
-        "variance of the Laplacian in the box over the variance of gray there, relative to the 90th percentile"
-        " over twelve frames before and after",
+        "variance of the Laplacian in the box over the variance of gray there, relative to the 90th"
+        " percentile over twelve frames before and after",
         "times",
         "below",
         0.4,

@@ -43,7 +43,7 @@ def image_values(frames: Iterable[Frame], boxes: Array) -> dict[str, Array]:
         before = small
         if np.isnan(box).any() or (inside := _crop(image, box)) is None:
             continue
-        gray = cv2.cvtColor(inside, cv2.COLOR_BGR2GRAY)
+        gray = np.asarray(cv2.cvtColor(inside, cv2.COLOR_BGR2GRAY), np.uint8)
         found["blur"][index] = _sharpness(gray)
         found["light"][index] = gray.mean() + 1  # a black box stays above 0
         surround[index] = _surround_gray(image, box)
@@ -92,6 +92,28 @@ def _common_change(inside: Array, around: Array) -> Array:
     return np.asarray(np.exp(np.where(np.isnan(one + other), np.nan, smaller)))
 
 
+def _crop(image: Image, box: Array, scale: float = 1.0) -> Image | None:
+    """The part of the image in a box that is scaled around its center; None where that is under 4 pixels."""
+    left, top, right, bottom = _corners(image, box, scale)
+    return image[top:bottom, left:right] if min(right - left, bottom - top) >= 4 else None
+
+
+def _corners(image: Image, box: Array, scale: float) -> tuple[int, int, int, int]:
+    x, y, width, height = box.tolist()
+    far_x, far_y = scale * width / 2, scale * height / 2
+    center_x, center_y = x + width / 2, y + height / 2
+    limits = image.shape[1], image.shape[0]
+    low = [max(0, round(c - f)) for c, f in ((center_x, far_x), (center_y, far_y))]
+    high = [min(n, round(c + f)) for c, f, n in ((center_x, far_x, limits[0]), (center_y, far_y, limits[1]))]
+    return low[0], low[1], high[0], high[1]
+
+
+def _sharpness(gray: NDArray[np.uint8]) -> float:
+    """The variance of the Laplacian over that of the gray values: neither light nor contrast count."""
+    smooth = cv2.GaussianBlur(gray.astype(np.float32), (0, 0), SMOOTHING)
+    return float(cv2.Laplacian(smooth, cv2.CV_32F).var() / max(float(smooth.var()), 1.0))
+
+
 def _relative_sharpness(values: Array) -> Array:
     """Each value over the SHARP percentile of those near it in time; size and background change slowly."""
     relative = np.full(len(values), np.nan)
@@ -115,7 +137,9 @@ def _best_elsewhere(image: Image, box: Array) -> float:
         return float("nan")
     pixels, pattern = region.astype(np.float32), target.astype(np.float32)
     correlation = cv2.matchTemplate(pixels, pattern, cv2.TM_CCOEFF_NORMED)
-    alike = np.minimum(correlation, _intersections(np.asarray(region, np.uint8), np.asarray(target, np.uint8)))
+    alike = np.minimum(
+        correlation, _intersections(np.asarray(region, np.uint8), np.asarray(target, np.uint8))
+    )
     width, height = round(box[2] * scale), round(box[3] * scale)
     alike[max(0, at[1] - height + 1) : at[1] + height, max(0, at[0] - width + 1) : at[0] + width] = -1
     best = float(alike.max())
@@ -155,4 +179,4 @@ def _histogram(image: Image) -> Array:
 
 
 def _bins(image: Image) -> NDArray[np.intp]:
-    return (image // (256 // BINS)).astype(np.intp) @ np.array([BINS**2, BINS, 1])
+    return np.asarray((image // (256 // BINS)).astype(np.intp) @ np.array([BINS**2, BINS, 1]))

@@ -7,6 +7,7 @@ import math
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -81,12 +82,9 @@ def measure_all(
     """
     found = {}
     for done, each in enumerate(opened, 1):
-        try:
+        with suppress(OSError, ValueError):  # its runs say why
             found[each.entry.name] = _stored(each, folder / FOLDER)
-        except (OSError, ValueError):
-            continue  # its runs say why
-        finally:
-            on_progress(done)
+        on_progress(done)
     return found
 
 
@@ -96,8 +94,8 @@ def _stored(opened: OpenedSequence, folder: Path) -> SequenceAttributes:
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         if content["fingerprint"] == fingerprint:
-            values = {key: np.array(each, np.float64) for key, each in content["values"].items()}
-            return SequenceAttributes(values)
+            stored = content["values"].items()
+            return SequenceAttributes({key: np.array(each, np.float64) for key, each in stored})
     except (OSError, ValueError, KeyError, TypeError):
         pass  # missing, cut off, or of another version
     found = measure(opened)

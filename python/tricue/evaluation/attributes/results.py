@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""How trackers do where sequences have an attribute: over whole sequences as in OTB, over frames as in VOT."""
+"""How trackers do where sequences have an attribute: over whole sequences as in OTB, and over frames as in
+VOT.
+"""
 
 import math
 from collections.abc import Sequence
@@ -18,23 +20,20 @@ Line = dict[str, Any]
 
 def sequence_lines(evaluation: Evaluation) -> list[Line]:
     """A line per sequence and attribute that is known in any of its frames."""
-    lines = []
-    for opened in evaluation.opened:
-        if (found := evaluation.attributes.get(opened.entry.name)) is None:
-            continue
-        for each in ATTRIBUTES:
-            if known := found.known(each.key):
-                lines.append(
-                    {
-                        "group": opened.group,
-                        "sequence": opened.entry.name,
-                        "attribute": each.key,
-                        "has": int(found.has(each.key)),
-                        "share": found.share(each.key),
-                        "frames": known,
-                    }
-                )
-    return lines
+    return [
+        {
+            "group": opened.group,
+            "sequence": opened.entry.name,
+            "attribute": each.key,
+            "has": int(found.has(each.key)),
+            "share": found.share(each.key),
+            "frames": found.known(each.key),
+        }
+        for opened in evaluation.opened
+        if (found := evaluation.attributes.get(opened.entry.name)) is not None
+        for each in ATTRIBUTES
+        if found.known(each.key)
+    ]
 
 
 def tracker_lines(evaluation: Evaluation) -> list[Line]:
@@ -43,14 +42,14 @@ def tracker_lines(evaluation: Evaluation) -> list[Line]:
     auc, low, high: mean over the sequences that have it, and its interval; auc_without: over the others.
     frames_auc: mean over the same sequences of the AUC over the frames that have it, alone.
     """
-    lines = []
-    for group in evaluation.groups:
-        for attribute in ATTRIBUTES:
-            having = sequences_with(evaluation, group, attribute.key)
-            for spec in evaluation.trackers if having else ():
-                if results := evaluation.of(group, spec.name):
-                    lines.append(_line(evaluation, group, attribute.key, spec.name, results, having))
-    return lines
+    return [
+        _line(evaluation, group, attribute.key, spec.name, results, having)
+        for group in evaluation.groups
+        for attribute in ATTRIBUTES
+        if (having := sequences_with(evaluation, group, attribute.key))
+        for spec in evaluation.trackers
+        if (results := evaluation.of(group, spec.name))
+    ]
 
 
 def sequences_with(evaluation: Evaluation, group: str, key: str) -> list[str]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from tricue.evaluation.evaluate import Evaluation, Options
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS
 from tricue.evaluation.report.markup import Html, joined, scrolled, tag
 from tricue.track.base.registry import tracker_class
 
@@ -32,7 +33,7 @@ def troubles(evaluation: Evaluation) -> Html | None:
         _list(
             "Stopped by an error; the run has no boxes from there on",
             [
-                [tag("b", row.tracker), f" on {row.sequence}, seed {row.seed}: {row.trouble}"]
+                [tag("b", row.tracker), f" on {row.sequence}, {row.run}, seed {row.seed}: {row.trouble}"]
                 for row in stopped
             ],
         ),
@@ -53,6 +54,7 @@ def setup(evaluation: Evaluation, about: Mapping[str, Any]) -> Html:
     facts = {
         **{name: about[name] for name in _VERSIONS if name in about},
         "seeds": f"{options.seeds}, counted from 0; deterministic trackers ran once",
+        "protocols": ", ".join(options.orders),
         "restarts": "each run also with restarts after failures" if options.restarts else "none",
         "reading options": reading or "none, as in the files",
         "command": tag("code", command(options, str(about.get("dataset", "DATASET")))),
@@ -78,7 +80,10 @@ def command(options: Options, dataset: str) -> str:
     if options.trackers:
         words += ["--trackers", ",".join(options.trackers)]
     words += ["--seeds", str(options.seeds)]
-    words += [] if options.restarts else ["--no-restarts"]
+    words += [] if options.restarts or options.protocols else ["--no-restarts"]
+    if options.protocols:
+        restarts = [RESTARTS] if options.restarts else []
+        words += ["--protocols", ",".join((ONE_PASS, *restarts, *options.protocols))]
     for tracker, values in options.settings.items():
         for name, value in values.items():
             words += ["--set", f"{tracker}.{name}={_plain(value)}"]

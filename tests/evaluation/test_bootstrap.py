@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 import numpy as np
 import pytest
+from benchmarks.quality.common.bootstrap import mean_interval
 
 from benchmarks.quality.common import bootstrap
-from benchmarks.quality.common.bootstrap import mean_interval
 
 
 def names(count):
