@@ -122,13 +122,14 @@ def run(options: argparse.Namespace) -> int:
     svg.require()  # now, not after hours
     check_formats(options.figures)
     folder: Path = options.output
+    restarts, protocols = chosen_protocols(options)
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
         settings=settings_by_tracker(options.set),
         seeds=options.seeds,
-        restarts=RESTARTS in options.protocols and not options.no_restarts,
+        restarts=restarts,
         reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
-        protocols=tuple(name for name in options.protocols if name not in (ONE_PASS, RESTARTS)),
+        protocols=protocols,
     )
     with Progress() as progress:
 
@@ -151,6 +152,12 @@ def run(options: argparse.Namespace) -> int:
             print(f"what is finished is in {folder}; the same command goes on", file=sys.stderr)
             raise
     return _report(evaluation, folder, options)
+
+
+def chosen_protocols(options: argparse.Namespace) -> tuple[bool, tuple[str, ...]]:
+    """Whether to run with restarts, and the protocols beside these and one pass."""
+    restarts = RESTARTS in options.protocols and not options.no_restarts
+    return restarts, tuple(name for name in options.protocols if name not in (ONE_PASS, RESTARTS))
 
 
 def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Figures for papers: a file each, as wide as a column, with its fonts inside (matplotlib, ``evaluate`` extra).
+"""Figures for papers: a file each, as wide as a column, with its fonts inside; by matplotlib.
 
 Colors are those of the report, which color-blind readers can distinguish; baselines also differ by dashes.
 """
@@ -16,7 +16,7 @@ from tricue.evaluation.differences import comparison
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.report.plot_styles import LineStyle, line_styles
 from tricue.evaluation.report.plots import Group, Plot, by_number, dash_pattern, plots_of
-from tricue.evaluation.significance import Comparison
+from tricue.evaluation.significance import Comparison, Pair
 
 FOLDER = "figures"
 FORMATS = ("pdf", "svg", "png")
@@ -94,7 +94,8 @@ def _save(
 
     written = []
     for each in formats:
-        with rc_context({**_STYLE}):
+        style: dict[Any, Any] = {**_STYLE}
+        with rc_context(style):
             figure = Figure(figsize=size, layout="constrained")
             FigureCanvasAgg(figure)
             draw(figure.subplots())
@@ -153,16 +154,9 @@ def _matrix(found: Comparison) -> Callable[[Any], None]:
         for row, first in enumerate(names):
             for column, second in enumerate(names):
                 pair = None if first == second else found.pair(first, second)
-                if pair is None:
-                    axes.fill(
-                        [column, column + 1, column + 1, column], [row, row, row + 1, row + 1], "#f2f2f2"
-                    )
-                    continue
-                up = pair.difference.mean > 0
-                strong, pale = ("#2166ac", "#d6e6f2") if up else ("#b35806", "#fbe6cf")
-                shown = strong if pair.different else pale if pair.difference.excludes_zero else "#ffffff"
-                axes.fill([column, column + 1, column + 1, column], [row, row, row + 1, row + 1], shown)
-                if len(names) <= MAX_NAMED_CELLS:
+                across = [column, column + 1, column + 1, column]
+                axes.fill(across, [row, row, row + 1, row + 1], _shade(pair))
+                if pair is not None and len(names) <= MAX_NAMED_CELLS:
                     text = f"{pair.difference.mean:+.2f}"
                     ink = "white" if pair.different else "#222222"
                     axes.text(column + 0.5, row + 0.5, text, ha="center", va="center", color=ink)
@@ -174,6 +168,13 @@ def _matrix(found: Comparison) -> Callable[[Any], None]:
             each.set_visible(True)
 
     return draw
+
+
+def _shade(pair: Pair | None) -> str:
+    if pair is None:
+        return "#f2f2f2"
+    strong, pale = ("#2166ac", "#d6e6f2") if pair.difference.mean > 0 else ("#b35806", "#fbe6cf")
+    return strong if pair.different else pale if pair.difference.excludes_zero else "#ffffff"
 
 
 def _best(group: Group) -> list[str]:

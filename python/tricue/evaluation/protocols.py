@@ -31,7 +31,7 @@ ONE_PASS, RESTARTS, BACKWARD, STARTS = "one-pass", "restarts", "backward", "star
 EVERY, NOISY = "every", "noisy"  # of a number, as in every-3
 START_SHARES = (0.0, 0.25, 0.5, 0.75)
 NOISE = 0.1
-"""Of the first box: how far its center is moved, in units of its size, and by how much its sides may differ."""
+"""Of the first box: how far its center is moved, in units of its size, and by how much sides may differ."""
 BLOCK_PIXELS = 50_000_000  # decoded at once of a reversed sequence
 
 

@@ -80,7 +80,7 @@ class Comparison:
 
 def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comparison:
     """values: by tracker. recordings: what each sequence is of; sequences of one recording are drawn
-    together.
+    together, one that isn't named is a recording of its own.
     """
     known = {
         name: {sequence: value for sequence, value in each.items() if not math.isnan(value)}
@@ -94,7 +94,7 @@ def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comp
     return Comparison(
         means,
         [_with_adjusted(each, p) for each, p in zip(pairs, adjusted, strict=True)],
-        len({recordings[each] for each in sequences}),
+        len({recordings.get(each, each) for each in sequences}),
     )
 
 
@@ -102,7 +102,7 @@ def interval_of(values: Values, recordings: Mapping[str, str]) -> Interval:
     """The mean over sequences with its interval; NaN without any."""
     if not values:
         return Interval(math.nan, math.nan, math.nan)
-    return mean_interval(list(values.values()), [recordings[each] for each in values])
+    return mean_interval(list(values.values()), [recordings.get(each, each) for each in values])
 
 
 def _pair(
@@ -113,7 +113,7 @@ def _pair(
     if not common:
         return None
     differences = [one[each] - other[each] for each in common]
-    clusters = [recordings[each] for each in common]
+    clusters = [recordings.get(each, each) for each in common]
     p = sign_flip_p(differences, clusters)
     interval = mean_interval(differences, clusters)
     return Pair(first, second, len(common), len(set(clusters)), interval, p, p)

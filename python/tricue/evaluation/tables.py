@@ -65,7 +65,7 @@ def summary(evaluation: Evaluation, protocol: str = ONE_PASS) -> list[Line]:
         sequences = {each.row.sequence for each in results}
         counts = {
             "sequences": len(sequences),
-            "recordings": len({recordings[each] for each in sequences}),
+            "recordings": len({recordings.get(each, each) for each in sequences}),
             "runs": len(runs),
         }
         lines.append({"group": group, "tracker": tracker, "protocol": protocol, **counts, **means})
@@ -213,7 +213,7 @@ def telling(found: Comparison) -> str:
         )
     return (
         f"[ ]: 95 % bootstrap interval over {found.recordings} recordings. *: the best, and what can't be"
-        " distinguished from it (paired sign-flip test, p of 0.05 or more after Holm's correction for all pairs)."
+        " distinguished from it (paired sign-flip test, p of 0.05 or more by Holm for all pairs)."
     )
 
 

@@ -27,8 +27,8 @@ def summary_table(
     styles: Mapping[str, LineStyle],
     compared: Mapping[str, Comparison],
 ) -> Html:
-    """lines: the summary's and the speeds' lines of the group, merged. total: the group's sequences. compared:
-    by column; columns of times aren't compared, of these the best is marked.
+    """lines: the summary's and the speeds' lines of the group, merged. total: the group's sequences.
+    compared: by column; columns of times aren't compared, of these the best is marked.
     """
     columns = with_numbers(lines)
     whole = {line["tracker"] for line in lines if line["sequences"] == total}
