@@ -15,10 +15,10 @@ from collections.abc import Sequence
 from itertools import product
 
 from tricue.evaluation import metrics
+from tricue.evaluation.bootstrap import mean_interval
 from tricue.scenes.rooms.scene import ROOM_CHANNELS, ROOM_KINDS, room_scene
 
 from benchmarks.quality.common.arguments import parser, seeds
-from benchmarks.quality.common.bootstrap import mean_interval
 from benchmarks.quality.common.parallel import run_parallel
 from benchmarks.quality.common.scene_runs import SceneResult, SceneTask, channels_of, run_variant
 from benchmarks.quality.common.tables import Cell, markdown, mean, write_csv

@@ -4,7 +4,8 @@
 import sys
 from collections.abc import Mapping, Sequence
 
-from benchmarks.quality.common.bootstrap import LEVEL, Interval, mean_interval
+from tricue.evaluation.bootstrap import LEVEL, Interval, mean_interval
+
 from benchmarks.quality.common.groups import members, recording
 from benchmarks.quality.common.protocols import PROTOCOLS
 from benchmarks.quality.common.saved_runs import Aucs, aucs

@@ -7,40 +7,23 @@ frame. A run starts on the first of its frames with a true box. Times increase, 
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import one_pass
+from tricue.evaluation.protocols import Order, forward_times, orders
 from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common.frame_results import FrameResults
 from benchmarks.quality.common.recordings import Recording
 from benchmarks.quality.common.variants import Variant
 
-
-class Order(NamedTuple):
-    """The frames of a run. start: the share of the sequence that it leaves out at first. step: every how many
-    frames it sees one.
-    """
-
-    start: float = 0.0
-    backward: bool = False
-    step: int = 1
-
-    def numbers(self, frames: int) -> NDArray[np.intp]:
-        """The frames' numbers in the order in which the tracker sees them."""
-        way = np.arange(frames)[:: -1 if self.backward else 1]
-        return way[int(self.start * frames) :: self.step]
-
-
 PROTOCOLS: Mapping[str, tuple[Order, ...]] = {
     "forward": (Order(),),
     "backward": (Order(backward=True),),
-    "starts": tuple(Order(start, backward) for start in (0, 0.25, 0.5, 0.75) for backward in (False, True)),
+    "starts": orders("starts"),
     "third": (Order(step=3),),
 }
 ORDERS = tuple(dict.fromkeys(order for orders in PROTOCOLS.values() for order in orders))
@@ -78,9 +61,5 @@ def run_order(
 
 def in_order(frames: Sequence[Frame], numbers: NDArray[np.intp]) -> Iterator[Frame]:
     """The frames of these numbers; where they go backward, their times are the seconds since the first."""
-    first, backward = frames[numbers[0]].timestamp, numbers[-1] < numbers[0]
-    for number in numbers:
-        frame = frames[number]
-        if backward and first is not None and frame.timestamp is not None:
-            frame = replace(frame, timestamp=first - frame.timestamp)
-        yield frame
+    ordered = (frames[number] for number in numbers)
+    return forward_times(ordered) if numbers[-1] < numbers[0] else ordered

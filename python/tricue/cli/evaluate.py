@@ -4,16 +4,22 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-from tricue.cli.arguments import any_tracker_names, count, seconds
+from tricue.cli.arguments import any_tracker_names, count, seconds, words
 from tricue.cli.progress import Progress
 from tricue.evaluation import tables
+from tricue.evaluation.attributes.measure import measure_all
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
+from tricue.evaluation.figures import FOLDER as FIGURES
+from tricue.evaluation.figures import check_formats, write_figures
 from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT, is_foreign
+from tricue.evaluation.latex import write_latex
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS
 from tricue.evaluation.raw_results import check_folder, write_raw
 from tricue.evaluation.report import svg
 from tricue.evaluation.report.page import write_report
@@ -31,6 +37,8 @@ examples:
   tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerVit     your class, any of cv2's
   tricue evaluate sequences/ --trackers 'fused,theirs=trax:./theirs --fast'   a TraX program
   tricue evaluate sequences/ --trackers fused --results SiamFC=results/SiamFC others' result files
+  tricue evaluate sequences/ --protocols one-pass,restarts,starts,every-3,noisy-5 --attributes
+  tricue evaluate sequences/ --latex table.tex --figures pdf      for a paper
   tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimeters, no times
   tricue evaluate sequences/ --raw boxes                      as OTB's, GOT-10k's and VOT's files, too
   tricue evaluate /data/all --scheduler tcp://host:8786       a Dask cluster, which sees that folder
@@ -82,7 +90,25 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="runs of trackers that draw random numbers, default %(default)s",
     )
     command.add_argument(
+        "--protocols",
+        type=words,
+        default=[ONE_PASS, RESTARTS],
+        metavar="NAMES",
+        help="one-pass (always), restarts, starts, backward, every-N, noisy-N; default one-pass,restarts",
+    )
+    command.add_argument(
         "--no-restarts", action="store_true", help="leave out the runs with restarts after failures"
+    )
+    command.add_argument(
+        "--attributes", action="store_true", help="measure what sequences show, and results by that"
+    )
+    command.add_argument("--latex", type=Path, metavar="FILE", help="also write the tables as LaTeX")
+    command.add_argument(
+        "--figures",
+        type=words,
+        default=[],
+        metavar="FORMATS",
+        help="also write figures for papers into OUTPUT/figures: pdf, svg, png",
     )
     where = command.add_mutually_exclusive_group()
     where.add_argument("--jobs", type=count, default=1, metavar="N", help="processes, default %(default)s")
@@ -128,15 +154,18 @@ def run(options: argparse.Namespace) -> int:
     svg.require()  # now, not after hours
     if options.raw is not None:
         check_folder(options.raw)
+    check_formats(options.figures)
     folder: Path = options.output
+    restarts, protocols = chosen_protocols(options)
     chosen = Options(
         trackers=tuple(options.trackers) if options.trackers else None,
         settings=settings_by_tracker(options.set),
         seeds=options.seeds,
-        restarts=not options.no_restarts,
+        restarts=restarts,
         reading=ReadOptions(options.depth_scale, options.fps, options.unit, options.truth),
         results=tuple(options.results),
         time_limit=options.time_limit,
+        protocols=protocols,
     )
     with Progress() as progress:
 
@@ -161,6 +190,12 @@ def run(options: argparse.Namespace) -> int:
     return _report(evaluation, folder, options)
 
 
+def chosen_protocols(options: argparse.Namespace) -> tuple[bool, tuple[str, ...]]:
+    """Whether to run with restarts, and the protocols beside these and one pass."""
+    restarts = RESTARTS in options.protocols and not options.no_restarts
+    return restarts, tuple(name for name in options.protocols if name not in (ONE_PASS, RESTARTS))
+
+
 def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
     """Parameters by tracker from strings tracker.name=value."""
     found: dict[str, list[str]] = {}
@@ -179,10 +214,16 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
 
 
 def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
+    if options.attributes:
+        evaluation = _with_attributes(evaluation, folder)
     about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs)
     written = [*tables.write(evaluation, folder, about), write_report(evaluation, folder, about)]
     if options.raw is not None:
         written.append(write_raw(evaluation, folder, options.raw, about))
+    if options.latex:
+        written.append(write_latex(evaluation, options.latex))
+    if options.figures:
+        written += write_figures(evaluation, folder / FIGURES, options.figures)
     print(tables.markdown(evaluation))
     for each in evaluation.results:
         if each.row.trouble:
@@ -210,6 +251,12 @@ def _left_out(evaluation: Evaluation) -> list[str]:
 
 def _some(names: list[str]) -> str:
     return ", ".join(names[:MAX_NAMES]) + (" and others" if len(names) > MAX_NAMES else "")
+def _with_attributes(evaluation: Evaluation, folder: Path) -> Evaluation:
+    """The evaluation with what its sequences show, of which a second run reads what the first has stored."""
+    with Progress() as progress:
+        progress.total = len(evaluation.opened)
+        found = measure_all(evaluation.opened, folder, lambda done: progress(done, "attributes"))
+    return replace(evaluation, attributes=found)
 
 
 def _remaining_note(update: ProgressUpdate) -> str:

@@ -28,6 +28,7 @@ COMMANDS = {
     "open": "draw boxes in a video, track and correct, in the browser",
     "info": "describe a video, a folder, a sequence",
     "evaluate": "compare trackers with OpenCV's on a data set",
+    "compare": "compare two evaluations, and say what got worse",
     "calibrate": "measure a tracker's parameters on own images",
     "reproduce": "repeat an experiment of the papers",
     "vot-workspace": "let the VOT toolkit run trackers",

@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tricue.errors import one_line
+from tricue.evaluation.attributes.measure import SequenceAttributes
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
 from tricue.evaluation.eta import RemainingTime
 from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS, Order, orders
 from tricue.evaluation.record import Record
 from tricue.evaluation.results_folder import ResultError, ResultsSpec, results_spec
 from tricue.evaluation.rows import (
@@ -30,7 +32,7 @@ from tricue.evaluation.rows import (
 )
 from tricue.evaluation.schedule import Perform, run_tasks
 from tricue.evaluation.store import Store
-from tricue.evaluation.tasks import ONE_PASS, RESTARTS, Task, perform
+from tricue.evaluation.tasks import Task, perform
 from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.evaluation.trackers import missing_note, require_unique, tracker_specs
 
@@ -45,7 +47,7 @@ class Options:
     installed. settings: parameters that aren't the defaults, by trackers' names. seeds: runs of those that
     draw random numbers. restarts: whether to run each with restarts, too. reading: how the data set's files
     are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a tracker
-    that isn't ours.
+    that isn't ours. protocols: names of those that are run beside one pass, see :mod:`protocols`.
     """
 
     trackers: tuple[str, ...] | None = None
@@ -55,10 +57,17 @@ class Options:
     reading: ReadOptions = field(default_factory=ReadOptions)
     results: tuple[str, ...] = ()
     time_limit: float = DEFAULT_TIME_LIMIT
+    protocols: tuple[str, ...] = ()
+
+    @property
+    def orders(self) -> dict[str, tuple[str, ...]]:
+        """The kinds of the runs of each protocol, one pass first. ValueError for an unknown protocol."""
+        names = dict.fromkeys((ONE_PASS, *self.protocols))
+        return {name: tuple(order.name for order in orders(name)) for name in names}
 
 
 class RunResult(NamedTuple):
-    """A one-pass run compared with the truth, and its numbers."""
+    """A run compared with the truth, and its numbers."""
 
     task: Task
     scored: ScoredRun
@@ -70,6 +79,7 @@ class RunResult(NamedTuple):
 class Evaluation:
     """The outcome of an evaluation. left_out: why a tracker didn't run on a sequence, by both names. failed:
     the errors of sequences or tasks that couldn't be read, by name. notes: lines about trackers and results.
+    attributes: what the sequences show, by name, where it was measured.
     """
 
     options: Options
@@ -79,15 +89,31 @@ class Evaluation:
     left_out: Mapping[tuple[str, str], str]
     failed: Mapping[str, str]
     notes: tuple[str, ...] = ()
+    attributes: Mapping[str, SequenceAttributes] = field(default_factory=dict)
 
     @property
     def groups(self) -> tuple[str, ...]:
         """The groups of sequences on which trackers can be compared, in the order of the sequences."""
         return tuple(dict.fromkeys(each.group for each in self.opened))
 
-    def of(self, group: str, tracker: str) -> list[RunResult]:
-        """The results of one tracker on the sequences of a group."""
-        return [each for each in self.results if (each.row.group, each.row.tracker) == (group, tracker)]
+    @property
+    def one_pass(self) -> list[RunResult]:
+        """The results from the first true box to the end."""
+        return [each for each in self.results if each.row.run == ONE_PASS]
+
+    @property
+    def recordings(self) -> dict[str, str]:
+        """What each sequence is of, by name: several targets may be in one recording."""
+        return {each.entry.name: str(each.entry.place) for each in self.opened}
+
+    def of(self, group: str, tracker: str, protocol: str = ONE_PASS) -> list[RunResult]:
+        """The results of one tracker on the sequences of a group, by one protocol."""
+        kinds = self.options.orders[protocol]
+        return [
+            each
+            for each in self.results
+            if (each.row.group, each.row.tracker) == (group, tracker) and each.row.run in kinds
+        ]
 
     def __repr__(self) -> str:
         counts = {name: len(getattr(self, name)) for name in ("opened", "trackers", "results", "failed")}
@@ -154,6 +180,8 @@ class _Plan:
 
     def __init__(self, root: Path, options: Options) -> None:
         self.options = options
+        kinds = {kind: Order.named(kind) for each in options.orders.values() for kind in each}
+        self._orders = {kind: order for kind, order in kinds.items() if kind != ONE_PASS}
         results = [results_spec(text) for text in options.results]
         specs = tracker_specs(options.trackers, options.settings, options.time_limit)
         self.trackers: tuple[TrackerSpec, ...] = (*specs, *results)
@@ -179,7 +207,8 @@ class _Plan:
             raise ValueError(next(iter(self.failed.values())))
 
     def _list_tasks(self, opened: OpenedSequence) -> list[Task]:
-        kinds = (ONE_PASS, RESTARTS) if self.options.restarts else (ONE_PASS,)
+        kinds = [kind for kind, order in self._orders.items() if len(order.seen(opened))]
+        kinds = [ONE_PASS, *([RESTARTS] if self.options.restarts else []), *kinds]
         tasks = []
         for spec in self.trackers:
             if reason := spec.unsupported_reason(opened):
@@ -220,8 +249,10 @@ class _Plan:
     def weight(self, task: Task) -> float:
         """The relative duration of a task; long tasks start first, so that all processes end together."""
         opened = self.opened[task.entry.name]
-        source = opened.source
-        return float(source.length or len(opened.boxes)) * task.tracker.relative_time
+        frames = float(opened.source.length or len(opened.boxes))
+        if task.kind in self._orders:
+            frames = float(len(self._orders[task.kind].seen(opened)))
+        return frames * task.tracker.relative_time
 
     def add(self, task: Task, record: Record) -> None:
         """Score a finished run and keep only its scores, to limit memory."""
@@ -229,7 +260,7 @@ class _Plan:
         if task.kind == RESTARTS:
             self.scored[task] = measure_robustness(record, opened)
         else:
-            speed = measure_speed(opened, task.tracker.name, task.seed, record.run)
+            speed = measure_speed(opened, task.tracker.name, task.seed, record.run, task.kind)
             self.scored[task] = score_run(record, opened), speed
 
     def evaluation(self, failed: Mapping[str, str]) -> Evaluation:
@@ -251,10 +282,11 @@ class _Plan:
 
     def _results(self) -> Iterator[RunResult]:
         for task in self.tasks:
-            if task.kind == ONE_PASS and task in self.scored:
+            if task.kind != RESTARTS and task in self.scored:
                 run, speed = self.scored[task]
-                robustness = self.scored.get(replace(task, kind=RESTARTS))
-                row = make_row(self.opened[task.entry.name], task.tracker.name, task.seed, run, robustness)
+                restarted = self.scored.get(replace(task, kind=RESTARTS)) if task.kind == ONE_PASS else None
+                opened, tracker = self.opened[task.entry.name], task.tracker.name
+                row = make_row(opened, tracker, task.seed, run, restarted, task.kind)
                 yield RunResult(task, run, row, speed)
 
 

@@ -17,12 +17,19 @@ FORMAT = 1  # of the file
 @dataclass(frozen=True, slots=True, eq=False)
 class Record:
     """A run over M frames. starts: the frames in which the tracker was started. error: the message of the
-    error that ended the tracker, or ""; its boxes are NaN from there on.
+    error that ended the tracker, or ""; its boxes are NaN from there on. frames: the numbers in the sequence
+    of the frames that the tracker saw, in that order; None for all of them.
     """
 
     run: Run
     starts: tuple[int, ...] = (0,)
     error: str = ""
+    frames: tuple[int, ...] | None = None
+
+    @property
+    def numbers(self) -> NDArray[np.intp]:
+        """(M,) the numbers of its frames in the sequence."""
+        return np.array(range(len(self.run.scores)) if self.frames is None else self.frames, dtype=np.intp)
 
     def to_json(self, about: dict[str, Any]) -> str:
         """The file's text. about: what was run, stored in the file, too."""
@@ -33,6 +40,7 @@ class Record:
                 **about,
                 "trouble": self.error,
                 "starts": self.starts,
+                **({} if self.frames is None else {"frames": self.frames}),
                 "statuses": [str(status) for status in run.statuses],
                 **{name: _plain(getattr(run, name)) for name in _ARRAYS},
             },
@@ -46,7 +54,8 @@ class Record:
             values = json.loads(text)
             arrays = {name: _array(values[name], shape) for name, shape in _ARRAYS.items()}
             statuses = tuple(map(Status, values["statuses"]))
-            return cls(Run(statuses=statuses, **arrays), tuple(values["starts"]), values["trouble"])
+            frames = None if values.get("frames") is None else tuple(values["frames"])
+            return cls(Run(statuses=statuses, **arrays), tuple(values["starts"]), values["trouble"], frames)
         except (KeyError, TypeError) as error:
             raise ValueError(f"record: expected one of this format, got none: {error!r}") from None
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from tricue.evaluation import confidence, long_term, metrics, restarts
 from tricue.evaluation.dataset import OpenedSequence
 from tricue.evaluation.one_pass import Run
+from tricue.evaluation.protocols import ONE_PASS
 from tricue.evaluation.record import Record
 from tricue.track.base.track import Status
 
@@ -23,6 +24,7 @@ class ScoredRun:
     """A run compared with the truth, over the N frames from its start on; arrays have length N.
 
     start: the frame, counted from the sequence's first. error: the error that ended the tracker, or "".
+    frames: their numbers in the sequence.
     """
 
     start: int
@@ -35,6 +37,7 @@ class ScoredRun:
     tracked: NDArray[np.bool_]
     position_errors: Array
     error: str = ""
+    frames: NDArray[np.intp] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +72,8 @@ class Row:
     accuracy: float
     """Mean overlap of the run with restarts."""
     trouble: str = ""
+    run: str = ONE_PASS
+    """Its kind, such as "backward-from-25"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,16 +86,18 @@ class Speed:
     fps: float
     p50_ms: float
     p99_ms: float
+    run: str = ONE_PASS
 
 
 def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
     """Compare a run with the truth, from its first start on."""
-    run, frames = record.run, len(record.run.scores)
-    since = slice(record.starts[0], frames)
+    run, since = record.run, slice(record.starts[0], None)
+    numbers = record.numbers[since]
+    frames = int(numbers.max()) + 1
     boxes = clip_to_image(run.boxes, opened)[since]
-    truth, absent = opened.truth(frames)[since], opened.absent(frames)[since]
+    truth, absent = opened.truth(frames)[numbers], opened.absent(frames)[numbers]
     return ScoredRun(
-        record.starts[0],
+        int(numbers[0]),
         boxes,
         truth,
         absent,
@@ -98,8 +105,9 @@ def score_run(record: Record, opened: OpenedSequence) -> ScoredRun:
         run.scores[since],
         run.statuses[since],
         np.array([status is Status.TRACKED for status in run.statuses[since]], dtype=np.bool_),
-        metrics.position_errors(run.positions[since], opened.positions(frames)[since]),
+        metrics.position_errors(run.positions[since], opened.positions(frames)[numbers]),
         record.error,
+        numbers,
     )
 
 
@@ -126,8 +134,9 @@ def make_row(
     seed: int,
     run: ScoredRun,
     robustness: restarts.Robustness | None = None,
+    kind: str = ONE_PASS,
 ) -> Row:
-    """The numbers of a one-pass run and of the run with restarts, if there is one."""
+    """The numbers of a run, and of the run with restarts that belongs to one pass, if there is one."""
     score = metrics.score(run.boxes, run.truth)
     rates = long_term.rates(run.boxes, run.truth, run.tracked, run.absent)
     return Row(
@@ -151,6 +160,7 @@ def make_row(
         float("nan") if robustness is None else float(robustness.failures),
         float("nan") if robustness is None else robustness.accuracy,
         run.error,
+        kind,
     )
 
 
@@ -169,12 +179,20 @@ def pooled_auroc(runs: Sequence[ScoredRun]) -> float:
     return confidence.auroc(overlaps, scores, absent)
 
 
-def measure_speed(opened: OpenedSequence, tracker: str, seed: int, run: Run) -> Speed:
+def measure_speed(opened: OpenedSequence, tracker: str, seed: int, run: Run, kind: str = ONE_PASS) -> Speed:
     """The update times of a run; NaN where none are known."""
     if not run.seconds.size:
-        return Speed(opened.entry.name, tracker, seed, *[float("nan")] * 3)
+        return Speed(opened.entry.name, tracker, seed, *[float("nan")] * 3, kind)
     p50, p99 = np.percentile(run.seconds * 1e3, [50, 99])
-    return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99))
+    return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99), kind)
+
+
+def by_sequence(rows: Iterable[Row], name: str) -> dict[str, float]:
+    """The mean of a number over seeds and starts, for each sequence; NaN where it is undefined."""
+    found: dict[str, list[float]] = {}
+    for row in rows:
+        found.setdefault(row.sequence, []).append(getattr(row, name))
+    return {sequence: _mean(np.array(values)) for sequence, values in found.items()}
 
 
 def mean_row(rows: Sequence[Row]) -> dict[str, float]:
@@ -184,11 +202,11 @@ def mean_row(rows: Sequence[Row]) -> dict[str, float]:
 
 
 def over_sequences(rows: Iterable[Row]) -> dict[str, float]:
-    """Means over sequences of the means over seeds, so that every sequence counts once."""
-    by_sequence: dict[str, list[Row]] = {}
+    """Means over sequences of the means over seeds and starts, so that every sequence counts once."""
+    rows_by_sequence: dict[str, list[Row]] = {}
     for row in rows:
-        by_sequence.setdefault(row.sequence, []).append(row)
-    means = [mean_row(each) for each in by_sequence.values()]
+        rows_by_sequence.setdefault(row.sequence, []).append(row)
+    means = [mean_row(each) for each in rows_by_sequence.values()]
     return {name: _mean(np.array([mean[name] for mean in means])) for name in means[0]}
 
 

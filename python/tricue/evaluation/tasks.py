@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The unit of work: one tracker on one sequence from one seed, in one of two kinds of run.
+"""The unit of work: one tracker on one sequence from one seed, in one kind of run.
 
 A task contains all that its result depends on, so that it can run in any process and be found again.
 """
@@ -11,16 +11,19 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 import tricue
 from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.data.prefetch import prefetch
-from tricue.evaluation import one_pass, restarts
+from tricue.evaluation import one_pass, protocols, restarts
 from tricue.evaluation.dataset import Entry, OpenedSequence
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS, Order
 from tricue.evaluation.record import Record
 from tricue.evaluation.tracker_spec import Make, SafeTracker, TrackerSpec
 
-ONE_PASS, RESTARTS = "one-pass", "restarts"
 _RESULT_SOURCES = (
     *("_core*.so", "_core*.pyd", "camera/**/*.py", "data/**/*.py", "reference/**/*.py", "track/**/*.py"),
     *(f"evaluation/{name}.py" for name in ("tracker_spec", "one_pass", "baselines", "restarts", "foreign/*")),
@@ -29,7 +32,9 @@ _RESULT_SOURCES = (
 
 @dataclass(frozen=True)
 class Task:
-    """kind: ONE_PASS, from the first true box to the end, or RESTARTS, started again after each failure."""
+    """kind: RESTARTS, started again after each failure, or the name of a :class:`protocols.Order`, such as
+    ONE_PASS, from the first true box to the end.
+    """
 
     tracker: TrackerSpec
     entry: Entry
@@ -45,7 +50,8 @@ class Task:
         """A hash of all that the result depends on. digest: the opened entry's; description: the tracker
         spec's.
         """
-        parts = (self.name, digest, description, code_digest())
+        known = () if self.kind in (ONE_PASS, RESTARTS) else (_digest_of(Path(protocols.__file__)),)
+        parts = (self.name, digest, description, code_digest(), *known)
         return hashlib.sha256("\n".join(parts).encode()).hexdigest()
 
 
@@ -57,41 +63,69 @@ def perform(task: Task, ahead: int = 0) -> Record:
     a little.
     """
     opened = task.entry.open()
-    frames = map(task.tracker.view(opened), opened.source)
+    ordered = task.kind not in (ONE_PASS, RESTARTS)
+    source = protocols.read_frames(opened.source, _numbers(task, opened)) if ordered else opened.source
+    frames = map(task.tracker.view(opened), source)
     with (
         closing(prefetch(frames, ahead)) if ahead else nullcontext(frames) as prefetched,
         task.tracker.session(opened) as make,
     ):
-        run = _run_with_restarts if task.kind == RESTARTS else _run_one_pass
-        return run(make, task.seed, opened, prefetched)
+        run = _run_in_order if ordered else _run_with_restarts if task.kind == RESTARTS else _run_one_pass
+        return run(make, task, opened, prefetched)
 
 
-def _run_one_pass(make: Make, seed: int, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
+def _numbers(task: Task, opened: OpenedSequence) -> NDArray[np.intp]:
+    return Order.named(task.kind).seen(opened)
+
+
+def _run_one_pass(make: Make, task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
     """Start in the first frame with a true box, which needn't be the first image."""
-    tracker, start = make(seed), opened.start
+    tracker, start = make(task.seed), opened.start
     run = one_pass.run(tracker, frames, Box(*opened.boxes[start].tolist()), start)
     return Record(run, (start,), _error([tracker], (start,)))
 
 
-def _run_with_restarts(make: Make, seed: int, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
+def _run_in_order(make: Make, task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
+    """Start in the first of the order's frames with a true box; those before it aren't read."""
+    numbers, noise = _numbers(task, opened), Order.named(task.kind).noise
+    box = Box(*opened.boxes[numbers[0]].tolist())
+    if noise:
+        box = protocols.jittered(box, task.entry.name, noise)
+    tracker = make(task.seed)
+    run = one_pass.run(tracker, frames, box)
+    return Record(run, (0,), _error([tracker], (0,), numbers), tuple(numbers.tolist()))
+
+
+def _run_with_restarts(make: Make, task: Task, opened: OpenedSequence, frames: Iterable[Frame]) -> Record:
     made: list[SafeTracker] = []
 
     def make_next() -> SafeTracker:
-        made.append(make(seed + len(made)))
+        made.append(make(task.seed + len(made)))
         return made[-1]
 
     record = restarts.run(make_next, frames, opened.boxes)
     return Record(record.run, record.starts, _error(made, record.starts))
 
 
-def _error(trackers: Sequence[SafeTracker], starts: Sequence[int]) -> str:
-    """The first error, with its frame; "" without any. starts: of each tracker."""
+def _error(
+    trackers: Sequence[SafeTracker], starts: Sequence[int], numbers: NDArray[np.intp] | None = None
+) -> str:
+    """The first error, with its frame; "" without any. starts: of each tracker, in the order of the run.
+    numbers: the frames of the run, None for all.
+    """
     errors = (
-        f"frame {start + tracker.updates}: {tracker.error}"
+        (start + tracker.updates, tracker.error)
         for tracker, start in zip(trackers, starts, strict=True)
         if tracker.error
     )
-    return next(errors, "")
+    for index, error in errors:
+        return f"frame {index if numbers is None else numbers[index]}: {error}"
+    return ""
+
+
+@cache
+def _digest_of(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 @cache

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 from tricue.cli import program
-from tricue.cli.evaluate import settings_by_tracker
+from tricue.cli.evaluate import chosen_protocols, settings_by_tracker
 from tricue.evaluation import tables
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Options, evaluate
@@ -30,7 +30,8 @@ def test_it_needs_nothing_else(report):
     assert "://" not in text
     assert not re.search(r"<link|<script[^>]|@import|url\((?!#)", text)
     links = set(re.findall(r'href="([^#"]+)"', text))
-    assert links == {tables.ROWS, tables.SUMMARY, tables.SPEEDS, tables.JSON}
+    files = {tables.ROWS, tables.SUMMARY, tables.INTERVALS, tables.SIGNIFICANCE, tables.SPEEDS, tables.JSON}
+    assert links == files
     assert all((report.parent / name).is_file() for name in links)
 
 
@@ -124,6 +125,8 @@ def test_parameters_and_versions_are_listed(about, report):
         Options(("color-particle", "still-box"), seeds=5, restarts=False),
         Options(settings={"flow-depth": {"cues": ("flow",)}, "color-particle": {"particles": 7}}),
         Options(reading=ReadOptions(depth_scale=0.001, fps=15.0, unit=0.03, truth="depth")),
+        Options(protocols=("starts", "every-3")),
+        Options(restarts=False, protocols=("noisy-5",)),
     ],
 )
 def test_the_command_runs_the_same(options):
@@ -136,7 +139,8 @@ def test_the_command_runs_the_same(options):
     reading = ReadOptions(found.depth_scale, found.fps, found.unit, found.truth)
     trackers = tuple(found.trackers) if found.trackers else None
     settings = settings_by_tracker(found.set)
-    assert options == Options(trackers, settings, found.seeds, not found.no_restarts, reading)
+    restarts, protocols = chosen_protocols(found)
+    assert options == Options(trackers, settings, found.seeds, restarts, reading, protocols)
 
 
 def test_matplotlib_is_asked_for(evaluation, about, tmp_path, monkeypatch):

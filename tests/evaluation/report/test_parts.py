@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import base64
+import dataclasses
 import html
 import math
 import re
@@ -11,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tricue.evaluation import tables
 from tricue.evaluation.baselines import available
+from tricue.evaluation.differences import BETTER
 from tricue.evaluation.report import curves, labels, timeline
 from tricue.evaluation.report.columns import COLUMNS, best, with_numbers
 from tricue.evaluation.report.markup import Html, joined, number, tag
@@ -19,6 +21,7 @@ from tricue.evaluation.report.plots import Group
 from tricue.evaluation.report.summary import summary_table
 from tricue.evaluation.report.worst_frames import MAX_WORST_FRAMES, worst_frames
 from tricue.evaluation.rows import ScoredRun
+from tricue.evaluation.significance import compare
 from tricue.evaluation.tracker_spec import TrackerSpec
 from tricue.track.base.registry import names
 from tricue.track.base.track import Status
@@ -174,15 +177,47 @@ def line(tracker, sequences, **values):
     return {"tracker": tracker, "sequences": sequences, **dict.fromkeys(keys, NAN), **values}
 
 
+def compared(**aucs):
+    """Comparisons of trackers by their AUC on each of some sequences, and of nothing else."""
+    values = {
+        name: {str(index): each for index, each in enumerate(numbers)} for name, numbers in aucs.items()
+    }
+    nothing = compare({}, {})
+    return dict.fromkeys(BETTER, nothing) | {"auc": compare(values, {})}
+
+
 def test_only_trackers_that_ran_on_all_can_be_best():
-    """A mean over fewer sequences is noted as such, and not marked, however good it is."""
-    lines = [line("a", 3, auc=0.5, failures=2.0), line("b", 3, auc=0.4, failures=1.0), line("c", 1, auc=0.9)]
-    made = summary_table(
-        "color", lines, 3, {"a"}, line_styles([TrackerSpec("a"), TrackerSpec("b"), TrackerSpec("c")])
+    """A mean over fewer sequences is noted as such, and not marked, however good it is; of times the best is
+    marked.
+    """
+    lines = [line("a", 8, auc=0.5, fps=10.0), line("b", 8, auc=0.4, fps=20.0), line("c", 6, auc=0.9)]
+    steps = [0.01 * index for index in range(8)]
+    found = compared(
+        a=[0.5 + each for each in steps],
+        b=[0.4 - each for each in steps],
+        c=[0.9 - each / 2 for each in steps[:6]],
     )
-    assert re.findall(r"<strong>([^<]*)</strong>", made) == ["0.500", "1.00"]
-    assert "c (1 of 3)" in made
+    found["auc"] = dataclasses.replace(found["auc"], means={k: found["auc"].means[k] for k in "ab"})
+    styles = line_styles([TrackerSpec(name) for name in "abc"])
+    made = summary_table("color", lines, 8, {"a"}, styles, found)
+    assert re.findall(r"<strong>([^<]*)</strong>", made) == ["0.500", "20"]
+    assert "c (6 of 8)" in made
     assert made.count('class="badge"') == 1
+
+
+def test_what_cannot_be_told_apart_is_marked_the_same():
+    """Eight sequences on which b is sometimes better: both are marked. Of three sequences nothing is, and the
+    table says why.
+    """
+    lines = [line("a", 8, auc=0.53), line("b", 8, auc=0.5)]
+    styles = line_styles([TrackerSpec(name) for name in "ab"])
+    a, b = [0.5, 0.6, 0.4, 0.7, 0.5, 0.6, 0.4, 0.5], [0.6, 0.5, 0.5, 0.5, 0.4, 0.6, 0.5, 0.4]
+    made = summary_table("color", lines, 8, {"a"}, styles, compared(a=a, b=b))
+    assert re.findall(r"<strong>([^<]*)</strong>", made) == ["0.530", "0.500"]
+    assert made.count('class="interval"') == 2
+    few = summary_table("color", lines, 8, {"a"}, styles, compared(a=a[:3], b=b[:3]))
+    assert "<strong>" not in few
+    assert "Of 3 recordings nothing can be told" in few
 
 
 def test_columns_without_numbers_are_left_out():

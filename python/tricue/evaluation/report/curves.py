@@ -26,6 +26,18 @@ def precision(results: Sequence[RunResult]) -> Array:
     return _mean(results, curve)
 
 
+def norm_precision(results: Sequence[RunResult]) -> Array:
+    """(51,) share with a normalized center error of at most each of metrics.NORM_PRECISION_THRESHOLDS; NaN
+    where unknown.
+    """
+
+    def curve(each: RunResult) -> Array:
+        errors = metrics.normalized_center_errors(each.scored.boxes, each.scored.truth)
+        return metrics.precision_curve(errors, metrics.NORM_PRECISION_THRESHOLDS)
+
+    return _mean(results, curve)
+
+
 def reliability(results: Sequence[RunResult]) -> confidence.Reliability:
     """Over the frames of all the runs."""
     overlaps, scores, absent = (

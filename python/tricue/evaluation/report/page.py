@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from tricue.evaluation import tables
+from tricue.evaluation.differences import BETTER, comparison
 from tricue.evaluation.evaluate import Evaluation
 from tricue.evaluation.report import svg
+from tricue.evaluation.report.comparisons import attribute_table, matrix, protocol_table
 from tricue.evaluation.report.markup import Html, joined, tag
 from tricue.evaluation.report.plot_styles import LineStyle, line_styles
 from tricue.evaluation.report.plots import Group, plots
@@ -28,9 +30,12 @@ _TITLES = {
 _FILES = {
     tables.ROWS: "a line per run",
     tables.SUMMARY: "means",
+    tables.INTERVALS: "intervals",
+    tables.SIGNIFICANCE: "differences",
     tables.SPEEDS: "times",
     tables.JSON: "everything",
 }
+_ATTRIBUTE_FILES = {tables.ATTRIBUTES: "attributes", tables.BY_ATTRIBUTE: "results by attribute"}
 
 
 def write_report(evaluation: Evaluation, folder: Path, about: Mapping[str, Any]) -> Path:
@@ -80,7 +85,8 @@ def _lines(evaluation: Evaluation) -> list[dict[str, Any]]:
 
 
 def _header(evaluation: Evaluation, name: str, groups: Sequence[Group]) -> Html:
-    links = [tag("span", tag("a", file, href=file), f" ({what})") for file, what in _FILES.items()]
+    files = _FILES | (_ATTRIBUTE_FILES if evaluation.attributes else {})
+    links = [tag("span", tag("a", file, href=file), f" ({what})") for file, what in files.items()]
     places = [(each.name, _TITLES.get(each.name, each.name)) for each in groups]
     wrong = [("troubles", "What didn't run")] if troubles(evaluation) else []
     nav = [tag("a", title, href=f"#{place}") for place, title in [*places, *wrong, ("setup", "Setup")]]
@@ -98,7 +104,7 @@ def _header(evaluation: Evaluation, name: str, groups: Sequence[Group]) -> Html:
 def _sentence(evaluation: Evaluation) -> str:
     ours = [each.name for each in evaluation.trackers if each.ours]
     baselines = [each.name for each in evaluation.trackers if not each.ours]
-    frames = {each.row.sequence: each.row.frames for each in evaluation.results}
+    frames = {each.row.sequence: each.row.frames for each in evaluation.one_pass}
     seeds = evaluation.options.seeds
     seeded = f"; those that draw random numbers ran with {seeds} seeds" if seeds > 1 else ""
     beside = f"{', beside ' if ours else ''}{_listed(baselines)}" if baselines else ""
@@ -155,7 +161,14 @@ def _group(
     count = "one sequence" if len(mine) == 1 else f"{len(mine)} sequences"
     parts: list[Any] = [tag("h2", _TITLES.get(group.name, group.name), tag("small", count))]
     if group.lines:
-        parts += [summary_table(group.name, group.lines, len(mine), ours, styles), plots(group, styles)]
+        compared = {key: comparison(evaluation, group.name, key) for key in BETTER}
+        parts += [
+            summary_table(group.name, group.lines, len(mine), ours, styles, compared),
+            protocol_table(evaluation, group.name, styles),
+            matrix(evaluation, group.name),
+            attribute_table(evaluation, group.name),
+            plots(group, styles),
+        ]
     else:
         parts.append(tag("p", "No run on these sequences finished.", class_="note"))
     parts += [tag("h3", "Sequences, worst first"), _order(len(ranked))]

@@ -41,7 +41,7 @@ class RankedSequence(NamedTuple):
 def worst_first(evaluation: Evaluation) -> list[RankedSequence]:
     """All sequences, by the AUC of the leader on each."""
     by_sequence: dict[str, dict[str, list[RunResult]]] = {each.entry.name: {} for each in evaluation.opened}
-    for each in evaluation.results:
+    for each in evaluation.one_pass:
         by_sequence[each.row.sequence].setdefault(each.row.tracker, []).append(each)
     ours = {each.name for each in evaluation.trackers if each.ours}
     ranked = [_ranked(each, by_sequence[each.entry.name], ours) for each in evaluation.opened]

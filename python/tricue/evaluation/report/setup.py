@@ -8,6 +8,7 @@ from typing import Any
 
 from tricue.evaluation.evaluate import Evaluation, Options
 from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT
+from tricue.evaluation.protocols import ONE_PASS, RESTARTS
 from tricue.evaluation.report.markup import Html, joined, scrolled, tag
 from tricue.track.base.registry import tracker_class
 
@@ -33,7 +34,7 @@ def troubles(evaluation: Evaluation) -> Html | None:
         _list(
             "Frames without a box, all from an error on; they count as missed",
             [
-                [tag("b", row.tracker), f" on {row.sequence}, seed {row.seed}: {row.trouble}"]
+                [tag("b", row.tracker), f" on {row.sequence}, {row.run}, seed {row.seed}: {row.trouble}"]
                 for row in stopped
             ],
         ),
@@ -55,6 +56,7 @@ def setup(evaluation: Evaluation, about: Mapping[str, Any]) -> Html:
     facts = {
         **{name: about[name] for name in _VERSIONS if name in about},
         "seeds": f"{options.seeds}, counted from 0; deterministic trackers ran once",
+        "protocols": ", ".join(options.orders),
         "restarts": "each run also with restarts after failures" if options.restarts else "none",
         "reading options": reading or "none, as in the files",
         "command": tag("code", command(options, str(about.get("dataset", "DATASET")))),
@@ -85,7 +87,10 @@ def command(options: Options, dataset: str) -> str:
         words += ["--results", results]
     words += [] if options.time_limit == DEFAULT_TIME_LIMIT else ["--time-limit", f"{options.time_limit:g}"]
     words += ["--seeds", str(options.seeds)]
-    words += [] if options.restarts else ["--no-restarts"]
+    words += [] if options.restarts or options.protocols else ["--no-restarts"]
+    if options.protocols:
+        restarts = [RESTARTS] if options.restarts else []
+        words += ["--protocols", ",".join((ONE_PASS, *restarts, *options.protocols))]
     for tracker, values in options.settings.items():
         for name, value in values.items():
             words += ["--set", f"{tracker}.{name}={_plain(value)}"]

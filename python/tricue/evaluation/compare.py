@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: MIT
+"""Two evaluations of the same sequences: what got better or worse, by tracker and sequence.
+
+What was evaluated is read from the folders' evaluation.json. Values are paired by sequence, group, protocol.
+"""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+from tricue.evaluation.bootstrap import LEVEL, Interval, holm, mean_interval, sign_flip_p
+from tricue.evaluation.differences import BETTER
+from tricue.evaluation.protocols import ONE_PASS, orders
+from tricue.evaluation.tables import JSON
+
+Verdict = Literal["better", "worse", "no difference shown", "nothing can be told"]
+Rows = Sequence[Mapping[str, Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One tracker on a group of sequences by one protocol. difference: of the means, new minus old, over the
+    sequences that both have. by_sequence: the old and the new number of each. better: 1 if higher is better.
+    """
+
+    group: str
+    protocol: str
+    tracker: str
+    recordings: int
+    old: float
+    new: float
+    difference: Interval
+    adjusted: float
+    """The p-value of the sign-flip test, by Holm's method for all changes; NaN where nothing can be told."""
+    by_sequence: Mapping[str, tuple[float, float]]
+    better: int
+
+    @property
+    def verdict(self) -> Verdict:
+        """What the difference tells at LEVEL."""
+        if math.isnan(self.adjusted):
+            return "nothing can be told"
+        if self.adjusted >= 1 - LEVEL:
+            return "no difference shown"
+        return "better" if self.gain > 0 else "worse"
+
+    @property
+    def gain(self) -> float:
+        """The difference, above 0 if the new one is better."""
+        return self.better * self.difference.mean
+
+    def worst_first(self) -> list[tuple[str, float, float]]:
+        """Sequence, old and new number, what got worse most first."""
+        lines = [(name, old, new) for name, (old, new) in self.by_sequence.items()]
+        return sorted(lines, key=lambda line: self.better * (line[2] - line[1]))
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """All changes of one number. only: trackers and sequences that one of both alone has, for a note."""
+
+    number: str
+    changes: Sequence[Change]
+    only: Sequence[str]
+
+
+def compare_folders(old: Path, new: Path, number: str = "auc") -> Comparison:
+    """Compare two folders of ``tricue evaluate``, by one of the numbers of differences.BETTER.
+
+    ValueError or OSError for a folder that holds no evaluation, and if they have no run in common.
+    """
+    if number not in BETTER:
+        raise ValueError(f"--number: expected one of {', '.join(BETTER)}, got {number!r}")
+    before, after = _read(old), _read(new)
+    recordings = {each["sequence"]: each["recording"] for each in after.get("sequences", ())}
+    values_before, values_after = _values(before, number), _values(after, number)
+    changes = []
+    for key, mine in values_after.items():
+        common = {
+            name: (values_before[key][name], value)
+            for name, value in mine.items()
+            if name in values_before.get(key, {})
+        }
+        if common:
+            changes.append(_change(key, common, recordings, BETTER[number]))
+    if not changes:
+        raise ValueError(f"{old}, {new}: expected a tracker and a sequence that both have, got none")
+    adjusted = holm([each.adjusted for each in changes])
+    changes = [replace(each, adjusted=p) for each, p in zip(changes, adjusted, strict=True)]
+    return Comparison(number, changes, _only(before["rows"], after["rows"]))
+
+
+def _change(
+    key: tuple[str, str, str],
+    common: Mapping[str, tuple[float, float]],
+    recordings: Mapping[str, str],
+    better: int,
+) -> Change:
+    clusters = [recordings.get(name, name) for name in common]
+    differences = [new - old for old, new in common.values()]
+    old, new = (sum(each) / len(common) for each in zip(*common.values(), strict=True))
+    return Change(
+        *key,
+        len(set(clusters)),
+        old,
+        new,
+        mean_interval(differences, clusters),
+        sign_flip_p(differences, clusters),
+        common,
+        better,
+    )
+
+
+def _read(folder: Path) -> dict[str, Any]:
+    path = folder / JSON
+    if not path.is_file():
+        raise ValueError(f"{folder}: expected a folder of tricue evaluate, there is no {JSON} in it")
+    try:
+        content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        content["rows"][0]["sequence"]
+    except (ValueError, KeyError, IndexError, TypeError) as error:
+        raise ValueError(f"{path}: expected the tables of tricue evaluate, got {error!r}") from None
+    return content
+
+
+def _values(content: Mapping[str, Any], number: str) -> dict[tuple[str, str, str], dict[str, float]]:
+    """By group, protocol and tracker, and by sequence: the mean over seeds and starts."""
+    found: dict[tuple[str, str, str], dict[str, list[float]]] = {}
+    for protocol in content.get("protocols", [ONE_PASS]):
+        kinds = {order.name for order in orders(protocol)}
+        for row in content["rows"]:
+            if row.get("run", ONE_PASS) in kinds and row[number] is not None:
+                key = row["group"], protocol, row["tracker"]
+                found.setdefault(key, {}).setdefault(row["sequence"], []).append(row[number])
+    return {
+        key: {sequence: sum(each) / len(each) for sequence, each in values.items()}
+        for key, values in found.items()
+    }
+
+
+def _only(before: Rows, after: Rows) -> list[str]:
+    notes = []
+    for what in ("tracker", "sequence"):
+        old, new = ({row[what] for row in rows} for rows in (before, after))
+        for which, names in (("old", old - new), ("new", new - old)):
+            if names:
+                notes.append(f"only in the {which} one: {what} {', '.join(sorted(names))}")
+    return notes

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: MIT
+"""Which trackers differ: means over sequences with intervals, and each pair's paired difference.
+
+A pair is compared on the sequences on which both ran. Its interval is its own: of twenty such intervals one
+excludes 0 by chance. Whether a pair counts as different is said by p-values adjusted for the number of pairs.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+from tricue.evaluation.bootstrap import (
+    LEVEL,
+    MIN_CLUSTERS,
+    Interval,
+    holm,
+    mean_interval,
+    sign_flip_p,
+)
+
+Values = Mapping[str, float]
+"""A number by sequence: the mean over the runs of one tracker on it; NaN where it is undefined."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two trackers on the sequences that both have. difference: the first's mean minus the second's."""
+
+    first: str
+    second: str
+    sequences: int
+    recordings: int
+    difference: Interval
+    p: float
+    """Of the sign-flip test of this pair alone; NaN where nothing can be told."""
+    adjusted: float
+    """The same by Holm's method, for all pairs of the comparison."""
+
+    @property
+    def different(self) -> bool:
+        """Whether they differ at LEVEL, with all pairs in mind."""
+        return self.adjusted < 1 - LEVEL
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Several trackers by one number. means: by tracker. pairs: all that have a sequence in common."""
+
+    means: Mapping[str, Interval]
+    pairs: Sequence[Pair]
+    recordings: int
+    """How many independent recordings the sequences are of."""
+
+    @property
+    def telling(self) -> bool:
+        """Whether there are recordings enough to tell trackers apart."""
+        return self.recordings >= MIN_CLUSTERS
+
+    def pair(self, first: str, second: str) -> Pair | None:
+        """The pair in this order; None where they have no sequence in common."""
+        for each in self.pairs:
+            if (each.first, each.second) == (first, second):
+                return each
+            if (each.first, each.second) == (second, first):
+                return _swapped(each)
+        return None
+
+    def leaders(self, better: int = 1) -> frozenset[str]:
+        """The tracker with the best mean, and those that can't be distinguished from it; none where nothing
+        can be told. better: 1 if higher is better, -1 if lower.
+        """
+        known = {name: each.mean for name, each in self.means.items() if not math.isnan(each.mean)}
+        if not self.telling or len(known) < 2:
+            return frozenset()
+        best = max(known, key=lambda name: better * known[name])
+        equals = {each for each in known if (pair := self.pair(best, each)) and not pair.different}
+        return frozenset({best, *equals})
+
+
+def compare(values: Mapping[str, Values], recordings: Mapping[str, str]) -> Comparison:
+    """values: by tracker. recordings: what each sequence is of; sequences of one recording are drawn
+    together, one that isn't named is a recording of its own.
+    """
+    known = {
+        name: {sequence: value for sequence, value in each.items() if not math.isnan(value)}
+        for name, each in values.items()
+    }
+    means = {name: interval_of(each, recordings) for name, each in known.items()}
+    found = [_pair(first, second, known, recordings) for first, second in combinations(known, 2)]
+    pairs = [each for each in found if each is not None]
+    adjusted = holm([each.p for each in pairs])
+    sequences = {sequence for each in known.values() for sequence in each}
+    return Comparison(
+        means,
+        [_with_adjusted(each, p) for each, p in zip(pairs, adjusted, strict=True)],
+        len({recordings.get(each, each) for each in sequences}),
+    )
+
+
+def interval_of(values: Values, recordings: Mapping[str, str]) -> Interval:
+    """The mean over sequences with its interval; NaN without any."""
+    if not values:
+        return Interval(math.nan, math.nan, math.nan)
+    return mean_interval(list(values.values()), [recordings.get(each, each) for each in values])
+
+
+def _pair(
+    first: str, second: str, values: Mapping[str, Values], recordings: Mapping[str, str]
+) -> Pair | None:
+    one, other = values[first], values[second]
+    common = [each for each in one if each in other]
+    if not common:
+        return None
+    differences = [one[each] - other[each] for each in common]
+    clusters = [recordings.get(each, each) for each in common]
+    p = sign_flip_p(differences, clusters)
+    interval = mean_interval(differences, clusters)
+    return Pair(first, second, len(common), len(set(clusters)), interval, p, p)
+
+
+def _with_adjusted(pair: Pair, adjusted: float) -> Pair:
+    return Pair(pair.first, pair.second, pair.sequences, pair.recordings, pair.difference, pair.p, adjusted)
+
+
+def _swapped(pair: Pair) -> Pair:
+    mean, low, high = pair.difference
+    turned = Interval(-mean, -high, -low)
+    return Pair(pair.second, pair.first, pair.sequences, pair.recordings, turned, pair.p, pair.adjusted)
