@@ -251,6 +251,8 @@ def _left_out(evaluation: Evaluation) -> list[str]:
 
 def _some(names: list[str]) -> str:
     return ", ".join(names[:MAX_NAMES]) + (" and others" if len(names) > MAX_NAMES else "")
+
+
 def _with_attributes(evaluation: Evaluation, folder: Path) -> Evaluation:
     """The evaluation with what its sequences show, of which a second run reads what the first has stored."""
     with Progress() as progress:
