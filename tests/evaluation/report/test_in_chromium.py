@@ -63,7 +63,7 @@ def test_every_picture_is_decoded(page, evaluation):
     assert page.evaluate("[...document.images].every(each => each.alt)")
     groups = len(evaluation.groups)
     assert page.evaluate("document.querySelectorAll('svg.plot path').length") > 20 * groups
-    assert page.evaluate("document.querySelectorAll('svg.plot').length") == 4 * groups
+    assert page.evaluate("document.querySelectorAll('svg.plot').length") == 6 * groups
 
 
 def test_tables_hold_the_numbers_of_the_summary(page, evaluation):
