@@ -96,9 +96,9 @@ def test_the_rate_is_that_of_the_file(tmp_path):
 
 
 def test_blur_is_told_from_light_and_contrast():
-    """Frames that are smeared are blurred; those that are only darker or flatter aren't."""
+    """A frame that is smeared is blurred; one that is only darker isn't."""
     clear = [scene() for _ in range(30)]
-    smeared = cv2.blur(clear[0].color, (15, 1))
+    smeared = cv2.blur(clear[0].color, (15, 15))
     frames = [*clear[:10], Frame(color=smeared), *clear[:10], Frame(color=clear[0].color // 2), *clear[:5]]
     flags = flagged("blur", values_of(frames, [BOX] * len(frames))["blur"])
     assert flags == [index == 10 for index in range(len(frames))]
