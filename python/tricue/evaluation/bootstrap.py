@@ -3,8 +3,8 @@
 
 Whole recordings are drawn: seeds and starts of a sequence are averaged before, and sequences of one
 recording, such as its several targets, stay together. Percentile intervals of few values are too narrow;
-theirs are widened as Hesterberg (2015, "What teachers should know about the bootstrap", section 3.2) does, so
-that they are as wide as Student's t demands. With fewer than MIN_CLUSTERS recordings there is no interval and
+theirs are widened as Hesterberg (2015, "What teachers should know about the bootstrap") does, so that they
+are as wide as Student's t demands. With fewer than MIN_CLUSTERS recordings there is no interval and
 no test: of five differences with the same sign the exact test still has a p-value of 1/16.
 """
 
