@@ -127,7 +127,9 @@ def _curves(group: Group, styles: Mapping[str, LineStyle], kind: _Kind) -> Plot 
 
 def _speed(group: Group, styles: Mapping[str, LineStyle]) -> Plot | None:
     points = {
-        line["tracker"]: (line["fps"], line["auc"]) for line in group.lines if not math.isnan(line["auc"])
+        line["tracker"]: (line["fps"], line["auc"])
+        for line in group.lines
+        if not math.isnan(line["auc"] + line["fps"])
     }
     if not points:
         return None
