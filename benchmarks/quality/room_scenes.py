@@ -54,7 +54,7 @@ def rows(results: Sequence[SceneResult]) -> list[list[Cell]]:
         own = {scene: aucs[tracker, scene[0], scene[1]] for scene in scenes}
         means = [mean([value for scene, value in own.items() if scene[0] == kind]) for kind in kinds]
         against = [own[kind, seed] - aucs[trackers[0], kind, seed] for kind, seed in scenes]
-        interval = mean_interval(against, [f"{kind} {seed}" for kind, seed in scenes])
+        interval = mean_interval(against, [f"{kind} {seed}" for kind, seed in scenes], least=2)
         difference = f"{interval.mean:+.3f} ({interval.low:+.3f} to {interval.high:+.3f})"
         recovered = mean([each.recovered for each in results if each.tracker == tracker])
         lines.append([tracker, *means, mean(means), difference if tracker != trackers[0] else "", recovered])

@@ -138,6 +138,28 @@ def test_memory_does_not_grow_with_the_length(tmp_path):
     assert peaks[1] - peaks[0] < 10
 
 
+def test_protocols_attributes_and_files_for_papers(dataset, tmp_path, capsys):
+    """One command gives all of them; the same again measures and runs nothing anew."""
+    arguments = ["evaluate", str(dataset), "--trackers", "still-box,meanShift", "--output", str(tmp_path)]
+    arguments += ["--protocols", "one-pass,backward,every-3", "--attributes"]
+    arguments += ["--figures", "svg", "--latex", str(tmp_path / "table.tex")]
+    assert main(arguments) == 0
+    printed = capsys.readouterr().out
+    assert "| one-pass | backward | every-3 |" in " ".join(printed.split())
+    assert "Of 4 recordings nothing can be told" in printed
+    with (tmp_path / tables.ATTRIBUTES).open() as file:
+        lines = {(line["sequence"], line["attribute"]): line for line in csv.DictReader(file)}
+    assert lines["one", "low_resolution"]["has"] == "0"  # 20x20 pixels
+    assert (tmp_path / "figures" / "color-success.svg").is_file()
+    assert r"\toprule" in (tmp_path / "table.tex").read_text()
+    assert tables.ATTRIBUTES in (tmp_path / "report.html").read_text()
+    folders = (tmp_path / "runs", tmp_path / "attributes")
+    before = {path: path.stat().st_mtime_ns for each in folders for path in each.rglob("*.json")}
+    assert len(before) == 4 * 2 * 3 + 4
+    assert main(arguments) == 0
+    assert {path: path.stat().st_mtime_ns for each in folders for path in each.rglob("*.json")} == before
+
+
 def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
     """--set reaches the tracker that it names; a wrong form is told."""
     arguments = ["evaluate", str(dataset / "one"), "--trackers", "color-particle", "--output", str(tmp_path)]
@@ -163,6 +185,8 @@ def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
         (["--jobs", "0"], "expected a whole number above 0, got '0'"),
         (["--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"], "not allowed with"),
         (["--depth-scale", "-1"], "depth_scale"),
+        (["--protocols", "one-pass,thirds"], "--protocols: expected some of one-pass, restarts, starts"),
+        (["--figures", "pdf,eps"], "--figures: expected some of pdf, svg, png, got 'eps'"),
     ],
 )
 def test_wrong_options_are_told_in_one_line(dataset, tmp_path, capsys, arguments, message):

@@ -29,7 +29,7 @@ def group_intervals(now: Aucs, before: Aucs, protocol: str) -> dict[str, Interva
     """The mean difference by group, and its interval; sequences of one recording are drawn together."""
     found = differences(now, before, protocol)
     return {
-        group: mean_interval([found[name] for name in own], [recording(name) for name in own])
+        group: mean_interval([found[name] for name in own], [recording(name) for name in own], least=2)
         for group, own in members(found).items()
     }
 

@@ -3,8 +3,8 @@
 
 Whole recordings are drawn: seeds and starts of a sequence are averaged before, and sequences of one
 recording, such as its several targets, stay together. Percentile intervals of few values are too narrow;
-theirs are widened as Hesterberg (2015, "What teachers should know about the bootstrap", section 3.2) does, so
-that they are as wide as Student's t demands. With fewer than MIN_CLUSTERS recordings there is no interval and
+theirs are widened as Hesterberg (2015, "What teachers should know about the bootstrap") does, so that they
+are as wide as Student's t demands. With fewer than MIN_CLUSTERS recordings there is no interval and
 no test: of five differences with the same sign the exact test still has a p-value of 1/16.
 """
 
@@ -44,16 +44,17 @@ class Interval(NamedTuple):
         return self.low > 0 or self.high < 0
 
 
-def mean_interval(values: ArrayLike, clusters: Sequence[str]) -> Interval:
+def mean_interval(values: ArrayLike, clusters: Sequence[str], least: int = MIN_CLUSTERS) -> Interval:
     """The mean of some values and its LEVEL interval; the same for the same arguments.
 
     values: (N,). clusters: (N,) what each value is of: values of one cluster, such as those of sequences of
-    the same recording, depend on each other, so that clusters are drawn. The ends are NaN with fewer than
-    MIN_CLUSTERS. ValueError unless there is a name for each value, and one value or more.
+    the same recording, depend on each other, so that clusters are drawn. least: the number of clusters, 2 or
+    more, below which the ends are NaN. ValueError unless there is a name for each value, and one value or
+    more.
     """
     sums, counts = _by_cluster(values, clusters)
     mean, size = float(sums.sum() / counts.sum()), len(sums)
-    if size < MIN_CLUSTERS:
+    if size < max(least, 2):
         return Interval(mean, math.nan, math.nan)
     drawn = _drawn(size)
     means = (drawn @ sums) / (drawn @ counts)

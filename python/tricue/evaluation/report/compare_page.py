@@ -4,10 +4,12 @@
 from pathlib import Path
 
 from tricue.evaluation.compare import Change, Comparison
+from tricue.evaluation.report.columns import COLUMNS
 from tricue.evaluation.report.comparisons import interval
 from tricue.evaluation.report.markup import Html, joined, number, scrolled, tag
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+_HEADINGS = {column.key: column.heading for column in COLUMNS}
 _SHADES = {"better": "higher", "worse": "lower"}
 MAX_LISTED = 12
 """Sequences of each tracker that are listed, those that got worse most."""
@@ -24,11 +26,12 @@ def write_compare_page(found: Comparison, old: Path, new: Path, path: Path) -> P
         tag("title", "tricue comparison"),
         tag("style", style),
     )
+    lead = f"Differences of {_HEADINGS[found.number]}, new minus old, paired by sequence."
     header = tag(
         "header",
         tag("p", "tricue compare", class_="kicker"),
         tag("h1", f"{new.name} against {old.name}"),
-        tag("p", f"Differences of {found.number}, new minus old, paired by sequence.", class_="lead"),
+        tag("p", lead, class_="lead"),
         [tag("p", note, class_="note") for note in found.only],
     )
     main = tag("main", header, _overview(found), [_sequences(each) for each in found.changes])

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: MIT
+"""Two evaluations against each other, as a file of numbers and as a user runs it."""
+
+import json
+
+import pytest
+from tricue.cli import main
+from tricue.evaluation.compare import compare_folders
+
+NAMES = [f"s{index}" for index in range(8)]
+
+
+def write(folder, **aucs):
+    """A folder of an evaluation: by tracker the AUC of each sequence, of two seeds."""
+    folder.mkdir()
+    rows = [
+        {"group": "color", "sequence": name, "tracker": tracker.replace("_", "-"), "seed": seed, "auc": auc}
+        for tracker, values in aucs.items()
+        for name, auc in zip(NAMES, values, strict=False)
+        for seed in (0, 1)
+    ]
+    (folder / "evaluation.json").write_text(json.dumps({"rows": rows}))
+    return folder
+
+
+OLD = [0.5, 0.6, 0.4, 0.7, 0.5, 0.6, 0.3, 0.5]
+
+
+@pytest.fixture
+def folders(tmp_path):
+    """One tracker that is worse on each sequence, one that is as before, one on too few sequences."""
+    worse = [each - 0.05 - 0.01 * index for index, each in enumerate(OLD)]
+    old = write(tmp_path / "old", fused=OLD, KCF=OLD, few=OLD[:3], gone=OLD)
+    return old, write(tmp_path / "new", fused=worse, KCF=OLD, few=worse[:3])
+
+
+def test_what_got_worse_is_told(folders):
+    """A paired difference with an interval below 0; what is the same isn't shown to differ; three sequences
+    tell nothing, and leave the others' p-values alone.
+    """
+    found = {each.tracker: each for each in compare_folders(*folders).changes}
+    assert found["fused"].verdict == "worse"
+    assert found["fused"].difference.mean == pytest.approx(-0.085)
+    assert found["fused"].difference.high < -0.05
+    assert found["fused"].adjusted == 2 * 2 / 256
+    assert found["fused"].worst_first()[0][0] == "s7"
+    assert found["KCF"].verdict == "no difference shown"
+    assert found["few"].verdict == "nothing can be told"
+    assert compare_folders(*folders).only == ["only in the old one: tracker gone"]
+    assert {e.tracker: e.verdict for e in compare_folders(*folders[::-1]).changes}["fused"] == "better"
+
+
+@pytest.mark.parametrize(
+    ("options", "code"),
+    [
+        ([], 0),
+        (["--fail-if-worse"], 1),
+        (["--fail-under", "-0.2"], 0),
+        (["--fail-under", "-0.08"], 1),
+    ],
+)
+def test_the_exit_code_is_asked_for(folders, options, code, capsys):
+    """Without options a comparison is no failure, however bad."""
+    assert main(["compare", *map(str, folders), *options]) == code
+    printed = capsys.readouterr().out
+    assert "| fused " in printed
+    assert "worse" in printed
+    assert "lost most: s7 0.500 to 0.380" in printed
+
+
+def test_the_page_holds_the_same(folders, tmp_path, capsys):
+    """Self-contained, with each tracker's verdict and sequences."""
+    path = tmp_path / "new" / "compare.html"
+    assert main(["compare", *map(str, folders), "--report", str(path)]) == 0
+    text = path.read_text()
+    assert "://" not in text
+    assert 'class="lower"' in text
+    assert "nothing can be told" in text
+    assert "only in the old one: tracker gone" in text
+    assert str(path) in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "there is no evaluation.json in it"),
+        ("{", "expected the tables of tricue evaluate"),
+        ('{"rows": []}', "expected the tables of tricue evaluate"),
+    ],
+)
+def test_what_is_no_evaluation_is_told(folders, tmp_path, content, message, capsys):
+    """One line on standard error, exit code 2."""
+    other = tmp_path / "other"
+    other.mkdir()
+    if content:
+        (other / "evaluation.json").write_text(content)
+    assert main(["compare", str(folders[0]), str(other)]) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+
+
+def test_nothing_in_common_is_told(tmp_path, capsys):
+    """Other trackers, or other sequences."""
+    one, other = write(tmp_path / "one", a=OLD), write(tmp_path / "other", b=OLD)
+    assert main(["compare", str(one), str(other)]) == 2
+    assert "a tracker and a sequence that both have" in capsys.readouterr().err
