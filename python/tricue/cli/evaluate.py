@@ -10,7 +10,7 @@ from typing import Any
 
 from tricue.cli.arguments import any_tracker_names, count, seconds
 from tricue.cli.progress import Progress
-from tricue.evaluation import tables
+from tricue.evaluation import baselines, tables
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
 from tricue.evaluation.foreign.spec import DEFAULT_TIME_LIMIT, is_foreign
@@ -169,7 +169,12 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
 
 
 def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
-    about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs)
+    others = {
+        each.name: each.description
+        for each in evaluation.trackers
+        if not each.ours and each.name not in baselines.NAMES
+    }
+    about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs, others=others)
     written = [*tables.write(evaluation, folder, about), write_report(evaluation, folder, about)]
     print(tables.markdown(evaluation))
     for each in evaluation.results:
