@@ -27,7 +27,7 @@ examples:
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
-  tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerVit     your class, any of cv2's
+  tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerMIL     your class, any of cv2's
   tricue evaluate sequences/ --trackers 'fused,theirs=trax:./theirs --fast'   a TraX program
   tricue evaluate sequences/ --trackers fused --results SiamFC=results/SiamFC others' result files
   tricue evaluate recordings/ --depth-scale 0.001 --fps 15    16-bit depth in millimeters, no times

@@ -200,9 +200,12 @@ def test_another_time_limit_repeats_what_it_ended(folders, tmp_path):
 
 
 def test_trackers_of_cv2_by_their_names(there, patrol):
-    """It proves that MIL, which every cv2 has, follows, and that the package of others is named."""
-    record = perform(Task(foreign_spec("cv2:TrackerMIL", {}, PATIENT), there))
-    assert np.linalg.norm(record.run.boxes[-1] - patrol[1][-1]) < 12
+    """It proves that MIL, which every cv2 has, follows, also where a function makes it, and that the package
+    of others is named.
+    """
+    for place in ("cv2:TrackerMIL", f"{ODD}:mil"):
+        record = perform(Task(foreign_spec(place, {}, PATIENT), there))
+        assert np.linalg.norm(record.run.boxes[-1] - patrol[1][-1]) < 12
     if not hasattr(cv2, "legacy"):
         with pytest.raises(
             ValueError, match=r"has no legacy.TrackerMOSSE; opencv-contrib-python-headless has"
