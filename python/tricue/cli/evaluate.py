@@ -11,7 +11,7 @@ from typing import Any
 
 from tricue.cli.arguments import any_tracker_names, count, seconds, words
 from tricue.cli.progress import Progress
-from tricue.evaluation import tables
+from tricue.evaluation import baselines, tables
 from tricue.evaluation.attributes.measure import measure_all
 from tricue.evaluation.dataset import ReadOptions
 from tricue.evaluation.evaluate import Evaluation, Options, ProgressUpdate, evaluate
@@ -34,7 +34,7 @@ examples:
   tricue evaluate sequences/ --jobs 2                         the same command goes on after Ctrl-C
   tricue evaluate sequences/ --trackers color-particle,CSRT,KCF --seeds 5 --output color
   tricue evaluate sequences/ --trackers color-particle --set color-particle.particles=300
-  tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerVit     your class, any of cv2's
+  tricue evaluate sequences/ --trackers fused,mine.py:Mine,cv2:TrackerMIL     your class, any of cv2's
   tricue evaluate sequences/ --trackers 'fused,theirs=trax:./theirs --fast'   a TraX program
   tricue evaluate sequences/ --trackers fused --results SiamFC=results/SiamFC others' result files
   tricue evaluate sequences/ --protocols one-pass,restarts,starts,every-3,noisy-5 --attributes
@@ -216,7 +216,12 @@ def settings_by_tracker(settings: Sequence[str]) -> dict[str, dict[str, Any]]:
 def _report(evaluation: Evaluation, folder: Path, options: argparse.Namespace) -> int:
     if options.attributes:
         evaluation = _with_attributes(evaluation, folder)
-    about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs)
+    others = {
+        each.name: each.description
+        for each in evaluation.trackers
+        if not each.ours and each.name not in baselines.NAMES
+    }
+    about = tables.settings(evaluation, dataset=str(options.dataset), jobs=options.jobs, others=others)
     written = [*tables.write(evaluation, folder, about), write_report(evaluation, folder, about)]
     if options.raw is not None:
         written.append(write_raw(evaluation, folder, options.raw, about))

@@ -26,13 +26,12 @@ def tracker_specs(
     known = [*registry.names(), *baselines.available()]
     words = known if chosen is None else chosen
     names = [split_name(word)[0] if is_foreign(word) else word for word in words]
-    for name in [*names, *settings]:
-        if name not in [*known, *baselines.NAMES, *names] or (
-            name in settings and name not in [*known, *names]
-        ):
+    plain = [word for word in words if not is_foreign(word) and word not in baselines.NAMES]
+    unset = [name for name in settings if name not in names]
+    for name in [*plain, *unset]:
+        if name not in known:
             places = "module:Class, file.py:Class, cv2:Name, trax:command"
             raise ValueError(f"--trackers: expected some of {', '.join(known)}, {places}, got {name!r}")
-    require_unique(names)
     for word, name in zip(words, names, strict=True):
         if name in (*baselines.NAMES, *registry.names()) and word != name:
             raise ValueError(f"--trackers: expected another name than {name!r}, which is taken, in {word!r}")
@@ -44,7 +43,7 @@ def tracker_specs(
     ]
     for each in found:
         _check(each)
-    if all(each.name in _missing() for each in found):
+    if found and all(each.name in _missing() for each in found):
         raise ValueError(f"--trackers: {baselines.missing_reason(found[0].name)}")
     return found
 

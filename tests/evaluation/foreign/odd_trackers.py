@@ -190,6 +190,11 @@ def make(step=0.0):
     return Still(step)
 
 
+def mil():
+    """A function that makes one of cv2's."""
+    return cv2.TrackerMIL.create()
+
+
 def make_nothing():
     """One that makes no tracker."""
     return 3

@@ -200,9 +200,12 @@ def test_another_time_limit_repeats_what_it_ended(folders, tmp_path):
 
 
 def test_trackers_of_cv2_by_their_names(there, patrol):
-    """It proves that MIL, which every cv2 has, follows, and that the package of others is named."""
-    record = perform(Task(foreign_spec("cv2:TrackerMIL", {}, PATIENT), there))
-    assert np.linalg.norm(record.run.boxes[-1] - patrol[1][-1]) < 12
+    """It proves that MIL, which every cv2 has, follows, also where a function makes it, and that the package
+    of others is named.
+    """
+    for place in ("cv2:TrackerMIL", f"{ODD}:mil"):
+        record = perform(Task(foreign_spec(place, {}, PATIENT), there))
+        assert np.linalg.norm(record.run.boxes[-1] - patrol[1][-1]) < 12
     if not hasattr(cv2, "legacy"):
         with pytest.raises(
             ValueError, match=r"has no legacy.TrackerMOSSE; opencv-contrib-python-headless has"
@@ -249,16 +252,29 @@ def test_names_and_places(text, name, place):
         ((f"{ODD}:ODD",), "expected a class with init and update, got int"),
         (("/nowhere/x.py:Class",), "/nowhere/x.py: there is no such file"),
         (("nobodys.module:Class",), "there is no module nobodys"),
-        ((f"a={ODD}:Still", f"a={ODD}:Raises"), "expected different names, got 'a' twice"),
         ((f"still-box={ODD}:Still",), "expected another name than 'still-box', which is taken"),
-        ((f"..={ODD}:Still",), r"expected a name without slashes, got '\.\.'"),
     ],
 )
-def test_wrong_names_are_told_before_anything_runs(chosen, message):
+def test_wrong_places_are_told_before_anything_runs(chosen, message):
     """It proves that a place without a tracker, and names that don't do, are named in one line."""
     with pytest.raises(ValueError, match=message) as caught:
         tracker_specs(chosen, {})
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("chosen", "message"),
+    [
+        (("fused", f"a={ODD}:Still", f"a={ODD}:Raises"), "expected different names, got 'a' twice"),
+        (("still-box", "still-box"), "expected different names, got 'still-box' twice"),
+        ((f"..={ODD}:Still",), r"expected a name without slashes, got '\.\.'"),
+    ],
+)
+def test_names_are_names_of_folders(chosen, message, folders, tmp_path):
+    """It proves that each tracker has a name of its own, under which its runs are kept."""
+    with pytest.raises(ValueError, match=message):
+        evaluate(folders, tmp_path, Options(chosen))
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_tracker_of_depth_pictures():

@@ -16,7 +16,7 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import baselines
 from tricue.track.base import registry
-from tricue.track.base.adapter import check_track, takes_seed
+from tricue.track.base.adapter import check_track, is_of_cv2, takes_seed
 from tricue.track.base.track import Status, Track
 from tricue.track.base.traits import Channels, Traits
 
@@ -91,7 +91,10 @@ class Host:
             return TraxProgram(self._place.removeprefix(TRAX))
         if self._place.startswith(CV2):
             return baselines.OpenCvTracker(cv2_maker(self._place))
-        return registry.create(self._place, seed=seed, **keywords)
+        made = registry.create(self._place, seed=seed, **keywords)
+        if is_of_cv2(inner := getattr(made, "tracker", None)):  # of a function that makes one of cv2's
+            return baselines.OpenCvTracker(lambda: inner)
+        return made
 
 
 def cv2_maker(place: str) -> Callable[[], Any]:

@@ -141,7 +141,7 @@ def _how_to_read() -> Html:
             "p",
             "Every tracker starts on the first true box and runs to the end without help. Arrows in the"
             " tables show whether higher or lower is better, the best numbers are marked, and a click on a"
-            " heading sorts. tricue's trackers have solid lines, the baselines dashed ones; a tracker has the"
+            " heading sorts. tricue's trackers have solid lines, all others dashed ones; a tracker has the"
             " same color everywhere. In timelines, time runs to the right:",
         ),
         tag("ul", keys, class_="keys"),

@@ -127,4 +127,4 @@ def _runs(each: RankedSequence, ours: set[str], styles: Mapping[str, LineStyle])
 
 
 def _trouble(run: RunResult) -> Any:
-    return tag("span", "stopped: ", run.row.trouble, class_="trouble") if run.row.trouble else None
+    return tag("span", run.row.trouble, class_="trouble") if run.row.trouble else None

@@ -70,6 +70,11 @@ def check_track(track: Any, method: str) -> Track:
     return replace(track, box=box)
 
 
+def is_of_cv2(tracker: Any) -> bool:
+    """Whether it is one of cv2's own trackers."""
+    return type(tracker).__module__.partition(".")[0] == "cv2"
+
+
 class _Adapted:
     """Accepts ``seed`` and ``kernels`` as every tracker does, and passes the other keywords on."""
 
@@ -94,7 +99,8 @@ class _Adapted:
         if box is None:
             raise BoxNeededError("box: expected (x, y, width, height), got None")
         self._box = as_box(box)
-        given = self.tracker.init(self._input(frame), self._box)
+        start = self._box.as_int() if is_of_cv2(self.tracker) else self._box  # cv2 5 takes no other numbers
+        given = self.tracker.init(self._input(frame), start)
         if given is None or isinstance(given, (bool, np.bool_)):
             return Track(self._box, 1.0, Status.TRACKED)
         return self._track(given, "init")
