@@ -104,7 +104,9 @@ def _bounds(field: "dataclasses.Field[Any]") -> str:
     if data.get("choices"):
         return ", ".join(f"`{choice!r}`" for choice in data["choices"])
     words = {"low": "≥", "above": ">", "high": "≤", "below": "<"}
-    return ", ".join(f"{sign} {data[key]:g}" for key, sign in words.items() if data.get(key) is not None)
+    return ", ".join(
+        f"{sign}\N{NO-BREAK SPACE}{data[key]:g}" for key, sign in words.items() if data.get(key) is not None
+    )
 
 
 def _cell(text: str) -> str:
