@@ -46,6 +46,7 @@ python_maximum_signature_line_length = 88
 add_module_names = False
 toc_object_entries_show_parents = "hide"
 
+pygments_dark_style = "github-dark"
 html_theme = "furo"
 html_title = f"tricue {release}"
 html_static_path = ["_static", "../build/gallery"]  # tools/gallery.py makes the second

@@ -5,6 +5,7 @@
 """
 
 import dataclasses
+import fnmatch
 import importlib
 import re
 import runpy
@@ -48,7 +49,7 @@ def entries(page: str) -> Iterator[str]:
             if name == "self" or not name or name.startswith(":"):
                 continue
             pattern = (folder / name).as_posix()
-            yield from (found for found in PAGES if Path(found).match(pattern)) if "*" in name else [pattern]
+            yield from fnmatch.filter(PAGES, pattern) if "*" in name else [pattern]
 
 
 def test_every_page_is_in_the_navigation() -> None:
@@ -141,12 +142,17 @@ def test_signatures_are_readable(extension: dict[str, ModuleType]) -> None:
 
 
 def test_links_are_those_of_the_site(extension: dict[str, ModuleType]) -> None:
-    """Links lead to the pages that show files of the tree; names of files become titles; code stays."""
+    """Links lead to the pages that show files of the tree, titles are those of pages, code stays.
+
+    What the site doesn't show is no link.
+    """
     relink = extension["pages"].relink
     text = "[docs/fused.md](docs/fused.md#sources), [how](CONTRIBUTING.md#style), [x](https://x.org/a.md)\n"
+    text += "[tree](python/), [other](other/README.md#a), [code](Makefile)\n"
     code = "```sh\n[a](docs/a.md)\n```\n"
     found = relink(text + code, ROOT / "README.md", DOCS / "project" / "changelog.md")
     wanted = "[](../fused.md#sources), [how](contributing.md#style), [x](https://x.org/a.md)\n"
+    wanted += "tree, other, [code](../../Makefile)\n"
     assert found == wanted + code
 
 

@@ -264,9 +264,10 @@ def spell(kind: Any) -> str:
 
 
 def shorten_arrays(_: Sphinx, domain: str, kind: str, content: nodes.Element) -> None:
-    """Types of attributes, which autodoc evaluates, as ``NDArray[float64]``."""
+    """Types of attributes, which autodoc evaluates, as ``NDArray[float64]``; their many values left out."""
     for node in content.parent[0].findall(desc_annotation):
         text = re.sub(_EVALUATED_ARRAY, r"NDArray[\1]", node.astext())
+        text = re.sub(r"^ = array\(.*", "", text, flags=re.DOTALL)
         if text != node.astext():
             node.clear()
             node.append(nodes.Text(text))

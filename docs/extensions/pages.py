@@ -31,6 +31,7 @@ _PAGE_OF = {ROOT / file: DOCS / f"{page}.md" for page, file in SHOWN.items()} | 
     ROOT / "README.md": DOCS / "index.md"
 }
 _LINK = re.compile(r"(\]\()([^)\s#]+)([^)\s]*\))")
+_WHOLE_LINK = re.compile(r"(?<!!)\[([^\[\]]+)\]\((?!\w+:)([^)\s#]+)[^)\s]*\)")
 _NAMED_LIKE_FILE = re.compile(r"\[[\w./-]+\.md\]\(")
 """Links that code hosts show by the name of a page's file; here they get the page's title."""
 _PATTERN = re.compile(r"^([\w/]+\*)\n", re.MULTILINE)
@@ -54,18 +55,30 @@ def fill(app: Sphinx, page: str, source: list[str]) -> None:
 
 
 def relink(text: str, file: Path, page: Path) -> str:
-    """The text of a file, with its relative links as a page of the site needs them."""
+    """The text of a file, with its relative links as a page of the site needs them.
+
+    Links to folders, and to pages that the site doesn't show, become text; other files are downloads.
+    """
+
+    def target(address: str) -> Path:
+        found = Path(os.path.normpath(file.parent / address))
+        return _PAGE_OF.get(found, found)
 
     def moved(found: re.Match[str]) -> str:
         if re.match(r"\w+:", found[2]):
             return found[0]
-        target = Path(os.path.normpath(file.parent / found[2]))
-        target = _PAGE_OF.get(target, target)
-        return f"{found[1]}{Path(os.path.relpath(target, page.parent)).as_posix()}{found[3]}"
+        return f"{found[1]}{Path(os.path.relpath(target(found[2]), page.parent)).as_posix()}{found[3]}"
 
-    text = _NAMED_LIKE_FILE.sub("[](", text)
+    def shown(found: re.Match[str]) -> str:
+        place = target(found[2])
+        hidden = not place.is_relative_to(DOCS) and (place.suffix == ".md" or place.is_dir())
+        return found[1] if hidden else found[0]
+
+    def rewritten(text: str) -> str:
+        return _LINK.sub(moved, _NAMED_LIKE_FILE.sub("[](", _WHOLE_LINK.sub(shown, text)))
+
     parts = re.split(r"(^```.*?^```$)", text, flags=re.DOTALL | re.MULTILINE)
-    return "".join(part if index % 2 else _LINK.sub(moved, part) for index, part in enumerate(parts))
+    return "".join(part if index % 2 else rewritten(part) for index, part in enumerate(parts))
 
 
 def _readme(app: Sphinx, heading: str, page: Path) -> str:
@@ -104,7 +117,9 @@ def _bounds(field: "dataclasses.Field[Any]") -> str:
     if data.get("choices"):
         return ", ".join(f"`{choice!r}`" for choice in data["choices"])
     words = {"low": "≥", "above": ">", "high": "≤", "below": "<"}
-    return ", ".join(f"{sign} {data[key]:g}" for key, sign in words.items() if data.get(key) is not None)
+    return ", ".join(
+        f"{sign}\N{NO-BREAK SPACE}{data[key]:g}" for key, sign in words.items() if data.get(key) is not None
+    )
 
 
 def _cell(text: str) -> str:
