@@ -2,7 +2,7 @@
 """Run our trackers on the recorded sequences, and pack their boxes for others: ``make results``.
 
 Writes benchmarks/results/tricue-VERSION.tar.xz, GOT-10k's form with a manifest, and the table of
-docs/results.md. The sequences are in the folder TRICUE_DATA, by default ../shared/data. Finished runs are kept in
+docs/results.md. The sequences are in the folder TRICUE_DATA, by default ../shared/data. Finished runs stay in
 build/published, so that the same command goes on after an interruption.
 """
 
@@ -81,9 +81,8 @@ def main() -> None:
     manifest = raw_results.write_raw(evaluation, WORK, WORK / "raw", tables.settings(evaluation), TERMS)
     archive = FOLDER / f"tricue-{tricue.__version__}.tar.xz"
     pack(manifest.parent, archive)
-    PAGE.write_text(
-        TABLE.sub(lambda _: table(evaluation), PAGE.read_text(encoding="utf-8")), encoding="utf-8"
-    )
+    text = PAGE.read_text(encoding="utf-8")
+    PAGE.write_text(TABLE.sub(lambda _: f"\n{table(evaluation)}\n", text), encoding="utf-8")
     print(f"wrote {archive} ({archive.stat().st_size:,} bytes) and the table of {PAGE}")
 
 

@@ -2,6 +2,7 @@
 """Raw results: what others read in the files is what the trackers said."""
 
 import json
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -175,13 +176,23 @@ def test_the_command_writes_them_and_replaces_only_its_own(folders, tmp_path, ca
 @pytest.mark.parametrize(
     ("names", "files"),
     [
-        (["color/David", "rgbd/mug"], ["David", "mug"]),
-        (["a/one", "b/one", "two"], ["a-one", "b-one", "two"]),
-        (["kitti/Car 0", "mine:Tracker", "../x"], ["Car_0", "mine_Tracker", "x"]),
-        (["a b", "a:b", "a_b"], ["a_b", "a_b-2", "a_b-3"]),
-        ([".."], ["_"]),
+        ({"color/David": "David", "rgbd/mug": "mug"}, ["David", "mug"]),
+        ({"a/one": "one", "b/one": "one", "two": "two"}, ["a-one", "b-one", "two"]),
+        ({"x/kitti/Car 0": "kitti/Car 0", "mine:Tracker": "mine:Tracker"}, ["kitti-Car_0", "mine_Tracker"]),
+        ({"a b": "a b", "a:b": "a:b", "a_b": "a_b"}, ["a_b", "a_b-2", "a_b-3"]),
+        ({"..": "..", "../../x": "../../x"}, ["_", "x"]),
     ],
 )
 def test_files_have_short_names_of_their_own(names, files):
     """Names that end alike are told apart, and none leaves the folder."""
     assert list(raw_results.file_names(names).values()) == files
+
+
+def test_what_the_evaluation_did_not_run_is_left_out(finished, tmp_path):
+    """As of results that others ran: there is no run of them in its folder."""
+    done, place, _ = finished
+    (tmp_path / "runs" / "one-pass").mkdir(parents=True)
+    shutil.copytree(place / "runs/one-pass/still-box", tmp_path / "runs/one-pass/still-box")
+    raw = raw_results.write_raw(done, tmp_path, tmp_path / "raw", tables.settings(done)).parent
+    assert [path.name for path in (raw / "got10k").iterdir()] == ["still-box"]
+    assert list(json.loads((raw / "manifest.json").read_text())["trackers"]) == ["still-box"]

@@ -11,7 +11,9 @@ def is_called() -> bool:
     ``import tricue`` then leaves out what may be broken.
     """
     words = sys.orig_argv
-    for index, word in enumerate(words[:-1]):
-        if words[index + 1] == "doctor":
-            return Path(word).stem == "tricue" and (words[index - 1] == "-m" or Path(word).is_absolute())
-    return False
+    if "doctor" not in words[2:]:
+        return False
+    before, program = words[words.index("doctor", 2) - 2 :][:2]
+    return (
+        program == "tricue" if before == "-m" else Path(program).stem == "tricue" and Path(program).is_file()
+    )

@@ -9,8 +9,9 @@ Benchmark", PAMI 2015; Huang, Zhao, Huang, "GOT-10k", PAMI 2021; the VOT toolkit
 import json
 import re
 import shutil
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.doctor.install import commit
-from tricue.evaluation.dataset import OpenedSequence
+from tricue.evaluation.dataset import Entry, OpenedSequence
 from tricue.evaluation.evaluate import RUNS, Evaluation, RunResult
 from tricue.evaluation.one_pass import Run
 from tricue.evaluation.record import Record
@@ -70,19 +71,21 @@ def check_folder(folder: Path) -> None:
 def write_raw(
     evaluation: Evaluation, finished: Path, folder: Path, about: Mapping[str, Any], terms: str = ""
 ) -> Path:
-    """Write all one-pass runs into a folder in the three forms; the path of the manifest.
+    """Write the one-pass runs into a folder in the three forms; the path of the manifest.
 
-    finished: the evaluation's folder. about: versions, machine and parameters, as ``tables.settings`` gives
-    them. terms: the results' license. ValueError as :func:`check_folder`.
+    finished: the evaluation's folder; what isn't a run of it, such as others' results, is left out. about:
+    versions, machine and parameters, as ``tables.settings`` gives them. terms: the results' license.
+    ValueError as :func:`check_folder`.
     """
     check_folder(folder)
     unfinished = folder.with_name(f"{folder.name}.part")
     shutil.rmtree(unfinished, ignore_errors=True)
     store = Store(finished / RUNS)
-    trackers = file_names(each.name for each in evaluation.trackers)
-    sequences = file_names(each.entry.name for each in evaluation.opened)
+    stored = [each for each in evaluation.results if store.path(each.task).is_file()]
+    trackers = file_names({each.task.tracker.name: each.task.tracker.name for each in stored})
+    sequences = file_names({each.entry.name: _short_name(each.entry) for each in evaluation.opened})
     frames: dict[str, int] = {}
-    for (tracker, sequence), results in _grouped(evaluation.results).items():
+    for (tracker, sequence), results in _grouped(stored).items():
         repetitions = [_repetition(store, number, each) for number, each in enumerate(results, 1)]
         frames[sequence] = len(repetitions[0].run.boxes)
         _write_otb(unfinished / OTB / trackers[tracker], sequences[sequence], repetitions[0])
@@ -95,7 +98,7 @@ def write_raw(
         **{name: value for name, value in about.items() if name != "dataset"},  # whose path is the user's
         "commit": commit() or None,
         "code": code_digest(),
-        "trackers": {trackers[each.name]: each.name for each in evaluation.trackers},
+        "trackers": {file: name for name, file in trackers.items()},
         "sequences": {
             sequences[each.entry.name]: _describe(each, frames[each.entry.name])
             for each in evaluation.opened
@@ -103,7 +106,7 @@ def write_raw(
         },
         "errors": [
             {"tracker": row.tracker, "sequence": row.sequence, "seed": row.seed, "error": row.trouble}
-            for row in (each.row for each in evaluation.results)
+            for row in (each.row for each in stored)
             if row.trouble
         ],
     }
@@ -116,23 +119,30 @@ def write_raw(
     return folder / MANIFEST
 
 
-def file_names(names: Iterable[str]) -> dict[str, str]:
-    """A short file name for each name: its last part, or all of it where two names end alike."""
-    known = list(dict.fromkeys(names))
-    last = [_plain(name.rpartition("/")[2]) for name in known]
+def file_names(names: Mapping[str, str]) -> dict[str, str]:
+    """A file name of its own for each name: the short one that it is given with, or all of it where two names
+    have the same short one.
+    """
+    short = [_plain(each) for each in names.values()]
     found: dict[str, str] = {}
-    for name, short in zip(known, last, strict=True):
-        wished = short if last.count(short) == 1 else _plain(name.replace("/", "-"))
-        taken, number, chosen = set(found.values()), 1, wished
-        while chosen in taken:
-            number += 1
-            chosen = f"{wished}-{number}"
+    for name, wished in zip(names, short, strict=True):
+        chosen = whole = wished if short.count(wished) == 1 else _plain(name)
+        for number in count(2):
+            if chosen not in found.values():
+                break
+            chosen = f"{whole}-{number}"
         found[name] = chosen
     return found
 
 
+def _short_name(entry: Entry) -> str:
+    """The last part of a sequence's name; of a target's, also the sequence that it is in."""
+    return "/".join(entry.name.split("/")[-1 if entry.target is None else -2 :])
+
+
 def _plain(name: str) -> str:
-    return re.sub(r"[^\w.+-]", "_", name).lstrip(".") or "_"
+    """What is a file's name on any system, without blanks."""
+    return re.sub(r'[\s\\:*?"<>|%]', "_", name.replace("/", "-")).lstrip(".-") or "_"
 
 
 def _is_ours(folder: Path) -> bool:
