@@ -7,8 +7,9 @@
 
 Read are the size, what is in it, what the extension exports and needs, and its hardening. Then the wheel is
 installed in a bare virtual environment, where the system's OpenCV, LAPACK, TBB, X11 and GL are hidden, and
-follows a target beside each cv2, loaded before and after it. Every run must give the same bits; so must runs
-on older processors, which qemu-user stands for where it is installed.
+follows a target beside each cv2, loaded before and after it, all with the same bits. qemu-user, where it is
+installed, stands for older processors. There the kernels give the same bits, too (`make levels`), while NumPy
+and OpenCV, which the trackers and the probe also call, round as the processor can.
 """
 
 import argparse
@@ -182,6 +183,9 @@ assert np.allclose(theirs[..., 0] + 1j * theirs[..., 1], np.fft.fft2(plane), ato
 print(json.dumps({"loaded": loaded, "overlap": float(min(overlaps)), "bits": digest.hexdigest()}))
 """
 MIN_OVERLAP = 0.5
+MAX_ROUNDING = (
+    1e-9  # in an overlap: a few million times the last place, and far less than any other decision changes
+)
 
 
 def version_of(python: str) -> tuple[int, int]:
@@ -268,13 +272,15 @@ def run_problems(python: str, wheel: Path) -> list[str]:
     folder = ROOT / "build" / "check-wheel" / "{}.{}".format(*version)
     folder.mkdir(parents=True, exist_ok=True)
     inside = install(python, wheel, folder)
-    problems, bits = [], set()
+    problems, bits, overlaps = [], set(), []
     for name, result in runs(inside, version, folder):
         print(f"  {name}: {result.get('error') or result['overlap']}", flush=True)
         if "error" in result:
             problems.append(f"{name}: {result['error']}")
             continue
-        bits.add(result["bits"])
+        if not name.startswith("processor"):
+            bits.add(result["bits"])
+        overlaps.append(result["overlap"])
         if result["overlap"] < MIN_OVERLAP:
             problems.append(f"{name}: expected overlaps of {MIN_OVERLAP} or more, got {result['overlap']}")
         problems += [
@@ -283,7 +289,11 @@ def run_problems(python: str, wheel: Path) -> list[str]:
             if not (path.is_relative_to(folder) or ALLOWED.fullmatch(path.name))
         ]
     if len(bits) > 1:
-        problems.append(f"expected the same bits in every run, got {len(bits)} different boxes")
+        problems.append(f"expected the same bits beside every cv2, got {len(bits)} different tracks")
+    if overlaps and max(overlaps) - min(overlaps) > MAX_ROUNDING:
+        problems.append(
+            f"expected the same overlap on every processor, got {min(overlaps)} to {max(overlaps)}"
+        )
     return problems
 
 
