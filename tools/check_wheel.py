@@ -153,8 +153,7 @@ import tricue
 from tricue import imgproc
 
 rng = np.random.default_rng(7)
-background = imgproc.gaussian_blur(rng.integers(0, 256, (240, 320, 3)).astype(np.float32), 3.0)
-background = np.clip((background - 128) * 4 + 110, 0, 255).astype(np.uint8)
+background = rng.integers(60, 160, (20, 27, 3)).astype(np.uint8).repeat(12, 0).repeat(12, 1)[:, :320]
 texture = rng.integers(0, 256, (8, 6, 3)).astype(np.uint8).repeat(6, 0).repeat(6, 1)
 texture[..., 2] |= 128
 height, width = texture.shape[:2]
@@ -178,6 +177,8 @@ for name in ("fused", "color-particle"):
         overlaps.append(shared / (found[2] * found[3] + width * height - shared))
     digest.update(b"next")
 plane = rng.random((80, 96), np.float32)
+assert np.allclose(imgproc.warp_perspective(plane, np.eye(3), 80, 96), plane, atol=1e-3)
+assert np.allclose(imgproc.gaussian_blur(plane, 0.05), plane, atol=1e-3)
 theirs = cv2.dft(plane, flags=cv2.DFT_COMPLEX_OUTPUT)
 assert np.allclose(theirs[..., 0] + 1j * theirs[..., 1], np.fft.fft2(plane), atol=1e-2)
 print(json.dumps({"loaded": loaded, "overlap": float(min(overlaps)), "bits": digest.hexdigest()}))
