@@ -7,8 +7,9 @@
 
 Read are the size, what is in it, what the extension exports and needs, and its hardening. Then the wheel is
 installed in a bare virtual environment, where the system's OpenCV, LAPACK, TBB, X11 and GL are hidden, and
-follows a target beside each cv2, loaded before and after it. Every run must give the same bits; so must runs
-on older processors, which qemu-user stands for where it is installed.
+follows a target beside each cv2, loaded before and after it, all with the same bits. qemu-user, where it is
+installed, stands for older processors. There the kernels give the same bits, too (`make levels`), while NumPy
+and OpenCV, which the trackers and the probe also call, round as the processor can.
 """
 
 import argparse
@@ -22,7 +23,7 @@ import tempfile
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 ROOT = Path(__file__).parents[1]
 MAX_BYTES = 6_000_000
@@ -62,7 +63,7 @@ def static_problems(wheel: Path) -> list[str]:
     if not re.search(r"-manylinux_2_\d+_\w+\.whl$", wheel.name):
         problems.append("expected a tag manylinux_2_..., which auditwheel repair gives")
     with tempfile.TemporaryDirectory() as folder, zipfile.ZipFile(wheel) as packed:
-        names = packed.namelist()
+        names = [name for name in packed.namelist() if not name.endswith("/")]
         packed.extractall(folder)
         problems += content_problems(names)
         for name in names:
@@ -81,12 +82,11 @@ def content_problems(names: list[str]) -> list[str]:
             problems.append(f"unexpected file {name}")
     if len([name for name in names if re.match(r"tricue/_core\..*\.so$", name)]) != 1:
         problems.append("expected one extension, tricue/_core")
-    for wanted in ("tricue/py.typed", "tricue/_core.pyi"):
-        if wanted not in names:
-            problems.append(f"{wanted} is missing")
-    for wanted in (r".*/LICENSE", r".*/THIRD_PARTY.txt"):
-        if not any(re.match(rf"tricue-[^/]+\.dist-info/{wanted}$", name) for name in names):
-            problems.append(f"no license text {wanted}")
+    files = ("tricue/py.typed", "tricue/_core.pyi")
+    problems += [f"{wanted} is missing" for wanted in files if wanted not in names]
+    for text in ("LICENSE", "THIRD_PARTY.txt"):
+        if not any(re.match(rf"tricue-[^/]+\.dist-info/.*/{re.escape(text)}$", name) for name in names):
+            problems.append(f"no license text {text}")
     return problems
 
 
@@ -99,7 +99,7 @@ def readelf(library: Path, *options: str) -> str:
 def exported(library: Path) -> set[str]:
     """The names that other libraries can link to."""
     rows = [line.split() for line in readelf(library, "--dyn-syms").splitlines()]
-    symbols = [row for row in rows if len(row) >= 8 and row[0].endswith(":")]
+    symbols = [row for row in rows if len(row) >= 8 and re.fullmatch(r"\d+:", row[0])]
     return {row[7].partition("@")[0] for row in symbols if row[4] != "LOCAL" and row[6] != "UND"}
 
 
@@ -124,8 +124,8 @@ def library_problems(library: Path) -> list[str]:
 
 # --- What it does ---
 
-# Follows a textured target that swings over noise; prints what was loaded with the extension, the last frames'
-# smallest overlap with the truth, and a hash of all boxes. Arguments: cv2 or tricue, whichever comes first.
+# Follows a textured target that swings over noise; prints what was loaded with the extension, the smallest
+# overlap with the truth, and a hash of all boxes. Arguments: cv2 or tricue, whichever comes first.
 PROBE = r"""
 import hashlib, importlib.util, json, re, sys
 import numpy as np
@@ -153,8 +153,7 @@ import tricue
 from tricue import imgproc
 
 rng = np.random.default_rng(7)
-background = imgproc.gaussian_blur(rng.integers(0, 256, (240, 320, 3)).astype(np.float32), 3.0)
-background = np.clip((background - 128) * 4 + 110, 0, 255).astype(np.uint8)
+background = rng.integers(60, 160, (20, 27, 3)).astype(np.uint8).repeat(12, 0).repeat(12, 1)[:, :320]
 texture = rng.integers(0, 256, (8, 6, 3)).astype(np.uint8).repeat(6, 0).repeat(6, 1)
 texture[..., 2] |= 128
 height, width = texture.shape[:2]
@@ -178,11 +177,16 @@ for name in ("fused", "color-particle"):
         overlaps.append(shared / (found[2] * found[3] + width * height - shared))
     digest.update(b"next")
 plane = rng.random((80, 96), np.float32)
+assert np.allclose(imgproc.warp_perspective(plane, np.eye(3), 80, 96), plane, atol=1e-3)
+assert np.allclose(imgproc.gaussian_blur(plane, 0.05), plane, atol=1e-3)
 theirs = cv2.dft(plane, flags=cv2.DFT_COMPLEX_OUTPUT)
 assert np.allclose(theirs[..., 0] + 1j * theirs[..., 1], np.fft.fft2(plane), atol=1e-2)
-print(json.dumps({"cv2": cv2.__version__, "loaded": loaded, "overlap": float(min(overlaps)), "bits": digest.hexdigest()}))
+print(json.dumps({"loaded": loaded, "overlap": float(min(overlaps)), "bits": digest.hexdigest()}))
 """
 MIN_OVERLAP = 0.5
+MAX_ROUNDING = (
+    1e-9  # in an overlap: a few million times the last place, and far less than any other decision changes
+)
 
 
 def version_of(python: str) -> tuple[int, int]:
@@ -208,12 +212,15 @@ def folder_beside(inside: Path, beside: Beside, folder: Path) -> Path:
     if not target.is_dir():
         pip = [inside, "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
         what = [f"opencv-python-headless=={beside.cv2}", f"numpy{beside.numpy}"]
-        subprocess.run([*pip, "--only-binary=:all:", "--target", target, *what], check=True)
+        part = target.with_name(target.name + ".part")  # which may be what an interrupted check has left
+        shutil.rmtree(part, ignore_errors=True)
+        subprocess.run([*pip, "--only-binary=:all:", "--target", part, *what], check=True)
+        part.rename(target)
     return target
 
 
 def hiding() -> list[str]:
-    """The beginning of a command that runs where the system's libraries are hidden; empty where nobody may hide them."""
+    """The beginning of a command that hides the system's libraries; empty where nobody may."""
     unshare = ["unshare", "--user", "--map-root-user", "--mount"]
     if not shutil.which("unshare") or subprocess.run([*unshare, "true"], check=False).returncode:
         return []
@@ -223,12 +230,12 @@ def hiding() -> list[str]:
         for file in Path(tree).rglob("lib*.so*")
         if HIDDEN.match(file.name) and file.is_file()
     }
-    hide = "for file do mount --bind /dev/null \"$file\" || exit; done"
+    hide = 'for file do mount --bind /dev/null "$file" || exit; done'
     script = f"set -- {' '.join(map(str, sorted(files)))}; command=$COMMAND; {hide}; exec $command"
     return [*unshare, "sh", "-c", script]
 
 
-def probe(command: list[str], beside: Path, first: str, hide: list[str]) -> dict[str, object]:
+def probe(command: list[str], beside: Path, first: str, hide: list[str]) -> dict[str, Any]:
     """Run the probe; what it prints, or the error."""
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder, "probe.py")
@@ -243,7 +250,7 @@ def probe(command: list[str], beside: Path, first: str, hide: list[str]) -> dict
     return dict(json.loads(run.stdout))
 
 
-def runs(inside: Path, version: tuple[int, int], folder: Path) -> Iterator[tuple[str, dict[str, object]]]:
+def runs(inside: Path, version: tuple[int, int], folder: Path) -> Iterator[tuple[str, dict[str, Any]]]:
     """Each run's name and result."""
     hide = hiding()
     if not hide:
@@ -266,21 +273,28 @@ def run_problems(python: str, wheel: Path) -> list[str]:
     folder = ROOT / "build" / "check-wheel" / "{}.{}".format(*version)
     folder.mkdir(parents=True, exist_ok=True)
     inside = install(python, wheel, folder)
-    problems, bits = [], set()
+    problems, bits, overlaps = [], set(), []
     for name, result in runs(inside, version, folder):
         print(f"  {name}: {result.get('error') or result['overlap']}", flush=True)
         if "error" in result:
             problems.append(f"{name}: {result['error']}")
             continue
-        bits.add(result["bits"])
-        if float(str(result["overlap"])) < MIN_OVERLAP:
+        if not name.startswith("processor"):
+            bits.add(result["bits"])
+        overlaps.append(result["overlap"])
+        if result["overlap"] < MIN_OVERLAP:
             problems.append(f"{name}: expected overlaps of {MIN_OVERLAP} or more, got {result['overlap']}")
-        loaded = [Path(path) for path in list(result["loaded"])]  # type: ignore[call-overload]
-        for path in loaded:
-            if not (path.is_relative_to(folder) or ALLOWED.fullmatch(path.name)):
-                problems.append(f"{name}: loads {path}")
+        problems += [
+            f"{name}: loads {path}"
+            for path in map(Path, result["loaded"])
+            if not (path.is_relative_to(folder) or ALLOWED.fullmatch(path.name))
+        ]
     if len(bits) > 1:
-        problems.append(f"expected the same bits in every run, got {len(bits)} different boxes")
+        problems.append(f"expected the same bits beside every cv2, got {len(bits)} different tracks")
+    if overlaps and max(overlaps) - min(overlaps) > MAX_ROUNDING:
+        problems.append(
+            f"expected the same overlap on every processor, got {min(overlaps)} to {max(overlaps)}"
+        )
     return problems
 
 
@@ -290,7 +304,9 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("wheels", nargs="+", type=Path, metavar="WHEEL")
-    parser.add_argument("--pythons", nargs="+", default=[sys.executable], metavar="PYTHON", help="to run them")
+    parser.add_argument(
+        "--pythons", nargs="+", default=[sys.executable], metavar="PYTHON", help="to run them"
+    )
     parser.add_argument("--static", action="store_true", help="read the files, run nothing")
     options = parser.parse_args()
     pythons = {} if options.static else {version_of(python): python for python in options.pythons}

@@ -26,7 +26,9 @@ def notes(tag: str, project: str, changelog: str) -> str:
     if not texts.get(version, "").strip():
         raise ValueError(f"CHANGELOG.md: expected a section ## {version}, got {', '.join(texts)}")
     if texts.get("Unreleased", "").strip():
-        raise ValueError(f"CHANGELOG.md: what is under ## Unreleased belongs to {version}, or to no release yet")
+        raise ValueError(
+            f"CHANGELOG.md: what is under ## Unreleased belongs to {version}, or to no release yet"
+        )
     return texts[version].strip() + "\n"
 
 

@@ -4,9 +4,9 @@
     python tools/static_opencv.py PREFIX                     downloads, builds, installs into PREFIX
     python tools/static_opencv.py PREFIX --opencv FOLDER     from sources that are there already
 
-cibuildwheel runs it before it builds wheels (pyproject.toml); ``-DTRICUE_OPENCV_PREFIX=PREFIX`` tells CMake of it.
-It is Debian 12's version of OpenCV with the same SIMD dispatch, and needs no other library. Needs CMake and a C++
-compiler; Ninja, too, but on Windows.
+cibuildwheel runs it before it builds wheels (pyproject.toml); ``-DTRICUE_OPENCV_PREFIX=PREFIX`` tells CMake
+of it. It is Debian 12's version of OpenCV with the same SIMD dispatch, without any other library. It takes
+CMake, a C++ compiler, and but on Windows Ninja.
 """
 
 import argparse
@@ -87,7 +87,7 @@ def opencv_switches() -> dict[str, str]:
 
 
 def install(sources: Path, work: Path, definitions: dict[str, str]) -> None:
-    """Build and install a project by CMake; Visual Studio's generator is the one that finds its own compiler."""
+    """Build and install a project by CMake. On Windows its default generator finds the compiler."""
     generator = [] if sys.platform == "win32" else ["-G", "Ninja"]
     switches = [f"-D{name}={value}" for name, value in definitions.items()]
     subprocess.run(["cmake", "-S", str(sources), "-B", str(work), *generator, *switches], check=True)

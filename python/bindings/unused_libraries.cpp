@@ -8,10 +8,11 @@
 #include <cstdio>
 #include <cstdlib>
 
-#define TRICUE_UNUSED(name)                                                                        \
-    [[noreturn]] void name() {                                                                     \
-        std::fputs("tricue: OpenCV calls " #name ", which a wheel doesn't have: please report it\n", stderr); \
-        std::abort();                                                                              \
+#define TRICUE_UNUSED(name)                                                                          \
+    [[noreturn]] void name() {                                                                       \
+        std::fputs("tricue: OpenCV calls " #name ", which a wheel doesn't have: please report it\n", \
+                   stderr);                                                                          \
+        std::abort();                                                                                \
     }
 #define TRICUE_UNUSED_LAPACK(routine) TRICUE_UNUSED(s##routine##_) TRICUE_UNUSED(d##routine##_)
 
