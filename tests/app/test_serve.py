@@ -22,7 +22,6 @@ from tricue.app import serve
 from tricue.app.frames import Recording
 from tricue.cli import program
 from tricue.data.live import LiveStream
-from tricue.data.open_source import open_source
 from tricue.data.source import Source
 
 from tests.app.conftest import START
@@ -200,11 +199,12 @@ def test_camera_is_no_recording() -> None:
         Recording(Source("camera 0", {"color": StandIn()}))
 
 
-def test_a_robots_recording_is_refused(tmp_path: Path) -> None:
-    """One can't go to and fro in a bag; which command reads it is said."""
-    bag = write_bag1(tmp_path / "a.bag", walk())
-    with pytest.raises(ValueError, match=r"a: expected a video or images, .*; tricue track reads this"):
-        Recording(open_source(bag))
+def test_a_robots_recording_is_served(tmp_path: Path, server_of: Any) -> None:
+    """A bag is opened like a video: its frames, its depth, and a target tracked in it."""
+    bag = write_bag1(tmp_path / "a.bag", walk(20, size=(160, 120)))
+    server = server_of(str(bag))
+    state = server.state()
+    assert (state["frames"], state["channels"]) == (20, ["color", "depth"])
 
 
 def test_select_boxes_returns_what_was_drawn(video: Path, capsys: pytest.CaptureFixture[str]) -> None:

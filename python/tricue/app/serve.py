@@ -18,7 +18,8 @@ import uvicorn
 
 from tricue.app.frames import Recording
 from tricue.app.project_file import data_folder, project_path
-from tricue.app.server import Serving, make_app
+from tricue.app.server import make_app
+from tricue.app.serving import Serving
 from tricue.app.session import Session
 from tricue.camera.box import Box
 from tricue.data.open_source import Source, open_source
