@@ -4,15 +4,26 @@
 import argparse
 from pathlib import Path
 
-from tricue.cli.arguments import add_common, add_topics, angles, count, frame_number, start_box, tracker_name
+from tricue.cli.arguments import (
+    add_common,
+    add_topics,
+    angles,
+    count,
+    frame_number,
+    seconds,
+    start_box,
+    tracker_name,
+)
 from tricue.cli.source_options import add_source_options
 from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
+from tricue.draw.trail import DEFAULT_SECONDS
 from tricue.track.base.registry import names
 from tricue.track.base.settings import PAPER
 
 EXAMPLES = """\
 examples:
   tricue track video.mp4 --box 120,80,64,78 --output overlay.mp4 --csv track.csv
+  tricue track video.mp4 --box 120,80,64,78 --output overlay.mp4 --trail   with the path of the last seconds
   tricue track 0 --detect face --output overlay.mp4           the first camera, until Ctrl-C
   tricue track sequences/David --json track.json              starts on the sequence's first true box
   tricue track images/ --box 10,20,30,40 --tracker color-particle --set particles=300 --seed 7
@@ -73,6 +84,14 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     command.add_argument(
         "--output", type=Path, metavar="FILE", help="overlay video, .mp4, .mkv, .webm or .avi"
+    )
+    command.add_argument(
+        "--trail",
+        type=seconds,
+        nargs="?",
+        const=DEFAULT_SECONDS,
+        metavar="SECONDS",
+        help="draw the path of the last seconds into --output, by default %(const)g",
     )
     command.add_argument("--csv", type=Path, metavar="FILE", help="a line per frame")
     command.add_argument(

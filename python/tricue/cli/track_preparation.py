@@ -65,6 +65,8 @@ def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
         options.box = _selected(options)
     boxes = _numbered(options)
     several = len(boxes) > 1
+    if options.trail is not None and not options.output:
+        raise ValueError("--trail: expected with --output, into which it is drawn")
     if options.plot:
         from tricue.draw.paths import check_format
 
