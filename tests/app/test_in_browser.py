@@ -329,15 +329,14 @@ def test_page_fits_and_reads(
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
     picture = tab.page.locator("#picture").bounding_box()
     assert picture["width"] >= 0.75 * size["width"]
-    nameless = tab.page.evaluate(
-        """() => [...document.querySelectorAll("button, input, select, canvas, a, img")]
-          .filter((each) => each.checkVisibility())
-          .filter((each) => !(each.ariaLabel || each.textContent.trim() || each.alt || each.labels?.length))
-          .map((each) => each.outerHTML)"""
-    )
-    assert nameless == []
+    assert tab.page.evaluate(NAMELESS) == []
     assert tab.page.evaluate(CONTRASTS) == []
 
+
+NAMELESS = """() => [...document.querySelectorAll("button, input, select, canvas, a, img")]
+  .filter((each) => each.checkVisibility())
+  .filter((each) => !(each.ariaLabel || each.textContent.trim() || each.alt || each.labels?.length))
+  .map((each) => each.outerHTML)"""
 
 CONTRASTS = """() => {
   const parse = (color) => color.match(/[\\d.]+/g).map(Number);

@@ -18,7 +18,7 @@ from typing import Any
 
 import pytest
 import tricue.app
-from tricue.app import serve
+from tricue.app import local_server
 from tricue.app.frames import Recording
 from tricue.cli import program
 from tricue.data.live import LiveStream
@@ -143,7 +143,7 @@ def test_server_listens_to_this_machine_alone(video: Path, server_of: Any) -> No
     """The address is 127.0.0.1, and so is the socket's."""
     server = server_of(str(video), "--port", "0")
     assert server.url.startswith("http://127.0.0.1:")
-    with serve._listening(0) as listener:
+    with local_server.listening(0) as listener:
         assert listener.getsockname()[0] == "127.0.0.1"
 
 
@@ -160,9 +160,9 @@ def test_port_in_use_is_one_line(video: Path, capsys: pytest.CaptureFixture[str]
 def test_default_port_in_use_is_no_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a wish, another page that is open takes another port."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
-        monkeypatch.setattr(serve, "DEFAULT_PORT", taken.getsockname()[1])
-        with serve._listening(None) as listener:
-            assert listener.getsockname()[1] != serve.DEFAULT_PORT
+        monkeypatch.setattr(local_server, "DEFAULT_PORT", taken.getsockname()[1])
+        with local_server.listening(None) as listener:
+            assert listener.getsockname()[1] != local_server.DEFAULT_PORT
 
 
 @pytest.mark.parametrize("port", ["70000", "-5"])

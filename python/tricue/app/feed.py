@@ -54,7 +54,8 @@ class _Page:
     async def tell(self) -> None:
         """Tell what is new, again and again."""
         recording = self.serving.session.recording
-        times = [round(recording.seconds(number), 4) for number in range(recording.length)]
+        begin = recording.seconds(0)  # of robots' recordings, seconds since 1970
+        times = [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
         await self.socket.send_json({"type": "times", "times": times})
         while True:
             run = self.serving.session.run

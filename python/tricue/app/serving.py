@@ -1,33 +1,28 @@
 # SPDX-License-Identifier: MIT
 """What the routes of a project's server share."""
 
-import secrets
-import tempfile
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 
 from tricue.app.frames import Recording
+from tricue.app.local_server import Served
 from tricue.app.session import Session
 from tricue.camera.box import Box
 from tricue.draw.depth_pictures import depth_range
 
 
 @dataclass
-class Serving:
-    """What the routes share. boxes: those drawn where only boxes are asked for; finish ends the serving."""
+class Serving(Served):
+    """What the routes share. boxes: those drawn where only boxes are asked for."""
 
     session: Session
-    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     tracker: str = ""
     selecting: bool = False
     boxes: list[tuple[int, Box]] = field(default_factory=list)
     notes: tuple[str, ...] = ()
-    finish: Callable[[], None] = lambda: None
-    folder: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
 
     def __post_init__(self) -> None:
         self.frame_lock = threading.Lock()
