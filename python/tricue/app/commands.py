@@ -46,8 +46,8 @@ def _keep(session: Session, keep: Any) -> None:
     session.keep_project(bool(keep))
 
 
-def _video(serving: Serving) -> None:
-    serving.session.make_video(serving.folder / f"{serving.session.place.stem}.overlay.mp4")
+def _video(serving: Serving, trail: Any = False) -> None:
+    serving.session.make_video(serving.folder / f"{serving.session.place.stem}.overlay.mp4", bool(trail))
 
 
 def _select(serving: Serving) -> None:

@@ -208,10 +208,10 @@ class Session:
 
     # The overlay video.
 
-    def make_video(self, path: Path) -> None:
-        """Write the overlay video in a thread; ``job`` tells how far it is."""
+    def make_video(self, path: Path, trail: bool = False) -> None:
+        """Write the overlay video in a thread, with the targets' trails or without; ``job`` tells how far."""
         self.cancel_video()
-        self.job = VideoJob(path, self.tracked())
+        self.job = VideoJob(path, self.tracked(), trail)
 
     def cancel_video(self) -> None:
         """Stop writing the overlay video."""

@@ -12,12 +12,13 @@ from tricue.errors import one_line
 class VideoJob:
     """The overlay video in the making: frames written of all, then the file, or the error."""
 
-    def __init__(self, path: Path, tracked: Tracked) -> None:
+    def __init__(self, path: Path, tracked: Tracked, trail: bool = False) -> None:
         self.total = tracked.recording.length
         self.written = 0
         self.path: Path | None = None
         self.error = ""
         self._stopped = False
+        self._trail = trail
         whole = replace(tracked, recording=tracked.recording.again())
         threading.Thread(target=self._write, args=(path, whole), name="overlay", daemon=True).start()
 
@@ -27,7 +28,7 @@ class VideoJob:
 
     def _write(self, path: Path, tracked: Tracked) -> None:
         try:
-            write_video(path, tracked, self._goes_on)
+            write_video(path, tracked, self._goes_on, self._trail)
             self.path = path
         except Exception as error:
             self.error = one_line(error)

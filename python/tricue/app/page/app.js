@@ -304,7 +304,7 @@ const CLICKS = {
   video() {
     if (!get("video-progress").hidden) return act("cancel-video");
     get("video").dataset.asked = "yes";
-    return act("video");
+    return act("video", { trail: stage.trail });
   },
   async done() {
     await act("select");
