@@ -119,6 +119,22 @@ def test_video_shows_the_boxes(tracked: Tracked, tmp_path: Path) -> None:
     assert green[0] > 60 > green[4]
 
 
+def test_video_shows_the_trails(video: Path, tmp_path: Path) -> None:
+    """With trails there is a line where the box's center came from, and none without."""
+    project = edits.add_target(Project(), 0, START, "fused")
+    tracks = {at: Track(START._replace(x=START.x + at), 0.9, Status.TRACKED) for at in range(FRAMES)}
+    whole = Tracked(edits.add_tracks(project, {1: tracks}), Recording(open_source(video)), {})
+    pictures = []
+    for trail in (False, True):
+        exports.write_video(tmp_path / "out.mp4", whole, lambda _: True, trail)
+        *_, (_, last) = Video(tmp_path / "out.mp4")
+        pictures.append(last.astype(int))
+    scale = pictures[0].shape[0] // 120
+    changed = np.abs(pictures[1] - pictures[0]).max(axis=2)
+    assert changed[60 * scale, 70 * scale] > 60
+    assert changed[50 * scale, 70 * scale] < 30
+
+
 def test_video_can_be_given_up(tracked: Tracked, tmp_path: Path) -> None:
     """Writing ends when it is told to, with a whole file."""
     exports.write_video(tmp_path / "out.mp4", tracked, lambda count: count < 10)

@@ -8,7 +8,8 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-from tricue.app.frames import Recording, SeekableVideo, read_index
+from tricue.app.frames import Recording
+from tricue.app.seekable_video import SeekableVideo, read_index
 from tricue.data.open_source import open_source
 from tricue.data.streams import Video
 from tricue.errors import one_line
@@ -70,7 +71,7 @@ def test_backwards_decodes_a_key_interval_at_once(video: Path, monkeypatch: pyte
 
 def test_few_frames_are_kept(video: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is kept of a long video is bounded, and going back through it is exact all the same."""
-    monkeypatch.setattr("tricue.app.frames.KEPT_BYTES", 5 * WIDTH * HEIGHT * 3 // 2)
+    monkeypatch.setattr("tricue.app.seekable_video.KEPT_BYTES", 5 * WIDTH * HEIGHT * 3 // 2)
     stream = SeekableVideo(video)
     expected = [image for _, image in Video(video)]
     for at in reversed(range(FRAMES)):

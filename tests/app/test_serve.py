@@ -18,11 +18,10 @@ from typing import Any
 
 import pytest
 import tricue.app
-from tricue.app import serve
+from tricue.app import local_server
 from tricue.app.frames import Recording
 from tricue.cli import program
 from tricue.data.live import LiveStream
-from tricue.data.open_source import open_source
 from tricue.data.source import Source
 
 from tests.app.conftest import START
@@ -144,7 +143,7 @@ def test_server_listens_to_this_machine_alone(video: Path, server_of: Any) -> No
     """The address is 127.0.0.1, and so is the socket's."""
     server = server_of(str(video), "--port", "0")
     assert server.url.startswith("http://127.0.0.1:")
-    with serve._listening(0) as listener:
+    with local_server.listening(0) as listener:
         assert listener.getsockname()[0] == "127.0.0.1"
 
 
@@ -161,9 +160,9 @@ def test_port_in_use_is_one_line(video: Path, capsys: pytest.CaptureFixture[str]
 def test_default_port_in_use_is_no_matter(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a wish, another page that is open takes another port."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
-        monkeypatch.setattr(serve, "DEFAULT_PORT", taken.getsockname()[1])
-        with serve._listening(None) as listener:
-            assert listener.getsockname()[1] != serve.DEFAULT_PORT
+        monkeypatch.setattr(local_server, "DEFAULT_PORT", taken.getsockname()[1])
+        with local_server.listening(None) as listener:
+            assert listener.getsockname()[1] != local_server.DEFAULT_PORT
 
 
 @pytest.mark.parametrize("port", ["70000", "-5"])
@@ -200,11 +199,12 @@ def test_camera_is_no_recording() -> None:
         Recording(Source("camera 0", {"color": StandIn()}))
 
 
-def test_a_robots_recording_is_refused(tmp_path: Path) -> None:
-    """One can't go to and fro in a bag; which command reads it is said."""
-    bag = write_bag1(tmp_path / "a.bag", walk())
-    with pytest.raises(ValueError, match=r"a: expected a video or images, .*; tricue track reads this"):
-        Recording(open_source(bag))
+def test_a_robots_recording_is_served(tmp_path: Path, server_of: Any) -> None:
+    """A bag is opened like a video: its frames, its depth, and a target tracked in it."""
+    bag = write_bag1(tmp_path / "a.bag", walk(20, size=(160, 120)))
+    server = server_of(str(bag))
+    state = server.state()
+    assert (state["frames"], state["channels"]) == (20, ["color", "depth"])
 
 
 def test_select_boxes_returns_what_was_drawn(video: Path, capsys: pytest.CaptureFixture[str]) -> None:

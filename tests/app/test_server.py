@@ -12,8 +12,11 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
-from tricue.app.server import COMMANDS, PAGE, Serving, make_app
+from tricue.app.commands import COMMANDS
+from tricue.app.server import make_app
+from tricue.app.serving import Serving
 from tricue.app.session import Session
+from tricue.app.web import PAGE
 
 from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH
 

@@ -11,6 +11,7 @@ import pytest
 from tricue import Intrinsics, StereoRig
 from tricue.app import serve
 from tricue.cli.program import main
+from tricue.data.open_source import open_source
 from tricue.data.source import Source
 
 TOML = "fx = 100.0\nfy = 100.0\ncx = 39.5\ncy = 29.5\nwidth = 80\nheight = 60\n"
@@ -117,3 +118,45 @@ def test_bad_input_is_one_line(
     assert code == 2
     assert message in error
     assert error.count("\n") == 1
+
+
+@pytest.mark.parametrize("place", ["0", "/dev/video3", "rtsp://user:secret@host/a", "realsense:", "oak:7"])
+def test_a_camera_gets_a_page_of_its_own(place: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The server of cameras gets the name, without a password, and opens nothing before its page is there."""
+    from tricue.app.live import serve as live_serve
+
+    found: list[Any] = []
+    monkeypatch.setattr(live_serve, "serve_camera", lambda *given, **named: found.append((given, named)))
+    assert main(["open", place, "--port", "9000", "--tracker", "fused", "--no-browser"]) == 0
+    (((_, name), named),) = found
+    assert "secret" not in name
+    assert name.removeprefix("camera ").startswith(place.split("//", maxsplit=1)[0])
+    assert (named["port"], named["browser"], named["tracker"]) == (9000, False, "fused")
+
+
+def test_a_camera_is_opened_with_its_calibration(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What opens the camera knows --fov, and says what is to be said on the terminal."""
+    from tricue.app.live import serve as live_serve
+    from tricue.cli import open as command
+
+    images = write_images(tmp_path / "images")
+    monkeypatch.setattr(command, "open_input", lambda _: open_source(images))
+    found: list[Any] = []
+    monkeypatch.setattr(live_serve, "serve_camera", lambda open_, *_, **__: found.append(open_()))
+    assert main(["open", "0", "--fov", "60"]) == 0
+    (opened,) = found
+    assert isinstance(opened.cameras["intrinsics"], Intrinsics)
+    assert opened.source.name == "images"
+    capsys.readouterr()
+
+
+def test_topics_of_a_recording(tmp_path: Path, handed: Handed) -> None:
+    """--topics chooses what is shown."""
+    from tests.data.recordings.written import color, raw, write_bag1
+
+    sent = [raw(name, at * 10**8, color(9), "bgr8") for at in range(1, 5) for name in ("/a", "/b")]
+    bag = write_bag1(tmp_path / "a.bag", sent)
+    assert main(["open", str(bag), "--topics", "color=/b"]) == 0
+    assert handed.source.channels["color"].joint.chosen == {"color": "/b"}  # type: ignore[attr-defined]

@@ -128,3 +128,36 @@ def test_json_lines_for_other_programs(
     assert found[2]["x"] == pytest.approx(found[0]["x"] + 2)
     assert "img: 8 frames" in err
     assert "wrote" not in err
+
+
+def test_the_trail_is_drawn(images: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It proves that --trail draws where the target came from into the overlay, and nothing without it."""
+    pictures = []
+    for words in ([], ["--trail"], ["--trail", "0.05"]):
+        output = tmp_path / f"{len(pictures)}.avi"
+        assert run(capsys, str(images), "--box", "20,20,24,32", "--output", str(output), *words)[0] == 0
+        capture, last = cv2.VideoCapture(str(output)), None
+        while (frame := capture.read()[1]) is not None:
+            last = frame.astype(int)
+        pictures.append(last)
+    changed = [np.abs(picture - pictures[0])[80:].sum(2) > 90 for picture in pictures[1:]]  # below the text
+    assert changed[0].sum() > 2 * changed[1].sum() > 0
+
+
+@pytest.mark.parametrize(
+    ("words", "error"),
+    [
+        (["--trail"], "--trail: expected with --output, into which it is drawn"),
+        (["--output", "o.mp4", "--trail", "-1"], "argument --trail: expected seconds above 0, got '-1'"),
+    ],
+)
+def test_a_trail_that_cannot_be(
+    images: Path, words: list[str], error: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It proves that a trail without a video, or of no time, is told in a line."""
+    try:
+        code = main(["track", str(images), "--box", FIRST, *words])
+    except SystemExit as ended:
+        code = int(str(ended.code))
+    assert code == 2
+    assert error in capsys.readouterr().err

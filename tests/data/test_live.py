@@ -179,6 +179,22 @@ def test_http_that_stops_and_comes_back(brief: None) -> None:
         assert abs(level - server.level()) <= 20  # at most a second old
         assert times == sorted(times)
     assert any("connected again once" in remark for remark in source.remarks)
+    health = source.channels["color"].joint.health
+    assert (health.reopened, health.trouble) == (1, "")
+    assert health.silence > 0.2
+
+
+def test_closing_ends_the_iteration(brief: None) -> None:
+    """It proves that a reader that waits for a frame is let go when another thread closes the stream."""
+    with mjpeg_server() as server:
+        source = tricue.open_source(server.url)
+        frames = iter(source)
+        next(frames)
+        live = source.channels["color"].joint
+        threading.Timer(0.2, live.close).start()
+        for _ in frames:  # which would raise an error after three seconds of silence
+            pass
+        assert live.health.trouble == ""
 
 
 def test_a_process_that_ends_while_it_reads() -> None:

@@ -4,7 +4,7 @@
 import csv
 import io
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,8 @@ from tricue.camera.frame import Frame
 from tricue.data.streams import Images
 from tricue.draw.canvas import STATUS_COLORS, Image, choose_scale, draw_box, enlarge, put_text, to_bgr
 from tricue.draw.depth_pictures import depth_picture
+from tricue.draw.targets import target_color
+from tricue.draw.trail import Trail
 from tricue.export.coco import CocoTracks
 from tricue.export.mot import mot_line
 from tricue.export.table import TableForm, columns, row
@@ -103,28 +105,39 @@ EXPORTS = {
 }
 
 
-def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool]) -> str:
+def write_video(path: Path, tracked: Tracked, progress: Callable[[int], bool], trail: bool = False) -> str:
     """Write the overlay video of all frames; what OverlayWriter says about the file.
 
-    progress: called with the number of frames written; False from it ends the writing.
+    progress: called with the number of frames written; False from it ends the writing. trail: whether the
+    targets' trails are drawn.
     """
     from tricue.draw.video import OverlayWriter
 
-    recording = tracked.recording
+    recording, trails = tracked.recording, {each.id: Trail() for each in tracked.project.targets if trail}
     with OverlayWriter(path, recording.source.fps) as writer:
         for number, frame in recording.frames(0, recording.length):
             here = [(each, each.tracks[number]) for each in tracked.project.targets if number in each.tracks]
-            writer.write(draw_targets(frame, here))
+            for target, track in here if trail else ():
+                trails[target.id].add(recording.seconds(number), track)
+            writer.write(draw_targets(frame, here, trails))
             if not progress(number + 1):
                 break
     return writer.about
 
 
-def draw_targets(frame: Frame, tracks: Sequence[tuple[Target, Track]]) -> Image:
-    """The frame's image, enlarged if it is small, with each target's box and name, and what isn't tracked."""
+def draw_targets(
+    frame: Frame, tracks: Sequence[tuple[Target, Track]], trails: Mapping[int, Trail] | None = None
+) -> Image:
+    """The frame's image, enlarged if it is small, with each target's box and name, and what isn't tracked.
+
+    trails: those to be drawn, by the targets' ids.
+    """
     image = picture(frame)
     scale = choose_scale(image.shape[0])
     canvas = enlarge(image, scale, cv2.INTER_CUBIC)
+    for target, _ in tracks:
+        if trails and target.id in trails:
+            trails[target.id].draw(canvas, scale, target_color(target.id))
     for target, track in tracks:
         color = STATUS_COLORS[track.status]
         draw_box(canvas, track.box, scale, color, 2)

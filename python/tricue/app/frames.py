@@ -1,204 +1,37 @@
 # SPDX-License-Identifier: MIT
-"""Any frame of a recording, exactly and at once: videos are sought by their key frames, folders are read."""
+"""Any frame of a recording at once, whatever it is: a video, a folder of images, a robot's recording."""
 
-from collections import OrderedDict
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
-import av
-import av.error
-import numpy as np
-from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
+from tricue.app.seekable_video import SeekableVideo
 from tricue.camera.frame import Frame
+from tricue.data.joint import JointStream
 from tricue.data.live import LiveStream
+from tricue.data.recordings.recording import Recording as Topics
+from tricue.data.recordings.seekable import SeekableChannel, SeekableRecording
 from tricue.data.source import Source
-from tricue.data.streams import Image, Stream, Video, plausible_fps
+from tricue.data.streams import Stream, Video
 
-KEPT_BYTES = 128 << 20  # of decoded frames, in YUV: what stepping back and tracking backwards fall back on
-MIN_KEPT = 4  # frames, however large
 MAX_UNREADABLE = 30  # frames in a row, after which a recording is broken
-GUESSED_TIMES = {("avi", "h264"), ("avi", "hevc")}
-"""Containers without times for codecs that reorder frames: after a seek FFmpeg guesses, and guesses wrong."""
-
-
-@dataclass(frozen=True)
-class VideoIndex:
-    """When the frames of a video are shown, from its packets.
-
-    times: (N,) int64, rising, in units of ``unit`` seconds. keys: the numbers of the key frames, the first of
-    which is 0. Without times that tell the frames apart, frames are counted from the video's start.
-    """
-
-    times: NDArray[np.int64]
-    keys: NDArray[np.int64]
-    unit: Fraction
-    fps: float | None
-    timed: bool
-
-    def key_before(self, number: int) -> int:
-        """The number of the last key frame up to this frame."""
-        return int(self.keys[np.searchsorted(self.keys, number, side="right") - 1])
-
-    def seconds(self, number: int) -> float:
-        """From the first frame on."""
-        return float((int(self.times[number]) - int(self.times[0])) * self.unit)
-
-
-def read_index(path: Path) -> VideoIndex:
-    """Read all packets of a video once, decoding none; ValueError where it holds no frames."""
-    with _opened(path) as container:
-        stream = container.streams.video[0]
-        packets = [
-            (packet.pts, packet.is_keyframe)
-            for packet in _packets(container, stream, path)
-            if packet.size and not packet.is_discard
-        ]
-        unit = stream.time_base or Fraction(1, 1000)
-        guessed = (container.format.name, stream.codec_context.name) in GUESSED_TIMES
-        fps = plausible_fps(float(stream.average_rate or 0))
-    first = next((at for at, (_, is_key) in enumerate(packets) if is_key), len(packets))
-    packets = packets[first:]  # nothing before a key frame can be decoded
-    if not packets:
-        raise ValueError(f"{path}: expected a video, this file has no frame that can be decoded")
-    shown = [pts for pts, _ in packets if pts is not None]
-    if guessed or len(set(shown)) < len(packets):
-        step = Fraction(1) / Fraction(fps or 30.0).limit_denominator(1001)
-        return VideoIndex(np.arange(len(packets)), np.zeros(1, np.int64), step, fps, False)
-    start = packets[0][0] or 0  # frames shown before the first key frame depend on one that is missing
-    times = np.array(sorted(pts for pts in shown if pts >= start), np.int64)
-    keys = np.array(sorted(pts for pts, is_key in packets if is_key and pts is not None), np.int64)
-    return VideoIndex(times, np.searchsorted(times, keys), unit, fps, True)
-
-
-class SeekableVideo:
-    """A video file whose frames can be had in any order; a stream as those of :mod:`tricue.data.streams`.
-
-    The images are those that :class:`tricue.data.streams.Video` gives. It decodes from the key frame before
-    the wanted one and keeps the last frames that it decoded. Used by one thread at a time: :meth:`again`
-    is for another. ValueError names a frame that can't be decoded.
-    """
-
-    def __init__(self, path: Path, index: VideoIndex | None = None) -> None:
-        self.path = path
-        self.index = read_index(path) if index is None else index
-        self.fps, self.timed = self.index.fps or 30.0, self.index.timed
-        self._numbers = {int(time): number for number, time in enumerate(self.index.times)}
-        self._container: Any = None
-        self._reformatter = VideoReformatter()  # one for all frames: to make it takes longer than to use it
-        self._kept: OrderedDict[int, Any] = OrderedDict()
-        self._decoded: Iterator[tuple[int, Any]] = iter(())
-        self._coming: int | None = None  # the least number that may come next
-
-    @property
-    def length(self) -> int:
-        return len(self.index.times)
-
-    @property
-    def size(self) -> tuple[int, int]:
-        _, image = next(self.at([0]))
-        return image.shape[1], image.shape[0]
-
-    def again(self) -> "SeekableVideo":
-        """The same video for another thread."""
-        return SeekableVideo(self.path, self.index)
-
-    def __iter__(self) -> Iterator[tuple[float, Image]]:
-        return self.at(range(self.length))
-
-    def at(self, indices: Sequence[int]) -> Iterator[tuple[float, Image]]:
-        for number in indices:
-            if not 0 <= number < self.length:
-                raise ValueError(f"{self.path}: expected frame 0 to {self.length - 1}, got {number}")
-            yield self.index.seconds(number), self._bgr(self._find(number))
-
-    def _bgr(self, frame: Any) -> Image:
-        """The frame as BGR, (H, W, 3), upright as a phone held it."""
-        image: Image = self._reformatter.reformat(frame, format="bgr24").to_ndarray()
-        turns = round(frame.rotation / 90) % 4
-        return np.ascontiguousarray(np.rot90(image, turns)) if turns else image
-
-    def _find(self, number: int) -> Any:
-        if number not in self._kept and not self._decode_to(number):
-            raise ValueError(f"{self.path}: frame {number} can't be decoded")
-        return self._kept[number]
-
-    def _decode_to(self, number: int) -> bool:
-        """Decode up to the frame; False where the video has it not."""
-        key = self.index.key_before(number)
-        if self._coming is None or not key <= self._coming <= number:
-            self._seek(key)
-        for found, frame in self._decoded:
-            self._keep(found, frame)
-            self._coming = found + 1
-            if found >= number:
-                break
-        else:
-            self._coming = None
-        return number in self._kept
-
-    def _keep(self, number: int, frame: Any) -> None:
-        bytes_each = max(1, frame.width * frame.height * 3 // 2)
-        self._kept[number] = frame
-        self._kept.move_to_end(number)
-        while len(self._kept) > max(MIN_KEPT, KEPT_BYTES // bytes_each):
-            self._kept.popitem(last=False)
-
-    def _seek(self, key: int) -> None:
-        """Go to a key frame, or, where the file's own index leads beyond it, to one before."""
-        while True:
-            self._decoded = iter(())  # which lets go of the decoder
-            self._decoded = self._numbered(key)
-            first = next(self._decoded, None)
-            if key == 0 or (first is not None and first[0] <= key):
-                break
-            key = self.index.key_before(key - 1)
-        self._coming = key
-        if first is not None:
-            self._decoded = _with_first(first, self._decoded)
-
-    def _numbered(self, key: int) -> Iterator[tuple[int, Any]]:
-        """Decoded frames with their numbers, from a key frame on."""
-        from_start = key == 0 or not self.index.timed  # where some containers can't be sought to
-        if self._container is not None and from_start:
-            self._container.close()
-            self._container = None
-        if self._container is None:
-            self._container = _opened(self.path)
-            self._container.streams.video[0].thread_type = "AUTO"
-        stream = self._container.streams.video[0]
-        if not from_start:
-            self._container.seek(int(self.index.times[key]), stream=stream, backward=True)
-        for count, frame in enumerate(_frames(self._container, stream)):
-            number = self._numbers.get(frame.pts) if self.index.timed else count
-            if number is not None:
-                yield number, frame
 
 
 class Recording:
     """The frames of a source in any order, with their number known. One thread uses it at a time.
 
-    ValueError for a live camera, for a recording that can only be read from its start on, as robots' are, and
-    where the channels differ in length.
+    ValueError for a live camera, for one without frames, and where the channels differ in length.
     """
 
     def __init__(self, source: Source) -> None:
         for stream in source.channels.values():
             if isinstance(stream, LiveStream):
-                raise ValueError(
-                    f"{source.name}: expected a recording, got a live camera; "
-                    "tricue track records one with --output"
-                )
-        self.source = replace(source, channels=dict(map(_seekable, source.channels.items())))
+                raise ValueError(f"{source.name}: expected a recording, got a live camera")
+        self.source = replace(source, channels=_seekable(source))
         if self.source.length is None:
-            raise ValueError(
-                f"{source.name}: expected a video or images, whose frames can be read in any order; "
-                "tricue track reads this recording"
-            )
+            raise ValueError(f"{source.name}: expected a recording whose frames can be read in any order")
         self.length: int = self.source.length
         if not self.length:
             raise ValueError(f"{source.name}: expected a recording with frames, this one has none")
@@ -208,11 +41,7 @@ class Recording:
     def again(self) -> "Recording":
         """The same recording for another thread."""
         other = object.__new__(Recording)
-        streams = {
-            name: stream.again() if isinstance(stream, SeekableVideo) else stream
-            for name, stream in self.source.channels.items()
-        }
-        other.source = replace(self.source, channels=streams)
+        other.source = replace(self.source, channels=_again(self.source))
         other.length, other.size = self.length, self.size
         return other
 
@@ -257,59 +86,36 @@ def image_of(frame: Frame) -> NDArray[Any]:
     return image
 
 
-def _seekable(channel: tuple[str, Stream]) -> tuple[str, Stream]:
-    name, stream = channel
-    if isinstance(stream, Video):
-        return name, SeekableVideo(stream.path)
-    return name, stream
+def _seekable(source: Source) -> dict[str, Stream]:
+    """The source's channels as streams whose images can be had in any order, where that is possible."""
+    joints: dict[int, SeekableRecording] = {}
+
+    def seekable(stream: Stream) -> Stream:
+        if isinstance(stream, Video):
+            return SeekableVideo(stream.path)
+        if isinstance(stream, JointStream) and isinstance(stream.joint, Topics):
+            joint = joints.setdefault(id(stream.joint), SeekableRecording.of(stream.joint))
+            return SeekableChannel(joint, stream.channel)
+        return stream
+
+    return {name: seekable(stream) for name, stream in source.channels.items()}
+
+
+def _again(source: Source) -> dict[str, Stream]:
+    """The channels for another thread; those that are read together still are."""
+    joints: dict[int, SeekableRecording] = {}
+
+    def again(stream: Stream) -> Stream:
+        if isinstance(stream, SeekableVideo):
+            return stream.again()
+        if isinstance(stream, SeekableChannel):
+            joint = joints.setdefault(id(stream.joint), stream.joint.again())
+            return SeekableChannel(joint, stream.channel)
+        return stream
+
+    return {name: again(stream) for name, stream in source.channels.items()}
 
 
 def _mirrored(frame: Frame, start: float) -> Frame:
     then = None if frame.timestamp is None else 2 * start - frame.timestamp
     return Frame(frame.color, frame.depth, frame.right, then, pose=frame.pose)
-
-
-def _with_first(first: tuple[int, Any], rest: Iterator[tuple[int, Any]]) -> Iterator[tuple[int, Any]]:
-    yield first
-    yield from rest
-
-
-def _opened(path: Path) -> Any:
-    """The container of a video file, opened by PyAV; OSError or ValueError names the file."""
-    try:
-        container = av.open(str(path))
-    except av.error.FileNotFoundError:
-        raise FileNotFoundError(f"{path}: there is no such file") from None
-    except (av.error.FFmpegError, UnicodeError):
-        raise ValueError(f"{path}: expected a video, this file can't be opened as one") from None
-    if not container.streams.video:
-        container.close()
-        raise ValueError(f"{path}: expected a video, this file has no pictures")
-    if container.streams.video[0].codec_context is None:
-        container.close()
-        raise ValueError(f"{path}: there is no decoder for its codec; convert it to H.264")
-    return container
-
-
-def _packets(container: Any, stream: Any, path: Path) -> Iterator[Any]:
-    """The packets up to where the file is cut off or damaged."""
-    try:
-        yield from container.demux(stream)
-    except av.error.FFmpegError:
-        return
-
-
-def _frames(container: Any, stream: Any) -> Iterator[Any]:
-    """The frames that can be decoded; packets that can't are left out."""
-    packets = container.demux(stream)
-    while True:
-        try:
-            packet = next(packets, None)
-            if packet is None:
-                return
-            decoded = packet.decode()
-        except av.error.InvalidDataError:
-            continue
-        except av.error.FFmpegError:
-            return
-        yield from decoded

@@ -1,31 +1,23 @@
 # SPDX-License-Identifier: MIT
 """Serves a session on 127.0.0.1 until it is ended; a second server of one project finds the first."""
 
-import errno
 import hashlib
 import json
 import os
-import socket
 import sys
-import tempfile
-import webbrowser
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
-import uvicorn
-
 from tricue.app.frames import Recording
+from tricue.app.local_server import serve_until_ended, show
 from tricue.app.project_file import data_folder, project_path
-from tricue.app.server import Serving, make_app
+from tricue.app.server import make_app
+from tricue.app.serving import Serving
 from tricue.app.session import Session
 from tricue.camera.box import Box
 from tricue.data.open_source import Source, open_source
-
-ADDRESS = "127.0.0.1"
-DEFAULT_PORT, MAX_PORT = 8765, 65535
-CLOSING_TIME = 2  # seconds that open connections get at the end
 
 
 def serve_project(
@@ -50,7 +42,7 @@ def serve_project(
     with _only_server(path) as own:
         if own.url:
             say(f"{place.name} is open already at {own.url}")
-            _show(own.url, browser)
+            show(own.url, browser)
             return
         with closing(Session(Recording(source), place, path, cameras, seed)) as session:
             if tracker:
@@ -59,7 +51,8 @@ def serve_project(
                 path if path.parent == place.resolve().parent else f"{path}, as its folder can't be written"
             )
             say(f"the work is kept in {kept}")
-            _serve(Serving(session, tracker=tracker, notes=notes), port, browser, say, own.announce)
+            serving = Serving(session, tracker=tracker, notes=notes)
+            serve_until_ended(serving, make_app(serving), port, browser, say, own.announce)
 
 
 def serve_selection(
@@ -69,53 +62,10 @@ def serve_selection(
     source = open_source(place, **opening)
     with closing(Session(Recording(source), place, None)) as session:
         serving = Serving(session, selecting=True)
-        _serve(serving, port, browser, lambda text: print(text, file=sys.stderr))
-        return serving.boxes
-
-
-def _serve(
-    serving: Serving,
-    port: int | None,
-    browser: bool,
-    say: Callable[[str], None],
-    announce: Callable[[str], None] = lambda url: None,
-) -> None:
-    with _listening(port) as listener, tempfile.TemporaryDirectory(prefix="tricue-") as folder:
-        serving.folder = Path(folder)
-        url = f"http://{ADDRESS}:{listener.getsockname()[1]}/{serving.token}/"
-        config = uvicorn.Config(
-            make_app(serving),
-            log_level="error",
-            ws="websockets-sansio",
-            lifespan="off",
-            proxy_headers=False,
-            timeout_graceful_shutdown=CLOSING_TIME,
+        serve_until_ended(
+            serving, make_app(serving), port, browser, lambda text: print(text, file=sys.stderr)
         )
-        server = uvicorn.Server(config)
-        serving.finish = lambda: setattr(server, "should_exit", True)
-        announce(url)
-        say(f"open {url}  (Ctrl-C ends it)")
-        _show(url, browser)
-        server.run(sockets=[listener])
-
-
-def _listening(port: int | None) -> socket.socket:
-    """A socket at this port; without a wish at the default one, or at a free one if that is in use."""
-    if port is not None and not 0 <= port <= MAX_PORT:
-        raise ValueError(f"--port {port}: expected a port from 0 to {MAX_PORT}")
-    try:
-        return socket.create_server((ADDRESS, DEFAULT_PORT if port is None else port))
-    except OSError as error:
-        if port is None:
-            return socket.create_server((ADDRESS, 0))
-        why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "the port isn't open to you"}
-        reason = why.get(error.errno or 0, error.strerror)
-        raise OSError(f"--port {port}: {reason}; give another, or leave it out") from None
-
-
-def _show(url: str, browser: bool) -> None:
-    if browser:
-        webbrowser.open(url)
+        return serving.boxes
 
 
 class _Place:

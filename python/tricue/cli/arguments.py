@@ -2,6 +2,7 @@
 """Options and argument types shared by several commands."""
 
 import argparse
+import math
 import re
 import sys
 from pathlib import Path
@@ -68,6 +69,17 @@ def frame_number(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"expected a frame's number from 0 on, got {text!r}")
     return int(text)
+
+
+def seconds(text: str) -> float:
+    """A number of seconds above 0."""
+    try:
+        found = float(text)
+    except ValueError:
+        found = math.nan
+    if not 0 < found < math.inf:
+        raise argparse.ArgumentTypeError(f"expected seconds above 0, got {text!r}")
+    return found
 
 
 def angles(text: str) -> tuple[float, ...]:

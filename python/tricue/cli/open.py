@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""``tricue open INPUT``: a page on this machine to draw boxes in a video, track, correct and export."""
+"""``tricue open INPUT``: a page on this machine to draw boxes in a video or a camera, track and export."""
 
 import argparse
 from pathlib import Path
 from typing import Any
 
 from tricue import app
-from tricue.cli.arguments import tracker_name
+from tricue.cli.arguments import add_topics, tracker_name
 from tricue.cli.calibrations import find_calibration
 from tricue.cli.source_options import add_source_options, open_input
 from tricue.cli.starts import DEFAULT_TRACKER, depth_tracker
-from tricue.data.open_source import Source
+from tricue.data.open_source import Source, live_device
 from tricue.track.base.registry import traits
 
 EXAMPLES = """\
@@ -19,13 +19,17 @@ examples:
   tricue open video.mp4 --no-browser --port 9000              prints the address
   tricue open images/ --fps 25
   tricue open pair/ --calibration stereo.yml                  positions in meters, the path from above
+  tricue open walk.bag --topics color=/rgb/image_raw,depth=/depth/image_raw
+  tricue open 0                                               the first camera; also rtsp://..., realsense:
   tricue open video.mp4 --depth depth/ --depth-scale 0.001 --calibration camera.yml
 """
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """Add the command's options to its parser."""
-    command.add_argument("input", metavar="INPUT", help="video file, folder of images, sequence folder")
+    command.add_argument(
+        "input", metavar="INPUT", help="video, folder of images, sequence, recording, URL, camera number"
+    )
     command.add_argument("--port", type=int, metavar="N", help="of the server on 127.0.0.1; 0 for a free one")
     command.add_argument("--no-browser", action="store_true", help="only print the address")
     command.add_argument(
@@ -35,13 +39,16 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="what new targets begin with; the page has a choice",
     )
     command.add_argument("--seed", type=int, default=0, help="of the random numbers, default %(default)s")
+    add_topics(command)
     add_source_options(command)
-    command.set_defaults(assume_fov=None, topics=None)
+    command.set_defaults(assume_fov=None)
 
 
 def run(options: argparse.Namespace) -> int:
     """Serve the page until Ctrl-C; the exit code."""
     app.require()
+    if device := live_device(options.input):
+        return _serve_camera(options, device.name)
     from tricue.app.serve import serve_project
 
     source = open_input(options)
@@ -57,6 +64,28 @@ def run(options: argparse.Namespace) -> int:
         tracker=options.tracker or "",
         seed=options.seed,
         notes=notes,
+        say=lambda text: print(text, flush=True),
+    )
+    return 0
+
+
+def _serve_camera(options: argparse.Namespace, name: str) -> int:
+    from tricue.app.live.serve import serve_camera
+    from tricue.app.live.session import Opened
+
+    def open_() -> Opened:
+        source, cameras, notes = _calibrated(options, open_input(options))
+        for note in notes:
+            print(note, flush=True)
+        return Opened(source, cameras)
+
+    serve_camera(
+        open_,
+        name,
+        port=options.port,
+        browser=not options.no_browser,
+        tracker=options.tracker or "",
+        seed=options.seed,
         say=lambda text: print(text, flush=True),
     )
     return 0

@@ -17,13 +17,14 @@ from tricue.camera.frame import Frame
 from tricue.camera.rig import StereoRig
 from tricue.cli.lost_ranges import LostRanges, as_json
 from tricue.cli.text_file import TextFile
-from tricue.draw.canvas import Image
+from tricue.draw.canvas import Image, choose_scale
 from tricue.draw.depth_pictures import depth_picture, depth_range
 from tricue.draw.masks import flow_depth_overlay
 from tricue.draw.overlays import depth_overlay, overlay
 from tricue.draw.status_strip import StatusStrip
 from tricue.draw.stereo import stereo_overlay
-from tricue.draw.targets import targets_overlay
+from tricue.draw.targets import target_color, targets_overlay
+from tricue.draw.trail import Trail
 from tricue.draw.video import OverlayWriter
 from tricue.export.table import PLAIN, TableForm, columns, row
 from tricue.track.base.track import Track
@@ -160,7 +161,8 @@ class VideoOutput:
 
     rig: the stereo rig, if the tracker knows it; then the disparity is shown, or the target's mask if the
     tracker has one. assumed: whether its camera is only supposed, which each picture says. length: how many
-    frames there will be; a strip for each target shows when it was tracked, occluded and lost.
+    frames there will be; a strip for each target shows when it was tracked, occluded and lost. trail: of how
+    many seconds the targets' paths are drawn, None for none.
     """
 
     def __init__(
@@ -170,7 +172,9 @@ class VideoOutput:
         rig: StereoRig | None = None,
         assumed: bool = False,
         length: int | None = None,
+        trail: float | None = None,
     ) -> None:
+        self._fps, self._trail, self._trails = fps, trail, dict[int, Trail]()
         self._length, self._strips = length, dict[int, StatusStrip]()
         self._assumed = "   assumed camera" if assumed else ""
         self._writer = OverlayWriter(path, fps)
@@ -189,11 +193,22 @@ class VideoOutput:
     def write(self, step: Step) -> None:
         speed = f"   {1 / step.seconds:,.0f} frames/s" if step.number and step.seconds else ""
         picture = self._picture(step, f"frame {step.number}{speed}{self._assumed}")
+        if self._trail is not None:
+            self._draw_trails(picture, step, self._trail)
         for line, (target, track) in enumerate(step.targets.items()):
             strip = self._strips.setdefault(target, StatusStrip(self._length))
             strip.add(track.status)
             strip.draw(picture, line)
         self._writer.write(picture)
+
+    def _draw_trails(self, picture: Image, step: Step, seconds: float) -> None:
+        image = step.frame.depth if step.frame.color is None else step.frame.color
+        assert image is not None  # a frame has one of the two
+        time = step.number / self._fps if step.frame.timestamp is None else step.frame.timestamp
+        for target, track in step.targets.items():
+            trail = self._trails.setdefault(target, Trail(seconds))
+            trail.add(time, track)
+            trail.draw(picture, choose_scale(image.shape[0]), target_color(target))
 
     def _picture(self, step: Step, note: str) -> Image:
         color, depth = step.frame.color, step.frame.depth

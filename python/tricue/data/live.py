@@ -58,6 +58,17 @@ class Patience(NamedTuple):
     silence: float = 60.0
 
 
+class Health(NamedTuple):
+    """How a stream does: images dropped because newer ones came, how often it was connected again, after how
+    many seconds without images in all, and why there are none now, "" while they come.
+    """
+
+    dropped: int = 0
+    reopened: int = 0
+    silence: float = 0.0
+    trouble: str = ""
+
+
 class _Newest(NamedTuple):
     seconds: float
     images: dict[str, NDArray[Any]]
@@ -77,6 +88,7 @@ class Live:
         self._running = False
         self._dropped = self._reopened = 0
         self._silence = 0.0
+        self._stopped_by = ""
         self._begin = time.monotonic()
         self._start_thread()
         first = self._wait_for_first()
@@ -88,6 +100,12 @@ class Live:
     def channels(self) -> tuple[str, ...]:
         """The names of the channels that the device gives."""
         return tuple(self._sizes)
+
+    @property
+    def health(self) -> Health:
+        """How it does now; any thread may ask."""
+        with self._news:
+            return Health(self._dropped, self._reopened, self._silence, self._stopped_by)
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -124,8 +142,7 @@ class Live:
         self._start_thread()
         self._dropped = 0  # those that came before are no loss
         try:
-            while True:
-                newest = self._wait_for_news()
+            while (newest := self._wait_for_news()) is not None:
                 yield {name: (newest.seconds, newest.images[name]) for name in channels}
         finally:
             self.close()
@@ -160,12 +177,14 @@ class Live:
             "is it on, and is the address right?"
         )
 
-    def _wait_for_news(self) -> _Newest:
-        """The newest images, once. Warns (UserWarning) of an interruption."""
+    def _wait_for_news(self) -> _Newest | None:
+        """The newest images, once; None if it was closed. Warns (UserWarning) of an interruption."""
         since = time.monotonic()
         while True:
             with self._news:
-                self._news.wait_for(lambda: self._newest or self._failure or self._trouble, 0.5)
+                self._news.wait_for(
+                    lambda: self._newest or self._failure or self._trouble or not self._running, 0.5
+                )
                 newest, self._newest = self._newest, None
                 trouble, self._trouble = self._trouble, ""
                 failure = self._failure
@@ -175,6 +194,8 @@ class Live:
                 return newest
             if failure is not None:
                 raise failure
+            if not self._running:
+                return None
             silence = time.monotonic() - since
             if silence > self.patience.silence:
                 raise OSError(f"{self.device.name}: no image for {silence:.0f} s; the stream has ended")
@@ -208,6 +229,7 @@ class Live:
             elif stopped:
                 self._reopened += 1
                 self._silence += now - stopped
+            self._stopped_by = ""
             self._dropped += self._newest is not None
             self._newest = _Newest(now - self._begin, images)
             self._news.notify_all()
@@ -222,6 +244,7 @@ class Live:
         with self._news:
             if self._running:
                 self._trouble = trouble or self._trouble
+                self._stopped_by = trouble or self._stopped_by
                 self._news.notify_all()
                 self._news.wait_for(lambda: not self._running, wait)
         return min(2 * wait, self.patience.longest_wait)

@@ -70,7 +70,7 @@ def _opened(
     target: str | None = None,
     topics: Mapping[str, str] | None = None,
 ) -> Source:
-    if isinstance(place, str) and (device := _device(place)):
+    if isinstance(place, str) and (device := live_device(place)):
         return _open_live(device)
     if isinstance(place, str) and is_file_url(place):
         file = Path(urlsplit(place).path)
@@ -102,7 +102,7 @@ def _opened(
     return _with_table(Source(path.stem, {"color": Video(path)}, format="video"), path)
 
 
-def _device(place: str) -> Device | None:
+def live_device(place: str) -> Device | None:
     """The live device of this name; None for files and folders."""
     if place.startswith(realsense.PREFIX):
         return realsense.RealSense(place.removeprefix(realsense.PREFIX))

@@ -475,3 +475,51 @@ def test_true_boxes_beside_a_recording(tmp_path: Path) -> None:
     source = open_source(path)
     assert source.first_box == (1, 2, 3, 4)
     assert source.notes[-1].startswith("true boxes found")
+
+
+@pytest.mark.parametrize("write", WRITERS)
+def test_cameras_that_come_late(tmp_path: Path, write: Writer) -> None:
+    """It proves that a camera_info and a transform that are recorded seconds after the images are found."""
+    sent = [each for each in walk(150) if "camera_info" not in each.topic]
+    for index, each in enumerate(sent):
+        if each.topic == DEPTH:
+            sent[index] = raw(DEPTH, each.time, depth(1000), "16UC1", frame="depth camera")
+    later = START + 4 * SECOND
+    sent += [
+        info("/camera/color/camera_info", later, (32, 24), 30.0),
+        info("/camera/depth/camera_info", later, (32, 24), 20.0, frame="depth camera"),
+        transform(later, "camera", "depth camera", [0.05, 0, 0], [0, 0, 0, 1]),
+    ]
+    source = open_source(write(tmp_path, sorted(sent, key=lambda each: each.time)))
+    assert source.camera == Intrinsics(30.0, 30.0, 15.5, 11.5, 32, 24)
+    assert any("whose camera is 50.0 mm beside it" in note for note in source.notes)
+
+
+@pytest.mark.parametrize("compression", ["NONE", "LZ4", "ZSTD"])
+@pytest.mark.parametrize("whole", [True, False])
+def test_chunks_of_mcap(tmp_path: Path, compression: str, whole: bool) -> None:
+    """It proves that chunks of each compression are read, with and without a summary."""
+    from mcap.writer import CompressionType
+
+    path = write_mcap(tmp_path / "a.mcap", walk(12), compression=CompressionType[compression])
+    if not whole:
+        content = path.read_bytes()
+        path.write_bytes(content[: content.index(b"\x0f", len(content) - 2000)])
+    assert blues(open_source(path)) == [10 * (index + 1) for index in range(12)]
+
+
+def test_big_endian_depth_in_meters(tmp_path: Path) -> None:
+    """It proves that floats and 16 bits of a machine of the other byte order are read."""
+    sent = []
+    for name, image, encoding in (
+        ("/float", np.full((24, 32), 1.5, ">f4"), "32FC1"),
+        ("/whole", np.full((24, 32), 1500, ">u2"), "16UC1"),
+    ):
+        message = raw(name, START, image, encoding)
+        message.fields["is_bigendian"] = 1
+        sent.append(message)
+    bag = bag1(tmp_path, sent)
+    for name in ("/float", "/whole"):
+        frame = next(iter(open_source(bag, topics={"depth": name})))
+        assert frame.depth is not None
+        assert frame.depth == pytest.approx(np.full((24, 32), 1.5))

@@ -6,9 +6,9 @@ import { command, listen, Pictures } from "./link.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
 import { Timeline } from "./timeline.js";
+import { complain } from "./toasts.js";
 
 const get = (id) => document.getElementById(id);
-const MAX_TOASTS = 3;
 const model = new Model();
 const pictures = new Pictures();
 const stage = new Stage(get("picture"), model, { drawn: draw, clicked: (id) => model.choose(id) });
@@ -189,19 +189,6 @@ function runEnded({ frame, targets }) {
   load();
 }
 
-function complain(text) {
-  const toast = document.createElement("div"), words = document.createElement("span"), close = document.createElement("button");
-  toast.className = "toast";
-  words.textContent = text;
-  close.setAttribute("aria-label", "Dismiss");
-  close.innerHTML = '<svg><use href="#i-close"/></svg>';
-  close.addEventListener("click", () => toast.remove());
-  toast.append(words, close);
-  get("toasts").append(toast);
-  while (get("toasts").children.length > MAX_TOASTS) get("toasts").firstChild.remove();
-  setTimeout(() => toast.remove(), 20000);
-}
-
 function announce(text) {
   get("said").textContent = text;
 }
@@ -317,7 +304,7 @@ const CLICKS = {
   video() {
     if (!get("video-progress").hidden) return act("cancel-video");
     get("video").dataset.asked = "yes";
-    return act("video");
+    return act("video", { trail: stage.trail });
   },
   async done() {
     await act("select");
@@ -329,6 +316,10 @@ for (const [id, click] of Object.entries(CLICKS)) get(id).addEventListener("clic
 for (const button of document.querySelectorAll("[data-close]")) {
   button.addEventListener("click", () => button.closest("dialog").close());
 }
+get("trail").addEventListener("change", (event) => {
+  stage.trail = event.target.checked;
+  stage.draw();
+});
 get("frame").addEventListener("change", (event) => go(event.target.valueAsNumber));
 
 // Keys
@@ -344,6 +335,7 @@ const KEYS = {
   n: () => model.choose(null),
   l: nextTrouble,
   d: nextDrawn,
+  p: () => get("trail").click(),
   Delete: () => model.target() && act("delete", { target: model.chosen }),
   "?": () => get("help-dialog").showModal(),
   "+": () => stage.zoomBy(1.5),
@@ -365,7 +357,7 @@ for (let number = 1; number <= 9; number++) {
 document.addEventListener("keydown", (event) => {
   if (!model.state || document.querySelector("dialog[open]") || event.altKey) return;
   const { target, key } = event;
-  const typing = target.matches("input, select, textarea");
+  const typing = target.matches("input:not([type=checkbox]), select, textarea");
   if (event.ctrlKey || event.metaKey) {
     const undo = { z: event.shiftKey ? "redo" : "undo", y: "redo" }[key.toLowerCase()];
     if (!undo || typing) return;
@@ -373,7 +365,7 @@ document.addEventListener("keydown", (event) => {
     act(undo);
     return;
   }
-  if (typing || (target.matches("button, a") && (key === " " || key === "Enter"))) return;
+  if (typing || (target.matches("button, a, input") && (key === " " || key === "Enter"))) return;
   const action = KEYS[key] ?? KEYS[key.toLowerCase()];
   if (!action) return;
   event.preventDefault();

@@ -14,22 +14,27 @@ export async function command(name, values = {}) {
   return answer;
 }
 
-/** Keep a connection; `hear` gets messages, `show` pictures (frame, Blob), `status` whether it is there. */
-export function listen({ hear, show, status }) {
+/** Keep a connection; `hear` gets messages, `show` pictures (frame, Blob), `status` whether it is there, `tell`
+ * what sends a message. */
+export function listen({ hear, show, status, tell = () => {} }) {
   const url = new URL("live", location.href);
   url.protocol = "ws:";
   const socket = new WebSocket(url);
   socket.binaryType = "arraybuffer";
-  socket.onopen = () => status(true);
+  const send = (message) => socket.readyState === WebSocket.OPEN && socket.send(JSON.stringify(message));
+  socket.onopen = () => {
+    tell(send);
+    status(true);
+  };
   socket.onmessage = async ({ data }) => {
     if (typeof data === "string") return hear(JSON.parse(data));
     const frame = new DataView(data).getUint32(0, true);
     await show(frame, new Blob([data.slice(4)], { type: "image/jpeg" }));
-    if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ shown: frame }));
+    send({ shown: frame });
   };
   socket.onclose = () => {
     status(false);
-    setTimeout(() => listen({ hear, show, status }), 1500);
+    setTimeout(() => listen({ hear, show, status, tell }), 1500);
   };
 }
 

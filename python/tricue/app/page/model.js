@@ -2,7 +2,7 @@
 // What the page knows: the server's state, the tracks of each target, and what is looked at.
 
 export const TRACKED = 0, OCCLUDED = 1, LOST = 2, NONE = 255;
-const COLORS = ["#4cc38a", "#58a6ff", "#f2b04c", "#d387e8", "#56d4dd", "#f78166", "#c9d152", "#ff9bce"];
+export const COLORS = ["#4cc38a", "#58a6ff", "#f2b04c", "#d387e8", "#56d4dd", "#f78166", "#c9d152", "#ff9bce"];
 
 /** The tracks of one target, by frame. */
 class Tracks {
@@ -95,6 +95,18 @@ export class Model extends EventTarget {
 
   score(id, frame) {
     return this.tracks.get(id)?.score[frame] ?? 0;
+  }
+
+  /** Whether it is known where a target is in a frame. */
+  known(id, frame) {
+    return ![NONE, LOST].includes(this.status(id, frame));
+  }
+
+  /** The frames from a time up to one, rising. */
+  framesUpTo(frame, seconds) {
+    let first = frame;
+    while (first > 0 && this.seconds(first - 1) >= seconds) first--;
+    return Array.from({ length: frame - first + 1 }, (_, index) => first + index);
   }
 
   /** The ranges [first, last, status] in which a target is lost or occluded. */

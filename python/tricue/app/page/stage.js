@@ -2,6 +2,7 @@
 // The frame with the boxes in it, where boxes are drawn, moved and resized.
 
 import { LOST, OCCLUDED, STATUS_NAMES } from "./model.js";
+import { drawTrail } from "./trail.js";
 
 const HANDLE = 7; // pixels of the screen, half a handle's side
 const TOUCH_HANDLE = 18; // how far from a corner a finger may be
@@ -18,10 +19,12 @@ export class Stage {
   #middle = [0.5, 0.5]; // of what is seen, as shares of the frame
   #due = false;
   coarse = false;
+  trail = false; // whether the targets' trails are drawn
 
-  /** drawn(frame, box), clicked(id): called when the user has drawn a box, or clicked a target's. */
-  constructor(canvas, model, { drawn, clicked }) {
-    Object.assign(this, { canvas, model, drawn, clicked });
+  /** drawn(frame, box), clicked(id): called when the user has drawn a box, or clicked a target's. held(frame):
+   * called with the frame in which someone begins to draw, and with null when that is over. */
+  constructor(canvas, model, { drawn, clicked, held = () => {} }) {
+    Object.assign(this, { canvas, model, drawn, clicked, held });
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener("pointerdown", (event) => this.#press(event));
     canvas.addEventListener("pointermove", (event) => this.#move(event));
@@ -34,6 +37,11 @@ export class Stage {
 
   get shown() {
     return this.#shown;
+  }
+
+  /** Whether someone is drawing in the picture. */
+  get busy() {
+    return Boolean(this.#drag) && this.#drag.kind !== "view";
   }
 
   /** coarse: whether the picture may have fewer pixels than the frame. */
@@ -57,6 +65,7 @@ export class Stage {
   }
 
   cancel() {
+    if (this.busy) this.held(null);
     this.#drag = null;
     this.draw();
   }
@@ -114,10 +123,12 @@ export class Stage {
     this.canvas.setPointerCapture(event.pointerId);
     this.#pointers.set(event.pointerId, this.#at(event));
     if (this.#pointers.size > 1 || event.button === 1) {
+      if (this.busy) this.held(null);
       this.#drag = { kind: "view", zoom: this.#zoom };
       return this.draw();
     }
     if (this.model.state.run) return;
+    this.held(this.#shown);
     const at = this.#at(event), start = this.#toFrame(...at);
     const box = event.shiftKey ? null : this.#own(); // with Shift a box is always drawn anew
     const reach = event.pointerType === "touch" ? TOUCH_HANDLE : HANDLE + 3;
@@ -185,6 +196,9 @@ export class Stage {
       this.drawn(this.#shown, drag.box.map((value) => Math.round(value * 10) / 10));
     } else if (!drag.moved) {
       this.clicked(this.#targetAt(this.#toFrame(...this.#at(event))));
+      this.held(null);
+    } else {
+      this.held(null);
     }
     this.draw();
   }
@@ -253,6 +267,10 @@ export class Stage {
     pen.imageSmoothingEnabled = scale < 3;
     pen.imageSmoothingQuality = "high";
     pen.drawImage(this.#image, left, top, across * scale, down * scale);
+    if (this.trail) {
+      const place = (x, y) => [left + x * scale, top + y * scale];
+      for (const { id } of model.state.targets) drawTrail(pen, model, id, this.#shown, place);
+    }
     for (const target of model.state.targets) {
       const own = target.id === model.chosen;
       if (own && this.#drag?.box) continue;

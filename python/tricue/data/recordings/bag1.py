@@ -22,9 +22,10 @@ _MAX_FIELDS = 1 << 20  # bytes of a record's header; more is no header
 
 
 class _ChunkPlace(NamedTuple):
-    """Where a chunk is, the time of its first message, and how many messages each connection has in it."""
+    """Where a chunk is, the times of its first and last message, and each connection's number of them."""
 
     start: int
+    end: int
     position: int
     counts: dict[int, int]
 
@@ -45,9 +46,10 @@ class Bag1(Container):
                 self.topics, self._names, self._chunks = {}, {}, []
                 self._scan(file)
 
-    def messages(self, names: Collection[str]) -> Iterator[Message]:
+    def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
         wanted = {connection for connection, name in self._names.items() if name in names}
-        chunks = sorted(chunk for chunk in self._chunks if wanted & chunk.counts.keys())
+        found = (chunk for chunk in self._chunks if wanted & chunk.counts.keys() and chunk.end >= start)
+        chunks = sorted(found, key=lambda chunk: (chunk.start, chunk.position))
         held: list[tuple[int, int, Message]] = []
         number = 0
         with self.path.open("rb") as file:
@@ -56,6 +58,8 @@ class Bag1(Container):
                     yield heapq.heappop(held)[2]
                 try:
                     for message in self._messages_of(_read_chunk(file, chunk.position), wanted):
+                        if message.time < start:
+                            continue
                         heapq.heappush(held, (message.time, number, message))
                         number += 1
                 except _BROKEN:
@@ -83,7 +87,8 @@ class Bag1(Container):
             pairs = struct.iter_unpack("<II", data)
             if data:
                 place = int.from_bytes(fields["chunk_pos"], "little")
-                self._chunks.append(_ChunkPlace(_time(fields["start_time"]), place, dict(pairs)))
+                first, last = (_time(fields[name]) for name in ("start_time", "end_time"))
+                self._chunks.append(_ChunkPlace(first, last, place, dict(pairs)))
 
     def _scan(self, file: BinaryIO) -> None:
         """Find topics and chunks by reading all."""
@@ -109,7 +114,7 @@ class Bag1(Container):
                 counts[int.from_bytes(fields["conn"], "little")] += 1
                 times.append(_time(fields["time"]))
         if times:
-            self._chunks.append(_ChunkPlace(min(times), position, dict(counts)))
+            self._chunks.append(_ChunkPlace(min(times), max(times), position, dict(counts)))
 
     def _add_connection(self, fields: dict[str, bytes], data: bytes) -> None:
         name, about = fields["topic"].decode(), _fields(data)

@@ -49,8 +49,11 @@ class Container(ABC):
     damage: str = ""
 
     @abstractmethod
-    def messages(self, names: Collection[str]) -> Iterator[Message]:
-        """The messages of these topics by the time of recording; those before a damage, if there is one."""
+    def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
+        """The messages of these topics by the time of recording; those before a damage, if there is one.
+
+        start: nanoseconds; only those of this time and later, which are found without reading all before.
+        """
 
     @abstractmethod
     def counts(self) -> dict[str, int]:
@@ -69,9 +72,9 @@ class Chain(Container):
         """The first damage of a part."""
         return next((part.damage for part in self.parts if part.damage), "")
 
-    def messages(self, names: Collection[str]) -> Iterator[Message]:
+    def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
         for part in self.parts:
-            yield from part.messages(names)
+            yield from part.messages(names, start)
 
     def counts(self) -> dict[str, int]:
         total = dict.fromkeys(self.topics, 0)

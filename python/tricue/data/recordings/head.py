@@ -26,6 +26,9 @@ from tricue.data.streams import plausible_fps
 
 HEAD_IMAGES = 15  # of each topic
 HEAD_SECONDS = 2.0  # behind the first image
+LATE_SECONDS = 10.0  # behind the first image, in which cameras and transforms have to come
+
+STATIC_TRANSFORMS = "/tf_static"
 
 # RealSense's own bags: where a stream is, such as /device_0/sensor_0/Depth_0/tf/0, and the unit of depth
 _STREAM_PLACE = re.compile(r"(/device_\d+/sensor_\d+/\w+)/tf/(\d+)$")
@@ -65,7 +68,11 @@ def read_head(container: Container, images: Collection[str] | None = None) -> He
             except ValueError as error:
                 head.unread[topic.name] = str(error)
     pending = {name for name in decoders if container.topics[name].kind in IMAGES}
-    for message in _until_known(container, decoders, pending):
+    late = {name for name in decoders if container.topics[name].kind in CAMERAS or name == STATIC_TRANSFORMS}
+    for message in _until_known(container, decoders, pending, late):
+        late.discard(message.topic)
+        if container.topics[message.topic].kind in IMAGES and message.topic not in pending:
+            continue
         try:
             _add(head, container.topics[message.topic], message, decoders[message.topic])
         except ValueError as error:
@@ -83,16 +90,24 @@ def _matters(topic: Topic, images: Collection[str] | None) -> bool:
     )
 
 
-def _until_known(container: Container, names: Collection[str], pending: set[str]) -> Iterator[Message]:
-    """Messages until no image is pending, or too long after the first one."""
+def _until_known(
+    container: Container, names: Collection[str], pending: set[str], late: set[str]
+) -> Iterator[Message]:
+    """Messages until nothing is pending, or too long after the first image.
+
+    late: topics that may come later than images, whose first message is enough.
+    """
     first = None
+    images = frozenset(pending)
     for message in container.messages(names) if pending else ():
-        if message.topic in pending and first is None:
+        if message.topic in images and first is None:
             first = message.time
-        if first is not None and message.time > first + HEAD_SECONDS * 1e9:
-            return
+        if first is not None:
+            passed = 1e-9 * (message.time - first)
+            if passed > (HEAD_SECONDS if not late else LATE_SECONDS):
+                return
         yield message
-        if not pending:
+        if not pending and not late:
             return
 
 

@@ -2,12 +2,21 @@
 """MCAP files, by the library mcap: indexed, or, where the index is missing, from the start to the end."""
 
 import struct
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Collection, Iterator
+from inspect import signature
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from tricue.data.recordings.container import EXTRA, Container, Message, Topic
+
+
+class _ChunkEnd(NamedTuple):
+    """Where a chunk ends in the file, and the time of the latest message up to there."""
+
+    latest: int
+    offset: int
 
 
 class McapFile(Container):
@@ -18,6 +27,8 @@ class McapFile(Container):
         self._broken = _errors(path)
         self._summary = self._read_summary()
         self._counts: Counter[str] = Counter()
+        self._names: dict[int, str] = {}  # of channels
+        self._chunk_ends: list[_ChunkEnd] = []
         if self._summary is None:
             self._scan()
             return
@@ -25,10 +36,10 @@ class McapFile(Container):
         for number, count in self._summary.statistics.channel_message_counts.items():
             self._counts[self._summary.channels[number].topic] += count
 
-    def messages(self, names: Collection[str]) -> Iterator[Message]:
+    def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
         indexed = self._summary is not None and self._summary.chunk_indexes
         try:
-            yield from self._indexed(names) if indexed else self._in_order(names)
+            yield from self._indexed(names, start) if indexed else self._in_order(names, start)
         except self._broken as error:
             self.damage = self.damage or f"it is damaged: {error or type(error).__name__}"
 
@@ -54,29 +65,48 @@ class McapFile(Container):
         counted = summary.statistics.channel_message_counts.keys()
         return summary if counted <= summary.channels.keys() else None
 
-    def _indexed(self, names: Collection[str]) -> Iterator[Message]:
+    def _indexed(self, names: Collection[str], start: int) -> Iterator[Message]:
         from mcap.reader import make_reader
 
         with self.path.open("rb") as file:
             reader = make_reader(file, validate_crcs=True)
-            for _, channel, message in reader.iter_messages(topics=list(names)):
+            found = reader.iter_messages(list(names), **_since(reader, start))
+            for _, channel, message in found:
                 yield Message(channel.topic, message.log_time, message.data)
 
-    def _in_order(self, names: Collection[str]) -> Iterator[Message]:
+    def _in_order(self, names: Collection[str], start: int) -> Iterator[Message]:
         from mcap import records
 
-        channels: dict[int, str] = {}
-        for record in self._records():
+        channels = dict(self._names)
+        for record in self._records(self._offset(start)):
             if isinstance(record, records.Channel):
                 channels[record.id] = record.topic
-            elif isinstance(record, records.Message) and channels.get(record.channel_id) in names:
+            if not isinstance(record, records.Message) or record.log_time < start:
+                continue
+            if channels.get(record.channel_id) in names:
                 yield Message(channels[record.channel_id], record.log_time, record.data)
 
-    def _records(self) -> Iterator[Any]:
-        from mcap.stream_reader import StreamReader
+    def _offset(self, start: int) -> int:
+        """Where to read from for the messages of this time and later."""
+        return self._chunk_ends[at - 1].offset if (at := bisect_left(self._chunk_ends, (start,))) else 0
 
+    def _records(self, offset: int = 0) -> Iterator[Any]:
+        """The records, those in chunks, too. offset: where in the file one begins, 0 for the first."""
+        from mcap.records import Chunk
+        from mcap.stream_reader import StreamReader, breakup_chunk
+
+        latest = 0
         with self.path.open("rb") as file:
-            yield from StreamReader(file, validate_crcs=True).records
+            file.seek(offset)
+            reader = StreamReader(file, skip_magic=offset > 0, emit_chunks=True, validate_crcs=True)
+            for record in reader.records:
+                if not isinstance(record, Chunk):
+                    yield record
+                    continue
+                yield from breakup_chunk(record, validate_crc=True)
+                latest = max(latest, record.message_end_time)
+                if offset == 0 and file.tell() > (self._chunk_ends[-1].offset if self._chunk_ends else 0):
+                    self._chunk_ends.append(_ChunkEnd(latest, file.tell()))
 
     def _scan(self) -> None:
         """Find topics and counts by reading all."""
@@ -95,6 +125,13 @@ class McapFile(Container):
         except self._broken:
             self.damage = "it is cut off or wasn't closed"
         self.topics = _topics(channels.values(), schemas)
+        self._names = {number: channel.topic for number, channel in channels.items()}
+
+
+def _since(reader: Any, start: int) -> dict[str, Any]:
+    """The keyword for the first time, whose name mcap has changed."""
+    known = signature(reader.iter_messages).parameters
+    return {"starting_at" if "starting_at" in known else "start_time": start} if start else {}
 
 
 def _topics(channels: Collection[Any], schemas: dict[int, Any]) -> dict[str, Topic]:

@@ -2,9 +2,9 @@
 """A recording as a source: topics become channels, paired by their times while they are read."""
 
 from collections import Counter, deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from numpy.typing import NDArray
 
@@ -29,6 +29,7 @@ READERS: dict[str, tuple[str, Callable[[Path], Container]]] = {
     ".mcap": ("MCAP", McapFile),
     ".db3": ("ROS 2 recording", SqliteFile),
 }
+T = TypeVar("T")
 METADATA = "metadata.yaml"  # in the folder of a ROS 2 recording, once it is closed
 
 
@@ -41,6 +42,14 @@ class TopicSummary(NamedTuple):
     channel: str
 
 
+class Stored(NamedTuple):
+    """An image, and where it is: the time of recording, and its place among those of the same time."""
+
+    time: int
+    place: int
+    image: ImageMessage
+
+
 class Recording:
     """The chosen topics of a container, as a joint of channels; see :class:`tricue.data.joint.Joint`."""
 
@@ -48,7 +57,8 @@ class Recording:
         self.container, self.chosen, self.head = container, dict(chosen), head
         self.scale = scale
         self._channels = {topic: channel for channel, topic in chosen.items()}
-        self._first = {channel: self._image(channel, head.images[topic]) for channel, topic in chosen.items()}
+        self._decoders = {topic: decoder(container.topics[topic]) for topic in self._channels}
+        self._first = {channel: self.decode(channel, head.images[topic]) for channel, topic in chosen.items()}
         self.clock = next(iter(chosen))
         rate = head.fps(chosen[self.clock])
         self.fps = rate or DEFAULT_FPS
@@ -112,20 +122,25 @@ class Recording:
             for name, topic in sorted(self.container.topics.items())
         ]
 
-    def _decoded(self, paired: dict[str, Timed[ImageMessage]], channels: Sequence[str]) -> Moment | None:
+    def _decoded(self, paired: dict[str, Timed[Stored]], channels: Sequence[str]) -> Moment | None:
         """The images of these channels; None where one is damaged."""
         try:
             return {
-                name: (1e-9 * paired[name].time, self._image(name, paired[name].item)) for name in channels
+                name: (1e-9 * paired[name].time, self.decode(name, paired[name].item.image))
+                for name in channels
             }
         except ValueError:
             self._damaged += 1
             return None
 
-    def _paired(self) -> Iterator[dict[str, Timed[ImageMessage]]]:
-        pairing: Pairing[ImageMessage] = Pairing(list(self.chosen), self.tolerance)
+    def _paired(self) -> Iterator[dict[str, Timed[Stored]]]:
+        yield from self.paired(self.images())
+
+    def paired(self, images: Iterable[Timed[T]]) -> Iterator[dict[str, Timed[T]]]:
+        """The images of one moment by channel, moment by moment; ValueError where there is none."""
+        pairing: Pairing[T] = Pairing(list(self.chosen), self.tolerance)
         count = 0
-        for count, paired in enumerate(pairing(self._images()), 1):  # noqa: B007  # the last is reported
+        for count, paired in enumerate(pairing(images), 1):  # noqa: B007  # the last is reported
             yield paired
         self._left_out, self._moments = +pairing.left_out, count
         if count == 0:
@@ -135,17 +150,26 @@ class Recording:
                 f"each other, found none; --topics {self.clock}={self.chosen[self.clock]} reads one alone"
             )
 
-    def _images(self) -> Iterator[Timed[ImageMessage]]:
-        decoders = {topic: decoder(self.container.topics[topic]) for topic in self._channels}
-        for message in self.container.messages(self._channels):
+    def images(self, start: int = 0) -> Iterator[Timed[Stored]]:
+        """The images as they were recorded, not decoded, by the time of recording.
+
+        start: nanoseconds, of the recording; those before aren't read.
+        """
+        latest: dict[str, tuple[int, int]] = {}
+        for message in self.container.messages(self._channels, start):
+            time, place = latest.get(message.topic, (-1, 0))
+            place = place + 1 if time == message.time else 0
+            latest[message.topic] = message.time, place
             try:
-                image = to_image(decoders[message.topic](message.data))
+                image = to_image(self._decoders[message.topic](message.data))
             except ValueError:
                 self._damaged += 1
                 continue
-            yield Timed(self._channels[message.topic], image.time or message.time, image)
+            channel = self._channels[message.topic]
+            yield Timed(channel, image.time or message.time, Stored(message.time, place, image))
 
-    def _image(self, channel: str, image: ImageMessage) -> NDArray[Any]:
+    def decode(self, channel: str, image: ImageMessage) -> NDArray[Any]:
+        """The image as a channel has it; ValueError for a damaged one."""
         return to_depth(image, self.scale) if channel == "depth" else to_color(image)
 
 

@@ -29,14 +29,16 @@ class SqliteFile(Container):
             for _, name, kind, encoding in rows
         }
 
-    def messages(self, names: Collection[str]) -> Iterator[Message]:
+    def messages(self, names: Collection[str], start: int = 0) -> Iterator[Message]:
         numbers = [number for number, name in self._names.items() if name in names]
         query = f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({_marks(numbers)})"
+        query += " AND timestamp >= ?" * (start > 0)  # which an index finds, but one that may be damaged
+        values = [*numbers, *([start] * (start > 0))]
         any_read = False
         with closing(self._connect()) as database:
             for order in ("ORDER BY timestamp", "ORDER BY id"):  # a damage may be in the index of times
                 try:
-                    for number, time, data in database.execute(f"{query} {order}", numbers):
+                    for number, time, data in database.execute(f"{query} {order}", values):
                         any_read = True
                         yield Message(self._names[number], time, _decompressed(data))
                 except sqlite3.DatabaseError as error:

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""What pages are told of a session over their WebSockets: the state, tracks, pictures of a run, errors."""
+
+import asyncio
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from starlette.concurrency import run_in_threadpool
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from tricue.app.exports import picture
+from tricue.app.project import Target
+from tricue.app.runs import Run
+from tricue.app.serving import Serving
+from tricue.app.web import jpeg
+from tricue.track.base.track import Status, Track
+
+LIVE_INTERVAL = 0.08  # seconds between what a page is told of a run
+STATUSES = tuple(Status)
+
+
+async def tell_page(serving: Serving, socket: WebSocket) -> None:
+    """Tell a page what is new, until it is closed."""
+    await socket.accept()
+    page = _Page(serving, socket)
+    serving_changes = asyncio.create_task(page.tell())
+    try:
+        while True:
+            page.hear(await socket.receive_json())
+    except (WebSocketDisconnect, RuntimeError, ValueError, KeyError, TypeError):
+        pass
+    finally:
+        serving_changes.cancel()
+
+
+class _Page:
+    """What one page has been told, so that it is told only what is new."""
+
+    def __init__(self, serving: Serving, socket: WebSocket) -> None:
+        self.serving, self.socket = serving, socket
+        self.known: dict[int, Any] = {}  # the tracks of each target
+        self.state: dict[str, Any] | None = None
+        self.run: Run | None = None
+        self.found = 0  # tracks of the run
+        self.errors = 0
+        self.shown, self.sent = True, -1  # whether the last picture has arrived, and its frame
+
+    def hear(self, message: Any) -> None:
+        """The page has shown a picture."""
+        self.shown = self.shown or "shown" in message
+
+    async def tell(self) -> None:
+        """Tell what is new, again and again."""
+        recording = self.serving.session.recording
+        begin = recording.seconds(0)  # of robots' recordings, seconds since 1970
+        times = [round(recording.seconds(number) - begin, 4) for number in range(recording.length)]
+        await self.socket.send_json({"type": "times", "times": times})
+        while True:
+            run = self.serving.session.run
+            await self._tell_run(run)
+            await self._tell_state()
+            await asyncio.sleep(LIVE_INTERVAL)
+
+    async def _tell_run(self, run: Run | None) -> None:
+        if run is not self.run:
+            self.run, self.found, self.sent = run, 0, -1
+        if run is None:
+            return
+        latest = run.latest  # before the tracks, so that its own are among them
+        count = len(run.found)
+        tracks, self.found = run.tracks(self.found, count), count
+        message = {
+            "type": "run",
+            "frame": run.start if latest is None else latest[0],
+            "speed": run.updates / run.seconds if run.seconds else 0,
+            "tracks": {number: _rows(found) for number, found in tracks.items()},
+        }
+        await self.socket.send_json(message)
+        if latest is not None and self.shown and latest[0] != self.sent:
+            number, frame = latest
+            self.shown, self.sent = False, number
+            data = await run_in_threadpool(
+                lambda: jpeg(picture(frame, None, self.serving.depth_span), "live")
+            )
+            await self.socket.send_bytes(np.uint32(number).tobytes() + data)
+
+    async def _tell_state(self) -> None:
+        session = self.serving.session
+        now = await run_in_threadpool(state, self.serving)
+        if now != self.state:
+            self.state = now
+            await self.socket.send_json({"type": "state", **now})
+        present = session.history.present.targets if session.run is None else ()
+        for target in present:
+            if self.known.get(target.id) is not target.tracks:
+                self.known[target.id] = target.tracks
+                rows = _rows(target.tracks)
+                await self.socket.send_json({"type": "tracks", "target": target.id, "tracks": rows})
+        errors = session.errors[self.errors :]
+        self.errors += len(errors)
+        for error in errors:
+            await self.socket.send_json({"type": "error", "error": error})
+
+
+def state(serving: Serving) -> dict[str, Any]:
+    """All that a page shows but tracks: the recording, the targets, the run, what can be done."""
+    session = serving.session
+    recording, history, run, job = session.recording, session.history, session.run, session.job
+    source, last = recording.source, session.last_run
+    return {
+        "name": session.place.name,
+        "frames": recording.length,
+        "fps": source.fps,
+        "size": recording.size,
+        "channels": list(source.channels),
+        "trackers": session.trackers,
+        "tracker": serving.tracker,
+        "selecting": serving.selecting,
+        "notes": list(serving.notes),
+        "file": None if session.path is None else str(session.path),
+        "beside": session.path is not None and session.path.parent == session.place.parent,
+        "saved": session.saved,
+        "changed_video": session.changed_video,
+        "undo": bool(history.past),
+        "redo": bool(history.future),
+        "run": None if run is None else {"step": run.step, "targets": list(run.followed)},
+        "ended": None
+        if last is None
+        else {"run": session.runs, "frame": last.reached, "targets": list(last.followed)},
+        "version": session.version,
+        "video": None
+        if job is None
+        else {"written": job.written, "total": job.total, "done": job.path is not None, "error": job.error},
+        "targets": [_told(target) for target in history.present.targets],
+    }
+
+
+def _told(target: Target) -> dict[str, Any]:
+    drawn = sorted(target.drawn)
+    return {"id": target.id, "name": target.name, "tracker": target.tracker, "drawn": drawn}
+
+
+def _rows(tracks: Mapping[int, Track]) -> list[list[Any]]:
+    """Frame, number of the status, score, box, and, where known, position in meters or depth."""
+    return [as_row(at, track) for at, track in tracks.items()]
+
+
+def as_row(at: int, track: Track) -> list[Any]:
+    """A track for the page: frame, number of the status, score, box, and, where known, position or depth."""
+    values: list[Any] = [at, STATUSES.index(track.status), round(track.score, 3)]
+    values += [round(number, 2) for number in track.box]
+    if track.position is not None:
+        values += [round(number, 3) for number in track.position.tolist()]
+    elif track.depth is not None and math.isfinite(track.depth):
+        values += [None, None, round(track.depth, 3)]
+    return values

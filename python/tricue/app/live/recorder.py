@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""What is tracked in a camera, recorded while it runs: tables line by line, and the overlay video."""
+
+import csv
+import io
+import json
+import threading
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from queue import Full, Queue
+from typing import Any, NamedTuple, TextIO
+
+from tricue.app.exports import draw_targets
+from tricue.app.project import Target
+from tricue.camera.frame import Frame
+from tricue.draw.video import OverlayWriter
+from tricue.errors import one_line
+from tricue.export.table import TableForm, columns, row
+from tricue.track.base.track import Track
+
+MAX_WAITING = 8  # frames that wait to be drawn; with more the video shows one for longer
+MAX_STILL = 1.0  # seconds that the video shows one picture, however long none came
+
+Tracks = Sequence[tuple[Target, Track]]
+
+
+class Drawn(NamedTuple):
+    """A frame for the overlay video."""
+
+    seconds: float
+    frame: Frame
+    tracks: Tracks
+
+
+class Recorder:
+    """Writes ``stem``.csv, .json and .mp4; what was written is there after a kill, too.
+
+    about: what the JSON says of the run. fps: of the video, in which frames are shown when they came; a
+    thread draws it. error: why the video can't be written, "" if it can. OSError where a file can't be made.
+    """
+
+    def __init__(self, stem: Path, about: dict[str, Any], fps: float, form: TableForm) -> None:
+        self.started: float | None = None
+        self.latest = 0.0  # seconds, as of the frames
+        self.error = ""
+        self._form = form
+        self._targets: dict[int, Target] = {}
+        self._separator = "\n"
+        self._video = OverlayWriter(stem.with_name(f"{stem.name}.mp4"), fps)
+        self._csv: TextIO = stem.with_name(f"{stem.name}.csv").open("w", encoding="utf-8", newline="")
+        self._json: TextIO = stem.with_name(f"{stem.name}.json").open("w", encoding="utf-8")
+        self.files = (Path(self._csv.name), Path(self._json.name), self._video.path)
+        self._put_rows([columns(form)])
+        head = json.dumps(about, indent=1, allow_nan=False, ensure_ascii=False)
+        self._json.write(head.removesuffix("\n}") + ',\n "tracks": [')
+        self._waiting: Queue[Drawn | None] = Queue(MAX_WAITING)
+        self._thread = threading.Thread(target=self._draw, name="recorder", daemon=True)
+        self._thread.start()
+
+    @property
+    def seconds(self) -> float:
+        """How long it has recorded."""
+        return 0.0 if self.started is None else self.latest - self.started
+
+    def write(self, number: int, seconds: float, frame: Frame, tracks: Tracks) -> None:
+        """The targets of the next frame. OSError where that can't be written."""
+        self.started = seconds if self.started is None else self.started
+        self.latest = seconds
+        rows = [row(number, seconds, track, target.id, self._form) for target, track in tracks]
+        self._put_rows(rows)
+        for values in rows:
+            named = dict(zip(columns(self._form), values, strict=True))
+            self._json.write(f"{self._separator}  {json.dumps(named, allow_nan=False)}")
+            self._separator = ",\n"
+        self._json.flush()
+        self._targets |= {target.id: target for target, _ in tracks}
+        with suppress(Full):  # the video shows the picture before for longer
+            self._waiting.put_nowait(Drawn(seconds, frame, tracks))
+
+    def close(self) -> None:
+        """Finish the files."""
+        told = [
+            {"id": each.id, "name": each.name, "tracker": each.tracker} for each in self._targets.values()
+        ]
+        self._json.write(f'\n ],\n "targets": {json.dumps(told, ensure_ascii=False)}\n}}\n')
+        self._json.close()
+        self._csv.close()
+        self._waiting.put(None)
+        self._thread.join()
+
+    def _put_rows(self, rows: Iterable[Iterable[Any]]) -> None:
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(rows)
+        self._csv.write(text.getvalue())
+        self._csv.flush()
+
+    def _draw(self) -> None:
+        """The thread: the video, at a constant rate, by the times of the frames."""
+        written, begin = 0, None
+        while (drawn := self._waiting.get()) is not None:
+            if self.error:
+                continue
+            begin = drawn.seconds if begin is None else begin
+            due = round((drawn.seconds - begin) * self._video.fps) + 1 - written
+            most = max(1, round(MAX_STILL * self._video.fps))
+            if due > most:  # a pause is left out
+                begin += (due - most) / self._video.fps
+            try:
+                picture = draw_targets(drawn.frame, drawn.tracks)
+                for _ in range(min(due, most)):
+                    self._video.write(picture)
+                    written += 1
+            except Exception as error:
+                self.error = one_line(error)
+        try:
+            self._video.close()
+        except Exception as error:
+            self.error = self.error or one_line(error)

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: MIT
+"""Serves a camera's page on 127.0.0.1 until it is ended, and lets the camera go then."""
+
+import os
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
+
+from tricue.app.live.server import LiveServing, make_live_app
+from tricue.app.live.session import LiveSession, Opened
+from tricue.app.local_server import serve_until_ended
+from tricue.app.project_file import data_folder
+
+
+def serve_camera(
+    open_: Callable[[], Opened],
+    name: str,
+    *,
+    port: int | None = None,
+    browser: bool = True,
+    tracker: str = "",
+    seed: int = 0,
+    folder: Path | None = None,
+    say: Callable[[str], None] = print,
+) -> None:
+    """Serve a camera until Ctrl-C. The page comes at once, the camera when it does.
+
+    open_: opens it, in a thread. name: as the page calls it. port: None for the default one, or a free one
+    where that is in use. tracker: what new targets begin with. folder: where recordings are written, None for
+    the working folder. say: gets the lines for the user. OSError where the port is in use.
+    """
+    place = Path.cwd() if folder is None else folder
+    if not os.access(place, os.W_OK):
+        place = data_folder()
+    with closing(LiveSession(open_, name, place, seed, say)) as session:
+        serving = LiveServing(session, tracker=tracker)
+        serve_until_ended(serving, make_live_app(serving), port, browser, say, lambda _: session.start())

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""An HTTP server on 127.0.0.1, at a port of one's own choice or a free one, until it is ended."""
+
+import errno
+import secrets
+import socket
+import tempfile
+import webbrowser
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import uvicorn
+from starlette.types import ASGIApp
+
+ADDRESS = "127.0.0.1"
+DEFAULT_PORT, MAX_PORT = 8765, 65535
+CLOSING_TIME = 2  # seconds that open connections get at the end
+
+
+@dataclass(kw_only=True)
+class Served:
+    """What is served: its token, the folder that it may write to meanwhile, and what ends the serving."""
+
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
+    folder: Path = field(default_factory=lambda: Path(tempfile.gettempdir()))
+    finish: Callable[[], None] = lambda: None
+
+
+def serve_until_ended(
+    served: Served,
+    application: ASGIApp,
+    port: int | None,
+    browser: bool,
+    say: Callable[[str], None],
+    announce: Callable[[str], None] = lambda url: None,
+) -> None:
+    """Serve until Ctrl-C or ``finish``.
+
+    port: None for DEFAULT_PORT, or a free one where that is in use. browser: whether to open a browser. say:
+    gets the line with the address, announce: the address. OSError where the port is in use.
+    """
+    with listening(port) as listener, tempfile.TemporaryDirectory(prefix="tricue-") as folder:
+        served.folder = Path(folder)
+        url = f"http://{ADDRESS}:{listener.getsockname()[1]}/{served.token}/"
+        config = uvicorn.Config(
+            application,
+            log_level="error",
+            ws="websockets-sansio",
+            lifespan="off",
+            proxy_headers=False,
+            timeout_graceful_shutdown=CLOSING_TIME,
+        )
+        server = uvicorn.Server(config)
+        served.finish = lambda: setattr(server, "should_exit", True)
+        announce(url)
+        say(f"open {url}  (Ctrl-C ends it)")
+        show(url, browser)
+        server.run(sockets=[listener])
+
+
+def listening(port: int | None) -> socket.socket:
+    """A socket at this port; without a wish at the default one, or at a free one if that is in use."""
+    if port is not None and not 0 <= port <= MAX_PORT:
+        raise ValueError(f"--port {port}: expected a port from 0 to {MAX_PORT}")
+    try:
+        return socket.create_server((ADDRESS, DEFAULT_PORT if port is None else port))
+    except OSError as error:
+        if port is None:
+            return socket.create_server((ADDRESS, 0))
+        why = {errno.EADDRINUSE: "the port is in use", errno.EACCES: "the port isn't open to you"}
+        reason = why.get(error.errno or 0, error.strerror)
+        raise OSError(f"--port {port}: {reason}; give another, or leave it out") from None
+
+
+def show(url: str, browser: bool) -> None:
+    """Open the page, if it is wished."""
+    if browser:
+        webbrowser.open(url)

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What the page of a camera knows: the server's state, the tracks of the last frames, and what is chosen.
+
+import { COLORS, LOST, NONE } from "./model.js";
+
+const KEPT = 900; // frames
+
+/** Tells by the events "state", "tracks" and "choice" what has changed. */
+export class LiveModel extends EventTarget {
+  state = null;
+  chosen = null; // a target's id
+  frame = -1; // of the last tracks
+  #frames = new Map(); // by number: seconds, and the targets' rows
+
+  tell(name) {
+    this.dispatchEvent(new Event(name));
+  }
+
+  setState(state) {
+    const before = this.state;
+    this.state = state;
+    if (before && before.phase !== state.phase && state.phase === "connecting") this.#frames.clear();
+    if (this.chosen !== null && !this.target()) this.chosen = null;
+    this.tell("state");
+  }
+
+  /** frames: [number, seconds, rows by target]. */
+  addFrames(frames) {
+    for (const [number, seconds, rows] of frames) {
+      this.#frames.set(number, { seconds, rows });
+      this.frame = number;
+    }
+    while (this.#frames.size > KEPT) this.#frames.delete(this.#frames.keys().next().value);
+    this.tell("tracks");
+  }
+
+  choose(id) {
+    if (this.chosen === id) return;
+    this.chosen = id;
+    this.tell("choice");
+  }
+
+  target(id = this.chosen) {
+    return this.state?.targets.find((each) => each.id === id) ?? null;
+  }
+
+  color(id) {
+    return COLORS[(id - 1) % COLORS.length];
+  }
+
+  seconds(frame) {
+    return this.#frames.get(frame)?.seconds ?? NaN;
+  }
+
+  box(id, frame) {
+    return this.#row(id, frame)?.slice(3, 7) ?? null;
+  }
+
+  status(id, frame) {
+    return this.#row(id, frame)?.[1] ?? NONE;
+  }
+
+  score(id, frame) {
+    return this.#row(id, frame)?.[2] ?? 0;
+  }
+
+  /** The distance or the position of a target in words, "" where it isn't known. */
+  place(id, frame) {
+    const [x, y, z] = this.#row(id, frame)?.slice(7) ?? [];
+    return z === undefined || this.status(id, frame) === LOST ? "" : `${z.toFixed(2)} m`;
+  }
+
+  /** Whether it is known where a target is in a frame. */
+  known(id, frame) {
+    return ![NONE, LOST].includes(this.status(id, frame));
+  }
+
+  /** The frames from a time up to one, rising. */
+  framesUpTo(frame, seconds) {
+    return [...this.#frames.keys()].filter((at) => at <= frame && this.seconds(at) >= seconds);
+  }
+
+  #row(id, frame) {
+    return this.#frames.get(frame)?.rows[id] ?? null;
+  }
+}

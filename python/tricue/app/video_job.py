@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: MIT
+"""The overlay video, written in a thread, which tells how far it is and can be stopped."""
+
+import threading
+from dataclasses import replace
+from pathlib import Path
+
+from tricue.app.exports import Tracked, write_video
+from tricue.errors import one_line
+
+
+class VideoJob:
+    """The overlay video in the making: frames written of all, then the file, or the error."""
+
+    def __init__(self, path: Path, tracked: Tracked, trail: bool = False) -> None:
+        self.total = tracked.recording.length
+        self.written = 0
+        self.path: Path | None = None
+        self.error = ""
+        self._stopped = False
+        self._trail = trail
+        whole = replace(tracked, recording=tracked.recording.again())
+        threading.Thread(target=self._write, args=(path, whole), name="overlay", daemon=True).start()
+
+    def stop(self) -> None:
+        """End the writing."""
+        self._stopped = True
+
+    def _write(self, path: Path, tracked: Tracked) -> None:
+        try:
+            write_video(path, tracked, self._goes_on, self._trail)
+            self.path = path
+        except Exception as error:
+            self.error = one_line(error)
+
+    def _goes_on(self, written: int) -> bool:
+        self.written = written
+        return not self._stopped

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: MIT
+"""What the local servers share: their page's files, who may ask, commands, pictures as JPEG, downloads."""
+
+import hmac
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote, urlsplit
+
+import cv2
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from tricue.errors import one_line
+
+PAGE = Path(__file__).parent / "page"
+PAGE_TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
+LIVE_WIDTH = 1280  # pixels of the pictures of a run; a frame that one stays on is shown whole
+JPEG_QUALITY = {"live": 75, "still": 92}
+MAX_COMMAND = 1 << 16  # bytes
+HEADERS = {
+    "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'self'; img-src 'self' blob: data:; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+
+
+class OwnPagesOnly:
+    """Refuses, with 403, requests without the token, and those that other sites' pages make."""
+
+    def __init__(self, app: ASGIApp, base: str) -> None:
+        self.app, self.base = app, base
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] in ("http", "websocket") and (reason := self._refusal(scope)):
+            if scope["type"] == "websocket":
+                await receive()
+                await send({"type": "websocket.close", "code": 4403, "reason": reason})
+                return
+            await PlainTextResponse(f"tricue open: {reason}\n", 403, HEADERS)(scope, receive, send)
+            return
+        await self.app(scope, receive, send)
+
+    def _refusal(self, scope: Scope) -> str:
+        headers = {name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]}
+        host = headers.get("host", "")
+        if urlsplit(f"//{host}").hostname not in ("127.0.0.1", "localhost"):
+            return "expected to be asked as 127.0.0.1"
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc != host:
+            return "expected its own page, this is another site's"
+        given = "/" + scope["path"].split("/")[1]
+        if not hmac.compare_digest(given.encode(), self.base.encode()):
+            return "the address lacks its token; open the whole address that tricue open printed last"
+        return ""
+
+
+def page_of(start: str) -> Callable[[Request], Any]:
+    """A route for the page's files. start: the one that has no name."""
+
+    async def page(request: Request) -> Response:
+        path = PAGE / request.path_params.get("name", start)
+        if path.suffix not in PAGE_TYPES or path.parent != PAGE or not path.is_file():
+            return PlainTextResponse("there is no such page\n", 404, HEADERS)
+        return FileResponse(path, media_type=PAGE_TYPES[path.suffix], headers=HEADERS)
+
+    return page
+
+
+def bound(handler: Callable[..., Any], serving: Any) -> Callable[..., Any]:
+    """A route of a handler that takes what is served and the request."""
+
+    async def handle(request: Any) -> Any:
+        return await handler(serving, request)
+
+    return handle
+
+
+async def answer(request: Request, do: Callable[[dict[str, Any]], dict[str, Any] | None]) -> Response:
+    """What comes of a command, an object of JSON; 400 with one line for what can't be done."""
+    try:
+        body = await request.body()
+        if len(body) > MAX_COMMAND:
+            raise ValueError("expected a command, got too much")
+        command = json.loads(body)
+        if not isinstance(command, dict):
+            raise ValueError("expected a command, an object")
+        found = await run_in_threadpool(do, command)
+    except (OSError, ValueError, TypeError, RuntimeError, ImportError) as error:
+        return JSONResponse({"error": one_line(error)}, 400, HEADERS)
+    return JSONResponse(found or {}, headers=HEADERS)
+
+
+def jpeg(image: Any, use: str) -> bytes:
+    """A BGR image as JPEG. use: "live", smaller and coarser, or "still"."""
+    if use == "live" and image.shape[1] > LIVE_WIDTH:
+        height = round(image.shape[0] * LIVE_WIDTH / image.shape[1])
+        image = cv2.resize(image, (LIVE_WIDTH, height), interpolation=cv2.INTER_AREA)
+    done, data = cv2.imencode(".jpg", image, (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY[use]))
+    if not done:
+        raise RuntimeError("the frame can't be encoded as JPEG")
+    return data.tobytes()
+
+
+def attached(name: str) -> dict[str, str]:
+    """The headers of a download of this name."""
+    return {**HEADERS, "Content-Disposition": f"attachment; filename*=UTF-8''{quote(name, errors='replace')}"}

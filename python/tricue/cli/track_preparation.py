@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""What ``tricue track`` runs: the source opened, the tracker made, its start chosen, from the options."""
+
+import argparse
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tricue.camera.box import Box
+from tricue.camera.rig import Intrinsics, StereoRig
+from tricue.cli.arguments import StartBox
+from tricue.cli.calibrations import find_calibration
+from tricue.cli.outputs import Step
+from tricue.cli.source_options import open_input, opening
+from tricue.cli.starts import choose_start, default_tracker
+from tricue.cli.steps import Start
+from tricue.data.open_source import Source
+from tricue.track.base.settings import make_tracker, read_settings
+from tricue.track.base.track import Tracker
+from tricue.track.multi.tracker import MultiTracker
+
+
+class TrackRun(NamedTuple):
+    """The source, the tracker, how it starts, and the known intrinsics or stereo rig.
+
+    targets, boxes: of several targets, for each of which there is such a tracker, and the numbers of their
+        first frames; None for one.
+    first, end: the numbers of the first frame and of the one after the last, None for all.
+    assumed: whether the camera is only supposed.
+    """
+
+    source: Source
+    tracker: Tracker
+    intrinsics: Intrinsics | None
+    start: Start | None
+    rig: StereoRig | None = None
+    targets: MultiTracker | None = None
+    boxes: Sequence[tuple[int, Box]] = ()
+    first: int = 0
+    end: int | None = None
+    assumed: bool = False
+
+    def known(self, step: Step) -> Step:
+        """The step, without positions where no camera is known by which they would be meters."""
+        if self.intrinsics is not None:
+            return step
+        tracks = step.tracks and {target: track.in_image() for target, track in step.tracks.items()}
+        return step._replace(track=step.track.in_image(), tracks=tracks)
+
+    def seconds(self, step: Step) -> float:
+        """The time of a step's frame."""
+        return step.number / self.source.fps if step.frame.timestamp is None else step.frame.timestamp
+
+    @property
+    def frames(self) -> int | None:
+        """How many there are; None where that isn't known."""
+        ends = [each for each in (self.source.length, self.end) if each is not None]
+        return max(min(ends) - self.first, 0) if ends else None
+
+
+def prepare(options: argparse.Namespace) -> tuple[TrackRun, list[str]]:
+    """Open the source and make the tracker; notes for the user."""
+    if options.select:
+        options.box = _selected(options)
+    boxes = _numbered(options)
+    several = len(boxes) > 1
+    if options.trail is not None and not options.output:
+        raise ValueError("--trail: expected with --output, into which it is drawn")
+    if options.plot:
+        from tricue.draw.paths import check_format
+
+        if several:
+            raise ValueError(f"--plot: expected one --box, got {len(options.box)}")
+        check_format(options.plot)
+    source = open_input(options)
+    options.tracker = options.tracker or default_tracker(options, source)
+    right = Path(options.right) if options.right else None
+    files = options.output, options.csv, options.json, options.mot, options.coco, options.plot
+    outputs = [path for path in files if path]
+    for place in (Path(options.input), right, options.calibration, options.params):
+        _check_not_input(place, outputs)
+    _check_different(outputs)
+    found = find_calibration(options, source)
+    source = found.prepare(source)
+    tracker = make_tracker(
+        options.tracker,
+        options.paper or options.params,
+        options.set,
+        options.seed,
+        options.kernels,
+        **found.keywords,
+    )
+    rig = found.rig
+    known = rig.intrinsics if rig else found.intrinsics
+    first, end = min([frame for frame, _ in boxes], default=options.start), options.end
+    start = choose_start(options, source, tracker, rig)
+    run = TrackRun(source, tracker, known, start, rig, first=first, end=None if end is None else end + 1)
+    run = run._replace(assumed=found.assumed)
+    if several:
+        run = run._replace(targets=_targets(options, found.keywords), boxes=boxes)
+    return run, [*source.notes, *([found.note] if found.note else [])]
+
+
+def _check_not_input(place: Path | None, outputs: Sequence[Path]) -> None:
+    for path in outputs:
+        if place and path.exists() and place.exists() and path.samefile(place):
+            raise ValueError(f"{path}: expected another file than the input to write to")
+
+
+def _check_different(outputs: Sequence[Path]) -> None:
+    files = [path.resolve() for path in outputs if path.is_file() or not path.exists()]  # not /dev/null
+    for index, path in enumerate(files):
+        if path in files[:index]:
+            raise ValueError(f"{path}: expected a file for each output, got this one twice")
+
+
+def _selected(options: argparse.Namespace) -> list[StartBox]:
+    """The boxes that the user draws in the browser; ValueError where there is none."""
+    from tricue.app import select_boxes
+
+    found = [StartBox(box, frame) for frame, box in select_boxes(options.input, **opening(options))]
+    if not found:
+        raise ValueError("--select: expected a box, none was drawn")
+    return found
+
+
+def _numbered(options: argparse.Namespace) -> list[tuple[int, Box]]:
+    """The boxes to start on with the numbers of their frames; ValueError for a frame that isn't tracked."""
+    last = math.inf if options.end is None else options.end
+    if last < options.start:
+        raise ValueError(f"--end {options.end}: expected {options.start}, of --start, or more")
+    found = [(options.start if frame is None else frame, box) for box, frame in options.box or ()]
+    for frame, _ in found:
+        if not options.start <= frame <= last:
+            raise ValueError(f"--box {frame}:...: expected a frame from --start to --end")
+    return found
+
+
+def _targets(options: argparse.Namespace, camera: Mapping[str, Any]) -> MultiTracker:
+    parameters = read_settings(options.tracker, options.paper or options.params, options.set)
+    shared = {"workers": options.workers, "seed": options.seed, "kernels": options.kernels}
+    return MultiTracker(options.tracker, **shared, **camera, **parameters)

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""What ``tricue track`` prints at its end, and the plot of the path."""
+
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from tricue.cli.lost_ranges import LostRanges
+from tricue.cli.starts import BOX_HINT
+from tricue.cli.steps import RunClock
+from tricue.cli.track_preparation import TrackRun
+from tricue.track.base.track import Status, Track
+
+
+def report(
+    run: TrackRun,
+    clock: RunClock,
+    tracks: Mapping[int, Mapping[int, Track]],
+    lost: Mapping[int, LostRanges],
+    interrupted: bool,
+) -> None:
+    """Print how many frames were tracked and lost, where, how fast, and how near to the true boxes."""
+    frames = f"{run.source.name}: {clock.decoded} frames{' until interrupted' if interrupted else ''}"
+    if len(tracks) > 1:
+        print(frames)
+        for target, found in tracks.items():
+            counts = _counts(Counter(track.status for track in found.values()))
+            print("; ".join(filter(None, (f"target {target}: {counts}", str(lost[target])))))
+        print(clock.speeds)
+        return
+    print(f"{frames}, {_counts(clock.statuses)}")
+    for line in filter(None, map(str, lost.values())):
+        print(line)
+    print(clock.speeds)
+    found = tracks.get(1, {})
+    if first := min(found, default=0):
+        print(f"started in frame {first}")
+    truth = run.source.truth
+    if truth is not None and np.isfinite(truth[run.first + 1 :]).any():
+        print(_score(truth, found, run.first, clock.decoded))
+
+
+def not_started(run: TrackRun, clock: RunClock) -> str:
+    """Why no frame was tracked, and what to do."""
+    if run.first and not clock.decoded:
+        length = run.source.length
+        has = "" if length is None else f"; {run.source.name} has {length}"
+        return f"frame {run.first}: expected a frame to start in{has}"
+    if clock.not_found_reason:
+        reason = f"the tracker started in none of {clock.decoded} frames: {clock.not_found_reason}"
+    else:
+        reason = f"found no face in {clock.decoded} frames"
+    return f"{run.source.name}: {reason}; {BOX_HINT}"
+
+
+def plot(path: Path, run: TrackRun, tracks: Mapping[int, Track]) -> str:
+    """Write the path seen from above; a note about the result."""
+    from tricue.draw.paths import save_path
+
+    if all(track.position is None for track in tracks.values()):
+        return f"{path}: not written, no track has a position in meters"
+    save_path(path, tracks.values(), run.intrinsics)
+    return f"wrote {path}{', in assumed meters' if run.assumed else ''}"
+
+
+def _counts(statuses: Mapping[Status, int]) -> str:
+    return ", ".join(f"{statuses[status]} {status}" for status in Status)
+
+
+def _score(truth: Any, tracks: Mapping[int, Track], first: int, frames: int) -> str:
+    """AUC and precision over the frames that were read and have a true box."""
+    from tricue.evaluation import metrics
+
+    truth = truth[first : first + frames]
+    found = np.full((len(truth), 4), np.nan)
+    for number, track in tracks.items():
+        if number - first < len(truth):
+            found[number - first] = track.box
+    score = metrics.score(found, truth)
+    return f"against the true boxes: AUC {score.auc:.3f}, precision at 20 px {score.precision:.3f}"

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: MIT
+"""Any frame of a robot's recording at once: its frames are listed first, then read from where they are."""
+
+from collections import OrderedDict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.data.joint import JointStream, Moment
+from tricue.data.recordings.messages import ImageMessage
+from tricue.data.recordings.pairing import Timed
+from tricue.data.recordings.recording import Recording, Stored
+
+KEPT_BYTES = 128 << 20  # of images as they were recorded, which stepping back falls back on
+MAX_SKIPPED = 10**9  # nanoseconds that are rather read over than sought
+BEFORE = 15  # frames that are read with one before the last, as those before it are wanted next
+DISORDER = 2 * 10**9  # nanoseconds by which messages may be recorded out of their order
+
+Key = tuple[str, int, int]
+"""Where an image is: its channel, the time of recording, the place among those of the same time."""
+
+
+@dataclass(frozen=True)
+class FrameList:
+    """When the frames are, and where their images: as many bytes as a few dozen for each frame.
+
+    times: (N,) seconds. recorded: (N, C) nanoseconds, when the image of each channel was recorded; places:
+    (N, C) among those of the same channel and time.
+    """
+
+    times: NDArray[np.float64]
+    recorded: NDArray[np.int64]
+    places: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.times)
+
+
+def list_frames(recording: Recording) -> FrameList:
+    """Pair the recording's images, decoding none; one image at a time is in memory."""
+    light = (Timed(each.channel, each.time, each.item[:2]) for each in recording.images())
+    paired = list(recording.paired(light))
+    clock, channels = recording.clock, list(recording.chosen)
+    places = np.array([[each[channel].item for channel in channels] for each in paired], np.int64)
+    times = 1e-9 * np.array([each[clock].time for each in paired], np.float64)
+    return FrameList(times, places[..., 0], places[..., 1])
+
+
+class SeekableRecording:
+    """A recording whose frames can be had in any order; a joint as those of :mod:`tricue.data.joint`.
+
+    The frames are those that :class:`Recording` gives. It reads on from the last frame, or from where the
+    recording has the wanted one, and keeps the last images undecoded. Used by one thread at a time.
+    ValueError names a frame whose image is damaged.
+    """
+
+    def __init__(self, recording: Recording, frames: FrameList) -> None:
+        self.recording, self.frames = recording, frames
+        self._kept: OrderedDict[Key, ImageMessage] = OrderedDict()
+        self._kept_bytes = 0
+        self._images: Iterator[Timed[Stored]] = iter(())
+        self._read_to = -1  # the time of recording of the last image read
+
+    @classmethod
+    def of(cls, recording: Recording) -> "SeekableRecording":
+        """List the frames; ValueError where there are none."""
+        return cls(recording, list_frames(recording))
+
+    def again(self) -> "SeekableRecording":
+        """The same recording for another thread."""
+        return SeekableRecording(self.recording, self.frames)
+
+    @property
+    def fps(self) -> float:
+        return self.recording.fps
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        return self.recording.remarks
+
+    def size(self, channel: str) -> tuple[int, int]:
+        return self.recording.size(channel)
+
+    def count(self) -> int:
+        return len(self.frames)
+
+    def moments(self, channels: Sequence[str], indices: Sequence[int] | None = None) -> Iterator[Moment]:
+        for number in range(len(self.frames)) if indices is None else indices:
+            if not 0 <= number < len(self.frames):
+                path, last = self.recording.container.path, len(self.frames) - 1
+                raise ValueError(f"{path}: expected frame 0 to {last}, got {number}")
+            yield self._moment(number, channels)
+
+    def _moment(self, number: int, channels: Sequence[str]) -> Moment:
+        moment = {}
+        for channel, image in self._find(number).items():
+            if channel in channels:
+                seconds = 1e-9 * image.time if image.time else 1e-9 * self._where(number)[channel][0]
+                moment[channel] = seconds, self.recording.decode(channel, image)
+        return {channel: moment[channel] for channel in channels}
+
+    def _where(self, number: int) -> dict[str, tuple[int, int]]:
+        """Time of recording and place of each channel's image."""
+        pairs = zip(self.frames.recorded[number].tolist(), self.frames.places[number].tolist(), strict=True)
+        return dict(zip(self.recording.chosen, pairs, strict=True))
+
+    def _find(self, number: int) -> dict[str, ImageMessage]:
+        """The images of a frame by channel; ValueError where they can't be read."""
+        keys = {channel: (channel, *where) for channel, where in self._where(number).items()}
+        found = {key: self._kept[key] for key in keys.values() if key in self._kept}
+        if len(found) < len(keys):
+            found |= self._read(number, keys.values() - found.keys())
+        try:
+            return {channel: found[key] for channel, key in keys.items()}
+        except KeyError:
+            raise ValueError(f"{self.recording.container.path}: frame {number} can't be read") from None
+
+    def _read(self, number: int, missing: set[Key]) -> dict[Key, ImageMessage]:
+        """Read on until nothing is missing, or nothing of it can come any more; what was missing."""
+        found: dict[Key, ImageMessage] = {}
+        first, last = min(time for _, time, _ in missing), max(time for _, time, _ in missing)
+        if not self._read_to < first <= self._read_to + MAX_SKIPPED:
+            back = first <= self._read_to
+            start = min(self._where(max(0, number - BEFORE * back)).values())[0]
+            self._images = self.recording.images(min(start, first))
+        for each in self._images:
+            key = each.channel, each.item.time, each.item.place
+            self._read_to = each.item.time
+            self._keep(key, each.item.image)
+            if key in missing:
+                found[key] = each.item.image
+            if len(found) == len(missing) or self._read_to > last + DISORDER:
+                return found
+        self._read_to = -1  # the end: nothing can be read on
+        return found
+
+    def _keep(self, key: Key, image: ImageMessage) -> None:
+        before = self._kept.pop(key, None)
+        self._kept_bytes += len(image.data) - (0 if before is None else len(before.data))
+        self._kept[key] = image
+        fewest = (BEFORE + 1) * len(self.recording.chosen)
+        while self._kept_bytes > KEPT_BYTES and len(self._kept) > fewest:
+            _, gone = self._kept.popitem(last=False)
+            self._kept_bytes -= len(gone.data)
+
+
+class SeekableChannel(JointStream):
+    """A channel of such a recording. times: seconds of its frames."""
+
+    joint: SeekableRecording
+
+    @property
+    def length(self) -> int:  # type: ignore[override]  # which isn't known of other joints
+        return self.joint.count()
+
+    @property
+    def times(self) -> NDArray[Any]:
+        """Seconds, one per frame."""
+        return self.joint.frames.times

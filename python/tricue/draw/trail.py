@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: MIT
+"""The trail of a target: where its box's center was in the last seconds, fading, broken where it was lost."""
+
+from collections import deque
+from itertools import pairwise
+
+import cv2
+import numpy as np
+
+from tricue.camera.numbers import positive
+from tricue.draw.canvas import BLACK, Color, Image, to_pixels
+from tricue.track.base.track import Status, Track
+
+DEFAULT_SECONDS = 2.0
+SHARE = 240  # of the image's height: the width of the line
+MARGIN = 8  # pixels round the line that are drawn anew
+
+Point = tuple[int, int]
+
+
+class Trail:
+    """Collects a target's centers frame by frame, and draws those of the last seconds.
+
+    seconds: how long a center stays; ValueError unless above 0.
+    """
+
+    def __init__(self, seconds: float = DEFAULT_SECONDS) -> None:
+        self.seconds = positive(seconds, "trail", "seconds")
+        self._centers: deque[tuple[float, tuple[float, float] | None]] = deque()
+
+    def add(self, time: float, track: Track) -> None:
+        """The track of the frame of this time, in seconds, which must not fall."""
+        x, y, width, height = track.box
+        lost = track.status is Status.LOST
+        self._centers.append((time, None if lost else (x + width / 2, y + height / 2)))
+        while self._centers[0][0] < time - self.seconds:
+            self._centers.popleft()
+
+    def draw(self, canvas: Image, scale: int, color: Color) -> None:
+        """Draw it into a BGR image (H, W, 3), enlarged by ``scale``, the older the fainter."""
+        lines = [
+            (*to_pixels((*before, *after), scale), self._share(time))
+            for (_, before), (time, after) in pairwise(self._centers)
+            if before is not None and after is not None
+        ]
+        if not lines:
+            return
+        width = max(2, canvas.shape[0] // SHARE)
+        corners = np.array([line[:4] for line in lines]).reshape(-1, 2)
+        (left, top), (right, bottom) = corners.min(0) - MARGIN - width, corners.max(0) + MARGIN + width
+        left, top = max(left, 0), max(top, 0)
+        part = canvas[top : max(bottom, top), left : max(right, left)]
+        if not part.size:
+            return
+        for ink, thickness, strength in ((BLACK, width + 2, 0.5), (color, width, 1.0)):
+            mask = np.zeros(part.shape[:2], np.uint8)
+            for x, y, end_x, end_y, share in lines:
+                line = (x - left, y - top), (end_x - left, end_y - top)
+                cv2.line(mask, *line, round(255 * strength * share), thickness, cv2.LINE_AA)
+            weight = mask[..., None] / np.float32(255)
+            part[...] = part + weight * (np.array(ink, np.float32) - part)
+
+    def _share(self, time: float) -> float:
+        """How strong the line is that ends at this time: 1 for now, 0 for the oldest."""
+        return 1 - (self._centers[-1][0] - time) / self.seconds

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: MIT
+"""A camera in the network, in Chromium: draw while it runs, record, an outage, reload, the end."""
+
+import csv
+import io
+import os
+import re
+import shutil
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import cv2
+import pytest
+
+from tests.app.conftest import HEIGHT, START, WIDTH
+from tests.app.live.conftest import IMAGES, level, wait
+from tests.app.test_serve import Server
+from tests.data.mjpeg_server import MjpegServer
+
+playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
+CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
+LAPTOP, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
+PATIENCE = 60_000  # milliseconds that a busy machine may take
+
+
+class SquareServer(MjpegServer):
+    """A camera that sees the square go to the right and back again, slowly."""
+
+    def images(self) -> Iterator[bytes]:
+        number = 0
+        while not self._stopped.wait(1 / self.fps):
+            yield cv2.imencode(".jpg", IMAGES[level(number)], [cv2.IMWRITE_JPEG_QUALITY, 95])[1].tobytes()
+            number += 1
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """A headless Chromium; TRICUE_CHROMIUM names another than that on the path."""
+    found = os.environ.get("TRICUE_CHROMIUM") or next(filter(None, map(shutil.which, CHROMIUMS)), None)
+    if found is None:
+        pytest.skip("needs chromium: apt-get install chromium")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def camera() -> Iterator[SquareServer]:
+    """The camera, on."""
+    server = SquareServer(fps=10.0)
+    server.start()
+    yield server
+    with suppress(OSError):
+        server.stop()
+
+
+@pytest.fixture
+def opened(
+    camera: SquareServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Callable[..., Any]]:
+    """``opened(url)``: ``tricue open`` on it in a folder of the test's own, which ends with the test."""
+    monkeypatch.chdir(tmp_path)
+    made: list[Server] = []
+
+    def make(url: str = camera.url) -> Server:
+        made.append(Server(url, "--port", "0"))
+        return made[-1]
+
+    yield make
+    for server in made:
+        if server.process.poll() is None:
+            server.end()
+        for stream in (server.process.stdout, server.process.stderr):
+            if stream is not None:
+                stream.close()
+
+
+class Tab:
+    """A page of a camera, and what a user does in it."""
+
+    def __init__(self, browser: Any, url: str, size: dict[str, int] = LAPTOP) -> None:
+        self.page = browser.new_context(viewport=size).new_page()
+        self.page.set_default_timeout(PATIENCE)
+        self.troubles: list[str] = []
+        self.page.on("pageerror", lambda error: self.troubles.append(str(error)))
+        self.page.goto(url)
+
+    def ready(self) -> "Tab":
+        """Wait for the first picture."""
+        self.page.locator("html[data-page]").wait_for(state="attached")
+        return self
+
+    def shown(self) -> int:
+        """The frame that is shown."""
+        return int(self.page.evaluate("document.documentElement.dataset.page").split()[1])
+
+    def place(self, x: float, y: float) -> tuple[float, float]:
+        """Where a pixel of the picture is in the page."""
+        left, top, width, height = self.page.locator("#picture").bounding_box().values()
+        scale = min(width / WIDTH, height / HEIGHT)
+        return (
+            left + (width - WIDTH * scale) / 2 + x * scale,
+            top + (height - HEIGHT * scale) / 2 + y * scale,
+        )
+
+    def draw(self, x: float, y: float, width: float, height: float, pause: int = 0) -> None:
+        """Drag a box. pause: milliseconds that it takes."""
+        mouse = self.page.mouse
+        mouse.move(*self.place(x, y))
+        mouse.down()
+        mouse.move(*self.place(x + width / 2, y + height / 2))
+        self.page.wait_for_timeout(pause)
+        mouse.move(*self.place(x + width, y + height))
+        mouse.up()
+
+    def follow(self) -> None:
+        """Draw the square where it is shown, taking a second, in which it goes on."""
+        self.page.keyboard.press("Space")
+        self.page.locator("html[data-phase=paused]").wait_for(state="attached")
+        self.page.wait_for_timeout(300)
+        self.draw(START.x + level(self.shown()), START.y, START.width, START.height, 1000)
+        self.page.locator("#targets button", has_text="Target 1").wait_for()
+        self.page.keyboard.press("Space")
+        self.page.locator("html[data-phase=live]").wait_for(state="attached")
+
+
+def test_draw_record_and_save(chromium: Any, opened: Callable[..., Any], tmp_path: Path) -> None:
+    """From the picture to a CSV of what was followed: the square's box goes to and fro with it."""
+    tab = Tab(chromium, opened().url).ready()
+    page = tab.page
+    assert page.locator("#hint").inner_text() == "Drag a box around what to follow"
+    tab.follow()
+    page.keyboard.press("p")
+    assert page.locator("#trail").is_checked()
+    page.keyboard.press("r")
+    page.locator("#recorded-for", has_text="0:02").wait_for()
+    page.keyboard.press("r")
+    page.locator("#recorded-csv").wait_for()
+    with page.expect_download() as download:
+        page.click("#recorded-csv")
+    rows = list(csv.DictReader(io.StringIO(Path(download.value.path()).read_text())))
+    assert len(rows) >= 8
+    assert {row["status"] for row in rows} == {"tracked"}
+    assert all(abs(float(row["y"]) - START.y) < 4 for row in rows)
+    assert {path.suffix for path in tmp_path.iterdir()} == {".csv", ".json", ".mp4"}
+    assert tab.troubles == []
+
+
+def test_drawn_while_it_runs(chromium: Any, opened: Callable[..., Any]) -> None:
+    """A press keeps the picture; the box belongs to it, and has caught up when the picture goes on."""
+    server = opened()
+    tab = Tab(chromium, server.url).ready()
+    page = tab.page
+    page.mouse.move(*tab.place(2, 2))
+    page.mouse.down()  # which keeps the picture
+    page.wait_for_timeout(300)
+    number = tab.shown()
+    page.wait_for_timeout(1200)
+    assert tab.shown() == number
+    page.mouse.up()
+    page.locator("#box summary").click()
+    page.locator("#box-x").focus()
+    page.wait_for_timeout(300)
+    number = tab.shown()
+    for name, value in zip("xywh", START._replace(x=START.x + level(number)), strict=True):
+        page.fill(f"#box-{name}", f"{value:g}")
+    page.wait_for_timeout(800)
+    assert tab.shown() == number
+    page.click("#box-set")
+    page.locator("#targets button", has_text="Target 1").wait_for()
+    wait(lambda: tab.shown() > number + 3)
+    page.locator("#targets .tracked").wait_for()
+    assert tab.troubles == []
+
+
+def test_reload_and_two_pages(chromium: Any, opened: Callable[..., Any]) -> None:
+    """A reloaded page and another one have the targets; one removed is gone in both."""
+    server = opened()
+    tab = Tab(chromium, server.url).ready()
+    tab.follow()
+    tab.page.reload()
+    tab.ready()
+    other = Tab(chromium, server.url, PHONE).ready()
+    for page in (tab.page, other.page):
+        page.locator("#targets button", has_text="Target 1").click()
+    other.page.click("#delete")
+    tab.page.locator("#targets button").wait_for(state="detached")
+    assert (tab.troubles, other.troubles) == ([], [])
+
+
+def test_outage_and_end(chromium: Any, opened: Callable[..., Any], camera: SquareServer) -> None:
+    """An outage is said while it lasts; the target is followed after it; Ctrl-C ends all in order."""
+    server = opened()
+    tab = Tab(chromium, server.url).ready()
+    camera.stop()
+    tab.page.locator("#trouble").wait_for()
+    assert "Connecting again" in tab.page.locator("#trouble").inner_text()
+    camera.start()
+    tab.page.locator("#trouble").wait_for(state="hidden")
+    tab.page.locator("#rate", has_text="connected again once").wait_for()
+    code, errors = server.end(signal.SIGINT)
+    assert code == 130
+    assert "Traceback" not in errors
+    assert "connecting again" in errors
+    tab.page.locator("#gone").wait_for()
+
+
+def test_a_stream_that_never_starts(chromium: Any, opened: Callable[..., Any], camera: SquareServer) -> None:
+    """It is said on the page and the terminal; once the camera is on, trying again shows it."""
+    camera.stop()
+    server = opened()
+    tab = Tab(chromium, server.url)
+    assert re.match("Waiting for http://127", tab.page.locator("#hint").inner_text())
+    tab.page.locator("#problem").wait_for()
+    assert "no image within 10 s" in tab.page.locator("#problem").inner_text()
+    assert "is the address right?" in server.process.stdout.readline()
+    camera.start()
+    tab.page.click("#again")
+    tab.ready()
+    tab.page.locator("#problem").wait_for(state="hidden")
+
+
+@pytest.mark.parametrize("size", [LAPTOP, PHONE], ids=["laptop", "phone"])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_page_fits_and_reads(
+    chromium: Any, opened: Callable[..., Any], size: dict[str, int], scheme: str
+) -> None:
+    """Nothing is wider than the screen, every control has a name, and text stands out by 4.5 to 1."""
+    from tests.app.test_in_browser import CONTRASTS, NAMELESS
+
+    tab = Tab(chromium, opened().url, size).ready()
+    tab.page.emulate_media(color_scheme=scheme)
+    tab.follow()
+    assert tab.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+    assert tab.page.evaluate(NAMELESS) == []
+    assert tab.page.evaluate(CONTRASTS) == []

@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: MIT
+"""A camera in work: a box belongs to the frame it was drawn in, trackers catch up, recordings are whole."""
+
+import csv
+import json
+import warnings
+from pathlib import Path
+
+import cv2
+import pytest
+from tricue import Box, Status
+
+from tests.app.conftest import START
+from tests.app.live.conftest import Studio, level, wait
+
+
+def place(studio: Studio, target: int = 1) -> Box:
+    """The target's present box."""
+    return next(each.track.box for each in studio.session.targets if each.target.id == target)
+
+
+def test_a_box_belongs_to_its_frame(studio: Studio) -> None:
+    """It proves that a box drawn in an older frame is started there, and has caught up in the next one."""
+    studio.begin()
+    number = studio.shows(3)
+    studio.session.hold("page", number)
+    studio.shows(15)  # while someone draws
+    box = START._replace(x=START.x + level(number))
+    assert studio.session.add(number, list(box), "fused") == 1
+    latest = studio.shows()
+    assert latest == number + 16
+    assert abs(place(studio).x - START.x - level(latest)) < 3
+    assert studio.session.recent[-1].tracks[1].status is Status.TRACKED
+    assert studio.session.recent[-1].number == latest
+
+
+def test_a_box_of_a_frame_that_is_gone(studio: Studio) -> None:
+    """It proves that frames nobody has shown, and bad boxes, are refused in a line, and nothing changes."""
+    studio.begin()
+    for frame, box, message in ((99, START, "the frame is gone"), (0, [1, 2], "box"), ("0", START, "frame")):
+        with pytest.raises(ValueError, match=message):
+            studio.session.add(frame, list(box), "fused")
+    with pytest.raises(ValueError, match="tracker: expected one of"):
+        studio.session.add(0, list(START), "os:system")
+    assert studio.session.targets == []
+
+
+def test_pause_and_going_on(studio: Studio) -> None:
+    """It proves that a pause keeps picture and tracks, and that trackers then catch up with what came."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    paused_at = studio.shows(3)
+    studio.session.pause()
+    for number in range(paused_at + 1, paused_at + 13):
+        studio.device.give()
+        wait(lambda number=number: studio.session._number == number)
+    assert studio.session.phase == "paused"
+    assert studio.session.latest[0] == paused_at
+    assert studio.session.add(paused_at, [0, 0, 20, 20], "fused") == 2
+    assert set(studio.session.recent[-1].tracks) == {1, 2}
+    studio.session.go_on()
+    studio.shows(2)
+    given = studio.device.given
+    assert abs(place(studio).x - START.x - level(given - 1)) < 3
+
+
+def test_targets_are_corrected_named_and_removed(studio: Studio) -> None:
+    """It proves that a target is drawn anew, followed by another tracker, renamed, and removed."""
+    studio.begin()
+    studio.session.add(0, [100, 90, 20, 20], "fused")
+    number = studio.shows()
+    studio.session.draw(1, number, list(START._replace(x=START.x + level(number))))
+    number = studio.shows(4)
+    assert abs(place(studio).x - START.x - level(number)) < 3
+    studio.session.rename(1, "  Anna  ")
+    studio.session.choose_tracker(1, "color-particle")
+    studio.shows()
+    (only,) = studio.session.targets
+    assert (only.target.name, only.target.tracker) == ("Anna", "color-particle")
+    studio.session.delete(1)
+    studio.shows()
+    assert studio.session.recent[-1].tracks == {}
+    assert studio.session.add(studio.session.latest[0], list(START), "fused") == 2
+    for change in (studio.session.delete, lambda each: studio.session.rename(each, "x")):
+        with pytest.raises(ValueError, match="target: expected one of"):
+            change(1)
+
+
+def test_a_tracker_that_breaks_ends_alone(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an error of one tracker is said once, and others go on."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    studio.session.add(0, [0, 0, 30, 30], "color-particle")
+    first = studio.session.targets[1].tracker
+
+    def broken(_frame: object) -> None:
+        raise RuntimeError("it\nbroke")
+
+    monkeypatch.setattr(first, "update", broken)
+    number = studio.shows(3)
+    assert studio.session.errors == ["Target 2, color-particle: it broke"]
+    assert [each.stopped for each in studio.session.targets] == [False, True]
+    assert studio.session.recent[-1].tracks[2].status is Status.LOST
+    assert abs(place(studio).x - START.x - level(number)) < 3
+
+
+def test_what_is_recorded(studio: Studio, tmp_path: Path) -> None:
+    """It proves that table, JSON and video hold what was tracked between start and stop."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    studio.shows(2)
+    studio.session.record()
+    first = studio.shows()
+    last = studio.shows(9)
+    assert studio.session.recorder is not None
+    written = studio.session.recorder.files[0].read_text().splitlines()
+    assert len(written) == 11  # while it is recorded
+    studio.session.stop_recording()
+    studio.shows(2)
+    table, told, video = studio.session.recorded
+    assert {path.parent for path in studio.session.recorded} == {tmp_path}
+    assert studio.said == [f"wrote {table}, {told}, {video}"]
+    rows = list(csv.DictReader(table.read_text().splitlines()))
+    assert [int(row["frame"]) for row in rows] == list(range(first, last + 1))
+    assert {row["id"] for row in rows} == {"1"}
+    content = json.loads(told.read_text())
+    assert content["source"] == "a camera"
+    assert content["targets"] == [{"id": 1, "name": "Target 1", "tracker": "fused"}]
+    assert [each["frame"] for each in content["tracks"]] == list(range(first, last + 1))
+    capture = cv2.VideoCapture(str(video))
+    assert capture.isOpened()
+    assert capture.read()[0]
+
+
+def test_a_recording_is_finished_at_the_end(studio: Studio) -> None:
+    """It proves that closing lets the camera go and finishes the files."""
+    studio.begin()
+    studio.session.record()
+    studio.shows(3)
+    studio.device.give(3)
+    studio.session.close()
+    assert json.loads(studio.session.recorded[1].read_text())["tracks"] == []
+    wait(lambda: studio.device.closed >= studio.device.opened)
+    studio.session.start()  # too late
+    assert studio.device.opened == studio.device.closed
+
+
+def test_a_folder_that_cannot_be_written(studio: Studio, tmp_path: Path) -> None:
+    """It proves that the error names the file, and that the camera goes on."""
+    studio.begin()
+    studio.session.folder = tmp_path / "missing" / "more"
+    (tmp_path / "missing").write_text("a file")
+    with pytest.raises(OSError, match="missing"):
+        studio.session.record()
+    assert studio.session.recorder is None
+    studio.shows()
+
+
+def test_a_camera_that_stops_and_comes_back(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It proves that an outage is told while it lasts, and that targets are followed after it."""
+    studio.begin()
+    studio.session.add(0, list(START), "fused")
+    studio.shows(2)
+    studio.device.refused = "it is away"
+    studio.device.broken = True
+    warned: list[str] = []
+    monkeypatch.setattr(warnings, "warn", lambda text, **_: warned.append(text))
+    wait(lambda: studio.session.health.trouble and warned)
+    assert warned == ["a camera: it stopped giving frames; connecting again"]
+    studio.device.refused, studio.device.broken = "", False
+    number = studio.shows(2)
+    assert (studio.session.health.reopened, studio.session.health.trouble) == (1, "")
+    assert studio.session.phase == "live"
+    assert abs(place(studio).x - START.x - level(number)) < 4
+
+
+def test_a_camera_that_never_starts(studio: Studio) -> None:
+    """It proves that it is said in one line, on the page and the terminal, and can be tried again."""
+    studio.device.refused = "a camera: can't be opened; is it plugged in and not in use elsewhere?"
+    studio.session.start()
+    wait(lambda: studio.session.phase == "ended")
+    assert studio.session.problem == studio.device.refused
+    assert studio.said == [studio.device.refused]
+    with pytest.raises(ValueError, match="there is nothing to record"):
+        studio.session.record()
+    with pytest.raises(ValueError, match="tracker"):
+        studio.session.add(0, list(START), "fused")
+    studio.device.refused = ""
+    wait(lambda: not studio.session._thread.is_alive())
+    studio.begin()
+    assert (studio.session.phase, studio.session.problem) == ("live", "")
