@@ -23,6 +23,8 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import Run, run
 from tricue.scenes import face_over_clutter, head, overtaking, stress_scene, walker
 
+from tools.pages import with_section
+
 Size = tuple[int, int]
 SIZES: tuple[Size, ...] = ((160, 120), (320, 240), (640, 480), (1280, 720), (1920, 1080))
 SMALL, USUAL = SIZES[0], SIZES[2]
@@ -170,15 +172,6 @@ def section(rounds: int) -> str:
     sizes = " | ".join(f"{width}x{height}" for width, height in SIZES)
     text = TEXT.format(rounds=rounds, sizes=sizes, rules=" | ".join("---" for _ in SIZES))
     return f"{HEADING}\n{text}" + "\n".join(row(case, rounds) for case in cases()) + "\n"
-
-
-def with_section(page: str, new: str) -> str:
-    """The page with the new section in the place of the old one, or at its end."""
-    before, heading, after = page.partition(HEADING)
-    if not heading:
-        return f"{page.rstrip()}\n\n{new}"
-    _, other, rest = after.partition("\n## ")
-    return before + new + other + rest
 
 
 def main() -> None:

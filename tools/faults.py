@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What commands do when something goes wrong: ``python tools/faults.py`` writes docs/reliability.md.
+"""What commands do when something goes wrong: ``python -m tools.faults`` writes it into docs/reliability.md.
 
 Each fault happens to a process of its own in a temporary folder. Its exit code, its last message, and what
 can be read of its files make a line of the page's table. What the page promises is tested in tests/cli.
@@ -22,6 +22,8 @@ from typing import NamedTuple
 import cv2
 import numpy as np
 from tricue.draw.video import OverlayWriter
+
+from tools.pages import with_section
 
 PAGE = Path(__file__).parents[1] / "docs" / "reliability.md"
 FRAMES, SIZE = 150, (320, 240)
@@ -290,9 +292,9 @@ FAULTS = [
 
 
 ABOUT = """\
-# When something goes wrong
+## Faults
 
-Written by `python tools/faults.py`, which lets each fault happen to a process of its own; don't edit. `tricue track` follows a square
+`python -m tools.faults` lets each fault happen to a process of its own, and writes this section. `tricue track` follows a square
 through 20 to 1,000 frames and writes a CSV file, a JSON file and a video; "kept" is what can be read of them afterward. A negative exit
 code is the signal that ended the process.
 
@@ -322,7 +324,7 @@ def main() -> int:
             lines.append(line(fault))
             print(lines[-1], flush=True)
     if not only:
-        PAGE.write_text(ABOUT + "\n".join(lines) + "\n")
+        PAGE.write_text(with_section(PAGE.read_text(), ABOUT + "\n".join(lines) + "\n"))
     return 0
 
 

@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT
 """The tests with other versions of Python, NumPy, OpenCV and another compiler.
 
-    python tools/matrix.py                all combinations, a table at the end
-    python tools/matrix.py oldest clang   these
-    python tools/matrix.py --list
+    python -m tools.matrix                all combinations, a table at the end
+    python -m tools.matrix oldest clang   these
+    python -m tools.matrix --write        all, and their section of docs/reliability.md
+    python -m tools.matrix --list
 
 Each has an environment of its own in build/matrix, builds the package there, and runs the tests; arguments
-after -- go to pytest: ``python tools/matrix.py oldest -- tests/cues``. A combination whose Python or compiler
-isn't on this machine is left out, and says so. The exit code is 1 if the tests of any other one fail.
+after -- go to pytest: ``python -m tools.matrix oldest -- tests/cues``. A combination whose Python or compiler
+isn't on this machine is left out, and says so. The exit code is 1 if any other one can't be built, or its
+tests fail. Its line is kept in build/matrix; --write makes a section of docs/reliability.md of all of them.
 """
 
 import argparse
@@ -15,12 +17,22 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import NamedTuple
 
+from tools.pages import with_section
+
 ROOT = Path(__file__).parents[1]
 ENVIRONMENTS = ROOT / "build" / "matrix"
+PAGE = ROOT / "docs" / "reliability.md"
+HEAD = "| combination | Python, NumPy, cv2, compiler | tests |\n| --- | --- | --- |\n"
+TEXT = """\
+## Versions
+
+`python -m tools.matrix --write` builds the package for each combination of versions and runs the tests; `.ci/run` does so for the oldest,
+with some of them.
+
+"""
 
 
 class Combination(NamedTuple):
@@ -51,11 +63,20 @@ def interpreter(version: str) -> str | None:
     return None
 
 
+def compiler(name: str) -> str | None:
+    """The compiler of that name, or the newest of those that have their version in it, as Debian's clang++-14."""
+    folders = map(Path, os.environ.get("PATH", os.defpath).split(os.pathsep))
+    versioned = {each.name for folder in folders for each in folder.glob(f"{name}-*")}
+    numbered = [each for each in versioned if each.rpartition("-")[2].isdigit()]
+    newest_first = sorted(numbered, key=lambda each: int(each.rpartition("-")[2]), reverse=True)
+    return next(filter(shutil.which, [name, *newest_first]), None)
+
+
 def missing(combination: Combination) -> str:
     """What of a combination isn't on this machine."""
     if interpreter(combination.python) is None:
         return f"no Python {combination.python}"
-    return "" if shutil.which(combination.compiler) else f"no {combination.compiler}"
+    return "" if compiler(combination.compiler) else f"no {combination.compiler}"
 
 
 def prepare(name: str, combination: Combination) -> Path:
@@ -69,7 +90,7 @@ def prepare(name: str, combination: Combination) -> Path:
     constraints = folder / "constraints.txt"
     constraints.write_text("\n".join(combination.constraints) + "\n")
     environment = os.environ | {
-        "CXX": combination.compiler,
+        "CXX": compiler(combination.compiler) or combination.compiler,
         "SKBUILD_BUILD_DIR": str(folder / "build"),
         "PIP_CONSTRAINT": str(constraints),
         "PIP_DISABLE_PIP_VERSION_CHECK": "1",
@@ -101,38 +122,56 @@ def test(python: Path, words: list[str]) -> tuple[bool, str]:
 
 
 def main() -> int:
-    """Prepare and test each combination, and print a table."""
+    """Test combinations, and print a table."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(COMBINATIONS))
     parser.add_argument("--list", action="store_true", help="the combinations")
+    parser.add_argument("--write", action="store_true", help="the section, of all that was ever tested here")
     own, _, words = _split(sys.argv[1:])
     options = parser.parse_args(own)
     if unknown := set(options.names) - set(COMBINATIONS):
         parser.error(f"expected some of {', '.join(COMBINATIONS)}, got {', '.join(sorted(unknown))}")
-    rows, failed = [], False
-    for name in options.names or COMBINATIONS:
-        combination = COMBINATIONS[name]
-        if options.list or (absent := missing(combination)):
-            what = f"{combination.python}, {combination.compiler}, {' '.join(combination.constraints)}"
-            rows.append((name, what, "" if options.list else f"left out: {absent}"))
-            continue
-        started = time.monotonic()
-        python = prepare(name, combination)
-        passed, line = test(python, words)
-        failed |= not passed
-        rows.append(
-            (
-                name,
-                f"{versions(python)}, {combination.compiler}",
-                f"{line} [{time.monotonic() - started:.0f} s]",
-            )
-        )
-    print("\n| combination | Python, NumPy, cv2, compiler | tests |\n| --- | --- | --- |")
-    for row in rows:
-        print(f"| {' | '.join(row)} |")
-    return int(failed)
+    if options.list:
+        print(HEAD + "\n".join(map(planned, COMBINATIONS)))
+        return 0
+    codes = [tested(name, words) for name in options.names or COMBINATIONS]
+    rows = [kept(name).read_text() for name in COMBINATIONS if kept(name).exists()]
+    print(HEAD + "\n".join(rows))
+    if options.write:
+        PAGE.write_text(with_section(PAGE.read_text(), TEXT + HEAD + "\n".join(rows) + "\n"))
+    return max(codes)
+
+
+def kept(name: str) -> Path:
+    """The file with the last line of a combination."""
+    return ENVIRONMENTS / f"{name}.txt"
+
+
+def planned(name: str, tests: str = "") -> str:
+    """The line of a combination that isn't tested."""
+    wanted = COMBINATIONS[name]
+    return f"| {name} | {wanted.python}, {' '.join(wanted.constraints)}, {wanted.compiler} | {tests} |"
+
+
+def tested(name: str, words: list[str]) -> int:
+    """Build and test a combination, and keep its line; 1 if that fails."""
+    combination = COMBINATIONS[name]
+    failed, line = 0, planned(name, f"left out: {missing(combination)}")
+    if not missing(combination):
+        try:
+            python = prepare(name, combination)
+        except subprocess.CalledProcessError:
+            failed, line = 1, planned(name, "can't be built")
+        else:
+            passed, last = test(python, words)
+            failed, chosen = int(not passed), f" of `{' '.join(words)}`" if words else ""
+            used = f"{versions(python)}, {compiler(combination.compiler)}"
+            line = f"| {name} | {used} | {last.strip('= ')}{chosen} |"
+    ENVIRONMENTS.mkdir(parents=True, exist_ok=True)
+    kept(name).write_text(line)
+    return failed
 
 
 def _split(words: list[str]) -> tuple[list[str], str, list[str]]:

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Trackers that run for a long time, and are disturbed: memory, latency, drift.
 
-    python -m benchmarks.quality.soak [--updates 1000000] [--trackers NAME...] [--jobs 2]
+    python -m benchmarks.quality.soak [--updates 1000000] [--trackers NAME...] [--jobs 2] [--write]
 
-Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in its own process.
-In one of a hundred passes something covers the target for some frames; in another, frames are blank;
-before another the tracker gets what is no frame, which it has to refuse; before another it is pickled, and
-goes on as the copy. A tracker that has lost the target at the end of a pass, or follows something else,
-starts again. The table has the resident memory after a hundredth of the updates and at the end, the
-milliseconds of an update, and the overlap with the true boxes in the first and the last undisturbed passes.
+Each tracker goes through its scene of benchmarks/frame_size.py, forward and backward, in its own process;
+the frames are in memory. In one of a hundred passes something covers the target for some frames; in another,
+frames are blank; before another the tracker gets what is no frame, which it has to refuse; before another it
+is pickled, and goes on as the copy. A tracker that is lost at the end of a pass, or follows something else,
+starts again. Any other error ends the run. What a run has shown is kept in build/soak; --write makes of it
+the section of docs/reliability.md.
 """
 
 import argparse
+import json
 import pickle
 import resource
 import sys
@@ -23,32 +24,59 @@ from time import perf_counter_ns
 from typing import Any, NamedTuple
 
 import numpy as np
-from tricue import Frame, Status, Track
+from numpy.typing import NDArray
+from tricue import Box, Frame, Status, Track
 from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import one_thread
 
-from benchmarks.frame_size import Case, cases
+from benchmarks.frame_size import FRAMES, Case, cases
+from tools.pages import with_section
 
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "build" / "soak"
+PAGE = ROOT / "docs" / "reliability.md"
 PERIOD = 100  # passes
 COVERED, BLANK, REFUSED, PICKLED = range(4)  # passes of a period in which something happens
 HIDDEN = slice(8, 16)  # frames of a pass
 ASTRAY = 0.1  # overlap
-HEAD = """\
-| tracker | updates | refused | lost | astray | MB | at the end | ms | p99 | p99.9 | max | IoU, first | last |
-| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"""
+MEASUREMENTS = 1000  # of memory
+PARTS = 10  # of a run, whose overlaps are compared
+TEXT = """\
+## A million updates
+
+`python -m benchmarks.quality.soak --write` has each tracker go to and fro through {frames} rendered frames of its scene, in memory. Of
+a hundred passes one has the target covered for eight frames, one has eight blank frames, before one the tracker gets what is no
+frame, which it refuses, and before one it is pickled and goes on as the copy. "Lost" counts how often it said so, "found" how often it
+was on the target again by itself; it is started again where it is lost or astray (an overlap below {astray}) at the end of a pass. The
+growth is the slope of the resident memory over the last nine tenths of the run. ms are those of an update, with all else that the
+machine did at that time.
+
+| tracker | updates | refused | lost | found | started again | MB | at the end | growth, kB in 100,000 | ms, p50 | p99 | p99.9 | max |
+| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
+{rows}
+
+The mean overlap with the true box in undisturbed passes, by tenths of the run:
+
+| tracker | {numbers} |
+| --- | {rules} |
+{overlaps}
+"""
 
 
 class Soaked(NamedTuple):
-    """What a run of one tracker showed; latencies in nanoseconds, an update each; overlaps a pass each."""
+    """What a run of one tracker showed; memory in MB, from a tenth of the run on; latencies in ms."""
 
     name: str
+    updates: int
     refused: int
     lost: int
-    astray: int
+    found: int
+    restarted: int
     early_memory: float
     memory: float
-    latencies: np.ndarray
-    overlaps: list[float]
+    growth: float  # kB in 100,000 updates
+    latencies: list[float]  # p50, p99, p99.9, the longest
+    overlaps: list[float]  # by tenths of the run
 
 
 def resident_megabytes() -> float:
@@ -59,38 +87,96 @@ def resident_megabytes() -> float:
 
 def soak(case: Case, updates: int) -> Soaked:
     """Run a tracker for so many updates."""
-    passes = Passes(case)
-    latencies = np.zeros(updates, np.int32)
-    tracker: Any = case.make(case.small)
-    tracker.init(passes.frames[0], case.box(0, case.small))
-    refused = lost = astray = done = 0
-    early, overlaps = 0.0, list[float]()
+    passes, run = Passes(case), Run(case, updates)
+    # Filled, so that what the run itself keeps is in memory from the start.
+    overlaps = np.full(updates // (len(passes.frames) - 1) + 1, np.nan)
+    refused = restarted = 0
+    run.start(passes.frames[0])
     for number in range(updates):
         kind = number % PERIOD
         if kind == REFUSED:
-            refused += _refuses(tracker)
+            refused += _refuses(run.tracker)
         elif kind == PICKLED:
-            tracker = pickle.loads(pickle.dumps(tracker))
+            run.tracker = pickle.loads(pickle.dumps(run.tracker))
         boxes = np.empty((len(passes.frames), 4))
-        for index, frame in passes.of(kind):
-            start = perf_counter_ns()
-            track = tracker.update(frame)
-            latencies[done] = min(perf_counter_ns() - start, 2**31 - 1)
-            boxes[index] = track.box
-            done += 1
-            if done == max(updates // 100, 1):
-                early = resident_megabytes()
-            if done == updates:
-                memory = resident_megabytes()
-                return Soaked(case.name, refused, lost, astray, early, memory, latencies, overlaps)
+        for index, frame in passes.of(kind)[: updates - run.done]:
+            boxes[index] = run.update(frame, passes.boxes[index])
+        if run.done == updates:
+            break
         if kind > PICKLED + 1:  # not just after something happened
-            overlaps.append(passes.overlap(boxes))
-        is_lost = track.status is Status.LOST
-        is_astray = not is_lost and passes.is_astray(track)
-        lost, astray = lost + is_lost, astray + is_astray
-        if is_lost or is_astray:
-            tracker.init(passes.frames[0], case.box(0, case.small))
-    raise AssertionError("a pass has at least one update")
+            overlaps[number] = passes.overlap(boxes)
+        if run.track.status is Status.LOST or is_astray(run.track, passes.boxes[0]):
+            restarted += 1
+            run.start(passes.frames[0])
+    return run.summary(refused, restarted, overlaps[np.isfinite(overlaps)])
+
+
+class Run:
+    """A tracker, and what its updates showed so far."""
+
+    track: Track
+
+    def __init__(self, case: Case, updates: int) -> None:
+        self.tracker: Any = case.make(case.small)
+        self.done = 0
+        self._case = case
+        self._lost = self._found = 0
+        self._memory = Memory()
+        self._latencies = np.full(updates, -1, np.int32)  # filled, as the overlaps
+
+    def start(self, frame: Frame) -> None:
+        """Start, or start again, on the first frame."""
+        self.track = self.tracker.init(frame, self._case.box(0, self._case.small))
+
+    def update(self, frame: Frame, box: NDArray[np.float64]) -> Box:
+        """The box that the tracker finds; box: the true one."""
+        was_lost = self.track.status is Status.LOST
+        start = perf_counter_ns()
+        self.track = self.tracker.update(frame)
+        self._latencies[self.done] = min(perf_counter_ns() - start, 2**31 - 1)
+        self.done += 1
+        status = self.track.status
+        self._lost += status is Status.LOST and not was_lost
+        self._found += status is Status.TRACKED and was_lost and not is_astray(self.track, box)
+        if self.done % max(len(self._latencies) // MEASUREMENTS, 1) == 0:
+            self._memory.measure(self.done)
+        return self.track.box
+
+    def summary(self, refused: int, restarted: int, overlaps: NDArray[np.float64]) -> Soaked:
+        """What the whole run showed; overlaps: a pass each."""
+        parts = np.array_split(overlaps, min(PARTS, len(overlaps))) if len(overlaps) else []
+        times = [*np.percentile(self._latencies, (50, 99, 99.9)), self._latencies.max()]
+        return Soaked(
+            self._case.name,
+            self.done,
+            refused,
+            self._lost,
+            self._found,
+            restarted,
+            *self._memory.summary(),
+            [float(each) / 1e6 for each in times],
+            [float(np.mean(part)) for part in parts],
+        )
+
+
+class Memory:
+    """The resident memory of this process, in the course of a run."""
+
+    def __init__(self) -> None:
+        self._updates: list[int] = []
+        self._megabytes: list[float] = []
+
+    def measure(self, updates: int) -> None:
+        """After so many updates."""
+        self._updates.append(updates)
+        self._megabytes.append(resident_megabytes())
+
+    def summary(self) -> tuple[float, float, float]:
+        """MB after a tenth of the run and at its end; kB that are added in 100,000 updates between them."""
+        tenth = len(self._updates) // 10
+        updates, megabytes = np.array(self._updates[tenth:]), np.array(self._megabytes[tenth:])
+        slope = np.polyfit(updates - updates.mean(), megabytes, 1)[0] if len(updates) > 1 else 0.0
+        return float(megabytes[0]), float(megabytes[-1]), float(slope) * 1e3 * 1e5
 
 
 class Passes:
@@ -111,13 +197,14 @@ class Passes:
         frames = {COVERED: self._covered, BLANK: self._blank}.get(kind, self.frames)
         return [*list(enumerate(frames))[1:], (0, frames[0])]
 
-    def is_astray(self, track: Track) -> bool:
-        """Whether a track of the first frame hardly touches the target."""
-        return float(metrics.overlaps([track.box], self.boxes[:1])[0]) < ASTRAY
-
-    def overlap(self, boxes: np.ndarray) -> float:
+    def overlap(self, boxes: NDArray[np.float64]) -> float:
         """The mean overlap with the true boxes."""
         return float(np.mean(metrics.overlaps(boxes, self.boxes)))
+
+
+def is_astray(track: Track, box: NDArray[np.float64]) -> bool:
+    """Whether a track hardly touches the target's box."""
+    return float(metrics.overlaps([track.box], box[None])[0]) < ASTRAY
 
 
 def covered(frame: Frame, box: Sequence[float]) -> Frame:
@@ -157,31 +244,48 @@ def _refuses(tracker: Any) -> int:
     raise ValueError("a tracker took what is no frame")
 
 
-def row(found: Soaked) -> str:
+def row(run: Soaked) -> str:
     """The tracker's line of the table."""
-    milliseconds = found.latencies / 1e6
-    p50, p99, p999 = np.percentile(milliseconds, (50, 99, 99.9))
-    part = max(len(found.overlaps) // 10, 1)
-    first, last = np.mean(found.overlaps[:part]), np.mean(found.overlaps[-part:])
+    counts = (run.updates, run.refused, run.lost, run.found, run.restarted)
     cells = [
-        found.name,
-        f"{len(found.latencies):,}",
-        f"{found.refused:,}",
-        f"{found.lost:,}",
-        f"{found.astray:,}",
-        f"{found.early_memory:.1f}",
-        f"{found.memory:.1f}",
-        *(f"{value:.2f}" for value in (p50, p99, p999, milliseconds.max())),
-        *(f"{value:.3f}" for value in (first, last)),
+        run.name,
+        *(f"{count:,}" for count in counts),
+        *(f"{value:.1f}" for value in (run.early_memory, run.memory, run.growth)),
+        *(f"{value:.2f}" for value in run.latencies),
     ]
     return f"| {' | '.join(cells)} |"
 
 
+def overlap_row(run: Soaked) -> str:
+    """The tracker's line of the table of overlaps."""
+    return f"| {' | '.join([run.name, *(f'{value:.3f}' for value in run.overlaps)])} |"
+
+
+def section(runs: Sequence[Soaked]) -> str:
+    """The page's section of these runs."""
+    return TEXT.format(
+        frames=FRAMES,
+        astray=ASTRAY,
+        rows="\n".join(map(row, runs)),
+        numbers=" | ".join(map(str, range(1, PARTS + 1))),
+        rules=" | ".join(["---"] * PARTS),
+        overlaps="\n".join(map(overlap_row, runs)),
+    )
+
+
+def kept(name: str) -> Path:
+    """The file of a tracker's last run."""
+    return FOLDER / f"{name.replace(', ', '-')}.json"
+
+
 def soaked_row(name: str, updates: int) -> str:
-    """Run the case of that name on one thread."""
+    """Run the case of that name on one thread, keep what it shows, and give its line."""
     case = next(case for case in cases() if case.name == name)
     with one_thread():
-        return row(soak(case, updates))
+        run = soak(case, updates)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    kept(name).write_text(json.dumps(run._asdict()))
+    return row(run)
 
 
 def main() -> int:
@@ -190,15 +294,19 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--updates", type=int, default=1_000_000)
-    parser.add_argument("--trackers", nargs="+", help="names of the table's rows; all")
+    parser.add_argument("--trackers", nargs="*", help="names of the table's rows; all")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--write", action="store_true", help="the section, of all that is in build/soak")
     options = parser.parse_args()
-    names = options.trackers or [case.name for case in cases()]
-    print(HEAD, flush=True)
+    names = [case.name for case in cases()]
     context = get_context("spawn")
     with context.Pool(options.jobs, maxtasksperchild=1) as pool:
-        for line in pool.imap(partial(soaked_row, updates=options.updates), names):
+        soaked = partial(soaked_row, updates=options.updates)
+        for line in pool.imap(soaked, names if options.trackers is None else options.trackers):
             print(line, flush=True)
+    if options.write:
+        runs = [Soaked(**json.loads(kept(name).read_text())) for name in names if kept(name).exists()]
+        PAGE.write_text(with_section(PAGE.read_text(), section(runs)))
     return 0
 
 

@@ -14,6 +14,7 @@ from tricue.evaluation.one_pass import run
 from tricue.track.base import registry
 
 from benchmarks import frame_size, large_frames
+from tools.pages import with_section
 
 ROOT = Path(__file__).parents[2]
 MAX_BYTES_AT_START = 30  # per pixel of a pair: corners are looked for in all of it, once
@@ -66,10 +67,10 @@ def test_frames_of_the_own_size_are_followed(cases: list[frame_size.Case]) -> No
 def test_section_is_replaced_in_its_place() -> None:
     """The table is put where its heading stands, else at the end; all else stays."""
     new = f"{frame_size.HEADING}\n\nnew\n"
-    assert frame_size.with_section("# A\n\ntext\n", new) == f"# A\n\ntext\n\n{new}"
+    assert with_section("# A\n\ntext\n", new) == f"# A\n\ntext\n\n{new}"
     old = f"# A\n\n{frame_size.HEADING}\n\nold\n\n## B\n\nmore\n"
-    assert frame_size.with_section(old, new) == f"# A\n\n{frame_size.HEADING}\n\nnew\n\n## B\n\nmore\n"
-    assert frame_size.with_section(f"# A\n\n{new}", new) == f"# A\n\n{new}"
+    assert with_section(old, new) == f"# A\n\n{frame_size.HEADING}\n\nnew\n\n## B\n\nmore\n"
+    assert with_section(f"# A\n\n{new}", new) == f"# A\n\n{new}"
 
 
 @pytest.mark.slow

@@ -45,6 +45,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "size_range": ((0, 4), (-1, 4), (0.3,)),
         "resample_below": (-0.1, 1.1),
         "likelihood_drop": (-0.1,),
+        "max_likelihood_drop": (-0.1,),
         "wide_search_spread": (0, -0.1),
         "learning_rate": (-0.1, 1.1),
         "color_rate": (-0.1, 1.1),

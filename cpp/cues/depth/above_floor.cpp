@@ -20,7 +20,8 @@ struct Limits {
 TRICUE_MULTIVERSION
 void keep_row(const float* __restrict depth, const float* __restrict across, int n, float down, float offset,
               const Limits& limits, float* __restrict kept) {
-    const auto [near, far, clear] = limits;
+    // Not a structured binding, which a lambda can't capture in C++17; clang refuses that.
+    const float near = limits.near, far = limits.far, clear = limits.clear;
     for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
         const float z = depth[u], h = z * (across[u] + down) + offset;
         const bool inside = has_depth(z) & (z >= near) & (z < far) & (h > clear);

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tricue import Box, ColorParticleTracker, Status
+from tricue.evaluation import metrics
+from tricue.scenes import face_over_clutter
 from tricue.track.color_particle.state import MIN_MISSED_FRAMES
 
 Image = NDArray[np.uint8]
@@ -97,6 +99,27 @@ def test_the_box_of_a_lost_target_stays(stage, follow):
     follow(tracker, stage(HERE), START)
     tracks = [tracker.update(BLANK["black"]()) for _ in range(20)]
     assert {track.box for track in tracks[5:]} == {tracks[4].box}
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_cover_is_not_followed_nor_what_is_beside_it(seed, rendered, follow):
+    """Noise covers a moving face for eight frames, once the tracker has seen it to and fro: it is LOST, never
+    TRACKED off the face, and found again.
+    """
+    scene = rendered(face_over_clutter, seed=0, frames=24)
+    order = 3 * [*range(24), *range(22, 0, -1)]
+    frames, boxes = [np.array(scene.frames[i].color) for i in order], np.array(scene.boxes)[order]
+    noise = np.random.default_rng(0)
+    for index in range(54, 62):
+        x, y, width, height = np.rint(boxes[index]).astype(int)
+        frames[index][y : y + height, x : x + width] = noise.integers(0, 256, (height, width, 3))
+    tracks = follow(ColorParticleTracker(seed=seed), frames, boxes[0])
+    overlap = metrics.overlaps([track.box for track in tracks], boxes)
+    tracked = np.array([track.status is Status.TRACKED for track in tracks])
+    assert tracks[61].status is Status.LOST
+    assert not (tracked & (overlap < 0.1)).any()
+    assert tracked[-20:].all()
+    assert overlap[-20:].mean() > 0.5
 
 
 def test_init_ends_a_search(stage, follow):

@@ -41,6 +41,7 @@ def test_a_file_brings_them_back(params, tmp_path: Path):
         {"sharpness": 1e9, "color_weight": 1e9},
         {"sharpness": 1e-9, "color_weight": 0, "likelihood": "linear"},
         {"likelihood_drop": 0, "wide_search_spread": 50.0},
+        {"max_likelihood_drop": 0},
         {"learning_rate": 1, "color_rate": 1, "first_frame_weight": 1, "min_score_to_learn": 0},
         {"min_score": 1, "lost_after": 0.0, "min_score_to_redetect": 0},
         {"resample_below": 0, "size_pull": 1, "size_rate": 1, "velocity_rate": 1},

@@ -35,8 +35,8 @@ def match(
     """A match with these features; odds: its log-odds, by default those by color."""
     odds = features.log_odds(ALIKE, APPEARANCE) if odds is None else odds
     structure = features.log_odds(ALIKE, STRUCTURE)
-    window: Any = None
-    return Match(target, window, 0.0, 0.0, features, odds, structure, 0.5, measured, 0.0)
+    unused: Any = None
+    return Match(target, unused, 0.0, 0.0, features, odds, structure, 0.5, unused, measured, 0.0)
 
 
 NEAR = match(HERE, odds=-6.0)
@@ -52,7 +52,7 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
     def among(*others: Match, near: Match = NEAR, missed_frames: int = 20) -> Match:
         def localized(_: TargetModel, window: int) -> Any:
             return Candidate(
-                others[window].target, None, 0.0, 0.0, -float(window), (0.0, 0.0), 0.0, 0.0, None
+                others[window].target, None, 0.0, 0.0, -float(window), (0.0, 0.0), None, 0.0, 0.0, None
             )
 
         monkeypatch.setattr(module, "propose_windows", lambda *_: list(range(len(others)))[::-1])

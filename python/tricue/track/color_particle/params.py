@@ -161,6 +161,13 @@ class ColorParticleParams(Params):
         doc="of the log-likelihood below its running mean, from which a wide search starts",
         was="surprise",
     )
+    max_likelihood_drop: float = parameter(
+        40.0,
+        unit="nats",
+        source=OURS,
+        low=0,
+        doc="of the log-likelihood below its mean on the target, beyond which the target counts as missed",
+    )
     wide_search_spread: float = parameter(
         0.35,
         unit="target",
@@ -251,7 +258,8 @@ class ColorParticleParams(Params):
             is high. Print doesn't define confidence: our score, above 0.3.
 
         There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): several hypotheses
-        are all that the paper recovers by. OCCLUDED still says that the score is low.
+        are all that the paper recovers by. OCCLUDED still says that the score is low, and that alone
+        (``max_likelihood_drop``).
         """
         return cls(
             particles=100,
@@ -274,6 +282,7 @@ class ColorParticleParams(Params):
             size_range=(0.01, 100.0),
             resample_below=1.0,
             likelihood_drop=NEVER,
+            max_likelihood_drop=NEVER,
             learning_rate=1.0,
             first_frame_weight=0.0,
             lost_after=NEVER,

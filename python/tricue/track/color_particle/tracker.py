@@ -207,10 +207,15 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
     def _accept(
         self, state: State, particles: ParticleSet, samples: WindowSamples, motion: EllipseMotion
     ) -> State:
-        """The state with these particles; its score tells whether the target is recognized there."""
+        """The state with these particles; their score and likelihood tell whether they are on the target.
+
+        By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
+        which colors add, isn't; were it learned, the tracker would stay there.
+        """
         score, log_likelihood = state.appearance.score(self._k, samples), particles.log_likelihood
         missed, recognized_mean = state.missed_frames + 1, state.recognized_mean
-        if score >= self.params.min_score:
+        least = recognized_mean - self.params.max_likelihood_drop
+        if score >= self.params.min_score and log_likelihood >= least:
             missed, recognized_mean = 0, recognized_mean + MEAN_RATE * (log_likelihood - recognized_mean)
         mean = state.mean_log_likelihood
         return state._replace(

@@ -1,16 +1,27 @@
 # SPDX-License-Identifier: MIT
-"""Update the models: appearance, outline and depth, of a target that was found."""
+"""Update the models: appearance, outline and depth, of a target that was found.
+
+What is learned a little off is found a little off. Over thousands of frames that adds up, and the models
+drift from the target. So where the first frame's filter has its peak close to the place that was found, that
+peak is learned (Matthews, Ishikawa and Baker 2004, strategy 3). A peak farther off, or a low one, is that of
+another pose, of which the first frame tells nothing.
+"""
 
 import math
 
 from tricue.track.fused.experts.depth import covered_share
+from tricue.track.fused.localize import NO_CONTRAST, clamp_to_image
 from tricue.track.fused.measure import Match
 from tricue.track.fused.outline import Side, measure_reaches
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.position_filter import PositionFilter, back_project
 from tricue.track.fused.state import AppearanceModels, State
+from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import Window, extract_windows
+from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
+
+MAX_DRIFT = 0.5  # cells, from one learning to the next
+MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which answers about 1 to the target as it was
 
 
 def update_models(
@@ -27,9 +38,22 @@ def update_models(
     state = _update_outline(state, match, p)
     if not state.is_followed(p) or state.frames % p.learn_every:
         return state
+    if "filter" in p.cues:
+        state = state._replace(target=without_drift(state.target, match))
     window = extract_windows(observation, [state.target], p.context)[0]
     appearance = _learn_appearance(state.models[observation.kind], window, p)
     return state._replace(models={**state.models, observation.kind: appearance})
+
+
+def without_drift(target: Target, match: Match) -> Target:
+    """A match's target, moved to the peak of the first frame's filter if that is close to where it was."""
+    window = match.window
+    peak = window.observation.k.evidence_peak(match.first_responses[None], NO_CONTRAST, 1.0, 0.0).tolist()
+    right, down = peak[0] - match.right / CELL_PIXELS, peak[1] - match.down / CELL_PIXELS
+    if peak[2] < MIN_FIRST_RESPONSE or max(abs(right), abs(down)) > MAX_DRIFT:
+        return target
+    cell = CELL_PIXELS * window.pixel_size
+    return clamp_to_image(target.shift(cell * right, cell * down), window)
 
 
 def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:

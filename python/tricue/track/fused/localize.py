@@ -41,7 +41,8 @@ class Candidate(NamedTuple):
     """A place that may be the target's.
 
     right, down: patch pixels from the window's center. evidence: what it was chosen by. responses: of the
-    learned and of the first frame's filter. posterior: (64, 64) P(target | pixel), None without such experts.
+    learned and of the first frame's filter there. first_responses: (32, 32) of the latter in the window.
+    posterior: (64, 64) P(target | pixel), None without such experts.
     """
 
     target: Target
@@ -50,6 +51,7 @@ class Candidate(NamedTuple):
     down: float
     evidence: float
     responses: tuple[float, float]
+    first_responses: Plane
     peak_sharpness: float
     contrast: float
     posterior: Plane | None
@@ -67,7 +69,7 @@ def localize(model: TargetModel, window: Window) -> Candidate:
     peak = k.evidence_peak(responses, contrast, filter_weight, p.color_weight)
     right, down, evidence, response, contrast_there, nearby, first_nearby = peak.tolist()
     cell = CELL_PIXELS * window.pixel_size
-    target = _clamp(window.target.shift(cell * right, cell * down), window)
+    target = clamp_to_image(window.target.shift(cell * right, cell * down), window)
     return Candidate(
         target,
         window,
@@ -75,6 +77,7 @@ def localize(model: TargetModel, window: Window) -> Candidate:
         CELL_PIXELS * down,
         evidence,
         (response, first_nearby),
+        responses[1],
         _peak_sharpness(responses[0], nearby),
         contrast_there,
         posterior,
@@ -94,8 +97,8 @@ def _pixel_experts(model: TargetModel) -> list[PixelExpert]:
     return [*experts, model.depth] if model.depth is not None else experts
 
 
-def _clamp(target: Target, window: Window) -> Target:
-    """The target with its center moved into the image."""
+def clamp_to_image(target: Target, window: Window) -> Target:
+    """The target with its center moved into the window's image."""
     height, width = window.observation.shape
     x, y = min(max(target.x, 0.0), width), min(max(target.y, 0.0), height)
     return Target(x, y, target.width, target.height)

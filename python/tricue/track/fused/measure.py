@@ -3,6 +3,7 @@
 
 from typing import NamedTuple
 
+from tricue.track.fused.arrays import Plane
 from tricue.track.fused.experts.depth import DepthMeasurement, covered_share, measure_depth
 from tricue.track.fused.identity import (
     APPEARANCE,
@@ -33,7 +34,8 @@ class Match(NamedTuple):
 
     window, right, down: where it was measured, so many patch pixels off the window's center.
     log_odds, structure_log_odds: of its being the target, by all that is known, and by what light doesn't
-    change. response: of the learned filter. covered: the share of its box that an occluder covers.
+    change. response: of the learned filter. first_responses: (32, 32) of the first frame's, in the window.
+    covered: the share of its box that an occluder covers.
     """
 
     target: Target
@@ -44,6 +46,7 @@ class Match(NamedTuple):
     log_odds: float
     structure_log_odds: float
     response: float
+    first_responses: Plane
     depth: DepthMeasurement | None
     covered: float
 
@@ -104,6 +107,7 @@ def measure(model: TargetModel, recognition: Recognition) -> Match:
         log_odds=recognition.log_odds,
         structure_log_odds=recognition.structure_log_odds,
         response=candidate.responses[0],
+        first_responses=candidate.first_responses,
         depth=depth,
         covered=covered_share(window, candidate.right, candidate.down),
     )

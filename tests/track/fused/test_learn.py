@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""That the place which is learned doesn't drift from that of the first frame."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from tricue.track.fused.learn import MAX_DRIFT, MIN_FIRST_RESPONSE, without_drift
+from tricue.track.fused.target import Target
+from tricue.track.fused.window import CELL_PIXELS, CENTER_CELL, WINDOW_CELLS
+
+PIXEL_SIZE = 1.5
+CELL = CELL_PIXELS * PIXEL_SIZE
+FOUND = (2.0, -1.0)  # cells from the window's center
+TARGET = Target(80.0, 60.0, 30.0, 40.0)
+
+
+def match(kernels, right, down, height=1.0):
+    """A match at FOUND, and the first frame's filter with a peak so many cells from it."""
+    cells = np.arange(WINDOW_CELLS) - CENTER_CELL
+    across, along = cells - FOUND[0] - right, cells[:, None] - FOUND[1] - down
+    responses = (height * np.exp(-0.5 * (across**2 + along**2))).astype(np.float32)
+    observation = SimpleNamespace(k=kernels, shape=(120, 160))
+    window = SimpleNamespace(observation=observation, pixel_size=PIXEL_SIZE)
+    places = {"right": CELL_PIXELS * FOUND[0], "down": CELL_PIXELS * FOUND[1]}
+    return SimpleNamespace(window=window, first_responses=responses, **places)
+
+
+@pytest.mark.parametrize(("right", "down"), [(0.3, -0.2), (-0.4, 0.1), (0.0, 0.0)])
+def test_the_first_filters_peak_is_taken(kernels, right, down):
+    """A target that was found a little beside it moves to that peak, to a tenth of a cell; its size stays."""
+    moved = without_drift(TARGET, match(kernels, right, down))
+    assert moved.x - TARGET.x == pytest.approx(CELL * right, abs=0.1 * CELL)
+    assert moved.y - TARGET.y == pytest.approx(CELL * down, abs=0.1 * CELL)
+    assert moved[2:] == TARGET[2:]
+
+
+@pytest.mark.parametrize(("right", "down"), [(MAX_DRIFT + 0.2, 0.0), (0.0, -MAX_DRIFT - 0.2), (5.0, 5.0)])
+def test_a_peak_farther_off_is_not(kernels, right, down):
+    """What is farther off is no drift: the target stays."""
+    assert without_drift(TARGET, match(kernels, right, down)) is TARGET
+
+
+def test_a_low_peak_is_not(kernels):
+    """Where the first frame's filter hardly responds, it tells nothing."""
+    assert without_drift(TARGET, match(kernels, 0.3, 0.0, 1.2 * MIN_FIRST_RESPONSE)) is not TARGET
+    assert without_drift(TARGET, match(kernels, 0.3, 0.0, 0.8 * MIN_FIRST_RESPONSE)) is TARGET
+
+
+def test_the_center_stays_in_the_image(kernels):
+    """A target at the border isn't moved out."""
+    corner = Target(160.0, 0.0, 30.0, 40.0)
+    assert without_drift(corner, match(kernels, 0.4, -0.4))[:2] == (160.0, 0.0)
