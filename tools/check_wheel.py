@@ -7,9 +7,8 @@
 
 Read are the size, what is in it, what the extension exports and needs, and its hardening. Then the wheel is
 installed in a bare virtual environment, where the system's OpenCV, LAPACK, TBB, X11 and GL are hidden, and
-follows a target beside each cv2, loaded before and after it, all with the same bits. qemu-user, where it is
-installed, stands for older processors. There the kernels give the same bits, too (`make levels`), while NumPy
-and OpenCV, which the trackers and the probe also call, round as the processor can.
+follows a target beside each cv2, loaded before and after it, and on older processors, for which qemu-user
+stands where it is installed. Every run must give the same bits.
 """
 
 import argparse
@@ -184,9 +183,6 @@ assert np.allclose(theirs[..., 0] + 1j * theirs[..., 1], np.fft.fft2(plane), ato
 print(json.dumps({"loaded": loaded, "overlap": float(min(overlaps)), "bits": digest.hexdigest()}))
 """
 MIN_OVERLAP = 0.5
-MAX_ROUNDING = (
-    1e-9  # in an overlap: a few million times the last place, and far less than any other decision changes
-)
 
 
 def version_of(python: str) -> tuple[int, int]:
@@ -201,8 +197,8 @@ def install(python: str, wheel: Path, folder: Path) -> Path:
     """A bare environment with the wheel alone; its Python."""
     subprocess.run([python, "-m", "venv", "--clear", folder / "bare"], check=True)
     inside = folder / "bare" / "bin" / "python"
-    pip = [inside, "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
-    subprocess.run([*pip, "--no-deps", "--no-index", wheel], check=True)
+    pip = [str(inside), "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
+    subprocess.run([*pip, "--no-deps", "--no-index", str(wheel)], check=True)
     return inside
 
 
@@ -210,11 +206,11 @@ def folder_beside(inside: Path, beside: Beside, folder: Path) -> Path:
     """A folder with one cv2 and NumPy, which later checks find again."""
     target = folder / f"cv2-{beside.cv2.rstrip('.*')}"
     if not target.is_dir():
-        pip = [inside, "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
+        pip = [str(inside), "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
         what = [f"opencv-python-headless=={beside.cv2}", f"numpy{beside.numpy}"]
         part = target.with_name(target.name + ".part")  # which may be what an interrupted check has left
         shutil.rmtree(part, ignore_errors=True)
-        subprocess.run([*pip, "--only-binary=:all:", "--target", part, *what], check=True)
+        subprocess.run([*pip, "--only-binary=:all:", "--target", str(part), *what], check=True)
         part.rename(target)
     return target
 
@@ -273,15 +269,13 @@ def run_problems(python: str, wheel: Path) -> list[str]:
     folder = ROOT / "build" / "check-wheel" / "{}.{}".format(*version)
     folder.mkdir(parents=True, exist_ok=True)
     inside = install(python, wheel, folder)
-    problems, bits, overlaps = [], set(), []
+    problems, bits = [], set()
     for name, result in runs(inside, version, folder):
         print(f"  {name}: {result.get('error') or result['overlap']}", flush=True)
         if "error" in result:
             problems.append(f"{name}: {result['error']}")
             continue
-        if not name.startswith("processor"):
-            bits.add(result["bits"])
-        overlaps.append(result["overlap"])
+        bits.add(result["bits"])
         if result["overlap"] < MIN_OVERLAP:
             problems.append(f"{name}: expected overlaps of {MIN_OVERLAP} or more, got {result['overlap']}")
         problems += [
@@ -290,11 +284,7 @@ def run_problems(python: str, wheel: Path) -> list[str]:
             if not (path.is_relative_to(folder) or ALLOWED.fullmatch(path.name))
         ]
     if len(bits) > 1:
-        problems.append(f"expected the same bits beside every cv2, got {len(bits)} different tracks")
-    if overlaps and max(overlaps) - min(overlaps) > MAX_ROUNDING:
-        problems.append(
-            f"expected the same overlap on every processor, got {min(overlaps)} to {max(overlaps)}"
-        )
+        problems.append(f"expected the same bits in every run, got {len(bits)} different tracks")
     return problems
 
 
