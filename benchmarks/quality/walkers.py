@@ -25,12 +25,13 @@ from tricue.camera.box import Box
 from tricue.camera.frame import Frame
 from tricue.evaluation import metrics, one_pass
 from tricue.evaluation.dataset import Entry, OpenedSequence, ReadOptions, find_entries
+from tricue.evaluation.protocols import Order
 from tricue.evaluation.rows import clip_to_image
 
 from benchmarks.quality.common import sequences
 from benchmarks.quality.common.arguments import parser, seeds
 from benchmarks.quality.common.parallel import run_parallel
-from benchmarks.quality.common.protocols import PROTOCOLS, Order
+from benchmarks.quality.common.protocols import PROTOCOLS
 from benchmarks.quality.common.tables import Cell, markdown, mean, write_csv
 from benchmarks.quality.common.variants import Inputs, Variant, parse_variants
 from benchmarks.quality.rgbd_people import MIN_RIGHT_OVERLAP, jittered

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 from tricue.evaluation.dataset import Entry, OpenedSequence, find_entries
+from tricue.evaluation.protocols import Order
 
 from benchmarks.quality.common.frame_results import FrameResults
 from benchmarks.quality.common.parallel import run_parallel
-from benchmarks.quality.common.protocols import PROTOCOLS, Order, run_orders
+from benchmarks.quality.common.protocols import PROTOCOLS, run_orders
 from benchmarks.quality.common.recordings import Recording
 from benchmarks.quality.common.tables import mean
 from benchmarks.quality.common.variants import Variant

@@ -142,14 +142,3 @@ def any_tracker_names(text: str) -> list[str]:
     if found is None:
         return words(text)
     return [*(words(text[: found.start()]) if found.start() else ()), found[1]]
-
-
-def seconds(text: str) -> float:
-    """A number of seconds above 0."""
-    try:
-        found = float(text)
-    except ValueError:
-        found = 0.0
-    if not 0 < found < float("inf"):
-        raise argparse.ArgumentTypeError(f"expected seconds, a number above 0, got {text!r}")
-    return found

@@ -12,7 +12,6 @@ import math
 from collections.abc import Sequence
 from functools import lru_cache
 from itertools import accumulate
-from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
@@ -120,26 +119,7 @@ def _by_cluster(values: ArrayLike, clusters: Sequence[str]) -> tuple[Array, Arra
 
 def _tail(size: int) -> float:
     """The share of the draws beyond each end of the interval of a mean of ``size`` values."""
-    wide = math.sqrt(size / (size - 1)) * _student_quantile((1 + LEVEL) / 2, size - 1)
-    return NormalDist().cdf(-wide)
+    from scipy.stats import norm, t
 
-
-def _student_quantile(share: float, freedom: int) -> float:
-    """The quantile of Student's t above its median, by bisection."""
-    low, high = 0.0, 1e3
-    while high - low > 1e-12 * high:
-        middle = (low + high) / 2
-        low, high = (middle, high) if _student_cdf(middle, freedom) < share else (low, middle)
-    return high
-
-
-def _student_cdf(t: float, freedom: int) -> float:
-    """The distribution function of Student's t at t >= 0 (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4)."""
-    angle = math.atan(t / math.sqrt(freedom))
-    cosine, odd = math.cos(angle), freedom % 2
-    term = total = 0.0 if freedom == 1 else (cosine if odd else 1.0)
-    for k in range(2 + odd, freedom - 1, 2):
-        term *= cosine**2 * (k - 1) / k
-        total += term
-    inside = 2 / math.pi * (angle + math.sin(angle) * total) if odd else math.sin(angle) * total
-    return (1 + inside) / 2
+    wide = math.sqrt(size / (size - 1)) * t.ppf((1 + LEVEL) / 2, size - 1)
+    return float(norm.cdf(-wide))

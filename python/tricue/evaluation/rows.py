@@ -2,6 +2,7 @@
 """Runs in numbers: one row per run, and means over seeds and sequences."""
 
 import dataclasses
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
@@ -182,7 +183,7 @@ def pooled_auroc(runs: Sequence[ScoredRun]) -> float:
 def measure_speed(opened: OpenedSequence, tracker: str, seed: int, run: Run, kind: str = ONE_PASS) -> Speed:
     """The update times of a run; NaN where none are known."""
     if not run.seconds.size:
-        return Speed(opened.entry.name, tracker, seed, *[float("nan")] * 3, kind)
+        return Speed(opened.entry.name, tracker, seed, math.nan, math.nan, math.nan, kind)
     p50, p99 = np.percentile(run.seconds * 1e3, [50, 99])
     return Speed(opened.entry.name, tracker, seed, run.frames_per_second, float(p50), float(p99), kind)
 
