@@ -23,7 +23,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import Run, run
 from tricue.scenes import face_over_clutter, head, overtaking, stress_scene, walker
 
-from tools.pages import with_section
+from tools.page_sections import with_section
 
 Size = tuple[int, int]
 SIZES: tuple[Size, ...] = ((160, 120), (320, 240), (640, 480), (1280, 720), (1920, 1080))

@@ -23,7 +23,7 @@ import cv2
 import numpy as np
 from tricue.draw.video import OverlayWriter
 
-from tools.pages import with_section
+from tools.page_sections import with_section
 
 PAGE = Path(__file__).parents[1] / "docs" / "reliability.md"
 FRAMES, SIZE = 150, (320, 240)

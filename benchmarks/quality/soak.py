@@ -30,7 +30,7 @@ from tricue.evaluation import metrics
 from tricue.evaluation.one_pass import one_thread
 
 from benchmarks.frame_size import FRAMES, Case, cases
-from tools.pages import with_section
+from tools.page_sections import with_section
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "build" / "soak"

@@ -63,7 +63,7 @@ class WalkersResult(NamedTuple):
 
     tracker: str
     sequence: str
-    start: float
+    start: str
     way: str
     seed: int
     iou: float
@@ -162,7 +162,7 @@ def run(
     return WalkersResult(
         task.variant.label,
         task.entry.name,
-        order.start,
+        f"{order.start:g}",
         "backward" if order.backward else "forward",
         seed,
         mean(known),

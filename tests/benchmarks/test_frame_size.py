@@ -14,7 +14,7 @@ from tricue.evaluation.one_pass import run
 from tricue.track.base import registry
 
 from benchmarks import frame_size, large_frames
-from tools.pages import with_section
+from tools.page_sections import with_section
 
 ROOT = Path(__file__).parents[2]
 MAX_BYTES_AT_START = 30  # per pixel of a pair: corners are looked for in all of it, once

@@ -181,7 +181,7 @@ def test_parameters_of_trackers_are_set_by_name(dataset, tmp_path):
             "fractions:Fraction: TypeError: Fraction: expected a class with",
         ),
         (["--results", "theirs"], "--results: expected NAME=FOLDER, got 'theirs'"),
-        (["--time-limit", "-3"], "expected seconds, a number above 0, got '-3'"),
+        (["--time-limit", "-3"], "expected seconds above 0, got '-3'"),
         (["--jobs", "0"], "expected a whole number above 0, got '0'"),
         (["--jobs", "2", "--scheduler", "tcp://127.0.0.1:9"], "not allowed with"),
         (["--depth-scale", "-1"], "depth_scale"),
@@ -215,7 +215,7 @@ def test_a_sequence_that_cannot_be_read_is_told_and_the_exit_code_is_1(tmp_path,
 
 @pytest.mark.parametrize(
     ("missing", "options"),
-    [("matplotlib.figure", []), ("joblib", ["--jobs", "2"]), ("distributed", ["--scheduler", "x"])],
+    [("matplotlib.figure", []), ("joblib.externals.loky", ["--jobs", "2"]), ("distributed", ["--scheduler", "x"])],
 )
 def test_a_missing_extra_is_told_before_anything_runs(
     dataset, tmp_path, capsys, monkeypatch, missing, options

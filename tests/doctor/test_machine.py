@@ -61,5 +61,5 @@ def test_a_port_that_is_taken(monkeypatch):
 
 def test_the_port_is_that_of_tricue_open():
     """It is written down twice, as doctor imports nothing else."""
-    serve = pytest.importorskip("tricue.app.serve", reason="needs tricue[app]")
-    assert (machine.ADDRESS, machine.PORT) == (serve.ADDRESS, serve.DEFAULT_PORT)
+    local_server = pytest.importorskip("tricue.app.local_server", reason="needs tricue[app]")
+    assert (machine.ADDRESS, machine.PORT) == (local_server.ADDRESS, local_server.DEFAULT_PORT)

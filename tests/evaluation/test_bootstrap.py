@@ -143,9 +143,3 @@ def test_few_clusters_have_no_interval():
     assert not Interval(0.2, math.nan, math.nan).known
     with pytest.raises(ValueError, match="expected a number for each of 0 names"):
         mean_interval([], [])
-
-
-@pytest.mark.parametrize("freedom", [1, 2, 5, 6, 29, 100])
-def test_the_quantile_is_students(freedom):
-    """That of SciPy's t distribution, to ten digits."""
-    assert bootstrap._student_quantile(0.975, freedom) == pytest.approx(stats.t.ppf(0.975, freedom), rel=1e-9)

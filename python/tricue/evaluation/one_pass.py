@@ -22,7 +22,7 @@ _NO_TRACK = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
 class AnyTracker(Protocol):
     """What can be evaluated: every tricue tracker, the baselines, and others' trackers.
 
-    One that runs in another process has an attribute ``seconds``, the time of its last update, measured
+    One that runs in another process has an attribute ``update_seconds``, the time of its last update, measured
     there. One that may fail has an attribute ``error``, "" until then.
     """
 
@@ -107,7 +107,7 @@ class RunLog:
         track = tracker.update(frame)
         seconds = perf_counter() - start
         if not getattr(tracker, "error", ""):
-            there = getattr(tracker, "seconds", None)
+            there = getattr(tracker, "update_seconds", None)
             self.seconds.append(seconds if there is None else there)
         self.tracks.append(track)
         return track

@@ -151,9 +151,9 @@ class SafeTracker:
         self._tracker = tracker
 
     @property
-    def seconds(self) -> float | None:
+    def update_seconds(self) -> float | None:
         """Of the last update, where the tracker measures them itself."""
-        return getattr(self._tracker, "seconds", None)
+        return getattr(self._tracker, "update_seconds", None)
 
     def init(self, frame: Frame, box: Box) -> Track:
         """The tracker's, or a track without a box."""

@@ -214,7 +214,7 @@ def test_a_stream_that_never_starts(chromium: Any, opened: Callable[..., Any], c
     camera.stop()
     server = opened()
     tab = Tab(chromium, server.url)
-    assert re.match("Waiting for http://127", tab.page.locator("#hint").inner_text())
+    tab.page.locator("#hint", has_text="Waiting for http://127").wait_for()
     tab.page.locator("#problem").wait_for()
     assert "no image within 10 s" in tab.page.locator("#problem").inner_text()
     assert "is the address right?" in server.process.stdout.readline()

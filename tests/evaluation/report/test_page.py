@@ -140,7 +140,7 @@ def test_the_command_runs_the_same(options):
     trackers = tuple(found.trackers) if found.trackers else None
     settings = settings_by_tracker(found.set)
     restarts, protocols = chosen_protocols(found)
-    assert options == Options(trackers, settings, found.seeds, restarts, reading, protocols)
+    assert options == Options(trackers, settings, found.seeds, restarts, reading, protocols=protocols)
 
 
 def test_matplotlib_is_asked_for(evaluation, about, tmp_path, monkeypatch):

@@ -75,7 +75,7 @@ class Host:
         track = self._tracker.update(frame)
         seconds = time.perf_counter() - start
         if self._place.startswith(TRAX):
-            seconds = self._tracker.seconds  # without the images' writing
+            seconds = self._tracker.update_seconds  # without the images' writing
         return _to_plain(track, "update"), seconds
 
     def close(self) -> None:

@@ -108,14 +108,14 @@ def no_answer(limit: float) -> str:
 
 
 class RemoteTracker:
-    """A tracker in a process, with the interface of those here. seconds: of the last update, measured there.
+    """A tracker in a process, with the interface of those here. update_seconds: of the last one, measured there.
 
     WorkerError for whatever goes wrong.
     """
 
     def __init__(self, process: WorkerProcess, keywords: Mapping[str, Any], seed: int) -> None:
         self._process = process
-        self.seconds = 0.0
+        self.update_seconds = 0.0
         process.load("make", keywords, seed)
 
     def init(self, frame: Frame, box: Box) -> Track:
@@ -124,7 +124,7 @@ class RemoteTracker:
 
     def update(self, frame: Frame) -> Track:
         """Follow the target into the next frame."""
-        plain, self.seconds = self._process.ask("update", frame)
+        plain, self.update_seconds = self._process.ask("update", frame)
         return from_plain(plain)
 
 

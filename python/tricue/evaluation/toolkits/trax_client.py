@@ -42,7 +42,7 @@ class TraxProgram:
         self._folder = tempfile.TemporaryDirectory(prefix="tricue-trax-")
         self._box = Box(0, 0, 0, 0)
         self._connection: _Connection | None = None
-        self.seconds = 0.0
+        self.update_seconds = 0.0
         """Of the last update."""
 
     def init(self, frame: Frame, box: Box) -> Track:
@@ -57,7 +57,7 @@ class TraxProgram:
         images = self._images(frame)
         start = time.perf_counter()
         state = self._connection.frame(images)
-        self.seconds = time.perf_counter() - start
+        self.update_seconds = time.perf_counter() - start
         return self._track(state, self._box)
 
     def close(self) -> None:
