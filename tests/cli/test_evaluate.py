@@ -215,7 +215,11 @@ def test_a_sequence_that_cannot_be_read_is_told_and_the_exit_code_is_1(tmp_path,
 
 @pytest.mark.parametrize(
     ("missing", "options"),
-    [("matplotlib.figure", []), ("joblib.externals.loky", ["--jobs", "2"]), ("distributed", ["--scheduler", "x"])],
+    [
+        ("matplotlib.figure", []),
+        ("joblib.externals.loky", ["--jobs", "2"]),
+        ("distributed", ["--scheduler", "x"]),
+    ],
 )
 def test_a_missing_extra_is_told_before_anything_runs(
     dataset, tmp_path, capsys, monkeypatch, missing, options

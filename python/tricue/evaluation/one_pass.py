@@ -22,8 +22,8 @@ _NO_TRACK = Track(Box(0, 0, 1, 1), 0.0, Status.LOST)
 class AnyTracker(Protocol):
     """What can be evaluated: every tricue tracker, the baselines, and others' trackers.
 
-    One that runs in another process has an attribute ``update_seconds``, the time of its last update, measured
-    there. One that may fail has an attribute ``error``, "" until then.
+    One that runs in another process has an attribute ``update_seconds``, of its last update, measured there.
+    One that may fail has an attribute ``error``, "" until then.
     """
 
     def init(self, frame: Frame, box: Box) -> Track: ...

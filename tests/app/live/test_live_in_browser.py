@@ -4,7 +4,6 @@
 import csv
 import io
 import os
-import re
 import shutil
 import signal
 from collections.abc import Callable, Iterator

@@ -108,7 +108,7 @@ def no_answer(limit: float) -> str:
 
 
 class RemoteTracker:
-    """A tracker in a process, with the interface of those here. update_seconds: of the last one, measured there.
+    """A tracker in a process, with the interface of those here. update_seconds: measured there.
 
     WorkerError for whatever goes wrong.
     """
