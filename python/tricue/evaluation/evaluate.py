@@ -47,7 +47,8 @@ class Options:
     installed. settings: parameters that aren't the defaults, by trackers' names. seeds: runs of those that
     draw random numbers. restarts: whether to run each with restarts, too. reading: how the data set's files
     are read. results: folders of others' results, NAME=FOLDER. time_limit: seconds for an update of a tracker
-    that isn't ours. protocols: names of those that are run beside one pass, see :mod:`protocols`.
+    that isn't ours. protocols: names of those that are run beside one pass, see
+    :mod:`tricue.evaluation.protocols`.
     """
 
     trackers: tuple[str, ...] | None = None
