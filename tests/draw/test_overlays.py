@@ -152,3 +152,13 @@ def test_the_position_is_written() -> None:
             assert changed[:, 0].max() < 80
         texts.append(drawn)
     assert not np.array_equal(*texts)
+
+
+def test_no_note_leaves_the_picture_as_it_is():
+    """Nothing is darkened where a second line of text would be."""
+    bright = np.full((480, 640, 3), 200, np.uint8)
+    without, status_rows = overlay(bright, track(), note=""), slice(0, 100)
+    noted = overlay(bright, track(), note="a note")
+    darkened = [(picture[status_rows] < 100).any(axis=(1, 2)).sum() for picture in (without, noted)]
+    assert darkened[0] < darkened[1]
+    assert (without[30:100] == 200).all()

@@ -81,10 +81,13 @@ def choose_font_scale(canvas: Image) -> float:
 
 
 def put_text(canvas: Image, text: str, position: tuple[int, int], color: Color) -> None:
-    """Write outlined text whose baseline begins at (x, y), pixels, or farther left so that it fits.
+    """Write outlined text whose baseline begins at (x, y), pixels, or farther left so that it fits; no text
+    leaves the picture as it is.
 
     The picture is darker behind it, so that it can be read on clutter, too.
     """
+    if not text:
+        return
     size = choose_font_scale(canvas)
     (width, height), below = cv2.getTextSize(text, _FONT, size, 1)
     x, y = max(0, min(position[0], canvas.shape[1] - width - 2)), position[1]
