@@ -117,7 +117,7 @@ wheel: $(WHEEL_TOOLS)/bin/auditwheel
 	rm -rf build/wheels dist/tricue-*.whl
 	for python in $(WHEEL_PYTHONS); do \
 	    tools/system-packages $$python && \
-	    SKBUILD_BUILD_DIR='build/static-{wheel_tag}' $(WHEEL_TOOLS)/bin/python -m pip --disable-pip-version-check --python $$python \
+	    SKBUILD_BUILD_DIR='build/static-{wheel_tag}' $(WHEEL_TOOLS)/bin/python -m pip --disable-pip-version-check --python $$(command -v $$python) \
 	        wheel --quiet --no-deps --wheel-dir build/wheels --config-settings=cmake.define.TRICUE_STATIC_OPENCV=ON . || exit 1; \
 	done
 	PATH=$(CURDIR)/$(WHEEL_TOOLS)/bin:$$PATH auditwheel repair --wheel-dir dist build/wheels/*.whl
