@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 ROOT = Path(__file__).parents[1]
 MAX_BYTES = 6_000_000
 # Of the system, as manylinux has it.
-ALLOWED = re.compile(r"(ld-linux[-\w]*|libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s)\.so\.\d+")
+ALLOWED = re.compile(r"(ld-linux[-\w]*|libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s)\.so(\.\d+)+")
 BROUGHT = re.compile(r"libtbb-\w+\.so[.\d]*")
 HIDDEN = re.compile(r"lib(opencv_|lapack|blas|cblas|openblas|gfortran|quadmath|tbb|X11|xcb|GL|EGL|OpenGL)")
 SYSTEM_LIBRARIES = ("/usr/lib", "/usr/lib64", "/usr/local/lib")
