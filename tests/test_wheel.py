@@ -81,6 +81,13 @@ def test_what_is_wrong_with_a_wheel_is_named(
     assert "unexpected file tricue.libs/liblapack-1.so.3" in check_wheel.content_problems(names)
 
 
+@pytest.mark.parametrize("name", ["libstdc++.so.6", "libstdc++.so.6.0.30", "ld-linux-x86-64.so.2"])
+def test_the_system_s_libraries_are_known_by_name_and_by_file(check_wheel: ModuleType, name: str) -> None:
+    """The extension needs the name; the process has loaded the file."""
+    assert check_wheel.ALLOWED.fullmatch(name)
+    assert not check_wheel.ALLOWED.fullmatch("libopencv_core.so.406")
+
+
 def test_exports_its_init_alone(check_wheel: ModuleType) -> None:
     """No other library can meet what is linked into the extension."""
     if shutil.which("readelf") is None or "sanitized" in _core.__file__:
