@@ -122,13 +122,14 @@ std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth
     const auto lens = vector(camera, "camera");
     const auto floor = vector(plane, "plane");
     const auto [x0, y0, x1, y1] = measured;
+    const Region region{x0, y0, x1, y1};
     const auto [near, far, count] = levels;
     const Divisions divisions{{near, far, count}, edges.first,    edges.second,
                               density.first,      density.second, min_area};
     const auto [border, beside, nearer, share] = cut;
     const Cut sides{border, beside, nearer, share};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
-        return segment_depth(meters, mask, lens, floor, {x0, y0, x1, y1}, divisions, sides,
+        return segment_depth(meters, mask, lens, floor, region, divisions, sides,
                              {standing.first, standing.second});
     });
     return {give(std::move(found.measured)), give(std::move(found.cut)), give(std::move(found.columns)),
