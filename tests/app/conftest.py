@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Videos whose frames tell their numbers, and a tracker for sessions."""
 
+import os
+import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -17,7 +19,21 @@ from tricue.data.open_source import open_source
 
 FRAMES, WIDTH, HEIGHT = 60, 160, 120
 START = Box(20, 40, 40, 40)
+CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
 HIDDEN = range(30, 40)  # frames in which the square of moving() isn't there
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Any]:
+    """A headless Chromium; TRICUE_CHROMIUM names another than that on the path."""
+    playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
+    found = os.environ.get("TRICUE_CHROMIUM") or next(filter(None, map(shutil.which, CHROMIUMS)), None)
+    if found is None:
+        pytest.skip("needs chromium: apt-get install chromium")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield browser
+        browser.close()
 
 
 def moving(count: int = FRAMES) -> list[NDArray[np.uint8]]:

@@ -3,9 +3,7 @@
 
 import csv
 import io
-import os
 import re
-import shutil
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -21,18 +19,6 @@ playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
 LAPTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
 PATIENCE = 60_000  # milliseconds that a busy machine may take
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    """A headless Chromium; TRICUE_CHROMIUM names another than that on the path."""
-    found = os.environ.get("TRICUE_CHROMIUM") or next(filter(None, map(shutil.which, CHROMIUMS)), None)
-    if found is None:
-        pytest.skip("needs chromium: apt-get install chromium")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 def asks_to_track(response: Any) -> bool:

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 from starlette.concurrency import run_in_threadpool
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 
 from tricue.app.exports import picture
 from tricue.app.project import Target
 from tricue.app.runs import Run
 from tricue.app.serving import Serving
-from tricue.app.web import jpeg
+from tricue.app.web import jpeg, talk
 from tricue.track.base.track import Status, Track
 
 LIVE_INTERVAL = 0.08  # seconds between what a page is told of a run
@@ -24,15 +24,7 @@ STATUSES = tuple(Status)
 async def tell_page(serving: Serving, socket: WebSocket) -> None:
     """Tell a page what is new, until it is closed."""
     await socket.accept()
-    page = _Page(serving, socket)
-    serving_changes = asyncio.create_task(page.tell())
-    try:
-        while True:
-            page.hear(await socket.receive_json())
-    except (WebSocketDisconnect, RuntimeError, ValueError, KeyError, TypeError):
-        pass
-    finally:
-        serving_changes.cancel()
+    await talk(_Page(serving, socket), socket)
 
 
 class _Page:

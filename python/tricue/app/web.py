@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """What the local servers share: their page's files, who may ask, commands, pictures as JPEG, downloads."""
 
+import asyncio
 import hmac
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 from urllib.parse import quote, urlsplit
 
 import cv2
@@ -13,6 +14,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from tricue.errors import one_line
 
@@ -29,6 +31,26 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+
+
+class Page(Protocol):
+    """A page that is told what is new, and says what it has shown."""
+
+    async def tell(self) -> None: ...
+
+    def hear(self, message: Any) -> None: ...
+
+
+async def talk(page: Page, socket: WebSocket) -> None:
+    """Tell a page what is new, and hear it, until it is closed."""
+    telling = asyncio.create_task(page.tell())
+    try:
+        while True:
+            page.hear(await socket.receive_json())
+    except (WebSocketDisconnect, RuntimeError, ValueError, KeyError, TypeError):
+        pass
+    finally:
+        telling.cancel()
 
 
 class OwnPagesOnly:

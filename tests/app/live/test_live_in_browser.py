@@ -3,8 +3,6 @@
 
 import csv
 import io
-import os
-import shutil
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -33,18 +31,6 @@ class SquareServer(MjpegServer):
         while not self._stopped.wait(1 / self.fps):
             yield cv2.imencode(".jpg", IMAGES[level(number)], [cv2.IMWRITE_JPEG_QUALITY, 95])[1].tobytes()
             number += 1
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    """A headless Chromium; TRICUE_CHROMIUM names another than that on the path."""
-    found = os.environ.get("TRICUE_CHROMIUM") or next(filter(None, map(shutil.which, CHROMIUMS)), None)
-    if found is None:
-        pytest.skip("needs chromium: apt-get install chromium")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -251,7 +251,7 @@ def test_names_and_places(text, name, place):
         ((f"{ODD}:Nobody",), "odd_trackers.py has no Nobody"),
         ((f"{ODD}:ODD",), "expected a class with init and update, got int"),
         (("/nowhere/x.py:Class",), "/nowhere/x.py: there is no such file"),
-        (("nobodys.module:Class",), "there is no module nobodys"),
+        (("missing.module:Class",), "there is no module missing"),
         ((f"still-box={ODD}:Still",), "expected another name than 'still-box', which is taken"),
     ],
 )

@@ -13,13 +13,13 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 
 from tricue.app.exports import picture
 from tricue.app.feed import as_row
 from tricue.app.live.session import LiveSession, Shown
 from tricue.app.local_server import Served
-from tricue.app.web import HEADERS, OwnPagesOnly, answer, attached, bound, jpeg, page_of
+from tricue.app.web import HEADERS, OwnPagesOnly, answer, attached, bound, jpeg, page_of, talk
 
 INTERVAL = 0.04  # seconds between what a page is told
 
@@ -120,14 +120,9 @@ async def _tell_page(serving: LiveServing, socket: WebSocket) -> None:
     """Tell a page what is new, until it is closed."""
     await socket.accept()
     page = _Page(serving, socket)
-    telling = asyncio.create_task(page.tell())
     try:
-        while True:
-            page.hear(await socket.receive_json())
-    except (WebSocketDisconnect, RuntimeError, ValueError, KeyError, TypeError):
-        pass
+        await talk(page, socket)
     finally:
-        telling.cancel()
         serving.session.hold(page, None)
 
 

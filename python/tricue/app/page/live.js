@@ -5,6 +5,7 @@ import { LiveModel } from "./live_model.js";
 import { command, listen } from "./link.js";
 import { LOST, NONE, STATUS_NAMES } from "./model.js";
 import { Stage } from "./stage.js";
+import { listTargets } from "./target_list.js";
 import { complain } from "./toasts.js";
 
 const get = (id) => document.getElementById(id);
@@ -127,22 +128,7 @@ function label(id, text, icon) {
 
 function updateTargets() {
   const { state } = model;
-  const items = state.targets.map((target, index) => {
-    const item = document.createElement("li"), button = document.createElement("button");
-    const swatch = document.createElement("i"), name = document.createElement("b"), now = document.createElement("span");
-    swatch.style.background = model.color(target.id);
-    name.textContent = target.name;
-    button.append(swatch, name, now);
-    button.dataset.target = target.id;
-    button.title = index < 9 ? `Choose (${index + 1})` : "Choose";
-    button.setAttribute("aria-pressed", target.id === model.chosen);
-    button.addEventListener("click", () => model.choose(target.id));
-    item.append(button);
-    return item;
-  });
-  const focused = document.activeElement?.dataset?.target;
-  get("targets").replaceChildren(...items);
-  if (focused) get("targets").querySelector(`[data-target="${focused}"]`)?.focus();
+  listTargets(get("targets"), model);
   const target = model.target();
   get("target-name").closest("div").hidden = !target;
   if (document.activeElement !== get("target-name")) get("target-name").value = target?.name ?? "";

@@ -3,6 +3,7 @@
 
 import { LOST, NONE, OCCLUDED, STATUS_NAMES, clock } from "./model.js";
 import { drawPath, hasPath } from "./path.js";
+import { listTargets } from "./target_list.js";
 
 const VIEW_INTERVAL = 200; // milliseconds between pictures of another channel
 const get = (id) => document.getElementById(id);
@@ -53,23 +54,7 @@ export class Panel {
   }
 
   #updateList() {
-    const { model } = this;
-    const items = model.state.targets.map((target, index) => {
-      const item = document.createElement("li"), button = document.createElement("button");
-      const swatch = document.createElement("i"), name = document.createElement("b"), now = document.createElement("span");
-      swatch.style.background = model.color(target.id);
-      name.textContent = target.name;
-      button.append(swatch, name, now);
-      button.dataset.target = target.id;
-      button.title = index < 9 ? `Choose (${index + 1})` : "Choose";
-      button.setAttribute("aria-pressed", target.id === model.chosen);
-      button.addEventListener("click", () => model.choose(target.id));
-      item.append(button);
-      return item;
-    });
-    const focused = document.activeElement?.dataset?.target;
-    get("targets").replaceChildren(...items);
-    if (focused) get("targets").querySelector(`[data-target="${focused}"]`)?.focus();
+    listTargets(get("targets"), this.model);
     this.#updateNow();
   }
 
