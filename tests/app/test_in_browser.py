@@ -7,6 +7,7 @@ import re
 import signal
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,14 +17,8 @@ from tests.app.conftest import FRAMES, HEIGHT, START, WIDTH
 from tests.app.test_serve import Server, saved
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
-CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
 LAPTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
 PATIENCE = 60_000  # milliseconds that a busy machine may take
-
-
-def asks_to_track(response: Any) -> bool:
-    """Whether it answers the command to track."""
-    return '"do":"track"' in (response.request.post_data or "")
 
 
 class Tab:
@@ -66,16 +61,26 @@ class Tab:
         mouse.move(*self.place(*end))
         mouse.up()
 
-    def draw(self, x: float, y: float, width: float, height: float) -> None:
-        self.drag((x, y), (x + width, y + height))
+    def draw(self, x: float, y: float, width: float, height: float, command: str = "add") -> None:
+        """Draw a box: of a new target, or with the command "draw" of the one that is chosen."""
+        with self.done(command):
+            self.drag((x, y), (x + width, y + height))
+        self.page.locator("#targets button[aria-pressed=true]").wait_for()
 
     def key(self, name: str) -> None:
         self.page.keyboard.press(name)
 
     def track(self, button: str = "#track") -> None:
         """Press the button, and wait until the run has ended."""
-        with self.page.expect_response(asks_to_track):
+        with self.done("track"):
             self.page.click(button)
+
+    @contextmanager
+    def done(self, command: str) -> Iterator[None]:
+        """What the page is made to send in it is answered, done and known to the page when it ends."""
+        asked = f'"do":"{command}"'
+        with self.page.expect_response(lambda answer: asked in (answer.request.post_data or "")):
+            yield
         self.settled()
 
     def settled(self) -> None:
@@ -126,7 +131,6 @@ def followed(server: Server, open_tab: Callable[..., Tab]) -> Tab:
     tab = open_tab(server.url)
     assert tab.page.locator("#hint").inner_text() == "Drag a box around what to follow"
     tab.draw(*START)
-    tab.page.locator("#targets button", has_text="Target 1").wait_for()
     tab.track()
     tab.shows(FRAMES - 1)
     return tab
@@ -150,8 +154,7 @@ def test_lost_target_is_corrected(server: Server, followed: Tab) -> None:
     for _ in range(10):
         tab.key("ArrowLeft")
     tab.shows(FRAMES - 11)
-    tab.draw(START.x + 45, START.y - 4, 46, 46)  # beside its box, which a drag would move
-    tab.page.locator("#saved", has_text="saved").wait_for()
+    tab.draw(START.x + 45, START.y - 4, 46, 46, "draw")  # beside its box, which a drag would move
     assert server.state()["targets"][0]["drawn"] == [0, FRAMES - 11]
     tab.track("#track-back")
     tab.shows(1)
@@ -206,11 +209,9 @@ def test_several_targets(server: Server, open_tab: Callable[..., Tab]) -> None:
     tab = open_tab(server.url)
     page = tab.page
     tab.draw(*START)
-    page.locator("#targets button", has_text="Target 1").wait_for()
     tab.key("n")
     page.select_option("#target-tracker", "color-particle")
     tab.draw(100, 10, 30, 25)
-    page.locator("#targets button", has_text="Target 2").wait_for()
     page.fill("#target-name", "Corner")
     page.keyboard.press("Enter")
     page.locator("#targets button", has_text="Corner").wait_for()
@@ -233,12 +234,10 @@ def test_box_is_moved_and_resized(server: Server, open_tab: Callable[..., Tab]) 
     """Dragging inside the chosen box moves it, dragging a corner changes its size."""
     tab = open_tab(server.url)
     tab.draw(*START)
-    tab.page.locator("#targets button", has_text="Target 1").wait_for()
-    tab.drag((40, 60), (50, 65))
-    tab.page.wait_for_timeout(200)
-    tab.drag((70, 85), (80, 95))
-    tab.page.wait_for_timeout(200)
-    tab.settled()
+    with tab.done("draw"):
+        tab.drag((40, 60), (50, 65))
+    with tab.done("draw"):
+        tab.drag((70, 85), (80, 95))
     (row,) = tab.rows()
     assert [float(row[name]) for name in ("x", "y", "width", "height")] == pytest.approx(
         [30, 45, 50, 50], abs=2
@@ -256,9 +255,8 @@ def test_keyboard_alone(server: Server, open_tab: Callable[..., Tab]) -> None:
         page.keyboard.type(f"{value:g}")
     tab.key("Enter")
     page.locator("#targets button", has_text="Target 1").wait_for()
-    with page.expect_response(asks_to_track):
+    with tab.done("track"):
         tab.key("t")
-    tab.settled()
     tab.shows(FRAMES - 1)
     for key, frame in (
         ("Home", 0),
@@ -292,7 +290,6 @@ def test_timeline_is_a_slider(server: Server, open_tab: Callable[..., Tab]) -> N
     """A click on the timeline goes there; a screen reader hears frame, time and status."""
     tab = open_tab(server.url)
     tab.draw(*START)
-    tab.page.locator("#targets button", has_text="Target 1").wait_for()
     tab.track()
     line = tab.page.locator("#timeline")
     width = line.bounding_box()["width"]
@@ -311,7 +308,6 @@ def test_page_fits_and_reads(
     tab = open_tab(server.url, size, touch=size is PHONE)
     tab.page.emulate_media(color_scheme=scheme)
     tab.draw(*START)
-    tab.page.locator("#targets button", has_text="Target 1").wait_for()
     assert tab.page.evaluate("document.documentElement.scrollWidth") <= size["width"]
     picture = tab.page.locator("#picture").bounding_box()
     assert picture["width"] >= 0.75 * size["width"]
@@ -393,7 +389,6 @@ def test_errors_are_said(server: Server, open_tab: Callable[..., Tab], video: Pa
     """What can't be done is said in the page, in one line."""
     tab = open_tab(server.url)
     tab.draw(*START)
-    tab.page.locator("#targets button", has_text="Target 1").wait_for()
     video.unlink()
     tab.key("t")
     said = tab.page.locator(".toast")
@@ -417,7 +412,6 @@ def test_overlay_video_is_downloaded(server: Server, open_tab: Callable[..., Tab
     """The button writes the video and the browser gets it when it is whole."""
     tab = open_tab(server.url)
     tab.draw(*START)
-    tab.page.locator("#targets button", has_text="Target 1").wait_for()
     tab.page.click("#export")
     with tab.page.expect_download() as download:
         tab.page.click("#video")

@@ -18,7 +18,6 @@ from tests.app.test_serve import Server
 from tests.data.mjpeg_server import MjpegServer
 
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright: pip install playwright")
-CHROMIUMS = ("chromium", "chromium-browser", "google-chrome")
 LAPTOP, PHONE = {"width": 1280, "height": 800}, {"width": 390, "height": 844}
 PATIENCE = 60_000  # milliseconds that a busy machine may take
 
