@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -165,6 +166,14 @@ inline Bgr bgr(const py::object& object, const char* name) {
         throw py::value_error(std::string(name) + ": expected " + expected + ", got " + describe(array));
     const auto* data = contiguous<std::uint8_t>(array, name);
     return {data[0], data[1], data[2]};
+}
+
+/// Factors of blue, green and red.
+inline std::array<double, 3> channel_gains(const Array<double>& gains) {
+    const auto each = vector(gains, "gains");
+    if (each.size() != 3)
+        throw py::value_error("gains: expected float64 (3,), got (" + std::to_string(each.size()) + ",)");
+    return {each[0], each[1], each[2]};
 }
 
 /// Runs a kernel, without the GIL where it has enough work, in pixels or numbers to go through: to hand the GIL over and get it

@@ -5,11 +5,13 @@
 #include <optional>
 
 #include "arrays.hpp"
+#include "cues/color/best_ellipse.hpp"
 #include "cues/color/color_bins.hpp"
 #include "cues/color/ellipse_histogram.hpp"
 #include "cues/color/ellipse_search.hpp"
 #include "cues/color/histogram_mean.hpp"
 #include "cues/color/image_mean.hpp"
+#include "cues/color/learn_histogram.hpp"
 #include "cues/color/shift_histogram.hpp"
 #include "kernel_docs.hpp"
 
@@ -28,13 +30,6 @@ Array<double> image_mean_array(const Array<std::uint8_t>& image, int step) {
     const auto view = color_image(image, "image");
     return give(unlocked(std::ptrdiff_t{view.rows} * view.cols / std::max(step, 1),
                          [&] { return image_mean(view, step); }));
-}
-
-std::array<double, 3> channel_gains(const Array<double>& gains) {
-    const auto each = vector(gains, "gains");
-    if (each.size() != 3)
-        throw py::value_error("gains: expected float64 (3,), got (" + std::to_string(each.size()) + ",)");
-    return {each[0], each[1], each[2]};
 }
 
 Array<std::uint16_t> color_bins_arrays(const Array<std::uint8_t>& image, const Corners& region,
@@ -89,10 +84,42 @@ Array<double> ellipse_search_arrays(const Array<std::uint16_t>& bins, const Arra
     return give(std::move(found), {rows, cols, 4});
 }
 
+using Weights = std::tuple<double, double, double>;
+
+std::tuple<int, int, double, double, double, Array<double>> best_ellipse_arrays(
+    const Array<std::uint16_t>& bins, const Array<double>& ellipse, const Triple& grid,
+    const Array<double>& model, double margin, const Array<std::uint8_t>& mask, const Weights& weights,
+    int min_marked) {
+    const auto view = bins_image(bins);
+    const auto numbers = vector(ellipse, "ellipse");
+    const auto [rows, cols, step] = grid;
+    const SearchGrid places{rows, cols, step};
+    const SearchModel target{vector(model, "model"), margin};
+    const auto marks = mask_image(mask, "mask");
+    const auto [ring, depth, depth_ring] = weights;
+    const ScoreWeights terms{ring, depth, depth_ring};
+    auto found = unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] {
+        return best_ellipse(view, numbers, places, target, marks, terms, min_marked);
+    });
+    return {found.row,          found.col,    found.score,
+            found.intersection, found.marked, give(std::move(found.histogram))};
+}
+
 Array<double> histogram_mean_arrays(const Array<double>& histogram, const Triple& bins, int chroma) {
     const auto masses = vector(histogram, "histogram");
     const ColorSpace space = color_space(bins, chroma);
     return give(unlocked(masses.size(), [&] { return histogram_mean(masses, space); }));
+}
+
+std::tuple<Array<double>, Array<double>, Array<double>> learn_histogram_arrays(
+    const Array<double>& histogram, const Array<double>& measured, double rate, const Array<double>& first,
+    double weight, const Triple& bins, int chroma) {
+    const auto before = vector(histogram, "histogram"), seen = vector(measured, "measured");
+    const FirstColors kept{vector(first, "first"), weight};
+    const ColorSpace space = color_space(bins, chroma);
+    auto learned = unlocked(before.size(), [&] { return learn_histogram(before, seen, rate, kept, space); });
+    return {give(std::move(learned.histogram)), give(std::move(learned.model)),
+            give(std::move(learned.color))};
 }
 
 Array<double> shift_histogram_arrays(const Array<double>& histogram, const Triple& bins, int chroma,
@@ -113,8 +140,14 @@ void define_color_search(py::module_& m) {
           py::arg("size"), py::arg("margin"), py::arg("mask") = py::none(), docs::ellipse_histogram);
     m.def("ellipse_search", ellipse_search_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
           py::arg("model"), py::arg("margin"), py::arg("mask"), docs::ellipse_search);
+    m.def("best_ellipse", best_ellipse_arrays, py::arg("bins"), py::arg("ellipse"), py::arg("grid"),
+          py::arg("model"), py::arg("margin"), py::arg("mask"), py::arg("weights"), py::arg("min_marked"),
+          docs::best_ellipse);
     m.def("histogram_mean", histogram_mean_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
           docs::histogram_mean);
+    m.def("learn_histogram", learn_histogram_arrays, py::arg("histogram"), py::arg("measured"),
+          py::arg("rate"), py::arg("first"), py::arg("weight"), py::arg("bins"), py::arg("chroma"),
+          docs::learn_histogram);
     m.def("shift_histogram", shift_histogram_arrays, py::arg("histogram"), py::arg("bins"), py::arg("chroma"),
           py::arg("mean"), docs::shift_histogram);
 }

@@ -8,8 +8,9 @@
 #include "camera/back_project.hpp"
 #include "camera/rectify_verged.hpp"
 #include "camera/reduce_gray.hpp"
-#include "cues/stereo/coherent_cells.hpp"
+#include "cues/stereo/ellipse_disparity.hpp"
 #include "cues/stereo/gradient_disparity.hpp"
+#include "cues/stereo/head_cells.hpp"
 #include "cues/stereo/sad_disparity.hpp"
 #include "kernel_docs.hpp"
 
@@ -18,6 +19,12 @@ namespace {
 
 using Bytes = Array<std::uint8_t>;
 using Rectangle = std::tuple<int, int, int, int>;
+
+/// BGR, or gray.
+ImageView any_image(const Bytes& image, const char* name) {
+    const bool color = py::isinstance<py::array>(image) && py::cast<py::array>(image).ndim() == 3;
+    return color ? color_image(image, name) : gray_image(image, name);
+}
 
 Array<float> sad_disparity_arrays(const Bytes& left, const Bytes& right, const Rectangle& region,
                                   bool ellipse, int first, int last, int window, int uniqueness,
@@ -73,28 +80,55 @@ std::tuple<Array<float>, Array<float>> gradient_disparity_arrays(const Bytes& le
 
 Bytes rectify_verged_arrays(const Bytes& right, double angle, double focal,
                             const std::optional<Point>& center, double shift, bool rows_only) {
-    const bool color = py::isinstance<py::array>(right) && py::cast<py::array>(right).ndim() == 3;
-    const auto view = color ? color_image(right, "right") : gray_image(right, "right");
+    const auto view = any_image(right, "right");
     const auto [cx, cy] = center.value_or(Point{(view.cols - 1) / 2.0, (view.rows - 1) / 2.0});
     const VergedCamera camera{angle, focal, cx, cy};
     auto turned = unlocked(std::ptrdiff_t{view.rows} * view.cols,
                            [&] { return rectify_verged(view, camera, shift, rows_only); });
     std::vector<py::ssize_t> shape{view.rows, view.cols};
-    if (color) shape.push_back(3);
+    if (view.channels == 3) shape.push_back(3);
     return give(std::move(turned), shape);
 }
 
 Bytes reduce_gray_arrays(const Bytes& image, int step) {
-    const bool color = py::isinstance<py::array>(image) && py::cast<py::array>(image).ndim() == 3;
-    const auto view = color ? color_image(image, "image") : gray_image(image, "image");
+    const auto view = any_image(image, "image");
     return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return reduce_gray(view, step); }));
 }
 
-Bytes coherent_cells_arrays(const Array<float>& disparities, double expected, double tolerance, int window) {
-    const auto cells = floats(disparities, "disparities", {-1, -1}, "float32 disparities (H, W)");
-    return give(unlocked(cells.size(), [&] {
-        return coherent_cells(cells, static_cast<float>(expected), static_cast<float>(tolerance), window);
-    }));
+using Triple = std::tuple<int, int, int>;
+
+std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(
+    const Bytes& left, const Bytes& right, const Rectangle& region, int step, const Triple& bins, int chroma,
+    const std::optional<Array<double>>& gains, double expected, double tolerance, int fill, int first,
+    int last, int window, int uniqueness, bool prefilter) {
+    const auto view = color_image(left, "left"), other = any_image(right, "right");
+    const auto [x0, y0, x1, y1] = region;
+    const auto [first_axis, second_axis, third_axis] = bins;
+    const ColorSpace space{{first_axis, second_axis, third_axis}, chroma};
+    const auto given = gains ? std::optional(channel_gains(*gains)) : std::nullopt;
+    const HeadDepth depth{static_cast<float>(expected), static_cast<float>(tolerance), fill};
+    const StereoMatching matching{window, uniqueness, prefilter, -1};
+    const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0) * step;
+    auto cells = unlocked(work, [&] {
+        return head_cells(view, other, {x0, y0, x1, y1}, step, space, given ? &*given : nullptr, depth,
+                          {first, last}, matching);
+    });
+    return {give(std::move(cells.bins)), give(std::move(cells.coherent))};
+}
+
+std::tuple<double, int, int> ellipse_disparity_arrays(const Bytes& left, const Bytes& right,
+                                                      const Rectangle& region, int first, int last,
+                                                      int window, int uniqueness, bool prefilter,
+                                                      bool subpixel, bool median, double tolerance) {
+    const auto view = any_image(left, "left"), other = any_image(right, "right");
+    const auto [x0, y0, x1, y1] = region;
+    const StereoMatching matching{window, uniqueness, prefilter, -1};
+    const DisparityStatistic statistic{subpixel, median, static_cast<float>(tolerance)};
+    const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0);
+    const auto found = unlocked(work, [&] {
+        return ellipse_disparity(view, other, {x0, y0, x1, y1}, {first, last}, matching, statistic);
+    });
+    return {found.disparity, found.matched, found.near};
 }
 
 }  // namespace
@@ -114,8 +148,13 @@ void define_stereo(py::module_& m) {
           py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
           docs::rectify_verged);
     m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"), docs::reduce_gray);
-    m.def("coherent_cells", coherent_cells_arrays, py::arg("disparities"), py::arg("expected"),
-          py::arg("tolerance"), py::arg("window"), docs::coherent_cells);
+    m.def("head_cells", head_cells_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
+          py::arg("step"), py::arg("bins"), py::arg("chroma"), py::arg("gains"), py::arg("expected"),
+          py::arg("tolerance"), py::arg("fill"), py::arg("first"), py::arg("last"), py::arg("window"),
+          py::arg("uniqueness"), py::arg("prefilter"), docs::head_cells);
+    m.def("ellipse_disparity", ellipse_disparity_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
+          py::arg("first"), py::arg("last"), py::arg("window"), py::arg("uniqueness"), py::arg("prefilter"),
+          py::arg("subpixel"), py::arg("median"), py::arg("tolerance"), docs::ellipse_disparity);
 }
 
 }  // namespace tricue::bindings

@@ -75,6 +75,51 @@ def back_project(
     approximates.
     """
 
+def best_ellipse(
+    bins: numpy.typing.NDArray[numpy.uint16],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    grid: tuple[int, int, int],
+    model: numpy.typing.NDArray[numpy.float64],
+    margin: float,
+    mask: numpy.typing.NDArray[numpy.uint8],
+    weights: tuple[float, float, float],
+    min_marked: int,
+) -> tuple[int, int, float, float, float, numpy.typing.NDArray[numpy.float64]]:
+    """
+    The place of a grid where an ellipse is most like a model, and its colors there.
+
+    With i and a the intersections (1) of ellipse and ring, m and n their marked shares, as
+    ellipse_search gives them, a place scores
+        i - ring a + depth (m - depth_ring n)
+
+    Of equal scores the first counts, row by row. The colors are those of the ellipse's marked pixels,
+    or, where these are fewer than min_marked, of all its pixels.
+
+    Args:
+        bins: uint16 (H, W), as color_bins gives them, each below L, or 65535 for none; may be empty
+        ellipse: float64 (4,): center x, y, semi-axes along x (minor) and y (major), pixels of the bins,
+            finite, axes above 0
+        grid: (rows, cols, step), as ellipse_search takes it
+        model: float64 (L,), finite, none negative, a sum above 0
+        margin: scale of the ring's outline, 1 (no ring) to 16; times the semi-axes at most 4096 pixels
+        mask: uint8 (H, W), not 0 where a pixel is at the target's depth
+        weights: (ring, depth, depth_ring), finite
+        min_marked: pixels; 0: the colors are those of all pixels of the ellipse
+
+    Returns:
+        row, col: of its place in the grid
+        score: the greatest
+        intersection: (1) of the ellipse there
+        marked: the share of its pixels that the mask marks
+        histogram: float64 (L,) of sum 1, its colors; 0 where it has no pixel
+
+    Raises:
+        ValueError: on other shapes or values, or a grid that reaches over more than 16384 pixels
+
+    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.1: M and C of equation (1); ring
+    and mask are ours.
+    """
+
 def bhattacharyya(
     histograms: numpy.typing.NDArray[numpy.float32], model: numpy.typing.NDArray[numpy.float32], groups: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -271,30 +316,6 @@ def changed_depth(
         ValueError: on images of different shapes, or an invalid noise or slope
 
     Source: ours.
-    """
-
-def coherent_cells(
-    disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
-) -> numpy.typing.NDArray[numpy.uint8]:
-    """
-    The cells at an expected disparity: those whose disparity differs from it by at most the tolerance.
-
-    A cell without a disparity, as in hair of one color, gets the majority of the cells around it that
-    have one.
-
-    Args:
-        disparities: float32 (H, W), NaN where there is none
-        expected: in the disparities' unit
-        tolerance: 0 or more
-        window: side of the square around a cell whose majority counts, odd, 1 to 127
-
-    Returns:
-        uint8 (H, W), 1 at the expected disparity, else 0; a tie gives 0
-
-    Raises:
-        ValueError: on values out of range
-
-    Source: ours, for Moreno et al. 2002, section 3.2, whose pixels of coherent depth are not defined.
     """
 
 def color_bins(
@@ -851,6 +872,52 @@ def divide_depth(
     Source: Sabeti, Parvizi, Wu 2008, equations (35), (36).
     """
 
+def ellipse_disparity(
+    left: numpy.typing.NDArray[numpy.uint8],
+    right: numpy.typing.NDArray[numpy.uint8],
+    region: tuple[int, int, int, int],
+    first: int,
+    last: int,
+    window: int,
+    uniqueness: int,
+    prefilter: bool,
+    subpixel: bool,
+    median: bool,
+    tolerance: float,
+) -> tuple[float, int, int]:
+    """
+    The disparity of the ellipse inscribed in a rectangle, by the median or the mean (5) of those of its
+    pixels.
+
+    Pixels are matched by sad_disparity, in the images turned gray. Of an even number of disparities the
+    median is the mean of the middle two.
+
+    Args:
+        left: uint8 (H, W, 3) BGR, rectified, at least one pixel
+        right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
+        region: (x0, y0, x1, y1), pixels, sides of 1 to 16384; may reach over the image's edge
+        first, last: range of disparities, both included, at most 4096 of them; first may be negative
+        window: side, pixels, odd: 1 to 31 with the prefilter, 1 to 15 without, so that sums fit 16 bits
+        uniqueness: percent, 0 to 100; 0 rejects nothing
+        prefilter: compare x-Sobel responses clipped at ±31, which lighting changes less, not gray
+            levels
+        subpixel: whether disparities keep their fractions; else each becomes the nearest whole number,
+            of halves the smaller
+        median: their median, else their mean
+        tolerance: of the left-right check, pixels; negative for no check
+
+    Returns:
+        disparity: pixels; NaN without any
+        matched: pixels that have one
+        near: of these, pixels that differ from it by at most the tolerance
+
+    Raises:
+        ValueError: on images of unlike sizes, or values out of range
+
+    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, section 3.2, equations (3) to (5); the median
+    is ours.
+    """
+
 def ellipse_histogram(
     bins: numpy.typing.NDArray[numpy.uint16],
     ellipses: numpy.typing.NDArray[numpy.float64],
@@ -1168,6 +1235,60 @@ def ground_distance(
     Source: ours.
     """
 
+def head_cells(
+    left: numpy.typing.NDArray[numpy.uint8],
+    right: numpy.typing.NDArray[numpy.uint8],
+    region: tuple[int, int, int, int],
+    step: int,
+    bins: tuple[int, int, int],
+    chroma: int,
+    gains: numpy.typing.NDArray[numpy.float64] | None,
+    expected: float,
+    tolerance: float,
+    fill: int,
+    first: int,
+    last: int,
+    window: int,
+    uniqueness: int,
+    prefilter: bool,
+) -> tuple[numpy.typing.NDArray[numpy.uint16], numpy.typing.NDArray[numpy.uint8]]:
+    """
+    The cells of a rectangle: the color bin of each, and whether it is at a head's depth.
+
+    A cell is step x step pixels, and has the color of its middle one (color_bins). Its disparity is
+    found by sad_disparity between the means of gray cells (reduce_gray). It is at the head's depth
+    where that differs from the expected one by at most the tolerance. A cell without a disparity, as in
+    hair of one color, gets the majority of the cells around it that have one; a tie counts against it.
+    No cell outside the image is at the head's depth.
+
+    Args:
+        left: uint8 (H, W, 3) BGR, rectified, at least one pixel
+        right: uint8 (H, W, 3) BGR, or gray (H, W), of the same size
+        region: (x0, y0, x1, y1), cells, sides of 1 to 16384; may reach over the image's edge
+        step: side of a cell, pixels, 1 to 1024 and to the smaller side of the image
+        bins: (n_0, n_1, n_2), as color_bins takes them
+        chroma: as color_bins takes it
+        gains: as color_bins takes them, or None
+        expected: the head's disparity, cells, finite
+        tolerance: by which a cell's may differ, cells, 0 or more
+        fill: side of the square by whose majority gaps are filled, cells, odd, 1 to 127
+        first, last: range of disparities, cells, both included, at most 4096 of them
+        window: side of the matching window, cells, as sad_disparity takes it
+        uniqueness: percent, 0 to 100; 0 rejects nothing
+        prefilter: compare x-Sobel responses clipped at ±31, which lighting changes less, not gray
+            levels
+
+    Returns:
+        bins: uint16 (h, w), as color_bins gives them
+        coherent: uint8 (h, w): 1 at the head's depth, else 0
+
+    Raises:
+        ValueError: on images of unlike sizes, or values out of range
+
+    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, sections 3.1 and 3.2, whose pixels of
+    coherent depth are not defined: their definition is ours.
+    """
+
 def histogram_mean(
     histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
 ) -> numpy.typing.NDArray[numpy.float64]:
@@ -1385,6 +1506,45 @@ def learn_contrast(
         ValueError: on other or unlike shapes, or a rate or rare out of range
 
     Source: ours; the histograms are those of Vezhnevets, Sazonov, Andreeva 2003, section 3.1.
+    """
+
+def learn_histogram(
+    histogram: numpy.typing.NDArray[numpy.float64],
+    measured: numpy.typing.NDArray[numpy.float64],
+    rate: float,
+    first: numpy.typing.NDArray[numpy.float64],
+    weight: float,
+    bins: tuple[int, int, int],
+    chroma: int,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    A color histogram that learns from a measured one, M' = M + a (C - M), and its mixture with the
+    first, (1 - w) M' + w F.
+
+    Args:
+        histogram: float64 (L,), M, L = n_0 n_1 n_2, in the order of color_bins
+        measured: float64 (L,), C
+        rate: a, 0 to 1; 0 learns nothing
+        first: float64 (L,), F
+        weight: w, 0 to 1
+        bins: (n_0, n_1, n_2), bins of each axis, 1 to 256 each, at most 65535 in all
+        chroma: the first two axes span [-chroma, chroma), color levels, 1 to 255
+
+    Returns:
+        histogram: float64 (L,)
+        model: float64 (L,), the mixture of the first histogram with it
+        color: float64 (3,), the histogram's mean color, color levels, as histogram_mean gives it
+
+    Raises:
+        ValueError: on other sizes, a rate or weight out of range, or where the result isn't finite, has
+            a negative number, or has no sum above 0
+
+    Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (2) and μ of equation (7); the
+    mixture is ours.
     """
 
 def measure_objects(
@@ -2582,6 +2742,17 @@ class Kernels(Protocol):
         camera: numpy.typing.NDArray[numpy.float64],
         baseline: float,
     ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]: ...
+    def best_ellipse(
+        self,
+        bins: numpy.typing.NDArray[numpy.uint16],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        grid: tuple[int, int, int],
+        model: numpy.typing.NDArray[numpy.float64],
+        margin: float,
+        mask: numpy.typing.NDArray[numpy.uint8],
+        weights: tuple[float, float, float],
+        min_marked: int,
+    ) -> tuple[int, int, float, float, float, numpy.typing.NDArray[numpy.float64]]: ...
     def bhattacharyya(
         self,
         histograms: numpy.typing.NDArray[numpy.float32],
@@ -2643,9 +2814,6 @@ class Kernels(Protocol):
         before: numpy.typing.NDArray[numpy.float32],
         noise: float,
         slope: float,
-    ) -> numpy.typing.NDArray[numpy.uint8]: ...
-    def coherent_cells(
-        self, disparities: numpy.typing.NDArray[numpy.float32], expected: float, tolerance: float, window: int
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def color_bins(
         self,
@@ -2767,6 +2935,20 @@ class Kernels(Protocol):
         mask: numpy.typing.NDArray[numpy.uint8],
         dividers: numpy.typing.NDArray[numpy.float64],
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def ellipse_disparity(
+        self,
+        left: numpy.typing.NDArray[numpy.uint8],
+        right: numpy.typing.NDArray[numpy.uint8],
+        region: tuple[int, int, int, int],
+        first: int,
+        last: int,
+        window: int,
+        uniqueness: int,
+        prefilter: bool,
+        subpixel: bool,
+        median: bool,
+        tolerance: float,
+    ) -> tuple[float, int, int]: ...
     def ellipse_histogram(
         self,
         bins: numpy.typing.NDArray[numpy.uint16],
@@ -2838,6 +3020,24 @@ class Kernels(Protocol):
         near: float,
         far: float,
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def head_cells(
+        self,
+        left: numpy.typing.NDArray[numpy.uint8],
+        right: numpy.typing.NDArray[numpy.uint8],
+        region: tuple[int, int, int, int],
+        step: int,
+        bins: tuple[int, int, int],
+        chroma: int,
+        gains: numpy.typing.NDArray[numpy.float64] | None,
+        expected: float,
+        tolerance: float,
+        fill: int,
+        first: int,
+        last: int,
+        window: int,
+        uniqueness: int,
+        prefilter: bool,
+    ) -> tuple[numpy.typing.NDArray[numpy.uint16], numpy.typing.NDArray[numpy.uint8]]: ...
     def histogram_mean(
         self, histogram: numpy.typing.NDArray[numpy.float64], bins: tuple[int, int, int], chroma: int
     ) -> numpy.typing.NDArray[numpy.float64]: ...
@@ -2883,6 +3083,20 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
         numpy.typing.NDArray[numpy.float32],
+    ]: ...
+    def learn_histogram(
+        self,
+        histogram: numpy.typing.NDArray[numpy.float64],
+        measured: numpy.typing.NDArray[numpy.float64],
+        rate: float,
+        first: numpy.typing.NDArray[numpy.float64],
+        weight: float,
+        bins: tuple[int, int, int],
+        chroma: int,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
     ]: ...
     def measure_objects(
         self,

@@ -17,14 +17,16 @@ from tricue.track.base.tracker import TrackerBase
 
 KERNEL_MODULES = {
     "image_mean": "search",
-    "coherent_cells": "search",
+    "head_cells": "search",
+    "best_ellipse": "search",
     "color_bins": "search",
     "ellipse_search": "search",
-    "ellipse_histogram": "search",
+    "learn_histogram": "search",
     "histogram_mean": "search",
     "shift_histogram": "search",
     "reduce_gray": "disparity",
     "sad_disparity": "disparity",
+    "ellipse_disparity": "disparity",
     "back_project": "filter",
     "kalman_predict": "filter",
     "kalman_update": "filter",

@@ -7,6 +7,7 @@ from tricue import _core
 from tricue.reference.camera.back_project import back_project
 from tricue.reference.camera.rectify_verged import rectify_verged
 from tricue.reference.camera.reduce_gray import reduce_gray
+from tricue.reference.cues.color.best_ellipse import best_ellipse
 from tricue.reference.cues.color.bhattacharyya import bhattacharyya
 from tricue.reference.cues.color.box_contrast import box_contrast
 from tricue.reference.cues.color.color_bins import color_bins
@@ -21,6 +22,7 @@ from tricue.reference.cues.color.hog_color_cells import hog_color_cells
 from tricue.reference.cues.color.image_mean import image_mean
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
+from tricue.reference.cues.color.learn_histogram import learn_histogram
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
@@ -60,8 +62,9 @@ from tricue.reference.cues.depth.segment_depth import segment_depth
 from tricue.reference.cues.depth.support_pixels import support_pixels
 from tricue.reference.cues.motion.gradient_flow import gradient_flow
 from tricue.reference.cues.motion.pyramid_flow import pyramid_flow
-from tricue.reference.cues.stereo.coherent_cells import coherent_cells
+from tricue.reference.cues.stereo.ellipse_disparity import ellipse_disparity
 from tricue.reference.cues.stereo.gradient_disparity import gradient_disparity
+from tricue.reference.cues.stereo.head_cells import head_cells
 from tricue.reference.cues.stereo.sad_disparity import sad_disparity
 from tricue.reference.fuse.block_counts import block_counts
 from tricue.reference.fuse.block_mask import block_mask
@@ -86,13 +89,13 @@ from tricue.reference.fuse.weighted_histogram import weighted_histogram
 __all__ = [
     "above_floor",
     "back_project",
+    "best_ellipse",
     "bhattacharyya",
     "block_counts",
     "block_mask",
     "block_votes",
     "box_contrast",
     "changed_depth",
-    "coherent_cells",
     "color_bins",
     "color_histogram",
     "color_lookup",
@@ -112,6 +115,7 @@ __all__ = [
     "depth_picture",
     "depth_posterior",
     "divide_depth",
+    "ellipse_disparity",
     "ellipse_histogram",
     "ellipse_search",
     "evidence_peak",
@@ -120,6 +124,7 @@ __all__ = [
     "gradient_disparity",
     "gradient_flow",
     "ground_distance",
+    "head_cells",
     "histogram_mean",
     "hog_color_cells",
     "image_mean",
@@ -127,6 +132,7 @@ __all__ = [
     "kalman_predict",
     "kalman_update",
     "learn_contrast",
+    "learn_histogram",
     "measure_objects",
     "median_depths",
     "pick_pixels",

@@ -344,7 +344,16 @@ def test_long_lost_is_sane():
 
 @pytest.mark.parametrize(
     "kernel",
-    ["color_bins", "sad_disparity", "ellipse_search", "back_project", "kalman_predict", "kalman_update"],
+    [
+        "image_mean",
+        "kalman_predict",
+        "head_cells",
+        "best_ellipse",
+        "ellipse_disparity",
+        "back_project",
+        "learn_histogram",
+        "kalman_update",
+    ],
 )
 def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatch):
     """An error in the middle of an update, of whatever kind, leaves the tracker as it was."""

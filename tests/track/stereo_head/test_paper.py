@@ -115,7 +115,7 @@ def test_given_colors_are_the_first_model(heads):
     given = ((5, 3.0), (700, 1.0))
     tracker = StereoHeadTracker(rig=scene.rig, head_colors=given)
     tracker.init(scene.frames[0], scene.boxes[0])
-    model = tracker._state.model(tracker.params)
+    model = tracker._state.model
     assert np.flatnonzero(model).tolist() == [5, 700]
     np.testing.assert_allclose(model[[5, 700]], [0.75, 0.25])
 

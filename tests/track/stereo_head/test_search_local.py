@@ -4,12 +4,9 @@
 import numpy as np
 import pytest
 from tricue import StereoHeadTracker
-from tricue.track.stereo_head.color_model import (
-    MIN_COHERENT_CELLS,
-    measure_first_histogram,
-    measure_histogram,
-)
-from tricue.track.stereo_head.search_local import score_matches, search_local
+from tricue.kernels import Kernels
+from tricue.track.stereo_head.color_model import measure_first_histogram
+from tricue.track.stereo_head.search_local import MIN_COHERENT_CELLS, score_matches, search_local
 from tricue.track.stereo_head.search_region import SearchRegion
 
 Params = StereoHeadTracker.Params
@@ -40,6 +37,11 @@ def model(*shares: float) -> np.ndarray:
 ALL_SKIN = model(1, 0, 0)
 
 
+def colors_of(k: Kernels, region: SearchRegion, ellipse: tuple[float, ...], p: Params = P) -> np.ndarray:
+    """(L,) the colors of an ellipse that isn't moved."""
+    return search_local(k, region, ellipse, ALL_SKIN, 1, (0, 0), p)[1]
+
+
 @pytest.mark.parametrize("weights", [(0.6, 0.4, 0.5), (0, 0, 0), (0.5, 0.5, 0.5)], ids=str)
 def test_the_score_is_its_formula(weights):
     """The score is phi - w phi(ring) + v (coherent - r coherent(ring)), for any number of matches. With
@@ -60,7 +62,7 @@ def test_a_moved_head_is_found(off, form, kernels):
     """
     p = Params(bins=P.bins, **form)
     moved = (ELLIPSE[0] + off[0], ELLIPSE[1] + off[1], *ELLIPSE[2:])
-    match = search_local(kernels, scene(moved), ELLIPSE, ALL_SKIN, 1, P.search, p)
+    match, _ = search_local(kernels, scene(moved), ELLIPSE, ALL_SKIN, 1, P.search, p)
     assert match.ellipse == moved
     assert match.intersection == 1
     assert match.coherence == 1
@@ -73,7 +75,7 @@ def test_cells_are_steps_of_pixels(step, kernels):
     region = scene(moved, left=-5, top=7)
     pixels = tuple(step * np.array([ELLIPSE[0] + region.left, ELLIPSE[1] + region.top, *ELLIPSE[2:]]))
     np.testing.assert_allclose(region.to_cells(pixels, step), ELLIPSE, rtol=1e-14)
-    match = search_local(kernels, region, pixels, ALL_SKIN, step, P.search, P)
+    match, _ = search_local(kernels, region, pixels, ALL_SKIN, step, P.search, P)
     assert match.ellipse == (pixels[0] + 3 * step, pixels[1] - 2 * step, *pixels[2:])
 
 
@@ -81,7 +83,7 @@ def test_cells_are_steps_of_pixels(step, kernels):
 def test_the_search_stays_within_its_range(search, kernels):
     """A head out of reach is approached as far as the search goes."""
     far = (ELLIPSE[0] + 6, ELLIPSE[1] + 5, *ELLIPSE[2:])
-    match = search_local(kernels, scene(far), ELLIPSE, ALL_SKIN, 1, search, P)
+    match, _ = search_local(kernels, scene(far), ELLIPSE, ALL_SKIN, 1, search, P)
     assert match.ellipse == (ELLIPSE[0] + search[0], ELLIPSE[1] + search[1], *ELLIPSE[2:])
 
 
@@ -92,7 +94,7 @@ def test_depth_decides_between_equal_colors(kernels):
     bins = np.where(pair, SKIN, WALL).astype(np.uint16)
     for chosen in (one, other):
         region = SearchRegion(0, 0, bins, inside(chosen, bins.shape).astype(np.uint8))
-        match = search_local(kernels, region, ELLIPSE, ALL_SKIN, 1, P.search, P)
+        match, _ = search_local(kernels, region, ELLIPSE, ALL_SKIN, 1, P.search, P)
         assert match.ellipse == chosen
 
 
@@ -101,7 +103,7 @@ def test_a_surround_of_the_same_color_counts_against(kernels):
     1 - w + v (1 - r).
     """
     region = SearchRegion(0, 0, np.zeros((48, 60), np.uint16), np.ones((48, 60), np.uint8))
-    match = search_local(kernels, region, ELLIPSE, ALL_SKIN, 1, (0, 0), P)
+    match, _ = search_local(kernels, region, ELLIPSE, ALL_SKIN, 1, (0, 0), P)
     expected = 1 - P.ring_weight + P.depth_weight * (1 - P.depth_ring)
     assert match.score == pytest.approx(expected, abs=1e-12)
 
@@ -109,9 +111,9 @@ def test_a_surround_of_the_same_color_counts_against(kernels):
 def test_outside_the_picture_is_nothing(kernels):
     """Where no cell has a bin, score and intersection are 0, not NaN, and the histogram is empty."""
     region = SearchRegion(0, 0, np.full((48, 60), 65535, np.uint16), np.zeros((48, 60), np.uint8))
-    match = search_local(kernels, region, ELLIPSE, ALL_SKIN, 1, P.search, P)
+    match, _ = search_local(kernels, region, ELLIPSE, ALL_SKIN, 1, P.search, P)
     assert match[1:] == (0, 0, 0)
-    assert not measure_histogram(kernels, region, ELLIPSE, 1, P).any()
+    assert not colors_of(kernels, region, ELLIPSE).any()
 
 
 def test_only_the_heads_depth_is_learned(kernels):
@@ -120,10 +122,10 @@ def test_only_the_heads_depth_is_learned(kernels):
     """
     half = (ELLIPSE[0] + 4, *ELLIPSE[1:])
     region = scene()
-    np.testing.assert_array_equal(measure_histogram(kernels, region, half, 1, P), model(1, 0, 0))
+    np.testing.assert_array_equal(colors_of(kernels, region, half), model(1, 0, 0))
     seen = inside(half, region.bins.shape)
     skin = np.count_nonzero(seen & (region.bins == SKIN)) / seen.sum()
-    everything = measure_histogram(kernels, region, half, 1, Params(bins=P.bins, learn="all"))
+    everything = colors_of(kernels, region, half, Params(bins=P.bins, learn="all"))
     np.testing.assert_allclose(everything, model(skin, 0, 1 - skin), rtol=0, atol=1e-15)
 
 
@@ -135,7 +137,7 @@ def test_too_few_cells_at_the_depth_are_not_used(coherent, kernels):
     region.coherent[:] = 0
     region.coherent[tuple(skin.T)] = 1
     wide = (*ELLIPSE[:2], 9.0, 12.0)
-    learned = measure_histogram(kernels, region, wide, 1, P)
+    learned = colors_of(kernels, region, wide)
     assert learned.sum() == pytest.approx(1)
     assert (learned[WALL] == 0) == (coherent >= MIN_COHERENT_CELLS)
 

@@ -47,28 +47,47 @@ void SlidingHistogram::replace(const Offsets& leave, const Offsets& enter) {
     }
 }
 
-/// Runs get shorter towards the top and the bottom, so the last run over a column, from above, is its lower end.
+/// Runs get shorter towards the top and the bottom: of the runs over a column, the first is the first that is as wide, from above.
 void SlidingHistogram::find_boundaries(const EllipseShape& shape) {
     const auto [begin, end] = shape.column_range();
     Offsets &top = vertical_.leave, &bottom = vertical_.enter;
     for (Offsets* columns : {&top, &bottom}) columns->resize(static_cast<std::size_t>(end - begin));
-    for (Offsets* rows : {&horizontal_.leave, &horizontal_.enter}) rows->reserve(shape.runs.size());
+    const auto count = static_cast<int>(shape.runs.size());
+    const auto offset = [&](int row, int column) { return (shape.top + row) * image_.cols + column; };
+    // Each row adds the columns that none before it had.
+    const auto close = [&](Offsets& columns, int first, int step, int below) {
+        int left = end, right = begin;  // columns that are done
+        for (int row = first; row >= 0 && row < count; row += step) {
+            const auto& run = shape.runs[static_cast<std::size_t>(row)];
+            const auto set = [&](int from, int to) {
+                for (int column = from; column < to; ++column)
+                    columns[static_cast<std::size_t>(column - begin)] = offset(row + below, column);
+            };
+            if (left >= right) {
+                set(run.begin, run.end);
+                left = run.begin;
+                right = run.end;
+                continue;
+            }
+            set(run.begin, left);
+            set(right, run.end);
+            left = std::min(left, run.begin);
+            right = std::max(right, run.end);
+        }
+    };
+    close(top, 0, 1, 0);
+    close(bottom, count - 1, -1, 1);
 
-    std::int32_t row = shape.top * image_.cols;
-    for (const auto& run : shape.runs) {
-        horizontal_.leave.push_back(row + run.begin);
-        horizontal_.enter.push_back(row + run.end);
-        row += image_.cols;
-        std::fill(bottom.begin() + (run.begin - begin), bottom.begin() + (run.end - begin), row);
-    }
-    for (auto run = shape.runs.rbegin(); run != shape.runs.rend(); ++run) {
-        row -= image_.cols;
-        std::fill(top.begin() + (run->begin - begin), top.begin() + (run->end - begin), row);
-    }
-    for (int column = begin; column < end; ++column) {
-        top[static_cast<std::size_t>(column - begin)] += column;
-        bottom[static_cast<std::size_t>(column - begin)] += column;
-    }
+    // Rows far apart follow each other, as neighbors, often of one color, would wait for each other's count.
+    constexpr int kStreams = 4;
+    const int part = (count + kStreams - 1) / kStreams;
+    for (Offsets* rows : {&horizontal_.leave, &horizontal_.enter}) rows->reserve(shape.runs.size());
+    for (int k = 0; k < part; ++k)
+        for (int row = k; row < count; row += part) {
+            const auto& run = shape.runs[static_cast<std::size_t>(row)];
+            horizontal_.leave.push_back(offset(row, run.begin));
+            horizontal_.enter.push_back(offset(row, run.end));
+        }
 }
 
 }  // namespace tricue

@@ -9,28 +9,13 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.prepared_pair import Ellipse, Image
+from tricue.track.stereo_head.prepared_pair import Ellipse
+from tricue.track.stereo_head.search_local import search_local
 from tricue.track.stereo_head.search_region import SearchRegion
 
 Floats = NDArray[np.float64]
 
 HAIR_CAP = 0.3  # of the head's height, from its top
-MIN_COHERENT_CELLS = 8  # with fewer at the head's depth, all of the ellipse count
-
-
-def measure_histogram(
-    k: Kernels, region: SearchRegion, ellipse: Ellipse, step: int, p: StereoHeadParams
-) -> Floats:
-    """C of (2), (L,) of sum 1, or of zeros where the ellipse has no cell inside the image.
-
-    With ``learn="coherent"`` only the cells at the head's depth count.
-    """
-    counts = _count(k, region, ellipse, step, region.coherent if p.learn == "coherent" else None, p)
-    total = int(counts.sum())
-    if total < MIN_COHERENT_CELLS:
-        counts = _count(k, region, ellipse, step, None, p)
-        total = int(counts.sum())
-    return counts / float(max(total, 1))
 
 
 def measure_first_histogram(
@@ -44,7 +29,7 @@ def measure_first_histogram(
         return _fill(p.head_colors, p)
     x, y, minor, major = ellipse
     cap = (x, y - (1 - HAIR_CAP) * major, minor, HAIR_CAP * major)
-    whole, hair = (measure_histogram(k, region, each, step, p) for each in (ellipse, cap))
+    whole, hair = (_measure(k, region, each, step, p) for each in (ellipse, cap))
     return (1 - p.hair) * whole + p.hair * hair
 
 
@@ -56,16 +41,7 @@ def _fill(weights: Sequence[tuple[int, float]], p: StereoHeadParams) -> Floats:
     return np.asarray(histogram / histogram.sum())
 
 
-def _count(
-    k: Kernels,
-    region: SearchRegion,
-    ellipse: Ellipse,
-    step: int,
-    mask: Image | None,
-    p: StereoHeadParams,
-) -> NDArray[np.int32]:
-    """(L,) cells of each bin in an ellipse, of those that a mask marks, if any."""
-    cells = region.to_cells(ellipse, step)[None]
-    inside, _ = k.ellipse_histogram(region.bins, cells, math.prod(p.bins), 1.0, mask)
-    counts: NDArray[np.int32] = inside[0]
-    return counts
+def _measure(k: Kernels, region: SearchRegion, ellipse: Ellipse, step: int, p: StereoHeadParams) -> Floats:
+    """(L,) the colors of an ellipse, as :func:`search_local` gives them of its best."""
+    anything = np.ones(math.prod(p.bins))
+    return search_local(k, region, ellipse, anything, step, (0, 0), p)[1]

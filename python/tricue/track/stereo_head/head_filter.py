@@ -65,16 +65,16 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
 def mahalanobis_distance(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
     """The distance of a measured position (3,) from the predicted one, in standard deviations."""
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = (predicted.covariance[:3, :3] + noise[:3, :3]).tolist()
-    off = [here - there for here, there in zip(measured.tolist(), predicted.mean.tolist(), strict=False)]
+    (x, y, z), (there_x, there_y, there_z) = measured.tolist(), predicted.mean[:3].tolist()
     # The three steps of Cholesky written out: numpy.linalg takes longer than the whole correction.
-    a = xx**0.5
+    a = math.sqrt(xx)
     b, c = xy / a, xz / a
-    d = (yy - b * b) ** 0.5
+    d = math.sqrt(yy - b * b)
     e = (yz - b * c) / d
-    f = (zz - c * c - e * e) ** 0.5
-    u = off[0] / a
-    v = (off[1] - b * u) / d
-    w = (off[2] - c * u - e * v) / f
+    f = math.sqrt(zz - c * c - e * e)
+    u = (x - there_x) / a
+    v = (y - there_y - b * u) / d
+    w = (z - there_z - c * u - e * v) / f
     return math.sqrt(u * u + v * v + w * w)
 
 

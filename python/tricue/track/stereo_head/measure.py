@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.stereo_head.color_model import measure_first_histogram, measure_histogram
+from tricue.track.stereo_head.color_model import measure_first_histogram
 from tricue.track.stereo_head.disparity import EllipseDisparity, limits_around, measure_disparity
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
@@ -69,10 +69,9 @@ def measure(
     region = crop_region(k, pair, ellipse, disparity, p)
     if model is None:
         histogram = measure_first_histogram(k, region, ellipse, pair.step, p)
-        match = search_local(k, region, ellipse, histogram, pair.step, (0, 0), p)
+        match, _ = search_local(k, region, ellipse, histogram, pair.step, (0, 0), p)
     else:
-        match = search_local(k, region, ellipse, model, pair.step, p.search, p)
-        histogram = measure_histogram(k, region, match.ellipse, pair.step, p)
+        match, histogram = search_local(k, region, ellipse, model, pair.step, p.search, p)
     depth = measure_disparity(k, pair, match.ellipse, limits_around(disparity, pair.step, p), p)
     if depth is None:
         return None

@@ -17,14 +17,13 @@ Ellipse = tuple[float, float, float, float]  # center x, y, semi-axes minor (alo
 Limits = tuple[int, int]  # lowest and highest disparity, both included
 Disparities = NDArray[np.float32]
 
+DARKEST = np.ones(3)  # color of an image for which the light is still compensated
 MAX_MATCHING_WINDOW = 31  # pixels, side of the window
 NO_LEFT_RIGHT_CHECK = -1  # the tolerance by which sad_disparity doesn't compare left with right
 
 
 class PreparedPair(NamedTuple):
     """A rectified stereo pair, in whose cells of ``step`` x ``step`` pixels the head is searched.
-
-    Gray levels, cells and bins are computed where they are looked at, so the work grows with the head.
 
     left, right: BGR (H, W, 3), the right one BGR or gray.
     mean: (3,) color of the cells' middle pixels, a measure of the light while the scene stays the same.
@@ -48,7 +47,7 @@ class PreparedPair(NamedTuple):
         height, width = left.shape[:2]
         step = max(1, min(round(width / p.resolution), height, width))
         mean = k.image_mean(left, step)
-        gains = None if first_mean is None else first_mean / np.maximum(mean, 1.0)
+        gains = None if first_mean is None else first_mean / np.maximum(mean, DARKEST)
         return cls(left, right, mean, gains, step)
 
     @property
@@ -67,32 +66,14 @@ class PreparedPair(NamedTuple):
     def disparities(
         self, k: Kernels, region: Region, ellipse: bool, limits: Limits, cells: bool, p: StereoHeadParams
     ) -> Disparities:
-        """The ``sad_disparity`` in a region of cells, or of pixels, or in the ellipse inscribed in it.
-
-        Only what it compares is turned gray.
-        """
+        """The ``sad_disparity`` in a region of cells, or of pixels, or in the ellipse inscribed in it."""
         side = self.step if cells else 1
         window = p.window if cells else self.pixel_window(p)
-        height, width = self.left.shape[:2]
-        (x0, y0, x1, y1), (first, last) = region, limits
-        margin = window // 2 + 1  # of the window, and of the prefilter
-        left, right = _clip(x0 - max(last, 0) - margin, x1 - min(first, 0) + margin, width // side)
-        top, bottom = _clip(y0 - margin, y1 + margin, height // side)
-        rows, columns = slice(top * side, bottom * side), slice(left * side, right * side)
-        gray, other = k.reduce_gray(self.left[rows, columns], side), self.right[rows, columns]
-        if side > 1 or other.ndim == 3:
-            other = k.reduce_gray(other, side)
-        here = (x0 - left, y0 - top, x1 - left, y1 - top)
+        left, right = k.reduce_gray(self.left, side), k.reduce_gray(self.right, side)
         return k.sad_disparity(
-            gray, other, here, ellipse, first, last, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
+            left, right, region, ellipse, *limits, window, p.uniqueness, p.prefilter, NO_LEFT_RIGHT_CHECK
         )
 
     def pixel_window(self, p: StereoHeadParams) -> int:
         """The side of the window by which pixels are matched."""
         return min(p.window + 2 * (self.step - 1), MAX_MATCHING_WINDOW)
-
-
-def _clip(begin: int, end: int, size: int) -> tuple[int, int]:
-    """The part of a range inside [0, size), of at least one: kernels refuse an empty image."""
-    first = min(max(begin, 0), size - 1)
-    return first, max(min(end, size), first + 1)

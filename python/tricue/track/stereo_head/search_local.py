@@ -13,6 +13,8 @@ from tricue.track.stereo_head.search_region import SearchRegion
 
 Floats = NDArray[np.float64]
 
+MIN_COHERENT_CELLS = 8  # with fewer at the head's depth, all of the ellipse count
+
 
 class EllipseMatch(NamedTuple):
     """An ellipse, its score, its intersection with the model (1), and its share at the head's depth."""
@@ -31,22 +33,22 @@ def search_local(
     step: int,
     search: tuple[int, int],
     p: StereoHeadParams,
-) -> EllipseMatch:
-    """The best match around an ellipse.
+) -> tuple[EllipseMatch, Floats]:
+    """The best match around an ellipse, and its colors, C of (2), (L,) of sum 1, or of zeros without a cell.
 
     histogram: (L,) the model. search: how far the center may move, cells to each side, and up and down.
+    With ``learn="coherent"`` only the cells at the head's depth count for the colors.
     """
     across, down = search
-    grid = (2 * down + 1, 2 * across + 1, 1)
-    measured = k.ellipse_search(
-        region.bins, region.to_cells(ellipse, step), grid, histogram, p.ring, region.coherent
+    cells, grid = region.to_cells(ellipse, step), (2 * down + 1, 2 * across + 1, 1)
+    weights = p.ring_weight, p.depth_weight, p.depth_ring
+    least = MIN_COHERENT_CELLS if p.learn == "coherent" else 0
+    row, column, score, intersection, coherence, colors = k.best_ellipse(
+        region.bins, cells, grid, histogram, p.ring, region.coherent, weights, least
     )
-    scores = score_matches(measured, p)
-    row, column = divmod(int(scores.argmax()), grid[1])
     x, y, minor, major = ellipse
     best = (x + step * (column - across), y + step * (row - down), minor, major)
-    intersection, _, coherence, _ = measured[row, column].tolist()
-    return EllipseMatch(best, float(scores[row, column]), intersection, coherence)
+    return EllipseMatch(best, score, intersection, coherence), colors
 
 
 def score_matches(measured: Floats, p: StereoHeadParams) -> Floats:

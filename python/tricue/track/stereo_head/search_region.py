@@ -42,14 +42,11 @@ def crop_region(
     x, y, minor, major = x / step, y / step, minor / step, major / step
     left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
-    region = (left, top, right, bottom)
-    bins = pair.bins(k, region, 1, p)
-    height, width = pair.shape
-    expected = min(disparity / step, float(width))
-    limits = round(expected) - p.disparities[0], round(expected) + p.disparities[1]
-    disparities = pair.disparities(k, region, False, limits, True, p)
-    coherent = k.coherent_cells(disparities, expected, p.disparity_tolerance, FILL_WINDOW)
-    if left < 0 or top < 0 or right > width or bottom > height:  # cells outside the image aren't the head's
-        coherent[: max(-top, 0)] = coherent[max(height - top, 0) :] = 0
-        coherent[:, : max(-left, 0)] = coherent[:, max(width - left, 0) :] = 0
+    expected = min(disparity / step, float(pair.shape[1]))
+    below, above = p.disparities
+    first, last = round(expected) - below, round(expected) + above
+    bins, coherent = k.head_cells(
+        pair.left, pair.right, (left, top, right, bottom), step, p.bins, p.max_chroma, pair.gains, expected,
+        p.disparity_tolerance, FILL_WINDOW, first, last, p.window, p.uniqueness, p.prefilter,
+    )  # fmt: skip
     return SearchRegion(left, top, bins, coherent)

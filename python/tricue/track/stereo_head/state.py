@@ -21,6 +21,7 @@ class HeadState(NamedTuple):
     size: tuple[float, float]  # width and height of the head, meters
     first_histogram: Floats  # (L,) the color model of the first frame
     learned_histogram: Floats  # (L,) M of (2)
+    model: Floats  # (L,) what is searched for: the first one mixed with the learned one
     filter: HeadFilter
     last_seen: Floats  # (3,) position, meters
     score: float  # of the match in this frame, 0 where the head isn't recognized
@@ -30,12 +31,6 @@ class HeadState(NamedTuple):
     first_mean: Floats | None  # (3,) mean color of the first left image; None: light isn't compensated
     timestamp: float | None
     missed: float = 0.0  # seconds since the head was last recognized
-
-    def model(self, p: StereoHeadParams) -> Floats:
-        """(L,) the color model that is searched for: the first one mixed with the learned one."""
-        model = (1 - p.first_frame_weight) * self.learned_histogram
-        model += p.first_frame_weight * self.first_histogram
-        return model
 
     def min_intersection_to_learn(self, p: StereoHeadParams) -> float:
         """The intersection (1) from which colors are learned."""

@@ -96,13 +96,15 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         pair = PreparedPair.of(self._k, left, right, None, self.params)
         first_mean = pair.mean if self.params.compensate_light else None
         first = self._measure_first(pair, geometry, head)
+        histogram, model, color = self._mix(first.histogram, first.histogram, 0.0, first.histogram)
         state = HeadState(
             shape=left.shape,
             geometry=geometry,
             size=geometry.size(*head.ellipse[2:], float(first.position[2])),
-            first_histogram=first.histogram,
-            learned_histogram=first.histogram,
-            filter=head_filter.initialize(self._values(first, first.histogram), first.noise, self.params),
+            first_histogram=histogram,
+            learned_histogram=histogram,
+            model=model,
+            filter=head_filter.initialize(first.values(color), first.noise, self.params),
             last_seen=first.position,
             score=first.match.score,
             mean_score=first.match.score,
@@ -145,7 +147,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         predicted = head_filter.predict(k, state.filter, seconds, p)
         disparity = geometry.project(predicted.position)[2]
         ellipse = geometry.ellipse(predicted.position, state.size)
-        measured = measure(k, pair, geometry, ellipse, disparity, state.model(p), p)
+        measured = measure(k, pair, geometry, ellipse, disparity, state.model, p)
         if measured is not None:
             measured = measured.inflated(state.mean_score, p)
         if measured is not None and self._recognizes(state, measured, predicted):
@@ -160,11 +162,11 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         """The head anywhere in the image, as far as it can have moved; None where it isn't recognized."""
         k, p = self._k, self.params
         radius = MIN_SEARCH_RADIUS + p.max_speed * state.missed
-        head = LostHead(state.size, state.model(p), state.last_seen, radius)
+        head = LostHead(state.size, state.model, state.last_seen, radius)
         found = search_frame(k, pair, state.geometry, head, p)
         if found is None:
             return None
-        measured = measure(k, pair, state.geometry, *found, state.model(p), p)
+        measured = measure(k, pair, state.geometry, *found, state.model, p)
         if measured is None or not self._scores(state, measured, p.min_score_to_redetect):
             return None
         return measured
@@ -190,21 +192,21 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         """
         p, match = self.params, measured.match
         unlike = match.intersection < state.min_intersection_to_learn(p)
-        learned = state.learned_histogram
-        if not unlike:
-            change = measured.histogram - learned
-            change *= p.learning_rate
-            learned = learned + change  # (2)
-        values = self._values(measured, learned)
+        rate = 0.0 if unlike else p.learning_rate
+        before, first = state.learned_histogram, state.first_histogram
+        learned, model, color = self._mix(before, measured.histogram, rate, first)  # (2)
+        values = measured.values(color)
         if predicted is None or not p.fuse:
             head = head_filter.initialize(values, measured.noise, p)
         else:
             head = head_filter.correct(self._k, predicted, values, measured.noise)
         if p.feedback:
-            learned = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
+            shifted = self._k.shift_histogram(learned, p.bins, p.max_chroma, head.color)
+            learned, model, _ = self._mix(shifted, shifted, 0.0, first)
         off = 0.0 if unlike else match.intersection - state.mean_intersection
         return state._replace(
             learned_histogram=learned,
+            model=model,
             filter=head,
             last_seen=head.position,
             score=match.score,
@@ -214,9 +216,16 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             missed=0.0,
         )
 
-    def _values(self, measured: HeadMeasurement, histogram: Floats) -> Floats:
-        """(7,) the measurement of (8), with the mean color of the updated model."""
-        return measured.values(self._k.histogram_mean(histogram, self.params.bins, self.params.max_chroma))
+    def _mix(
+        self, histogram: Floats, measured: Floats, rate: float, first: Floats
+    ) -> tuple[Floats, Floats, Floats]:
+        """A histogram (L,) that learns from a measured one; the model, mixed of it and the first; its mean
+        color (3,).
+        """
+        p = self.params
+        return self._k.learn_histogram(
+            histogram, measured, rate, first, p.first_frame_weight, p.bins, p.max_chroma
+        )
 
     def _track(self, state: HeadState) -> Track:
         """The track of a state; without a rig it has no position."""

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "cues/stereo/sad_disparity.hpp"
+
+namespace tricue {
+
+/// A rectified pair, BGR or gray, in cells of step x step pixels.
+struct CellPair {
+    const ImageView &left, &right;
+    int step;
+};
+
+/// The sad_disparity of the reduce_gray of both images, in cells. Only what it compares is turned gray.
+///
+/// Throws std::invalid_argument as those two do.
+Floats cell_disparities(const CellPair& pair, const StereoRegion& region, const DisparityRange& range,
+                        const StereoMatching& matching);
+
+}  // namespace tricue

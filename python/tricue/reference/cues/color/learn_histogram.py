@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""A histogram that learns, and its mean color (Moreno et al. 2002, equations (2) and (7))."""
+
+from tricue.reference.base.checks import Floats, refuse, require_shape
+from tricue.reference.cues.color.detail.color_space import Bins, require_space
+from tricue.reference.cues.color.histogram_mean import histogram_mean
+
+
+def learn_histogram(
+    histogram: Floats,
+    measured: Floats,
+    rate: float,
+    first: Floats,
+    weight: float,
+    bins: Bins,
+    chroma: int,
+) -> tuple[Floats, Floats, Floats]:
+    """Moves the histogram towards the measured one by a share of what is between, then mixes."""
+    require_space(bins, chroma)
+    size = (bins[0] * bins[1] * bins[2],)
+    require_shape("histogram", histogram, size)
+    require_shape("measured", measured, size)
+    _require_share("rate", rate)
+    require_shape("first", first, size)
+    _require_share("weight", weight)
+    learned = histogram + rate * (measured - histogram)
+    return learned, (1 - weight) * learned + weight * first, histogram_mean(learned, bins, chroma)
+
+
+def _require_share(name: str, share: float) -> None:
+    if not 0 <= share <= 1:
+        refuse(name, "0 to 1", float(share))

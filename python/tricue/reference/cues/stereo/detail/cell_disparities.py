@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+"""The disparities of a pair's cells: what the twins of the head's search share."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+from tricue.reference.camera.reduce_gray import reduce_gray
+from tricue.reference.cues.stereo.sad_disparity import Rectangle, sad_disparity
+
+Image = NDArray[np.uint8]
+
+
+def cell_disparities(
+    left: Image,
+    right: Image,
+    step: int,
+    region: Rectangle,
+    ellipse: bool,
+    first: int,
+    last: int,
+    window: int,
+    uniqueness: int,
+    prefilter: bool,
+) -> NDArray[np.float32]:
+    """The disparities of a region, cells, by the whole images turned gray."""
+    if left.shape[0] < 1 or left.shape[1] < 1:
+        refuse("left", "at least one pixel", "none")
+    if left.shape[:2] != right.shape[:2]:
+        refuse("right", f"the left image's size {left.shape[:2]}", right.shape[:2])
+    cells = reduce_gray(left, step), reduce_gray(right, step)
+    return sad_disparity(*cells, region, ellipse, first, last, window, uniqueness, prefilter)

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""The disparity of an ellipse."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from tricue import _core, reference
+from tricue.kernels import Kernels
+
+Image = NDArray[np.uint8]
+SEARCH = ("first", "last", "window", "uniqueness", "prefilter")
+
+
+def case(seed: int) -> dict[str, Any]:
+    """Arguments: pairs of noise, shifted or unlike, color and gray, with regions over their edges."""
+    rng = np.random.default_rng(seed)
+    shape = int(rng.integers(1, 50)), int(rng.integers(1, 90))
+    left, right = rng.integers(0, 256, (2, *shape, 3)).astype(np.uint8)
+    if rng.random() < 0.7:
+        right = np.roll(left, -int(rng.integers(0, 6)), 1)
+    if rng.random() < 0.3:
+        left, right = left // 32, right // 32
+    if rng.random() < 0.3:
+        right = np.ascontiguousarray(right[..., 1])
+    if rng.random() < 0.3:
+        left = np.ascontiguousarray(left[..., 1])
+    x, y, first = (int(each) for each in rng.integers((-12, -12, -6), (80, 40, 7)))
+    return {
+        "left": left,
+        "right": right,
+        "region": (x, y, x + int(rng.integers(1, 60)), y + int(rng.integers(1, 50))),
+        "first": first,
+        "last": first + int(rng.integers(0, 40)),
+        "window": int(rng.choice([1, 3, 5, 11])),
+        "uniqueness": int(rng.choice([0, 5, 15])),
+        "prefilter": bool(rng.integers(0, 2)),
+        "subpixel": bool(rng.integers(0, 2)),
+        "median": bool(rng.integers(0, 2)),
+        "tolerance": float(rng.choice([0, 0.6, 2])),
+    }
+
+
+@given(st.integers(0, 2**32))
+def test_twin_gives_the_same(seed: int) -> None:
+    """Native and reference agree to the last bit. The sum of the mean is one of float32 numbers with few
+    digits in float64, which rounds nothing.
+    """
+    arguments = case(seed)
+    native, twin = _core.ellipse_disparity(**arguments), reference.ellipse_disparity(**arguments)
+    np.testing.assert_equal(native, twin)
+
+
+@given(st.integers(0, 2**32))
+def test_agrees_with_numpy_on_the_whole_images(seed: int) -> None:
+    """Median, mean and counts are NumPy's of the disparities by the whole gray images: the mean to the
+    rounding of NumPy's sum of up to 3000 float32 numbers in pairs.
+    """
+    arguments = case(seed)
+    gray = [_core.reduce_gray(arguments[name], 1) for name in ("left", "right")]
+    found = _core.sad_disparity(*gray, arguments["region"], True, *(arguments[name] for name in SEARCH))
+    matched = found[np.isfinite(found)]
+    if not arguments["subpixel"]:
+        matched = np.ceil(matched - np.float32(0.5))
+    disparity, count, near = _core.ellipse_disparity(**arguments)
+    assert count == matched.size
+    if count == 0:
+        assert math.isnan(disparity)
+        assert near == 0
+        return
+    if arguments["median"]:
+        assert disparity == np.median(matched)
+    else:
+        assert disparity == pytest.approx(matched.mean(), rel=1e-5, abs=1e-5)
+    off = np.abs(matched - np.float32(disparity))
+    assert near == np.count_nonzero(off <= np.float32(arguments["tolerance"]))
+
+
+@pytest.mark.parametrize("median", [True, False])
+@pytest.mark.parametrize("disparity", [0, 7, 40, -3])
+def test_a_shifted_picture_has_that_disparity(kernels: Kernels, disparity: int, median: bool) -> None:
+    """What lies at one disparity has it, and all pixels are near it."""
+    left = np.random.default_rng(2).integers(0, 256, (60, 160, 3)).astype(np.uint8)
+    found = kernels.ellipse_disparity(
+        left, np.roll(left, -disparity, 1), (70, 20, 90, 44), disparity - 5, disparity + 6, 5, 5, True, False,
+        median, 0.0,
+    )  # fmt: skip
+    assert found[0] == disparity
+    assert found[1] == found[2]
+    assert found[1] == pytest.approx(np.pi * 10 * 12, rel=0.03)
+
+
+def test_the_median_leaves_out_what_is_behind(kernels: Kernels) -> None:
+    """A third of the ellipse at another disparity pulls the mean, and leaves the median as it is."""
+    left = np.random.default_rng(3).integers(0, 256, (60, 160, 3)).astype(np.uint8)
+    right = np.roll(left, -10, 1)
+    right[:27] = np.roll(left, -4, 1)[:27]
+    arguments = (left, right, (60, 20, 90, 44), 0, 14, 5, 5, True, False)
+    median, _, near = kernels.ellipse_disparity(*arguments, True, 0.5)
+    mean, count, _ = kernels.ellipse_disparity(*arguments, False, 0.5)
+    assert median == 10
+    assert 7 < mean < 9.5
+    assert 0.6 < near / count < 0.8
+
+
+BAD: list[tuple[dict[str, Any], str]] = [
+    ({"tolerance": -1.0}, "tolerance: expected 0 or more"),
+    ({"tolerance": np.nan}, "tolerance: expected 0 or more"),
+    ({"right": np.zeros((12, 15, 3), np.uint8)}, "right: expected the left image's"),
+    ({"region": (0, 0, 0, 4)}, "region: expected a width and height"),
+    ({"last": -1}, "last: expected at least first"),
+    ({"window": 4}, "window: expected an odd number"),
+    ({"uniqueness": 101}, "uniqueness: expected 0 to 100"),
+]
+
+
+@pytest.mark.parametrize(("changes", "text"), BAD)
+def test_bad_values_are_refused(kernels: Kernels, changes: dict[str, Any], text: str) -> None:
+    """Errors name the argument, what was expected and what came."""
+    image = np.zeros((12, 16, 3), np.uint8)
+    arguments = case(0) | {"left": image, "right": image, "region": (0, 0, 4, 5), "first": 0, "last": 4}
+    with pytest.raises(ValueError, match=text):
+        kernels.ellipse_disparity(**arguments | changes)
