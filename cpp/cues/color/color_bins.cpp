@@ -45,7 +45,7 @@ void bin_row(const std::uint8_t* __restrict pixels, std::ptrdiff_t n, const Colo
     const int chroma = space.chroma, last = 2 * space.chroma - 1;
     const int stride0 = space.bins[1] * space.bins[2], stride1 = space.bins[2];
     const float blue = light[0], green = light[1], red = light[2];
-    for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
         const int b = relight(pixels[3 * x], blue), g = relight(pixels[3 * x + 1], green),
                   r = relight(pixels[3 * x + 2], red);
         const int i = find_bin(std::min(std::max(b - g + chroma, 0), last), first);

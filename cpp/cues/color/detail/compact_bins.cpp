@@ -8,6 +8,8 @@
 namespace tricue {
 namespace {
 
+static_assert((CompactBins::kUnmatchedCount & (CompactBins::kUnmatchedCount - 1)) == 0);
+
 constexpr std::uint16_t kUnassigned = kNoBin;  ///< a bin of the model that hasn't occurred yet
 
 TRICUE_MULTIVERSION
@@ -50,7 +52,7 @@ void CompactBins::fill_indices(const BinsView& bins, VectorRef model, double tot
                 table[bin] = static_cast<std::uint16_t>(shares.size());
                 shares.push_back(model[bin] / total);
             }
-            const int spread = table[bin] == kUnmatched ? (x + y) % kUnmatchedCount : 0;
+            const int spread = table[bin] == kUnmatched ? (x + y) & (kUnmatchedCount - 1) : 0;
             out[x] = static_cast<std::uint16_t>(table[bin] + spread);
         }
     }

@@ -13,6 +13,7 @@ namespace tricue {
 namespace {
 
 constexpr int kMaxSide = 127;
+constexpr Eigen::Index kRegister = 32;  ///< numbers of 16 bits in the longest register
 
 /// 1 for a cell at the expected disparity, -1 for one beside it, 0 for one without a disparity.
 TRICUE_MULTIVERSION
@@ -61,17 +62,19 @@ CellMask coherent_cells(FloatsRef disparities, float expected, float tolerance, 
     if (!(tolerance >= 0.0F)) refuse("tolerance", "0 or more", tolerance);
     if (fill < 1 || fill > kMaxSide || fill % 2 == 0) refuse("fill", "an odd number from 1 to 127", fill);
     const Eigen::Index rows = disparities.rows(), cols = disparities.cols(), half = fill / 2;
-    Eigen::Array<std::int16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> votes(rows, cols);
-    const auto row = [&](Eigen::Index i) { return votes.data() + i * cols; };
+    // Rows of whole registers, as a remainder would be added one by one; nobody votes in it.
+    const Eigen::Index width = (cols + kRegister - 1) / kRegister * kRegister;
+    std::vector<std::int16_t> votes(static_cast<std::size_t>(rows * width), 0);
+    const auto row = [&](Eigen::Index i) { return votes.data() + i * width; };
     for (Eigen::Index i = 0; i < rows; ++i)
         vote(disparities.data() + i * disparities.outerStride(), cols, expected, tolerance, row(i));
 
     CellMask mask(rows, cols);
-    std::vector<std::int16_t> columns(static_cast<std::size_t>(cols + 2 * half), 0);
+    std::vector<std::int16_t> columns(static_cast<std::size_t>(width + 2 * half), 0);
     for (Eigen::Index y = 0; y < std::min(half, rows); ++y)
-        slide_down(row(y), nullptr, cols, columns.data() + half);
+        slide_down(row(y), nullptr, width, columns.data() + half);
     for (Eigen::Index i = 0; i < rows; ++i) {
-        slide_down(i + half < rows ? row(i + half) : nullptr, i > half ? row(i - half - 1) : nullptr, cols,
+        slide_down(i + half < rows ? row(i + half) : nullptr, i > half ? row(i - half - 1) : nullptr, width,
                    columns.data() + half);
         decide(columns.data(), row(i), cols, fill, mask.data() + i * cols);
     }

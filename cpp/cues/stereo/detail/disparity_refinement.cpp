@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -19,7 +20,7 @@ void refine_row(const Matches& matches, int n, int first, int candidates, unsign
     const std::uint16_t* __restrict best = matches.best, * __restrict at = matches.at;
     const std::uint16_t* __restrict below = matches.below, * __restrict above = matches.above;
     const std::uint16_t* __restrict second = matches.second;
-    for (int x = 0; x < n; ++x) {
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
         const bool ambiguous =
             (uniqueness > 0) & (second[x] != kNoCost) & (100u * second[x] <= (100u + uniqueness) * best[x]);
         const bool between = (below[x] != kNoCost) & (above[x] != kNoCost) & (at[x] + 1 < candidates);
@@ -29,7 +30,7 @@ void refine_row(const Matches& matches, int n, int first, int candidates, unsign
         const float whole = static_cast<float>(first + at[x]);
         const float fine = between ? whole + fraction : whole;
         disparity[x] = ambiguous | (best[x] == kNoCost) ? kNone : fine;
-    }
+    });
 }
 
 }  // namespace

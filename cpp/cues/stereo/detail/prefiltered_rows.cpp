@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -15,15 +16,17 @@ constexpr std::int16_t kClip = PrefilteredRows::kClip;
 TRICUE_MULTIVERSION
 void smooth_down(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
                  const std::uint8_t* __restrict below, int n, std::int16_t* __restrict smooth) {
-    for (int x = 0; x < n; ++x) smooth[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
+    for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
+        smooth[x] = static_cast<std::int16_t>(above[x] + 2 * here[x] + below[x]);
+    });
 }
 
 TRICUE_MULTIVERSION
 void slope_across(const std::int16_t* __restrict smooth, int n, std::uint8_t* __restrict slope) {
-    for (int x = 0; x < n; ++x) {
+    for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
         const auto rise = static_cast<std::int16_t>(smooth[x + 2] - smooth[x]);
         slope[x] = static_cast<std::uint8_t>(std::clamp<std::int16_t>(rise, -kClip, kClip) + kClip);
-    }
+    });
 }
 
 /// Columns [begin, end) of three rows of an image, the one in the middle and its neighbors, which move down with it.

@@ -30,9 +30,10 @@ def measure_disparity(
 
     limits: lowest and highest disparity, pixels, both included. None where too few pixels are matched.
     """
-    (first, last), (region, area) = limits, _inner_region(pair, ellipse, p)
+    (first, last), window = limits, pair.pixel_window(p)
+    region, area = _inner_region(ellipse, window, p)
     disparity, matched, near = k.ellipse_disparity(
-        pair.left, pair.right, region, first, last, pair.pixel_window(p), p.uniqueness, p.prefilter,
+        pair.left, pair.right, region, first, last, window, p.uniqueness, p.prefilter,
         p.subpixel, p.disparity_statistic == "median", p.disparity_tolerance * pair.step,
     )  # fmt: skip
     return None if matched < MIN_MATCHED_PIXELS else EllipseDisparity(disparity, near / area)
@@ -81,7 +82,7 @@ def _match(
     k: Kernels, pair: PreparedPair, ellipse: Ellipse, limits: tuple[int, int], p: StereoHeadParams
 ) -> tuple[Disparities, float]:
     """The disparities (N,) found in an ellipse without its margin, and how many pixels that ellipse has."""
-    region, area = _inner_region(pair, ellipse, p)
+    region, area = _inner_region(ellipse, pair.pixel_window(p), p)
     disparities = pair.disparities(k, region, True, limits, False, p)
     matched = disparities[np.isfinite(disparities)]
     if not p.subpixel:
@@ -90,10 +91,10 @@ def _match(
 
 
 def _inner_region(
-    pair: PreparedPair, ellipse: Ellipse, p: StereoHeadParams
+    ellipse: Ellipse, window: int, p: StereoHeadParams
 ) -> tuple[tuple[int, int, int, int], float]:
     """The rectangle around an ellipse without its margin, pixels, and how many pixels that ellipse has."""
-    margin = p.ellipse_margin * pair.pixel_window(p)
+    margin = p.ellipse_margin * window
     x, y, minor, major = ellipse
     minor, major = max(minor - margin, minor / 2), max(major - margin, major / 2)
     region = (math.floor(x - minor), math.floor(y - major), math.ceil(x + minor), math.ceil(y + major))

@@ -42,7 +42,7 @@ def crop_region(
     x, y, minor, major = x / step, y / step, minor / step, major / step
     left, top = math.floor(x - p.ring * minor) - across, math.floor(y - p.ring * major) - down
     right, bottom = math.ceil(x + p.ring * minor) + across, math.ceil(y + p.ring * major) + down
-    expected = min(disparity / step, float(pair.shape[1]))
+    expected = min(disparity / step, float(pair.left.shape[1] // step))
     below, above = p.disparities
     first, last = round(expected) - below, round(expected) + above
     bins, coherent = k.head_cells(
