@@ -41,7 +41,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
         target=target,
         first_side=target.side,
         recognized_side=target.side,
-        mean_response=localize(model, window).responses[0],
+        mean_response=localize(model, window).response,
         sides=sides,
         depth=depth,
         position=position,

@@ -9,8 +9,9 @@ another pose, of which the first frame tells nothing.
 
 import math
 
+from tricue.track.fused.arrays import NO_PLANE
 from tricue.track.fused.experts.depth import covered_share
-from tricue.track.fused.localize import NO_CONTRAST, clamp_to_image
+from tricue.track.fused.localize import clamp_to_image
 from tricue.track.fused.measure import Match
 from tricue.track.fused.outline import Side, measure_reaches
 from tricue.track.fused.params import FusedParams
@@ -48,7 +49,7 @@ def update_models(
 def without_drift(target: Target, match: Match) -> Target:
     """A match's target, moved to the peak of the first frame's filter if that is close to where it was."""
     window = match.window
-    peak = window.observation.k.evidence_peak(match.first_responses[None], NO_CONTRAST, 1.0, 0.0).tolist()
+    peak = window.observation.k.evidence_peak(match.first_responses[None], NO_PLANE, 1.0, 0.0).tolist()
     right, down = peak[0] - match.right / CELL_PIXELS, peak[1] - match.down / CELL_PIXELS
     if peak[2] < MIN_FIRST_RESPONSE or max(abs(right), abs(down)) > MAX_DRIFT:
         return target

@@ -16,7 +16,6 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
 WINDOW_CELLS = 32  # on a side
-CENTER_CELL = WINDOW_CELLS // 2  # where the response to a target at the window's center is
 CELL_PIXELS = 2  # patch pixels on a side
 PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
 INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
@@ -31,7 +30,7 @@ class WindowParams(Params):
 
 
 class Window:
-    """A square window around a target; what the experts read of it is computed once, on demand.
+    """A square window around a target; its depth is computed once, on demand.
 
     patch: (64, 64, 3) BGR samples. pixel_size: image pixels per patch pixel. target: the one that the window
     is centered on. size: the target's width and height in patch pixels.
@@ -42,16 +41,6 @@ class Window:
     ) -> None:
         self.observation, self.target, self.patch, self.pixel_size = observation, target, patch, pixel_size
         self.size = target.width / pixel_size, target.height / pixel_size
-
-    @cached_property
-    def cells(self) -> Plane:
-        """(19, 32, 32) orientations, texture and colors of the cells, weighted by a Hann window."""
-        return self.observation.k.hog_color_cells(self.patch, HANN_WINDOW)
-
-    @cached_property
-    def colors(self) -> Image:
-        """(1, 3, 4096) colors of the patch's pixels."""
-        return np.ascontiguousarray(self.patch.reshape(-1, 3).T)[None]
 
     @cached_property
     def depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
