@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """All that the fused tracker keeps from frame to frame."""
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.experts.color import ColorExpert
@@ -28,7 +29,8 @@ class AppearanceModels(NamedTuple):
     first_colors: FirstColors
 
 
-class State(NamedTuple):
+@dataclass(frozen=True)
+class State:
     """The tracker after a frame; nothing changes it."""
 
     shape: tuple[int, int]  # of the first frame
@@ -52,6 +54,13 @@ class State(NamedTuple):
     seconds: float = 0.0  # since the frame before
     frames: int = 0  # since init
     timestamp: float | None = None
+
+    def replace(self, **changes: Any) -> "State":
+        """The state with some attributes changed; a named tuple of so many takes four times as long."""
+        changed = object.__new__(State)
+        vars(changed).update(vars(self))
+        vars(changed).update(changes)
+        return changed
 
     def is_lost(self, p: FusedParams) -> bool:
         """Whether it was missed for long enough to be LOST."""
