@@ -20,10 +20,10 @@ struct PlaceFilter {
 ///
 /// @param patch uint8 (2R, 2C, 3) BGR, the target in its middle
 /// @param taper float32 (R, C)
-/// @param mask, label, previous, temporal_weight, penalty as regularized_filter has them; K is 19
+/// @param mask, label, previous as regularized_filter has them; K is 19
 /// @param first complex64 (K, R, C // 2 + 1), of the first frame
+/// @param temporal_weight, penalty as regularized_filter has them
 /// @param first_weight in [0, 1]
-/// @returns complex64 (K, R, C // 2 + 1) learned, and (2, K, R, C // 2 + 1) applied, of which the second is `first`
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Li, Tian, Zuo, Zhang, Yang 2018 (STRCF).
 PlaceFilter learn_place_filter(const ImageView& patch, FloatsRef taper, FloatsRef mask, ComplexesRef label,

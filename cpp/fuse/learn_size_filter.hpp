@@ -30,12 +30,15 @@ struct SizeFilter {
 /// @param patch uint8 (H, W, 3) BGR, without padding between its rows
 /// @param places int64 (2R, 2C): as pick_pixels has them
 /// @param taper float32 (R, C)
-/// @param label, numerator, denominator, rate as correlation_train has them; K is 19
+/// @param label, numerator, denominator as correlation_train has them; K is 19
 /// @param first_numerator complex64 (K, R, C // 2 + 1), of the first frame
 /// @param first_denominator float32 (R, C // 2 + 1), of the first frame
+/// @param rate as correlation_train has it
 /// @param first_weight in [0, 1]
 /// @param ridge finite, above 0
-/// @returns complex64 (K, R, C // 2 + 1) and float32 (R, C // 2 + 1), numerator and denominator; complex64 (1, K, R, C // 2 + 1) applied
+/// @returns numerator complex64 (K, R, C // 2 + 1), A
+/// @returns denominator float32 (R, C // 2 + 1), B
+/// @returns applied complex64 (1, K, R, C // 2 + 1)
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST); Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).
 SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef taper, ComplexesRef label,

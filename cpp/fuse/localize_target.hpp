@@ -48,7 +48,6 @@ struct LocalizedTarget {
 /// @param outer, around as box_contrast has them
 /// @param filter_weight, contrast_weight as evidence_peak has them; without any posterior there is no contrast
 /// @param inner finite, above 0
-/// @returns float64 (7 + F,) as said, and float32 (F, R, C) responses
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Danelljan et al. 2014 (DSST); Bertinetto et al. 2016 (Staple); Bolme et al. 2010 (MOSSE).
 LocalizedTarget localize_target(const ImageView& patch, FloatsRef taper, const TargetLook& look,

@@ -1416,13 +1416,15 @@ def learn_patch_colors(
     Args:
         patch: uint8 (H, W, 3) BGR
         other: float32 (H, W), P(target) by another cue, or (0, 0) where there is none
-        width, height: of the box, pixels, finite, above 0
+        width, height: of the box, pixels, finite, not negative
         outer: finite, at least 1
         least_own, most_other: in [0, 1]
         target, surround, rate, rare: as learn_contrast has them
 
     Returns:
-        float32 (B, B, B) each: target, surround, and P(target | color)
+        target: float32 (B, B, B): the target's histogram, of sum 1 once learned
+        surround: float32 (B, B, B): the surround's histogram, of sum 1 once learned
+        table: float32 (B, B, B): P(target | color)
 
     Raises:
         ValueError: on other shapes, or numbers out of range
@@ -1450,13 +1452,15 @@ def learn_place_filter(
     Args:
         patch: uint8 (2R, 2C, 3) BGR, the target in its middle
         taper: float32 (R, C)
-        mask, label, previous, temporal_weight, penalty: as regularized_filter has them; K is 19
+        mask, label, previous: as regularized_filter has them; K is 19
         first: complex64 (K, R, C // 2 + 1), of the first frame
+        temporal_weight, penalty: as regularized_filter has them
         first_weight: in [0, 1]
 
     Returns:
-        complex64 (K, R, C // 2 + 1) learned, and (2, K, R, C // 2 + 1) applied, of which the second is
-            `first`
+        learned: complex64 (K, R, C // 2 + 1); in C++ the planes one below the other
+        applied: complex64 (2, K, R, C // 2 + 1): the learned one with a share of the first, and the
+            first
 
     Raises:
         ValueError: on other shapes, or numbers out of range
@@ -1493,15 +1497,17 @@ def learn_size_filter(
         patch: uint8 (H, W, 3) BGR, without padding between its rows
         places: int64 (2R, 2C): as pick_pixels has them
         taper: float32 (R, C)
-        label, numerator, denominator, rate: as correlation_train has them; K is 19
+        label, numerator, denominator: as correlation_train has them; K is 19
         first_numerator: complex64 (K, R, C // 2 + 1), of the first frame
         first_denominator: float32 (R, C // 2 + 1), of the first frame
+        rate: as correlation_train has it
         first_weight: in [0, 1]
         ridge: finite, above 0
 
     Returns:
-        complex64 (K, R, C // 2 + 1) and float32 (R, C // 2 + 1), numerator and denominator; complex64
-            (1, K, R, C // 2 + 1) applied
+        numerator: complex64 (K, R, C // 2 + 1), A
+        denominator: float32 (R, C // 2 + 1), B
+        applied: complex64 (1, K, R, C // 2 + 1)
 
     Raises:
         ValueError: on other shapes, or numbers out of range
@@ -1549,7 +1555,9 @@ def localize_target(
         inner: finite, above 0
 
     Returns:
-        float64 (7 + F,) as said, and float32 (F, R, C) responses
+        found: float64 (7 + F,): evidence_peak, the first filter's peak sharpness, and the colors'
+            similarity
+        responses: float32 (F, R, C) of the filters; in C++ one below the other
 
     Raises:
         ValueError: on other shapes, or numbers out of range

@@ -29,7 +29,6 @@ struct LearnedPixels {
 /// @param outer finite, at least 1
 /// @param least_own, most_other in [0, 1]
 /// @param target, surround, rate, rare as learn_contrast has them
-/// @returns float32 (B, B, B) each: target, surround, and P(target | color)
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: ours; as learn_contrast.
 ColorContrast learn_patch_colors(const ImageView& patch, const PlaneView& other, const LearnedPixels& pixels,
