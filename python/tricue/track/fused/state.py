@@ -16,6 +16,7 @@ from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import PictureKind
 
+FRESH_TRUST = DepthTrust()  # before the first frame
 CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
@@ -47,7 +48,7 @@ class State:
     position: PositionFilter | None = None  # None until depth was measured
     is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
     outline: Outline = BOX_OUTLINE
-    depth_trust: DepthTrust = DepthTrust()
+    depth_trust: DepthTrust = FRESH_TRUST
     occluded: bool = False  # by something nearer
     missed_frames: int = 0  # in a row, in which it was not recognized
     missed_seconds: float = 0.0  # of these frames
