@@ -135,9 +135,9 @@ TRICUE_INLINE void interleave(const Lanes& one, const Lanes& two, Lanes& lower, 
     constexpr std::size_t kLanes = sizeof...(kPlace);
     const auto place = [](std::size_t first, std::size_t i) { return first + i / 2 + (i % 2) * kLanes; };
 #if defined(__GNUC__) && !defined(__clang__)
-    using Places = decltype(one == one);
-    lower = __builtin_shuffle(one, two, Places{static_cast<int>(place(0, kPlace))...});
-    upper = __builtin_shuffle(one, two, Places{static_cast<int>(place(kLanes / 2, kPlace))...});
+    using LaneNumbers = decltype(one == one);
+    lower = __builtin_shuffle(one, two, LaneNumbers{static_cast<int>(place(0, kPlace))...});
+    upper = __builtin_shuffle(one, two, LaneNumbers{static_cast<int>(place(kLanes / 2, kPlace))...});
 #else
     const auto take = [&](std::size_t k) { return k < kLanes ? one[k] : two[k - kLanes]; };
     lower = Lanes{take(place(0, kPlace))...};
