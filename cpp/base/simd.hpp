@@ -6,6 +6,7 @@
 #include <cstddef>  // any header of the C library defines __GLIBC__
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 /// The highest level of x86-64 that functions are compiled for: 1 (SSE2), 2 (SSE4.2), 3 (AVX2), 4 (AVX-512). All levels give the
 /// same bits, which `make levels` proves. CMake's TRICUE_SIMD_LEVEL lowers it.
@@ -125,6 +126,28 @@ TRICUE_INLINE void permute(const Lanes& from, Lanes& to) {
 #else
     to = Lanes{from[kFrom]...};
 #endif
+}
+
+/// The lanes of both in turns: those of the lower halves, and those of the upper ones.
+template <typename Lanes, std::size_t... kPlace>
+TRICUE_INLINE void interleave(const Lanes& one, const Lanes& two, Lanes& lower, Lanes& upper,
+                              std::index_sequence<kPlace...>) {
+    constexpr std::size_t kLanes = sizeof...(kPlace);
+    const auto place = [](std::size_t first, std::size_t i) { return first + i / 2 + (i % 2) * kLanes; };
+#if defined(__GNUC__) && !defined(__clang__)
+    using LaneNumbers = decltype(one == one);
+    lower = __builtin_shuffle(one, two, LaneNumbers{static_cast<int>(place(0, kPlace))...});
+    upper = __builtin_shuffle(one, two, LaneNumbers{static_cast<int>(place(kLanes / 2, kPlace))...});
+#else
+    const auto take = [&](std::size_t k) { return k < kLanes ? one[k] : two[k - kLanes]; };
+    lower = Lanes{take(place(0, kPlace))...};
+    upper = Lanes{take(place(kLanes / 2, kPlace))...};
+#endif
+}
+
+template <typename Lanes>
+TRICUE_INLINE void interleave(const Lanes& one, const Lanes& two, Lanes& lower, Lanes& upper) {
+    interleave(one, two, lower, upper, std::make_index_sequence<sizeof(Lanes) / sizeof(one[0])>());
 }
 
 /// In one order, whatever the machine.

@@ -159,6 +159,19 @@ StackView<Scalar> stack(const py::object& object, const char* name, const char* 
             static_cast<int>(array.shape(1)), static_cast<int>(array.shape(2))};
 }
 
+inline FilterStack filter_stack(const py::object& object, const char* name) {
+    const auto array = require<std::complex<float>>(object, name, 4, "complex64 (F, K, R, C // 2 + 1)");
+    const auto size = [&](int axis) { return static_cast<int>(array.shape(axis)); };
+    return {contiguous<std::complex<float>>(array, name), size(0), size(1), size(2), size(3)};
+}
+
+/// A cube (B, B, B), seen as B² rows.
+inline Eigen::Map<const Floats> cube(const py::object& object, const char* name) {
+    const char* expected = "float32 (B, B, B)";
+    const auto side = require<float>(object, name, 3, expected).shape(0);
+    return floats(object, name, {side, side, side}, expected);
+}
+
 inline Bgr bgr(const py::object& object, const char* name) {
     const char* expected = "a uint8 color (3,): blue, green, red";
     const auto array = require<std::uint8_t>(object, name, 1, expected);

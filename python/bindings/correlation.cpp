@@ -22,15 +22,9 @@ std::ptrdiff_t work(const FloatStack& cells) {
     return std::ptrdiff_t{cells.planes} * cells.rows * cells.cols;
 }
 
-FilterStack filter_stack(const Complex& filters) {
-    const auto array = require<std::complex<float>>(filters, "filters", 4, "complex64 (F, K, R, C // 2 + 1)");
-    const auto size = [&](int axis) { return static_cast<int>(array.shape(axis)); };
-    return {contiguous<std::complex<float>>(array, "filters"), size(0), size(1), size(2), size(3)};
-}
-
 Floating correlation_response_arrays(const Floating& cells, const Complex& filters) {
     const auto planes = stack<float>(cells, "cells", kCells);
-    const auto each = filter_stack(filters);
+    const auto each = filter_stack(filters, "filters");
     return give(unlocked(work(planes), [&] { return correlation_response(planes, each); }),
                 {each.filters, planes.rows, planes.cols});
 }

@@ -16,6 +16,7 @@ void define_motion(pybind11::module_& m);
 void define_patch(pybind11::module_& m);
 void define_skin(pybind11::module_& m);
 void define_stereo(pybind11::module_& m);
+void define_target(pybind11::module_& m);
 }  // namespace tricue::bindings
 
 PYBIND11_MODULE(_core, m) {
@@ -32,6 +33,7 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_motion(m);
     tricue::bindings::define_fuse(m);
     tricue::bindings::define_correlation(m);
+    tricue::bindings::define_target(m);
     tricue::bindings::define_kalman(m);
     tricue::bindings::define_bayes(m);
     tricue::bindings::define_imgproc(m);

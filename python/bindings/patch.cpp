@@ -32,11 +32,9 @@ Array<float> hog_color_cells_arrays(const Bytes& patch, const Array<float>& tape
 }
 
 Array<float> color_posterior_arrays(const Bytes& image, const Array<float>& table) {
-    const char* expected = "float32 (B, B, B)";
     const auto view = color_image(image, "image");
-    const auto side = require<float>(table, "table", 3, expected).shape(0);
-    const auto cube = floats(table, "table", {side, side, side}, expected);
-    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return color_posterior(view, cube); }));
+    const auto each = cube(table, "table");
+    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return color_posterior(view, each); }));
 }
 
 Bytes pick_pixels_arrays(const Bytes& image, const Array<std::int64_t>& places) {

@@ -1545,6 +1545,220 @@ def learn_histogram(
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (2) and μ of equation (7); the
     mixture is ours.
+def learn_patch_colors(
+    patch: numpy.typing.NDArray[numpy.uint8],
+    other: numpy.typing.NDArray[numpy.float32],
+    width: float,
+    height: float,
+    outer: float,
+    least_own: float,
+    most_other: float,
+    target: numpy.typing.NDArray[numpy.float32],
+    surround: numpy.typing.NDArray[numpy.float32],
+    rate: float,
+    rare: float,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float32],
+]:
+    """
+    learn_contrast of a patch with the target in its middle: one stage of the frame, in one call.
+
+    The target's pixels are those with their centers in the ellipse that fits into its box; half a box's
+    sides count as a pixel at least. The surround's are those with their centers outside of the box
+    times `outer`; where there are none, those outside of the ellipse. Where another cue tells that more
+    than half of the ellipse's pixels are the target's, by more than `least_own`, only these are, and
+    those with less than `most_other` are the surround's.
+
+    Args:
+        patch: uint8 (H, W, 3) BGR
+        other: float32 (H, W), P(target) by another cue, or (0, 0) where there is none
+        width, height: of the box, pixels, finite, not negative
+        outer: finite, at least 1
+        least_own, most_other: in [0, 1]
+        target, surround, rate, rare: as learn_contrast has them
+
+    Returns:
+        target: float32 (B, B, B): the target's histogram, of sum 1 once learned
+        surround: float32 (B, B, B): the surround's histogram, of sum 1 once learned
+        table: float32 (B, B, B): P(target | color)
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: ours; as learn_contrast.
+    """
+
+def learn_place_filter(
+    patch: numpy.typing.NDArray[numpy.uint8],
+    taper: numpy.typing.NDArray[numpy.float32],
+    mask: numpy.typing.NDArray[numpy.float32],
+    label: numpy.typing.NDArray[numpy.complex64],
+    previous: numpy.typing.NDArray[numpy.complex64],
+    first: numpy.typing.NDArray[numpy.complex64],
+    temporal_weight: float,
+    penalty: float,
+    first_weight: float,
+) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.complex64]]:
+    """
+    Learns the filter of a target's place from a patch: one stage of the frame, in one call. It is
+    hog_color_cells, then regularized_filter, of which the result is also blended with the first frame's
+    filter, against forgetting:
+        applied = learned + first_weight (first - learned)
+
+    Args:
+        patch: uint8 (2R, 2C, 3) BGR, the target in its middle
+        taper: float32 (R, C)
+        mask, label, previous: as regularized_filter has them; K is 19
+        first: complex64 (K, R, C // 2 + 1), of the first frame
+        temporal_weight, penalty: as regularized_filter has them
+        first_weight: in [0, 1]
+
+    Returns:
+        learned: complex64 (K, R, C // 2 + 1); in C++ the planes one below the other
+        applied: complex64 (2, K, R, C // 2 + 1): the learned one with a share of the first, and the
+            first
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: Li, Tian, Zuo, Zhang, Yang 2018 (STRCF).
+    """
+
+def learn_size_filter(
+    patch: numpy.typing.NDArray[numpy.uint8],
+    places: numpy.typing.NDArray[numpy.int64],
+    taper: numpy.typing.NDArray[numpy.float32],
+    label: numpy.typing.NDArray[numpy.complex64],
+    numerator: numpy.typing.NDArray[numpy.complex64],
+    denominator: numpy.typing.NDArray[numpy.float32],
+    first_numerator: numpy.typing.NDArray[numpy.complex64],
+    first_denominator: numpy.typing.NDArray[numpy.float32],
+    rate: float,
+    first_weight: float,
+    ridge: float,
+) -> tuple[
+    numpy.typing.NDArray[numpy.complex64],
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.complex64],
+]:
+    """
+    Learns the filter of a target's size from a patch: one stage of the frame, in one call. It is
+    pick_pixels, hog_color_cells and correlation_train; then the parts are blended with those of the
+    first frame, against forgetting, and divided:
+        A = learned + first_weight (first - learned), B alike;   applied = A / (B + ridge mean(B))
+
+    mean(B) counts as 1e-12 at least.
+
+    Args:
+        patch: uint8 (H, W, 3) BGR, without padding between its rows
+        places: int64 (2R, 2C): as pick_pixels has them
+        taper: float32 (R, C)
+        label, numerator, denominator: as correlation_train has them; K is 19
+        first_numerator: complex64 (K, R, C // 2 + 1), of the first frame
+        first_denominator: float32 (R, C // 2 + 1), of the first frame
+        rate: as correlation_train has it
+        first_weight: in [0, 1]
+        ridge: finite, above 0
+
+    Returns:
+        numerator: complex64 (K, R, C // 2 + 1), A
+        denominator: float32 (R, C // 2 + 1), B
+        applied: complex64 (1, K, R, C // 2 + 1)
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: Danelljan, Häger, Khan, Felsberg 2014 (DSST); Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).
+    """
+
+def localize_target(
+    patch: numpy.typing.NDArray[numpy.uint8],
+    taper: numpy.typing.NDArray[numpy.float32],
+    filters: numpy.typing.NDArray[numpy.complex64],
+    table: numpy.typing.NDArray[numpy.float32],
+    other: numpy.typing.NDArray[numpy.float32],
+    roots: numpy.typing.NDArray[numpy.float64],
+    width: float,
+    height: float,
+    outer: float,
+    around: float,
+    filter_weight: float,
+    contrast_weight: float,
+    inner: float,
+) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float32]]:
+    """
+    Finds a target in a patch around its last place: one stage of the frame, in one call. It is what
+    hog_color_cells, correlation_response, color_posterior, combine_posteriors, box_contrast,
+    evidence_peak and joint_histogram do one after the other.
+
+    The peak's sharpness is by how many standard deviations of the first response its greatest number
+    near the place stands above its mean (of Bolme et al. 2010 the peak-to-sidelobe ratio, with all
+    cells). Colors are those of the pixels under the inner part of the target's box there: rounded to
+    whole pixels, halves to even, and cut at the patch's border, at least one each way. Their similarity
+    is the Bhattacharyya coefficient. Sums of both are in float64.
+
+    Args:
+        patch: uint8 (2R, 2C, 3) BGR
+        taper: float32 (R, C)
+        filters: complex64 (F, 19, R, C // 2 + 1), F at least 1
+        table: float32 (B, B, B), or (0, 0, 0) where colors tell nothing
+        other: float32 (2R, 2C), P(target) of the pixels by another cue, or (0, 0) where there is none
+        roots: float64 (B³,), B a power of two up to 64
+        width, height: of the box, patch pixels, finite, above 0
+        outer, around: as box_contrast has them
+        filter_weight, contrast_weight: as evidence_peak has them; without any posterior there is no
+            contrast
+        inner: finite, above 0
+
+    Returns:
+        found: float64 (7 + F,): evidence_peak, the first filter's peak sharpness, and the colors'
+            similarity
+        responses: float32 (F, R, C) of the filters; in C++ one below the other
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: Danelljan et al. 2014 (DSST); Bertinetto et al. 2016 (Staple); Bolme et al. 2010 (MOSSE).
+    """
+
+def log_polar_shift(
+    patch: numpy.typing.NDArray[numpy.uint8],
+    places: numpy.typing.NDArray[numpy.int64],
+    taper: numpy.typing.NDArray[numpy.float32],
+    filter: numpy.typing.NDArray[numpy.complex64],
+    most_right: int,
+    most_down: int,
+    penalty: float,
+) -> float:
+    """
+    By how many cells a patch has shifted to the right in other coordinates: in log-polar ones by the
+    logarithm of a change of size. One stage of the frame, in one call: pick_pixels, hog_color_cells,
+    and correlation_response, of which the peak near the middle counts.
+
+    The peak is the greatest response less `penalty` times the squared columns to the middle, in
+    float32, the first of equal ones. The place between the columns is that of the parabola through the
+    logarithms of the response and its neighbors, at most half a cell off (a Gaussian's peak exactly).
+    Neighbors count as a twentieth of the peak at least. At the ends of the range, and where the
+    response isn't above 0, it is the column's own.
+
+    Args:
+        patch: uint8 (H, W, 3) BGR, without padding between its rows
+        places: int64 (2R, 2C): as pick_pixels has them
+        taper: float32 (R, C)
+        filter: complex64 (1, 19, R, C // 2 + 1)
+        most_right, most_down: cells from column C // 2 and row R // 2, where all of them have to be
+            cells
+        penalty: finite
+
+    Returns:
+        columns to the right
+
+    Raises:
+        ValueError: on other shapes, or numbers out of range
+
+    Source: Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).
     """
 
 def measure_objects(
@@ -3098,6 +3312,80 @@ class Kernels(Protocol):
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float64],
     ]: ...
+    def learn_patch_colors(
+        self,
+        patch: numpy.typing.NDArray[numpy.uint8],
+        other: numpy.typing.NDArray[numpy.float32],
+        width: float,
+        height: float,
+        outer: float,
+        least_own: float,
+        most_other: float,
+        target: numpy.typing.NDArray[numpy.float32],
+        surround: numpy.typing.NDArray[numpy.float32],
+        rate: float,
+        rare: float,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float32],
+    ]: ...
+    def learn_place_filter(
+        self,
+        patch: numpy.typing.NDArray[numpy.uint8],
+        taper: numpy.typing.NDArray[numpy.float32],
+        mask: numpy.typing.NDArray[numpy.float32],
+        label: numpy.typing.NDArray[numpy.complex64],
+        previous: numpy.typing.NDArray[numpy.complex64],
+        first: numpy.typing.NDArray[numpy.complex64],
+        temporal_weight: float,
+        penalty: float,
+        first_weight: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.complex64]]: ...
+    def learn_size_filter(
+        self,
+        patch: numpy.typing.NDArray[numpy.uint8],
+        places: numpy.typing.NDArray[numpy.int64],
+        taper: numpy.typing.NDArray[numpy.float32],
+        label: numpy.typing.NDArray[numpy.complex64],
+        numerator: numpy.typing.NDArray[numpy.complex64],
+        denominator: numpy.typing.NDArray[numpy.float32],
+        first_numerator: numpy.typing.NDArray[numpy.complex64],
+        first_denominator: numpy.typing.NDArray[numpy.float32],
+        rate: float,
+        first_weight: float,
+        ridge: float,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.complex64],
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.complex64],
+    ]: ...
+    def localize_target(
+        self,
+        patch: numpy.typing.NDArray[numpy.uint8],
+        taper: numpy.typing.NDArray[numpy.float32],
+        filters: numpy.typing.NDArray[numpy.complex64],
+        table: numpy.typing.NDArray[numpy.float32],
+        other: numpy.typing.NDArray[numpy.float32],
+        roots: numpy.typing.NDArray[numpy.float64],
+        width: float,
+        height: float,
+        outer: float,
+        around: float,
+        filter_weight: float,
+        contrast_weight: float,
+        inner: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float32]]: ...
+    def log_polar_shift(
+        self,
+        patch: numpy.typing.NDArray[numpy.uint8],
+        places: numpy.typing.NDArray[numpy.int64],
+        taper: numpy.typing.NDArray[numpy.float32],
+        filter: numpy.typing.NDArray[numpy.complex64],
+        most_right: int,
+        most_down: int,
+        penalty: float,
+    ) -> float: ...
     def measure_objects(
         self,
         table: numpy.typing.NDArray[numpy.float64],

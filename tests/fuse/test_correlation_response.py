@@ -61,7 +61,7 @@ def test_native_is_the_twin(
 
 
 @pytest.mark.parametrize(
-    "shape", [(1, 1), (2, 2), (4, 6), (5, 8), (6, 9), (1, 4), (7, 1), (66, 3), (2, 70)], ids=str
+    "shape", [(1, 1), (2, 2), (4, 6), (5, 8), (6, 9), (1, 4), (7, 1), (32, 32), (66, 3), (2, 70)], ids=str
 )
 def test_takes_any_spectrum(kernels: Kernels, shape: tuple[int, int]) -> None:
     """Spectra that no real plane has give what NumPy's irfft2 makes of them, with another filter's beside

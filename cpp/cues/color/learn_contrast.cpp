@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/learn_contrast.hpp"
 
+#include <string>
+
 #include "base/check.hpp"
-#include "base/simd.hpp"
-#include "cues/color/detail/color_cells.hpp"
+#include "cues/color/detail/learn_histograms.hpp"
 #include "cues/color/joint_histogram.hpp"
 
 namespace tricue {
@@ -13,22 +14,10 @@ void require_one(const SampleView& samples, const char* name) {
     if (samples.ellipses != 1) refuse(name, "the samples of one ellipse", std::to_string(samples.ellipses));
 }
 
-TRICUE_MULTIVERSION
-void blend(const float* __restrict old, float rate, std::ptrdiff_t n, float* __restrict blended) {
-    for (std::ptrdiff_t k = 0; k < n; ++k) blended[k] = old[k] + rate * (blended[k] - old[k]);
-}
-
-TRICUE_MULTIVERSION
-void compute_table(const float* __restrict target, const float* __restrict surround, float rare,
-                   std::ptrdiff_t n, float* __restrict table) {
-    for (std::ptrdiff_t k = 0; k < n; ++k) table[k] = target[k] / (target[k] + surround[k] + rare);
-}
-
-/// The samples' histogram, as a cube, blended into the old one.
-Floats updated_histogram(const SampleView& samples, FloatsRef old, double rate) {
+/// The samples' histogram, as a cube.
+Floats seen_histogram(const SampleView& samples, FloatsRef old) {
     Floats seen = joint_histogram(samples, static_cast<int>(old.cols()));
     seen.resize(old.rows(), old.cols());
-    blend(old.data(), static_cast<float>(rate), seen.size(), seen.data());
     return seen;
 }
 
@@ -38,16 +27,9 @@ ColorContrast learn_contrast(const SampleView& inside, const SampleView& around,
                              FloatsRef surround, double rate, double rare) {
     require_one(inside, "inside");
     require_one(around, "around");
-    if (bits_of_cube(target, "target") != bits_of_cube(surround, "surround"))
-        refuse("surround", "the target's shape", "B = " + std::to_string(surround.cols()));
-    if (!(rate >= 0.0 && rate <= 1.0)) refuse("rate", "a number in [0, 1]", rate);
-    if (!(rare > 0.0)) refuse("rare", "a number above 0", rare);
-
-    Floats within = updated_histogram(inside, target, rate),
-           without = updated_histogram(around, surround, rate);
-    Floats table(within.rows(), within.cols());
-    compute_table(within.data(), without.data(), static_cast<float>(rare), table.size(), table.data());
-    return {std::move(within), std::move(without), std::move(table)};
+    require_histograms(target, surround, rate, rare);
+    return learn_histograms(seen_histogram(inside, target), seen_histogram(around, surround), target,
+                            surround, rate, rare);
 }
 
 }  // namespace tricue

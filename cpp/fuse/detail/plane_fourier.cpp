@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/simd.hpp"
+#include "fuse/detail/fast_fourier.hpp"
 
 namespace tricue {
 namespace {
@@ -81,7 +82,12 @@ float* as_floats(Complex* numbers) {
 
 }  // namespace
 
+bool PlaneFourier::is_fast() const {
+    return rows_ == kFastSide && cols_ == kFastSide;
+}
+
 PlaneFourier::PlaneFourier(int rows, int cols) : rows_(rows), cols_(cols) {
+    if (is_fast()) return;
     if (std::max(rows, cols) <= kMaxSmallSide) {
         small_.emplace(rows, cols);
     } else {
@@ -92,6 +98,11 @@ PlaneFourier::PlaneFourier(int rows, int cols) : rows_(rows), cols_(cols) {
 
 void PlaneFourier::transform(const float* one, const float* two, float* one_re, float* one_im, float* two_re,
                              float* two_im, const Margins& margins) {
+    if (is_fast()) {
+        fast_transform(one, one_re, one_im);
+        if (two != one) fast_transform(two, two_re, two_im);
+        return;
+    }
     if (small_) {
         small_->transform(one, one_re, one_im, margins);
         if (two != one) small_->transform(two, two_re, two_im, margins);
@@ -114,6 +125,11 @@ void PlaneFourier::transform(const float* one, const float* two, float* one_re, 
 
 void PlaneFourier::invert(const float* one_re, const float* one_im, const float* two_re, const float* two_im,
                           float* one, float* two, const Margins& margins) {
+    if (is_fast()) {
+        fast_invert(one_re, one_im, one);
+        if (two != one) fast_invert(two_re, two_im, two);
+        return;
+    }
     if (small_) {
         small_->invert(one_re, one_im, one, margins);
         if (two != one) small_->invert(two_re, two_im, two, margins);

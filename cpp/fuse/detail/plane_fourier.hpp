@@ -10,9 +10,10 @@
 
 namespace tricue {
 
-/// Two-dimensional spectra of two real planes (rows, cols): small ones by SmallFourier, others by one complex transform, OpenCV's,
-/// with one plane as the real part and the other as the imaginary part, whose spectra symmetry separates again. Spectra have
-/// `half` = cols / 2 + 1 columns, as numpy.fft.rfft2's. In float32; nothing here starts a thread.
+/// Two-dimensional spectra of two real planes (rows, cols): of the size of trackers' windows by fast_transform, other small ones by
+/// SmallFourier, others by one complex transform, OpenCV's, with one plane as the real part and the other as the imaginary part, whose
+/// spectra symmetry separates again. Spectra have `half` = cols / 2 + 1 columns, as numpy.fft.rfft2's. In float32; nothing here starts
+/// a thread.
 ///
 /// Real and imaginary parts of a spectrum are separate, which compilers vectorize: rows x half numbers each, contiguous.
 class PlaneFourier {
@@ -33,6 +34,9 @@ public:
                 float* one, float* two, const Margins& margins = {});
 
 private:
+    /// Whether planes have the side of those that are transformed most.
+    bool is_fast() const;
+
     int rows_, cols_;
     std::optional<SmallFourier> small_;
     std::vector<std::complex<float>> pairs_, spectrum_;  ///< of planes that aren't small

@@ -23,6 +23,7 @@ from tricue.reference.cues.color.image_mean import image_mean
 from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.learn_histogram import learn_histogram
+from tricue.reference.cues.color.learn_patch_colors import learn_patch_colors
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
@@ -75,6 +76,10 @@ from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.evidence_peak import evidence_peak
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
+from tricue.reference.fuse.learn_place_filter import learn_place_filter
+from tricue.reference.fuse.learn_size_filter import learn_size_filter
+from tricue.reference.fuse.localize_target import localize_target
+from tricue.reference.fuse.log_polar_shift import log_polar_shift
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.regularized_filter import regularized_filter
@@ -133,6 +138,11 @@ __all__ = [
     "kalman_update",
     "learn_contrast",
     "learn_histogram",
+    "learn_patch_colors",
+    "learn_place_filter",
+    "learn_size_filter",
+    "localize_target",
+    "log_polar_shift",
     "measure_objects",
     "median_depths",
     "pick_pixels",

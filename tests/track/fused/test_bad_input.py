@@ -402,11 +402,11 @@ def test_two_times_the_same_frame():
 
 KERNELS = {
     "sample_windows": "color",
-    "hog_color_cells": "color",
-    "correlation_response": "color",
-    "correlation_train": "color",
-    "learn_contrast": "color",
-    "joint_histogram": "color",
+    "localize_target": "color",
+    "log_polar_shift": "color",
+    "learn_place_filter": "color",
+    "learn_patch_colors": "color",
+    "learn_size_filter": "color",
     "depth_posterior": "rgbd",
     "kalman_predict": "rgbd",
     "kalman_update": "rgbd",

@@ -10,7 +10,6 @@ from tricue import kernels as kernel_sets
 from tricue.track.fused.identity import (
     APPEARANCE,
     STRUCTURE,
-    FirstColors,
     IdentityFeatures,
     color_histogram,
     probability,
@@ -93,17 +92,7 @@ def test_probability_has_no_overflow(log_odds):
 
 def test_colors_are_a_distribution():
     """The histogram sums to 1 and has the picture's two colors alone, at half each at the center."""
-    colors = color_histogram(window_of(RED, BLUE), 0.0, 0.0)
+    colors = color_histogram(window_of(RED, BLUE))
     assert colors.shape == (4096,)
     assert colors.sum() == pytest.approx(1, abs=1e-5)
     assert np.sort(colors)[-2:] == pytest.approx([0.5, 0.5], abs=0.06)
-
-
-def test_color_similarity_is_bhattacharyyas():
-    """It is 1 on the first frame's colors, 0 on others, and the root of the share on half of them."""
-    first = FirstColors.from_window(window_of(RED, RED))
-    assert first.similarity(window_of(RED, RED), 0.0, 0.0) == pytest.approx(1, abs=1e-5)
-    assert first.similarity(window_of(BLUE, BLUE), 0.0, 0.0) == pytest.approx(0, abs=1e-5)
-    assert first.similarity(window_of(RED, BLUE), 0.0, 0.0) == pytest.approx(math.sqrt(0.5), abs=0.05)
-    assert first.similarity(window_of(RED, BLUE), -15.0, 0.0) == pytest.approx(1, abs=1e-5)
-    assert first.similarity(window_of(RED, BLUE), 15.0, 0.0) == pytest.approx(0, abs=1e-5)

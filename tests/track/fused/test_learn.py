@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tricue.track.fused.learn import MAX_DRIFT, MIN_FIRST_RESPONSE, without_drift
 from tricue.track.fused.target import Target
-from tricue.track.fused.window import CELL_PIXELS, CENTER_CELL, WINDOW_CELLS
+from tricue.track.fused.window import CELL_PIXELS, WINDOW_CELLS
 
 PIXEL_SIZE = 1.5
 CELL = CELL_PIXELS * PIXEL_SIZE
@@ -17,7 +17,7 @@ TARGET = Target(80.0, 60.0, 30.0, 40.0)
 
 def match(kernels, right, down, height=1.0):
     """A match at FOUND, and the first frame's filter with a peak so many cells from it."""
-    cells = np.arange(WINDOW_CELLS) - CENTER_CELL
+    cells = np.arange(WINDOW_CELLS) - WINDOW_CELLS // 2
     across, along = cells - FOUND[0] - right, cells[:, None] - FOUND[1] - down
     responses = (height * np.exp(-0.5 * (across**2 + along**2))).astype(np.float32)
     observation = SimpleNamespace(k=kernels, shape=(120, 160))

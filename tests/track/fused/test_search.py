@@ -51,16 +51,15 @@ def search_among(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Match]:
 
     def among(*others: Match, near: Match = NEAR, missed_frames: int = 20) -> Match:
         def localized(_: TargetModel, window: int) -> Any:
-            return Candidate(
-                others[window].target, None, 0.0, 0.0, -float(window), (0.0, 0.0), None, 0.0, 0.0, None
-            )
+            other = others[window]
+            return Candidate(other.target, None, 0.0, 0.0, -float(window), 0.0, None, other.features)
 
         monkeypatch.setattr(module, "propose_windows", lambda *_: list(range(len(others)))[::-1])
         monkeypatch.setattr(module, "localize", localized)
 
         def recognized(_: TargetModel, at: Candidate) -> Recognition:
             other = others[round(-at.evidence)]
-            return Recognition(at, other.features, other.log_odds, other.structure_log_odds)
+            return Recognition(at, other.log_odds, other.structure_log_odds)
 
         monkeypatch.setattr(module, "recognize", recognized)
 

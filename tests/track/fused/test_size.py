@@ -10,7 +10,6 @@ from tricue import FusedTracker, Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts import size
 from tricue.track.fused.experts.size import SizeExpert
-from tricue.track.fused.peak import gaussian_peak_offset
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
@@ -78,17 +77,3 @@ def test_it_learns_the_new_size():
         learned = learned.learn(observation(1.06), TARGET, 0.5)
     assert learned.growth(observation(1.06), TARGET) == pytest.approx(1.0, abs=0.01)
     assert EXPERT.growth(observation(1.06), TARGET) > 1.015
-
-
-@pytest.mark.parametrize("offset", [-0.45, -0.3, 0.0, 0.2, 0.45])
-def test_peaks_between_samples(offset):
-    """A Gaussian's mean is found exactly."""
-    x = np.arange(5) - 2 - offset
-    assert gaussian_peak_offset(np.exp(-(x**2) / 2), 2) == pytest.approx(offset, abs=1e-12)
-
-
-def test_what_is_no_peak_has_no_offset():
-    """At an end, on a plateau, and where nothing is positive there is nothing to find."""
-    assert gaussian_peak_offset(np.array([3.0, 2.0, 1.0]), 0) == 0
-    assert gaussian_peak_offset(np.array([1.0, 1.0, 1.0]), 1) == 0
-    assert gaussian_peak_offset(np.array([-3.0, -1.0, -2.0]), 1) == 0

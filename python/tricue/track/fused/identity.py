@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.experts.color import HISTOGRAM_BINS
 from tricue.track.fused.window import INNER_SHARE, Window
 
@@ -72,21 +72,17 @@ class FirstColors(NamedTuple):
     roots: (4096,) square roots of its histogram.
     """
 
-    roots: Plane
+    roots: Floats
 
     @classmethod
     def from_window(cls, window: Window) -> "FirstColors":
         """Of the target at the window's center."""
-        return cls(np.sqrt(color_histogram(window, 0.0, 0.0)))
-
-    def similarity(self, window: Window, right: float, down: float) -> float:
-        """Bhattacharyya coefficient of the colors so many patch pixels off the window's center."""
-        return float(np.vdot(np.sqrt(color_histogram(window, right, down)), self.roots))
+        return cls(np.sqrt(color_histogram(window).astype(float)))
 
 
-def color_histogram(window: Window, right: float, down: float) -> Plane:
-    """(4096,) of the inner part of the target's box, so many patch pixels off the window's center."""
-    pixels: Image = window.patch[window.inner(right, down, INNER_SHARE)]
+def color_histogram(window: Window) -> Plane:
+    """(4096,) of the inner part of the target's box at the window's center."""
+    pixels: Image = window.patch[window.inner(share=INNER_SHARE)]
     samples = np.ascontiguousarray(pixels.transpose(2, 0, 1)).reshape(1, 3, -1)
     histogram: Plane = window.observation.k.joint_histogram(samples, HISTOGRAM_BINS)[0]
     return histogram

@@ -41,7 +41,7 @@ def initialize(k: Kernels, frame: FrameObservation, target: Target, p: FusedPara
         target=target,
         first_side=target.side,
         recognized_side=target.side,
-        mean_response=localize(model, window).responses[0],
+        mean_response=localize(model, window).response,
         sides=sides,
         depth=depth,
         position=position,
@@ -60,7 +60,7 @@ def initialize_depth(state: State, frame: FrameObservation, k: Kernels, p: Fused
         return state
     observation = observation.expect(ExpectedDepth(measured.z, depth.depth_spread))
     sides = _see_sides(state.sides, observation, state.target, p)
-    return state._replace(depth=depth, position=position, sides=sides)
+    return state.replace(depth=depth, position=position, sides=sides)
 
 
 def ensure_models(state: State, observation: TargetObservation, p: FusedParams) -> State:
@@ -68,7 +68,7 @@ def ensure_models(state: State, observation: TargetObservation, p: FusedParams) 
     if observation.kind in state.models:
         return state
     appearance = _appearance_models(observation, state.target, p)
-    return state._replace(models={**state.models, observation.kind: appearance})
+    return state.replace(models={**state.models, observation.kind: appearance})
 
 
 def _appearance_models(observation: TargetObservation, target: Target, p: FusedParams) -> AppearanceModels:

@@ -9,8 +9,9 @@ another pose, of which the first frame tells nothing.
 
 import math
 
+from tricue.track.fused.arrays import NO_PLANE
 from tricue.track.fused.experts.depth import covered_share
-from tricue.track.fused.localize import NO_CONTRAST, clamp_to_image
+from tricue.track.fused.localize import clamp_to_image
 from tricue.track.fused.measure import Match
 from tricue.track.fused.outline import Side, measure_reaches
 from tricue.track.fused.params import FusedParams
@@ -39,16 +40,16 @@ def update_models(
     if not state.is_followed(p) or state.frames % p.learn_every:
         return state
     if "filter" in p.cues:
-        state = state._replace(target=without_drift(state.target, match))
+        state = state.replace(target=without_drift(state.target, match))
     window = extract_windows(observation, [state.target], p.context)[0]
     appearance = _learn_appearance(state.models[observation.kind], window, p)
-    return state._replace(models={**state.models, observation.kind: appearance})
+    return state.replace(models={**state.models, observation.kind: appearance})
 
 
 def without_drift(target: Target, match: Match) -> Target:
     """A match's target, moved to the peak of the first frame's filter if that is close to where it was."""
     window = match.window
-    peak = window.observation.k.evidence_peak(match.first_responses[None], NO_CONTRAST, 1.0, 0.0).tolist()
+    peak = window.observation.k.evidence_peak(match.first_responses[None], NO_PLANE, 1.0, 0.0).tolist()
     right, down = peak[0] - match.right / CELL_PIXELS, peak[1] - match.down / CELL_PIXELS
     if peak[2] < MIN_FIRST_RESPONSE or max(abs(right), abs(down)) > MAX_DRIFT:
         return target
@@ -80,7 +81,7 @@ def _update_outline(state: State, match: Match, p: FusedParams) -> State:
     if reaches is None:
         return state
     rate = 1 - math.exp(-state.seconds / p.outline_time_constant)
-    return state._replace(outline=state.outline.blend(state.sides.outline(reaches), rate))
+    return state.replace(outline=state.outline.blend(state.sides.outline(reaches), rate))
 
 
 def _update_depth(
@@ -93,7 +94,7 @@ def _update_depth(
         return state
     point, noise = back_project(observation, state.target, match.depth)
     if was_lost:
-        return state._replace(position=PositionFilter.at_rest(point, noise, p))
+        return state.replace(position=PositionFilter.at_rest(point, noise, p))
     length = state.target.side * match.depth.z
     depth = state.depth.learn(match.depth, length, p.depth_learning_rate)
-    return state._replace(depth=depth, position=state.position.correct(observation.k, point, noise))
+    return state.replace(depth=depth, position=state.position.correct(observation.k, point, noise))

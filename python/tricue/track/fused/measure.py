@@ -24,7 +24,6 @@ class Recognition(NamedTuple):
     """
 
     candidate: Candidate
-    features: IdentityFeatures
     log_odds: float
     structure_log_odds: float
 
@@ -69,18 +68,10 @@ def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
 def recognize(model: TargetModel, candidate: Candidate) -> Recognition:
     """The log-odds of what is at a candidate's place by appearance."""
     candidate = recenter(model, candidate)
-    window = candidate.window
-    first_colors = model.appearance.first_colors
-    features = IdentityFeatures(
-        peak_sharpness=candidate.peak_sharpness,
-        color_similarity=first_colors.similarity(window, candidate.right, candidate.down),
-        contrast=candidate.contrast,
-        first_response=candidate.responses[1],
-    )
-    offset_of_kind = DEPTH_PICTURE_OFFSET if window.observation.kind == "depth" else 0.0
+    features = candidate.features
+    offset_of_kind = DEPTH_PICTURE_OFFSET if candidate.window.observation.kind == "depth" else 0.0
     return Recognition(
         candidate,
-        features,
         log_odds=features.log_odds(model.typical, APPEARANCE) + offset_of_kind,
         structure_log_odds=features.log_odds(model.typical, STRUCTURE),
     )
@@ -103,10 +94,10 @@ def measure(model: TargetModel, recognition: Recognition) -> Match:
         window=window,
         right=candidate.right,
         down=candidate.down,
-        features=recognition.features,
+        features=candidate.features,
         log_odds=recognition.log_odds,
         structure_log_odds=recognition.structure_log_odds,
-        response=candidate.responses[0],
+        response=candidate.response,
         first_responses=candidate.first_responses,
         depth=depth,
         covered=covered_share(window, candidate.right, candidate.down),

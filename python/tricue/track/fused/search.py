@@ -23,7 +23,7 @@ def search_local(
     p = model.params
     window = extract_windows(observation, [last], p.context)[0]
     candidate = localize(model, window)
-    if mean_response is not None and candidate.responses[0] < p.min_response_share * mean_response:
+    if mean_response is not None and candidate.response < p.min_response_share * mean_response:
         neighbors = _neighboring_windows(observation, last, p.context)
         candidates = [_localize_beside(model, each, last) for each in neighbors]
         candidate = max([candidate, *candidates], key=lambda each: each.evidence)

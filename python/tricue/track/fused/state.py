@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """All that the fused tracker keeps from frame to frame."""
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 from tricue.track.fused.depth_trust import DepthTrust
 from tricue.track.fused.experts.color import ColorExpert
@@ -15,6 +16,7 @@ from tricue.track.fused.position_filter import PositionFilter
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import PictureKind
 
+FRESH_TRUST = DepthTrust()  # before the first frame
 CLOCK_ERROR = 1e-6  # seconds, of times that are added up
 MIN_LOST_FRAMES = 3  # missed in a row, until the target is LOST
 
@@ -28,7 +30,8 @@ class AppearanceModels(NamedTuple):
     first_colors: FirstColors
 
 
-class State(NamedTuple):
+@dataclass(frozen=True)
+class State:
     """The tracker after a frame; nothing changes it."""
 
     shape: tuple[int, int]  # of the first frame
@@ -45,13 +48,20 @@ class State(NamedTuple):
     position: PositionFilter | None = None  # None until depth was measured
     is_metric: bool = True  # no frame since init was a stereo pair whose rig had to be guessed
     outline: Outline = BOX_OUTLINE
-    depth_trust: DepthTrust = DepthTrust()
+    depth_trust: DepthTrust = FRESH_TRUST
     occluded: bool = False  # by something nearer
     missed_frames: int = 0  # in a row, in which it was not recognized
     missed_seconds: float = 0.0  # of these frames
     seconds: float = 0.0  # since the frame before
     frames: int = 0  # since init
     timestamp: float | None = None
+
+    def replace(self, **changes: Any) -> "State":
+        """The state with some attributes changed; a named tuple of so many takes four times as long."""
+        changed = object.__new__(State)
+        vars(changed).update(vars(self))
+        vars(changed).update(changes)
+        return changed
 
     def is_lost(self, p: FusedParams) -> bool:
         """Whether it was missed for long enough to be LOST."""

@@ -94,7 +94,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
         elif isinstance(observed.depth_source, DepthImageSource) and observed.color is not None:
             warn_of_depth(as_frame(frame))
         state = initialize(self._k, observed, target, self.params)
-        return self._keep(state._replace(depth_trust=trust, is_metric=self._is_metric(observed)), frame)
+        return self._keep(state.replace(depth_trust=trust, is_metric=self._is_metric(observed)), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -128,7 +128,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             rate = self.params.rate / UNTIMED_FACTOR
             passed = validation.elapsed(state.timestamp, observed.timestamp, rate)
             position = position.predict(self._k, passed, self.params)
-        return state._replace(
+        return state.replace(
             position=position,
             depth_trust=trust,
             is_metric=state.is_metric and self._is_metric(observed),

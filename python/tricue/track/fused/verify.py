@@ -17,7 +17,7 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
     moved = not occluded and score >= p.min_score_to_move
     target = match.target if moved else state.target
     if not (moved and recognized):
-        return state._replace(
+        return state.replace(
             target=target,
             features=match.features,
             score=score,
@@ -26,7 +26,7 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
             missed_seconds=state.missed_seconds + state.seconds,
         )
     rate = max(1 / state.frames, VERIFIED_MEAN_RATE)  # the mean of all frames at first
-    return state._replace(
+    return state.replace(
         target=target,
         features=match.features,
         score=score,

@@ -16,7 +16,6 @@ from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
 
 WINDOW_CELLS = 32  # on a side
-CENTER_CELL = WINDOW_CELLS // 2  # where the response to a target at the window's center is
 CELL_PIXELS = 2  # patch pixels on a side
 PATCH_PIXELS = CELL_PIXELS * WINDOW_CELLS  # on a side
 INNER_SHARE = 0.8  # of the box's sides: the part whose pixels are mostly the target's
@@ -31,10 +30,14 @@ class WindowParams(Params):
 
 
 class Window:
-    """A square window around a target; what the experts read of it is computed once, on demand.
+    """A square window around a target.
 
     patch: (64, 64, 3) BGR samples. pixel_size: image pixels per patch pixel. target: the one that the window
     is centered on. size: the target's width and height in patch pixels.
+    depth: (64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0. In a
+    picture of depth without what the target stands on, which looks like it there; color tells them apart.
+    None without depth or where none is expected.
+    has_occluder: whether anything in the window is nearer than expected.
     """
 
     def __init__(
@@ -42,33 +45,8 @@ class Window:
     ) -> None:
         self.observation, self.target, self.patch, self.pixel_size = observation, target, patch, pixel_size
         self.size = target.width / pixel_size, target.height / pixel_size
-
-    @cached_property
-    def cells(self) -> Plane:
-        """(19, 32, 32) orientations, texture and colors of the cells, weighted by a Hann window."""
-        return self.observation.k.hog_color_cells(self.patch, HANN_WINDOW)
-
-    @cached_property
-    def colors(self) -> Image:
-        """(1, 3, 4096) colors of the patch's pixels."""
-        return np.ascontiguousarray(self.patch.reshape(-1, 3).T)[None]
-
-    @cached_property
-    def depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
-        """(64, 64) P(target | depth), 0.5 where none is measured, and 1 where an occluder is, else 0.
-
-        In a picture of depth without what the target stands on, which looks like it there; color tells them
-        apart. None without depth or where none is expected.
-        """
-        posterior = self.observation.depth_posterior(*self._grid, PATCH_PIXELS)
-        if posterior is None or self.observation.kind == "color":
-            return posterior
-        return self._without_support(posterior[0]), posterior[1]
-
-    @cached_property
-    def has_occluder(self) -> bool:
-        """Whether anything in the window is nearer than expected."""
-        return self.depth is not None and 1 in self.depth[1].tobytes()  # in bytes it is fastest
+        self.depth = self._measure_depth()
+        self.has_occluder = self.depth is not None and 1 in self.depth[1].tobytes()  # in bytes it is fastest
 
     @cached_property
     def standing(self) -> Plane | None:
@@ -76,6 +54,14 @@ class Window:
         if self.depth is None or self.observation.kind == "depth":
             return self.depth and self.depth[0]
         return self._without_support(self.depth[0])
+
+    def _measure_depth(self) -> tuple[Plane, NDArray[np.uint8]] | None:
+        if self.observation.depth_source is None:
+            return None
+        posterior = self.observation.depth_posterior(*self._grid, PATCH_PIXELS)
+        if posterior is None or self.observation.kind == "color":
+            return posterior
+        return self._without_support(posterior[0]), posterior[1]
 
     @property
     def _grid(self) -> Grid:

@@ -9,9 +9,9 @@ import numpy as np
 
 from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Floats, Plane
-from tricue.track.fused.experts.spectra import FirstFrameParams, Spectra, blend_first_frame, label_spectrum
+from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
-from tricue.track.fused.window import WINDOW_CELLS, Window, WindowParams
+from tricue.track.fused.window import HANN_WINDOW, WINDOW_CELLS, Window, WindowParams
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,26 +65,32 @@ class CorrelationFilterExpert(NamedTuple):
     def from_window(cls, window: Window, p: FilterParams) -> "CorrelationFilterExpert":
         """Learned from the first frame."""
         label = label_spectrum(p.label_width * WINDOW_CELLS / p.context)
-        mask = target_mask(window.size, p.filter_mask_size)
-        nothing = np.zeros((len(window.cells), *label.shape), np.complex64)
-        first = window.observation.k.regularized_filter(
-            window.cells, mask, label, nothing, 0.0, p.filter_penalty
-        )
+        nothing = np.zeros((CHANNELS, *label.shape), np.complex64)
+        first = cls(nothing, nothing, nothing, label, p)._learn(window, 0.0, 0.0)[0]
         return cls(first, first, np.stack([first, first]), label, p)
-
-    def responses(self, window: Window) -> Plane:
-        """(2, 32, 32) responses of the learned and of the first frame's filter."""
-        return window.observation.k.correlation_response(window.cells, self.applied)
 
     def learn(self, window: Window) -> "CorrelationFilterExpert":
         """The expert after a window whose center is the target's."""
-        p, k = self.params, window.observation.k
-        mask = target_mask(window.size, p.filter_mask_size)
-        learned = k.regularized_filter(
-            window.cells, mask, self.label, self.learned, p.temporal_weight, p.filter_penalty
+        p = self.params
+        learned, applied = self._learn(window, p.temporal_weight, p.first_frame_weight)
+        return self._replace(learned=learned, applied=applied)
+
+    def _learn(
+        self, window: Window, temporal_weight: float, first_frame_weight: float
+    ) -> tuple[Spectra, Spectra]:
+        """The filter as it is learned, and the applied ones."""
+        p, mask = self.params, target_mask(window.size, self.params.filter_mask_size)
+        return window.observation.k.learn_place_filter(
+            window.patch,
+            HANN_WINDOW,
+            mask,
+            self.label,
+            self.learned,
+            self.first,
+            temporal_weight,
+            p.filter_penalty,
+            first_frame_weight,
         )
-        blended = blend_first_frame(learned, self.first, p)
-        return self._replace(learned=learned, applied=np.stack([blended, self.first]))
 
 
 @lru_cache(maxsize=64)

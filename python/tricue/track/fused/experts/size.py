@@ -8,20 +8,18 @@ frame at a time lets the size wander.
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.track.base.params import parameter
-from tricue.track.fused.arrays import Plane
-from tricue.track.fused.experts.spectra import FirstFrameParams, Spectra, blend_first_frame, label_spectrum
-from tricue.track.fused.peak import gaussian_peak_offset
+from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import CELL_PIXELS, CENTER_CELL, PATCH_PIXELS, WINDOW_CELLS
+from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
 
 Filter = tuple[Spectra, Plane]  # numerator and denominator
 
@@ -30,9 +28,6 @@ LABEL_WIDTH = 0.7  # cells
 MAX_SHIFT = 2  # cells of radius, from one frame to the next
 MAX_TURN = 1  # cells of angle
 LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
-ROWS = slice(CENTER_CELL - MAX_TURN, CENTER_CELL + MAX_TURN + 1)
-COLUMNS = slice(CENTER_CELL - MAX_SHIFT, CENTER_CELL + MAX_SHIFT + 1)
-SQUARED_SHIFTS = np.arange(-MAX_SHIFT, MAX_SHIFT + 1, dtype=np.float32) ** 2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,56 +74,51 @@ class SizeExpert(NamedTuple):
     @classmethod
     def from_target(cls, observation: TargetObservation, target: Target, p: SizeParams) -> "SizeExpert":
         """Learned from the first frame."""
-        cells = log_polar_cells(observation, target)
-        empty = np.zeros((len(cells), *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
-        first = observation.k.correlation_train(cells, LABEL, *empty, 1.0)
-        return cls(first, first, divide(first, p.ridge), p)
+        empty = np.zeros((CHANNELS, *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
+        first, applied = cls(empty, empty, empty[0], p)._learn(observation, target, 1.0, 0.0)
+        return cls(first, first, applied, p)
 
     def growth(self, observation: TargetObservation, target: Target) -> float:
         """The ratio of the size of what is at a target's place to the target's."""
-        p, cells = self.params, log_polar_cells(observation, target)
-        response = observation.k.correlation_response(cells, self.applied)[0]
-        near = response[ROWS, COLUMNS]
-        evidence = near - _penalties(p.size_change_penalty)
-        row, column = divmod(int(evidence.argmax()), evidence.shape[1])
-        shift = column + gaussian_peak_offset(near[row], column) - MAX_SHIFT
+        p, patch = self.params, log_polar_square(observation, target)
+        shift = observation.k.log_polar_shift(
+            patch, LOG_POLAR_PIXELS, TAPER, self.applied, MAX_SHIFT, MAX_TURN, p.size_change_penalty
+        )
         return math.exp(shift * LOG_PER_CELL)
 
     def learn(self, observation: TargetObservation, target: Target, rate: float) -> "SizeExpert":
         """The expert with a target blended in."""
-        p, cells = self.params, log_polar_cells(observation, target)
-        learned = observation.k.correlation_train(cells, LABEL, *self.learned, rate)
-        numerator, denominator = (
-            blend_first_frame(*parts, p) for parts in zip(learned, self.first, strict=True)
+        learned, applied = self._learn(observation, target, rate, self.params.first_frame_weight)
+        return self._replace(learned=learned, applied=applied)
+
+    def _learn(
+        self, observation: TargetObservation, target: Target, rate: float, first_frame_weight: float
+    ) -> tuple[Filter, Spectra]:
+        """The filter as it is learned, and the applied one."""
+        numerator, denominator, applied = observation.k.learn_size_filter(
+            log_polar_square(observation, target),
+            LOG_POLAR_PIXELS,
+            TAPER,
+            LABEL,
+            *self.learned,
+            *self.first,
+            rate,
+            first_frame_weight,
+            self.params.ridge,
         )
-        return self._replace(learned=learned, applied=divide((numerator, denominator), p.ridge))
+        return (numerator, denominator), applied
 
 
-@lru_cache(maxsize=8)
-def _penalties(penalty: float) -> Plane:
-    """(5,) of each shift."""
-    return penalty * SQUARED_SHIFTS
-
-
-def divide(learned: Filter, ridge: float) -> Spectra:
-    """(1, 19, 32, 17) as correlation_response takes filters. ridge: in parts of the mean denominator."""
-    numerator, denominator = learned
-    least = np.float32(ridge * max(float(denominator.mean()), 1e-12))
-    # Real factors, once for each part: NumPy's division of complex numbers takes five times as long.
-    factors = np.repeat(1 / (denominator + least), 2, axis=1)
-    divided: Spectra = (numerator.view(np.float32) * factors).view(np.complex64)
-    return divided[None]
-
-
-def log_polar_cells(observation: TargetObservation, target: Target) -> Plane:
-    """(19, 32, 32) orientations and colors around a target: angles downwards, log radii to the right.
+def log_polar_square(observation: TargetObservation, target: Target) -> Image:
+    """(64, 64, 3) samples around a target, of which log-polar coordinates have angles downwards, log radii to
+    the right.
 
     Radii are in halves of its width and height, so that its surround has the same share on all sides.
     """
     width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
     square = np.array([[target.x - width / 2, target.y - height / 2, width, height]])
-    k, patch = observation.k, observation.sample(square, PATCH_PIXELS)[0]
-    return k.hog_color_cells(k.pick_pixels(patch, LOG_POLAR_PIXELS), TAPER)
+    patch: Image = observation.sample(square, PATCH_PIXELS)[0]
+    return patch
 
 
 def _log_polar_pixels() -> NDArray[np.int64]:

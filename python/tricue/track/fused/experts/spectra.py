@@ -2,7 +2,6 @@
 """What the correlation filters of place and size have in common."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,8 @@ from tricue.track.fused.sources import OURS
 from tricue.track.fused.window import WINDOW_CELLS
 
 Spectra = NDArray[np.complex64]
+
+CHANNELS = 19  # of the cells: orientations, texture and colors
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,14 +28,6 @@ class FirstFrameParams(Params):
         doc="share of the first frame's filter, for place and size",
         was="anchor",
     )
-
-
-def blend_first_frame(learned: NDArray[Any], first: NDArray[Any], p: FirstFrameParams) -> NDArray[Any]:
-    """A filter as it is learned with a share of the first frame's, against forgetting."""
-    old, blended = learned.view(np.float32), first.view(np.float32) - learned.view(np.float32)
-    blended *= np.float32(p.first_frame_weight)
-    blended += old
-    return blended.view(learned.dtype)
 
 
 def label_spectrum(width: float) -> Spectra:

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/image_view.hpp"
+#include "base/plane_view.hpp"
+#include "cues/color/learn_contrast.hpp"
+
+namespace tricue {
+
+/// Which pixels of a patch are a target's, and which its surround's.
+struct LearnedPixels {
+    double width, height;  ///< of the target's box, pixels
+    double outer;          ///< of the box, outside of which pixels are the surround's
+    double least_own;      ///< above this, P(target) of the target's pixels
+    double most_other;     ///< below this, P(target) of the pixels in the box that are the surround's
+};
+
+/// learn_contrast of a patch with the target in its middle: one stage of the frame, in one call.
+///
+/// The target's pixels are those with their centers in the ellipse that fits into its box; half a box's sides count as a pixel at
+/// least. The surround's are those with their centers outside of the box times `outer`; where there are none, those outside of the
+/// ellipse. Where another cue tells that more than half of the ellipse's pixels are the target's, by more than `least_own`, only these
+/// are, and those with less than `most_other` are the surround's.
+///
+/// @param patch uint8 (H, W, 3) BGR
+/// @param other float32 (H, W), P(target) by another cue, or (0, 0) where there is none
+/// @param width, height of the box, pixels, finite, not negative
+/// @param outer finite, at least 1
+/// @param least_own, most_other in [0, 1]
+/// @param target, surround, rate, rare as learn_contrast has them
+/// @throws std::invalid_argument on other shapes, or numbers out of range
+/// Source: ours; as learn_contrast.
+ColorContrast learn_patch_colors(const ImageView& patch, const PlaneView& other, const LearnedPixels& pixels,
+                                 FloatsRef target, FloatsRef surround, double rate, double rare);
+
+}  // namespace tricue

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "fuse/learn_size_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/check.hpp"
+#include "base/simd.hpp"
+#include "cues/color/hog_color_cells.hpp"
+#include "fuse/detail/blend_filters.hpp"
+#include "fuse/detail/correlation_checks.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr double kLeastMean = 1e-12;  // of a denominator
+
+TRICUE_MULTIVERSION
+void invert(float ridge, std::ptrdiff_t n, float* __restrict denominator) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) denominator[i] = 1.0F / (denominator[i] + ridge);
+}
+
+/// Of n complex numbers, pairs of a real and an imaginary part.
+TRICUE_MULTIVERSION
+void scale(const float* __restrict factors, std::ptrdiff_t n, float* __restrict pairs) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        pairs[2 * i] *= factors[i];
+        pairs[2 * i + 1] *= factors[i];
+    }
+}
+
+/// The factors by which a denominator divides.
+Floats find_factors(const Floats& learned, FloatsRef first, float share, double ridge) {
+    Floats factors(learned.rows(), learned.cols());
+    blend_filters(learned.data(), first.data(), share, learned.size(), factors.data());
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < factors.size(); ++i) sum += factors.data()[i];
+    const double mean = std::max(sum / static_cast<double>(factors.size()), kLeastMean);
+    invert(static_cast<float>(ridge * mean), factors.size(), factors.data());
+    return factors;
+}
+
+}  // namespace
+
+SizeFilter learn_size_filter(const ImageView& patch, PlacesRef places, FloatsRef taper, ComplexesRef label,
+                             const FilterParts& learned, const FilterParts& first, double rate,
+                             double first_weight, double ridge) {
+    require_share_of_first(first_weight);
+    if (!(ridge > 0.0 && std::isfinite(ridge))) refuse("ridge", "a finite number above 0", ridge);
+    const PixelBytes picked = pick_pixels(patch, places);
+    const int picked_cols = static_cast<int>(places.cols());
+    const Floats numbers = hog_color_cells(
+        {picked.data(), static_cast<int>(places.rows()), picked_cols, 3, 3 * std::ptrdiff_t{picked_cols}},
+        taper);
+    const int rows = static_cast<int>(taper.rows());
+    const FloatStack cells{numbers.data(), static_cast<int>(numbers.rows()) / rows, rows,
+                           static_cast<int>(taper.cols())};
+    require_filter("first_numerator", first.numerator, cells);
+    require_plane("first_denominator", first.denominator.rows(), first.denominator.cols(), rows,
+                  cells.cols / 2 + 1);
+    CorrelationFilter filter = correlation_train(cells, label, learned.numerator, learned.denominator, rate);
+    const auto share = static_cast<float>(first_weight);
+    const Floats factors = find_factors(filter.denominator, first.denominator, share, ridge);
+    Complexes applied(filter.numerator.rows(), filter.numerator.cols());
+    blend_filters(filter.numerator.data(), first.numerator.data, share, applied.size(), applied.data());
+    for (int k = 0; k < cells.planes; ++k)
+        scale(factors.data(), factors.size(), reinterpret_cast<float*>(&applied(Eigen::Index{k} * rows, 0)));
+    return {std::move(filter), std::move(applied)};
+}
+
+}  // namespace tricue

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// A target in a patch around it: stages of a frame.
+#include "arrays.hpp"
+#include "cues/color/learn_patch_colors.hpp"
+#include "fuse/learn_place_filter.hpp"
+#include "fuse/learn_size_filter.hpp"
+#include "fuse/localize_target.hpp"
+#include "fuse/log_polar_shift.hpp"
+#include "kernel_docs.hpp"
+
+namespace tricue::bindings {
+namespace {
+
+using Bytes = Array<std::uint8_t>;
+using Floating = Array<float>;
+using Complex = Array<std::complex<float>>;
+
+constexpr const char* kTaper = "float32 (R, C)";
+constexpr const char* kSpectrum = "complex64 (R, C // 2 + 1)";
+constexpr const char* kFilter = "complex64 (K, R, C // 2 + 1)";
+constexpr const char* kHalf = "float32 (R, C // 2 + 1)";
+
+Eigen::Map<const Floats> plane(const Floating& numbers, const char* name, const char* expected) {
+    return floats(numbers, name, {-1, -1}, expected);
+}
+
+Eigen::Map<const Places> pixel_places(const Array<std::int64_t>& places) {
+    const auto array = require<std::int64_t>(places, "places", 2, "int64 (2R, 2C)");
+    return {contiguous<std::int64_t>(array, "places"), array.shape(0), array.shape(1)};
+}
+
+PlaneView posterior(const Floating& other) {
+    return plane_view(other, "other", "a float32 posterior (H, W)");
+}
+
+std::ptrdiff_t work(const ImageView& patch) {
+    return std::ptrdiff_t{patch.rows} * patch.cols;
+}
+
+std::tuple<Array<double>, Floating> localize_target_arrays(const Bytes& patch, const Floating& taper,
+                                                           const Complex& filters, const Floating& table,
+                                                           const Floating& other, const Array<double>& roots,
+                                                           double width, double height, double outer,
+                                                           double around, double filter_weight,
+                                                           double contrast_weight, double inner) {
+    const auto view = color_image(patch, "patch");
+    const auto weights = plane(taper, "taper", kTaper);
+    const auto models = filter_stack(filters, "filters");
+    const auto rule = cube(table, "table");
+    const auto others = posterior(other);
+    const auto colors = vector(roots, "roots");
+    const TargetSearch search{width, height, outer, around, filter_weight, contrast_weight, inner};
+    auto place = unlocked(
+        work(view), [&] { return localize_target(view, weights, {models, rule, colors}, others, search); });
+    return {give(std::move(place.found)),
+            give(std::move(place.responses), {models.filters, weights.rows(), weights.cols()})};
+}
+
+double log_polar_shift_arrays(const Bytes& patch, const Array<std::int64_t>& places, const Floating& taper,
+                              const Complex& filter, int most_right, int most_down, double penalty) {
+    const auto view = color_image(patch, "patch");
+    const auto pixels = pixel_places(places);
+    const auto weights = plane(taper, "taper", kTaper);
+    const auto model = filter_stack(filter, "filter");
+    return unlocked(work(view), [&] {
+        return log_polar_shift(view, pixels, weights, model, {most_right, most_down, penalty});
+    });
+}
+
+std::tuple<Complex, Complex> learn_place_filter_arrays(const Bytes& patch, const Floating& taper,
+                                                       const Floating& mask, const Complex& label,
+                                                       const Complex& previous, const Complex& first,
+                                                       double temporal_weight, double penalty,
+                                                       double first_weight) {
+    const auto view = color_image(patch, "patch");
+    const auto weights = plane(taper, "taper", kTaper);
+    const auto part = plane(mask, "mask", kTaper);
+    const auto wanted = complexes(label, "label", kSpectrum);
+    const auto before = stack<std::complex<float>>(previous, "previous", kFilter);
+    const auto oldest = stack<std::complex<float>>(first, "first", kFilter);
+    auto filter = unlocked(work(view), [&] {
+        return learn_place_filter(view, weights, part, wanted, before, oldest, temporal_weight, penalty,
+                                  first_weight);
+    });
+    const py::ssize_t planes = before.planes, rows = before.rows, cols = before.cols;
+    return {give(std::move(filter.learned), {planes, rows, cols}),
+            give(std::move(filter.applied), {2, planes, rows, cols})};
+}
+
+std::tuple<Complex, Floating, Complex> learn_size_filter_arrays(
+    const Bytes& patch, const Array<std::int64_t>& places, const Floating& taper, const Complex& label,
+    const Complex& numerator, const Floating& denominator, const Complex& first_numerator,
+    const Floating& first_denominator, double rate, double first_weight, double ridge) {
+    const auto view = color_image(patch, "patch");
+    const auto pixels = pixel_places(places);
+    const auto weights = plane(taper, "taper", kTaper);
+    const auto wanted = complexes(label, "label", kSpectrum);
+    const auto upper = stack<std::complex<float>>(numerator, "numerator", kFilter),
+               first_upper = stack<std::complex<float>>(first_numerator, "first_numerator", kFilter);
+    const auto lower = plane(denominator, "denominator", kHalf),
+               first_lower = plane(first_denominator, "first_denominator", kHalf);
+    auto filter = unlocked(work(view), [&] {
+        return learn_size_filter(view, pixels, weights, wanted, {upper, lower}, {first_upper, first_lower},
+                                 rate, first_weight, ridge);
+    });
+    const py::ssize_t planes = upper.planes, rows = upper.rows, cols = upper.cols;
+    return {give(std::move(filter.learned.numerator), {planes, rows, cols}),
+            give(std::move(filter.learned.denominator)),
+            give(std::move(filter.applied), {1, planes, rows, cols})};
+}
+
+std::tuple<Floating, Floating, Floating> learn_patch_colors_arrays(
+    const Bytes& patch, const Floating& other, double width, double height, double outer, double least_own,
+    double most_other, const Floating& target, const Floating& surround, double rate, double rare) {
+    const auto view = color_image(patch, "patch");
+    const auto others = posterior(other);
+    const auto own = cube(target, "target"), around = cube(surround, "surround");
+    auto [within, without, table] = unlocked(work(view), [&] {
+        return learn_patch_colors(view, others, {width, height, outer, least_own, most_other}, own, around,
+                                  rate, rare);
+    });
+    const std::vector<py::ssize_t> shape(3, own.cols());
+    return {give(std::move(within), shape), give(std::move(without), shape), give(std::move(table), shape)};
+}
+
+}  // namespace
+
+void define_target(py::module_& m) {
+    m.def("localize_target", localize_target_arrays, py::arg("patch"), py::arg("taper"), py::arg("filters"),
+          py::arg("table"), py::arg("other"), py::arg("roots"), py::arg("width"), py::arg("height"),
+          py::arg("outer"), py::arg("around"), py::arg("filter_weight"), py::arg("contrast_weight"),
+          py::arg("inner"), docs::localize_target);
+    m.def("log_polar_shift", log_polar_shift_arrays, py::arg("patch"), py::arg("places"), py::arg("taper"),
+          py::arg("filter"), py::arg("most_right"), py::arg("most_down"), py::arg("penalty"),
+          docs::log_polar_shift);
+    m.def("learn_place_filter", learn_place_filter_arrays, py::arg("patch"), py::arg("taper"),
+          py::arg("mask"), py::arg("label"), py::arg("previous"), py::arg("first"),
+          py::arg("temporal_weight"), py::arg("penalty"), py::arg("first_weight"), docs::learn_place_filter);
+    m.def("learn_size_filter", learn_size_filter_arrays, py::arg("patch"), py::arg("places"),
+          py::arg("taper"), py::arg("label"), py::arg("numerator"), py::arg("denominator"),
+          py::arg("first_numerator"), py::arg("first_denominator"), py::arg("rate"), py::arg("first_weight"),
+          py::arg("ridge"), docs::learn_size_filter);
+    m.def("learn_patch_colors", learn_patch_colors_arrays, py::arg("patch"), py::arg("other"),
+          py::arg("width"), py::arg("height"), py::arg("outer"), py::arg("least_own"), py::arg("most_other"),
+          py::arg("target"), py::arg("surround"), py::arg("rate"), py::arg("rare"), docs::learn_patch_colors);
+}
+
+}  // namespace tricue::bindings

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: MIT
+"""The colors of a target in the middle of a patch, and of its surround."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+from tricue.reference.cues.color.learn_contrast import Cube, learn_contrast
+
+Mask = NDArray[np.bool_]
+
+
+def learn_patch_colors(
+    patch: NDArray[np.uint8],
+    other: NDArray[np.float32],
+    width: float,
+    height: float,
+    outer: float,
+    least_own: float,
+    most_other: float,
+    target: Cube,
+    surround: Cube,
+    rate: float,
+    rare: float,
+) -> tuple[Cube, Cube, Cube]:
+    """Takes the pixels by masks."""
+    if other.size and other.shape != patch.shape[:2]:
+        refuse("other", "the patch's rows and columns", f"{other.shape[0]}, {other.shape[1]}")
+    for name, number in (("width", width), ("height", height)):
+        if not 0 <= number < math.inf:
+            refuse(name, "a finite number, not negative", float(number))
+    if not 1 <= outer < math.inf:
+        refuse("outer", "a finite number, at least 1", float(outer))
+    for name, share in (("least_own", least_own), ("most_other", most_other)):
+        if not 0 <= share <= 1:
+            refuse(name, "a number in [0, 1]", float(share))
+    v, u = (
+        np.abs(np.arange(size) + 0.5 - size / 2) / max(length / 2, 1.0)
+        for size, length in zip(patch.shape[:2], (height, width), strict=True)
+    )
+    inside: Mask = np.add.outer(v * v, u * u) <= 1
+    around: Mask = np.maximum.outer(v, u) > outer
+    if not around.any():
+        around = ~inside
+    if other.size:
+        own = inside & (other > np.float32(least_own))
+        if 2 * own.sum() > inside.sum():
+            around = around | (inside & (other < np.float32(most_other)))
+            inside = own
+    own_colors, other_colors = (np.ascontiguousarray(patch[each].T)[None] for each in (inside, around))
+    return learn_contrast(own_colors, other_colors, target, surround, rate, rare)

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: MIT
+"""A shift in log-polar coordinates: a change of size."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse, require_count
+from tricue.reference.cues.color.hog_color_cells import hog_color_cells
+from tricue.reference.cues.color.pick_pixels import pick_pixels
+from tricue.reference.fuse.correlation_response import correlation_response
+
+Plane = NDArray[np.float32]
+MAX_OFFSET = 0.5  # cells; a peak farther off would be at the next one
+MIN_SHARE = 0.05  # of the peak, of a neighbor in its logarithm
+
+
+def log_polar_shift(
+    patch: NDArray[np.uint8],
+    places: NDArray[np.int64],
+    taper: Plane,
+    filter: NDArray[np.complex64],  # noqa: A002
+    most_right: int,
+    most_down: int,
+    penalty: float,
+) -> float:
+    """Calls the twins of its parts, and looks around the middle."""
+    require_count("most_right", most_right, 0, (taper.shape[1] - 1) // 2)
+    require_count("most_down", most_down, 0, (len(taper) - 1) // 2)
+    if not math.isfinite(penalty):
+        refuse("penalty", "a finite number", penalty)
+    if len(filter) != 1:
+        refuse("filter", "one filter", len(filter))
+    response = correlation_response(hog_color_cells(pick_pixels(patch, places), taper), filter)[0]
+    row, column = len(response) // 2, response.shape[1] // 2
+    near = response[row - most_down : row + most_down + 1, column - most_right : column + most_right + 1]
+    squares = np.arange(-most_right, most_right + 1, dtype=np.float32) ** 2
+    evidence = near - np.float32(penalty) * squares
+    row, column = divmod(int(evidence.argmax()), near.shape[1])
+    shift: float = column - most_right + gaussian_peak_offset(near[row], column)
+    return shift
+
+
+def gaussian_peak_offset(values: Plane, index: int) -> float:
+    """Offset of a peak from the largest value, by a Gaussian: a parabola through the logarithms."""
+    if not 0 < index < len(values) - 1 or values[index] <= 0:
+        return 0.0
+    before, top, after = values[index - 1 : index + 2].tolist()
+    before, top, after = (math.log(max(each, MIN_SHARE * top)) for each in (before, top, after))
+    bend = before - 2 * top + after
+    return min(max(0.5 * (before - after) / bend, -MAX_OFFSET), MAX_OFFSET) if bend < 0 else 0.0
