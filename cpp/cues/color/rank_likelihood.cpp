@@ -58,11 +58,12 @@ double combined(const double* distances, const ColorLook& look) {
 }
 
 void require_valid(const ColorLook& look, const LookWeights& weights) {
-    if (look.maps.rows() < 1) refuse("models", "at least one rank map", "none");
-    require_size(look.shares, look.maps.rows(), "shares");
+    if (look.models.rows() < 1) refuse("models", "at least one rank map", "none");
+    require_size(look.shares, look.models.rows(), "shares");
     require_finite(look.shares, "shares");
     if (!std::isfinite(weights.sharpness)) refuse("sharpness", "a finite number", weights.sharpness);
-    if (!std::isfinite(weights.contrast)) refuse("contrast_weight", "a finite number", weights.contrast);
+    if (!std::isfinite(weights.contrast_weight))
+        refuse("contrast_weight", "a finite number", weights.contrast_weight);
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows
     require_shape(ellipses, ellipses.rows(), 4, "ellipses");
     Reader inside(image, windows.inside, "inside"), around(image, windows.around, "around");
     require_valid(look, weights);
-    RankMaps maps(look.maps, windows.inside.rows());
+    RankMaps maps(look.models, windows.inside.rows());
     const int bits = bits_of_cube(look.table, "table");
     require_finite(ellipses, "ellipses");
 
@@ -90,7 +91,8 @@ Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const double distance = combined(distances.data() + M * i, look);
             const double contrast = inside.mean(i, look.table.data()) - around.mean(i, look.table.data());
-            log_likelihood[first + i] = weights.contrast * contrast - weights.sharpness * distance * distance;
+            log_likelihood[first + i] =
+                weights.contrast_weight * contrast - weights.sharpness * distance * distance;
         }
     }
     return log_likelihood;

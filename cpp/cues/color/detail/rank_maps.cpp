@@ -109,12 +109,16 @@ std::vector<Count> to_counts(FloatsRef models, std::ptrdiff_t n) {
 
 }  // namespace
 
-RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()) {
+void require_rank_maps(FloatsRef models, std::ptrdiff_t n) {
     if (n < 1) refuse("samples", "at least one an ellipse", "none");
     if (models.cols() != 3 * n)
         refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples",
                std::to_string(models.cols()));
     require_ranks(models);
+}
+
+RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()) {
+    require_rank_maps(models, n);
     with_count_type(static_cast<std::size_t>(n), [&](auto count) {
         using Count = decltype(count);
         counts_ =

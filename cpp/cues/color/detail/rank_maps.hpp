@@ -10,6 +10,9 @@
 
 namespace tricue {
 
+/// @throws std::invalid_argument unless M x 3n numbers are ranks in [0, 1] and n >= 1, naming `models` and `samples`
+void require_rank_maps(FloatsRef models, std::ptrdiff_t n);
+
 /// M rank maps with which the samples of ellipses are compared.
 class RankMaps {
 public:
