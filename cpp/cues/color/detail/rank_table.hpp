@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "base/simd.hpp"
@@ -28,15 +29,18 @@ TRICUE_INLINE void rank_places(const std::uint8_t* __restrict levels, std::size_
         places[k] = static_cast<std::uint8_t>((levels[k] >> 3) | (levels[k] << 5));
 }
 
-/// Counts the places of three planes.
+/// Counts the places of three planes, eight of each at a time, as to load bytes one by one takes as long as to count them.
 template <typename Count>
 TRICUE_INLINE void count_places(const std::uint8_t* places, std::size_t n, Count (*counts)[2][256]) {
-    const std::size_t even = n & ~std::size_t{1};
-    for (std::size_t k = 0; k < even; k += 2)
-        for (std::size_t plane = 0; plane < 3; ++plane)
-            for (std::size_t lane = 0; lane < 2; ++lane) ++counts[plane][lane][places[plane * n + k + lane]];
-    if (even < n)
-        for (std::size_t plane = 0; plane < 3; ++plane) ++counts[plane][0][places[plane * n + even]];
+    const std::size_t whole = n & ~std::size_t{7};
+    for (std::size_t k = 0; k < whole; k += 8)
+        for (std::size_t plane = 0; plane < 3; ++plane) {
+            std::uint64_t eight;
+            std::memcpy(&eight, places + plane * n + k, sizeof eight);
+            for (std::size_t i = 0; i < 8; ++i) ++counts[plane][i & 1][eight >> (8 * i) & 255];
+        }
+    for (std::size_t plane = 0; plane < 3; ++plane)
+        for (std::size_t k = whole; k < n; ++k) ++counts[plane][k & 1][places[plane * n + k]];
 }
 
 /// The tables of planes of n places, a multiple of three, which follow each other, n <= kMaxSamples<Count>.

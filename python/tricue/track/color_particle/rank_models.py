@@ -65,8 +65,8 @@ class RankSpatial(NamedTuple):
 
     def score(self, k: Kernels, seen: RankWindow, searching: bool = False) -> float:
         """The rank correlation: it is 0 for a flat window, though the distance of that is small."""
-        considered = seen.correlations if searching else seen.correlations[:1]
-        return float(max(considered))
+        correlations: list[float] = seen.correlations.tolist()
+        return max(correlations) if searching else correlations[0]
 
 
 class RankSections(NamedTuple):
