@@ -146,6 +146,19 @@ inline Eigen::Map<const Floats> floats(const py::object& object, const char* nam
     return {contiguous<float>(array, name), rows, array.shape(array.ndim() - 1)};
 }
 
+/// Rank maps (M, 3, n), seen as M rows.
+inline Eigen::Map<const Floats> rank_maps(const py::object& models, py::ssize_t n) {
+    const auto maps = floats(models, "models", {-1, 3, n}, "float32 (M, 3, n)");
+    return {maps.data(), maps.rows() / 3, 3 * maps.cols()};
+}
+
+/// A table over colors (B, B, B), seen as B² rows.
+inline Eigen::Map<const Floats> color_cube(const py::object& table, const char* name = "table") {
+    const char* expected = "float32 (B, B, B)";
+    const auto side = require<float>(table, name, 3, expected).shape(0);
+    return floats(table, name, {side, side, side}, expected);
+}
+
 inline Eigen::Map<const Complexes> complexes(const py::object& object, const char* name,
                                              const char* expected) {
     const auto array = require<std::complex<float>>(object, name, 2, expected);

@@ -9,6 +9,7 @@
 #include "cues/color/rank_distance.hpp"
 #include "cues/color/rank_likelihood.hpp"
 #include "cues/color/rank_sections.hpp"
+#include "cues/color/rank_window.hpp"
 #include "cues/color/sample_ellipses.hpp"
 #include "cues/color/section_distance.hpp"
 #include "kernel_docs.hpp"
@@ -17,18 +18,6 @@ namespace tricue::bindings {
 namespace {
 
 using Bytes = Array<std::uint8_t>;
-
-/// (M, 3, n) seen as M rows.
-Eigen::Map<const Floats> rank_maps(const Array<float>& models, py::ssize_t n) {
-    const auto maps = floats(models, "models", {-1, 3, n}, "float32 (M, 3, n)");
-    return {maps.data(), maps.rows() / 3, 3 * maps.cols()};
-}
-
-Eigen::Map<const Floats> color_cube(const Array<float>& table, const char* name = "table") {
-    const char* expected = "float32 (B, B, B)";
-    const auto side = require<float>(table, name, 3, expected).shape(0);
-    return floats(table, name, {side, side, side}, expected);
-}
 
 Bytes sample_ellipses_arrays(const Bytes& image, const Array<double>& ellipses,
                              const Array<double>& pattern) {
@@ -68,6 +57,16 @@ Array<double> rank_likelihood_arrays(const Bytes& image, const Array<double>& el
     const LookWeights weights{sharpness, contrast_weight};
     return give(
         unlocked(each.rows() * places, [&] { return rank_likelihood(view, each, windows, look, weights); }));
+}
+
+std::tuple<Array<float>, Array<double>> rank_window_arrays(const Bytes& image, const Array<double>& ellipse,
+                                                           const Array<double>& pattern,
+                                                           const Array<float>& models, double flat) {
+    const auto view = color_image(image, "image");
+    const auto places = states(pattern, "pattern");
+    auto [ranks, correlations] =
+        rank_window(view, vector(ellipse, "ellipse"), places, rank_maps(models, places.rows()), flat);
+    return {give(std::move(ranks), {3, places.rows()}), give(std::move(correlations))};
 }
 
 std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(const Bytes& inside,
@@ -128,6 +127,8 @@ void define_color(py::module_& m) {
     m.def("rank_likelihood", rank_likelihood_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
           py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"),
           py::arg("sharpness"), py::arg("contrast_weight"), docs::rank_likelihood);
+    m.def("rank_window", rank_window_arrays, py::arg("image"), py::arg("ellipse"), py::arg("pattern"),
+          py::arg("models"), py::arg("flat"), docs::rank_window);
     m.def("joint_histogram", joint_histogram_arrays, py::arg("samples"), py::arg("bins"),
           docs::joint_histogram);
     m.def("color_histogram", color_histogram_arrays, py::arg("samples"), py::arg("bins"),

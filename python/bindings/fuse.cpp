@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 #include "fuse/propose.hpp"
+#include "fuse/rank_filter.hpp"
 #include "fuse/rectangle_prior.hpp"
 #include "fuse/resample.hpp"
 #include "fuse/reweight.hpp"
@@ -49,6 +50,30 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
     return {give(std::move(result.mean)), give(std::move(result.covariance)), result.effective};
 }
 
+std::tuple<Array<double>, Array<double>, double, Array<double>, double> rank_filter_arrays(
+    const Array<std::uint8_t>& image, const Array<double>& particles, const Array<double>& log_weights,
+    const Array<double>& noise, const Array<double>& drift, const Array<double>& scale,
+    const Array<double>& lower, const Array<double>& upper, const Array<double>& mean,
+    const Array<double>& root, double share, const Array<double>& inside, const Array<double>& around,
+    const Array<float>& models, const Array<double>& shares, bool nearest, const Array<float>& table,
+    double sharpness, double contrast_weight) {
+    const auto view = color_image(image, "image");
+    const WeightedEllipses last{states(particles, "particles"), vector(log_weights, "log_weights")};
+    const auto draws = states(noise, "noise");
+    const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
+    const Bounds bounds{vector(lower, "lower"), vector(upper, "upper")};
+    const Detection detection{vector(mean, "mean"), states(root, "root"), share};
+    const Windows windows{states(inside, "inside"), states(around, "around")};
+    const auto places = windows.inside.rows();
+    const ColorLook look{rank_maps(models, places), vector(shares, "shares"), nearest, color_cube(table)};
+    auto result = unlocked(last.particles.rows() * places, [&] {
+        return rank_filter(view, last, draws, dynamics, bounds, detection, windows, look,
+                           {sharpness, contrast_weight});
+    });
+    return {give(std::move(result.particles)), give(std::move(result.weights)), result.effective,
+            give(std::move(result.ellipse)), result.log_likelihood};
+}
+
 Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array<double>& size,
                                      const Array<double>& spread, const Array<double>& state,
                                      const Array<double>& deviation, double max_cost) {
@@ -65,6 +90,11 @@ void define_fuse(py::module_& m) {
     m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
           py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
           py::arg("upper"), docs::propose);
+    m.def("rank_filter", rank_filter_arrays, py::arg("image"), py::arg("particles"), py::arg("log_weights"),
+          py::arg("noise"), py::arg("drift"), py::arg("scale"), py::arg("lower"), py::arg("upper"),
+          py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("inside"), py::arg("around"),
+          py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"), py::arg("sharpness"),
+          py::arg("contrast_weight"), docs::rank_filter);
     m.def("rectangle_prior", rectangle_prior_arrays, py::arg("states"), py::arg("size"), py::arg("spread"),
           py::arg("state"), py::arg("deviation"), py::arg("max_cost"), docs::rectangle_prior);
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),

@@ -2015,6 +2015,77 @@ def rank_distance(
     its printed equations (19)-(29) are rank_sections and section_distance.
     """
 
+def rank_filter(
+    image: numpy.typing.NDArray[numpy.uint8],
+    particles: numpy.typing.NDArray[numpy.float64],
+    log_weights: numpy.typing.NDArray[numpy.float64],
+    noise: numpy.typing.NDArray[numpy.float64],
+    drift: numpy.typing.NDArray[numpy.float64],
+    scale: numpy.typing.NDArray[numpy.float64],
+    lower: numpy.typing.NDArray[numpy.float64],
+    upper: numpy.typing.NDArray[numpy.float64],
+    mean: numpy.typing.NDArray[numpy.float64],
+    root: numpy.typing.NDArray[numpy.float64],
+    share: float,
+    inside: numpy.typing.NDArray[numpy.float64],
+    around: numpy.typing.NDArray[numpy.float64],
+    models: numpy.typing.NDArray[numpy.float32],
+    shares: numpy.typing.NDArray[numpy.float64],
+    nearest: bool,
+    table: numpy.typing.NDArray[numpy.float32],
+    sharpness: float,
+    contrast_weight: float,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    float,
+    numpy.typing.NDArray[numpy.float64],
+    float,
+]:
+    """
+    One step of the color particle tracker's filter: particles are drawn, weighed by what the image
+    shows under them, and summed up.
+
+    It joins propose; rank_likelihood, to which the logarithms of the particles' weights are added;
+    reweight; summarize; and rank_likelihood of the expected value. So particles stay in the cache.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, at least one pixel
+        particles: float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
+        log_weights: float64 (N,): logarithms of their weights but for a constant, not above 0
+        noise: float64 (N, 4): independent standard normal numbers
+        drift: float64 (D,): displacement in a frame, in the units of the state, finite
+        scale: float64 (D,): standard deviations, none negative; those that a detection is about above 0
+            where a density is needed
+        lower: float64 (D,): lower bounds of a state, may be infinite
+        upper: float64 (D,): upper bounds, not below the lower ones, may be infinite
+        mean: float64 (K,): mean of the detection, K at least 1, at most D
+        root: float64 (K, K): Cholesky factor of its covariance, lower triangle, diagonal above 0; what
+            is above the diagonal is not read
+        share: share of the particles that is drawn from it, in [0, 1); at 0 mean and root are not read
+        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
+        around: float64 (m, 2): places (u, v) around it
+        models: float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in
+            C++ M rows of 3 n
+        shares: float64 (M,): of each map in the mean distance, finite
+        nearest: whether to take the least distance instead: shares only have to be valid
+        table: float32 (B, B, B): P(target | color), as color_lookup takes it
+        sharpness: nats, finite
+        contrast_weight: nats, finite
+
+    Returns:
+        particles: float64 (N, 4)
+        weights: float64 (N,): of sum 1
+        effective: effective sample size, from 1 to N
+        ellipse: float64 (4,): expected value
+        log_likelihood: of that ellipse, nats
+
+    Raises:
+        ValueError: as the kernels that it joins, and on log_weights that are above 0 or not a number
+
+    Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
+    """
+
 def rank_likelihood(
     image: numpy.typing.NDArray[numpy.uint8],
     ellipses: numpy.typing.NDArray[numpy.float64],
@@ -2084,6 +2155,39 @@ def rank_sections(
         ValueError: on sections outside [1, 256], or n = 0
 
     Source: Sabeti, Parvizi, Wu 2008, section III.B.
+    """
+
+def rank_window(
+    image: numpy.typing.NDArray[numpy.uint8],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    pattern: numpy.typing.NDArray[numpy.float64],
+    models: numpy.typing.NDArray[numpy.float32],
+    flat: float,
+) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float64]]:
+    """
+    The order of the pixels in one ellipse, and how much it is like that of each rank map: what a color
+    tracker learns, and its score.
+
+    Spearman's correlation of all 3 n ranks, at least 0. As the mean of a map is 1/2, it is (Σab −
+    N/4) / √((Σa² − N/4) (Σb² − N/4)), N = 3 n. A window or a map that is nearly flat has no order: the
+    correlation is 0.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, at least one pixel
+        ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels, finite
+        pattern: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses,
+            n at least 1
+        models: float32 (M, 3, n): rank maps in [0, 1]; in C++ M rows of 3 n
+        flat: the sum of squared deviations, Σa² − N/4, up to which there is no order, at least 0
+
+    Returns:
+        ranks: float32 (3, n): mid-ranks of the samples, as color_ranks has them; in C++ one row of 3 n
+        correlations: float64 (M,): in [0, 1], with each of the models
+
+    Raises:
+        ValueError: on other shapes or values
+
+    Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; Spearman 1904.
     """
 
 def rectangle_histogram(
@@ -3449,6 +3553,34 @@ class Kernels(Protocol):
     def rank_distance(
         self, samples: numpy.typing.NDArray[numpy.uint8], models: numpy.typing.NDArray[numpy.float32]
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def rank_filter(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        particles: numpy.typing.NDArray[numpy.float64],
+        log_weights: numpy.typing.NDArray[numpy.float64],
+        noise: numpy.typing.NDArray[numpy.float64],
+        drift: numpy.typing.NDArray[numpy.float64],
+        scale: numpy.typing.NDArray[numpy.float64],
+        lower: numpy.typing.NDArray[numpy.float64],
+        upper: numpy.typing.NDArray[numpy.float64],
+        mean: numpy.typing.NDArray[numpy.float64],
+        root: numpy.typing.NDArray[numpy.float64],
+        share: float,
+        inside: numpy.typing.NDArray[numpy.float64],
+        around: numpy.typing.NDArray[numpy.float64],
+        models: numpy.typing.NDArray[numpy.float32],
+        shares: numpy.typing.NDArray[numpy.float64],
+        nearest: bool,
+        table: numpy.typing.NDArray[numpy.float32],
+        sharpness: float,
+        contrast_weight: float,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        float,
+        numpy.typing.NDArray[numpy.float64],
+        float,
+    ]: ...
     def rank_likelihood(
         self,
         image: numpy.typing.NDArray[numpy.uint8],
@@ -3465,6 +3597,14 @@ class Kernels(Protocol):
     def rank_sections(
         self, samples: numpy.typing.NDArray[numpy.uint8], sections: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def rank_window(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        pattern: numpy.typing.NDArray[numpy.float64],
+        models: numpy.typing.NDArray[numpy.float32],
+        flat: float,
+    ) -> tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float64]]: ...
     def rectangle_histogram(
         self,
         depth: numpy.typing.NDArray[numpy.float32],

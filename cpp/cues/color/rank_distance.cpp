@@ -8,8 +8,7 @@ namespace tricue {
 States rank_distance(const SampleView& samples, FloatsRef models) {
     RankMaps maps(models, samples.n);
     States distances(samples.ellipses, maps.size());
-    for (std::ptrdiff_t i = 0; i < samples.ellipses; ++i)
-        maps.compare(samples, i, distances.data() + i * maps.size());
+    maps.compare(samples, distances.data());
     return distances;
 }
 

@@ -15,16 +15,17 @@ struct Windows {
 
 /// What a target looks like: rank maps and their shares, and a table over colors.
 struct ColorLook {
-    FloatsRef maps;
-    VectorRef shares;
-    bool nearest;
-    FloatsRef table;
+    FloatsRef
+        models;  ///< float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
+    VectorRef shares;  ///< float64 (M,): of each map in the mean distance, finite
+    bool nearest;      ///< whether to take the least distance instead: shares only have to be valid
+    FloatsRef table;   ///< float32 (B, B, B): P(target | color), as color_lookup takes it
 };
 
 /// How much a distance and a contrast count.
 struct LookWeights {
-    double sharpness;
-    double contrast;
+    double sharpness;        ///< nats, finite
+    double contrast_weight;  ///< nats, finite
 };
 
 /// The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² + contrast_weight c, nats.
@@ -35,12 +36,6 @@ struct LookWeights {
 ///
 /// @param image uint8 (H, W, 3) BGR, at least one pixel
 /// @param ellipses float64 (N, 4): center x, y, semi-axes along x (minor) and y (major), pixels, finite
-/// @param models float32 (M, 3, n): rank maps in [0, 1], as rank_distance takes them, M at least 1; in C++ M rows of 3 n
-/// @param shares float64 (M,): of each map in the mean distance, finite
-/// @param nearest whether to take the least distance instead: shares only have to be valid
-/// @param table float32 (B, B, B): P(target | color), as color_lookup takes it
-/// @param sharpness nats, finite
-/// @param contrast_weight nats, finite
 /// @returns float64 (N,)
 /// @throws std::invalid_argument as the kernels that it joins, on a pattern without places, or without maps
 /// Source: orders of corresponding pixels, Sabeti, Parvizi, Wu 2008, section III.B; the contrast is ours.

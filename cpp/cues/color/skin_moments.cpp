@@ -4,75 +4,138 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 #include "cues/color/skin_boundary.hpp"
 
 namespace tricue {
 namespace {
 
-// In tiles of this size every inner sum has 16-bit factors and a 32-bit total.
-constexpr int kTile = 1024;
+constexpr int kTile = 1024;  // pixels, of a side: sums over a column and its rows fit into 32 bits
+constexpr int kStrip = 16;   // rows: sums over a column and its rows fit into bytes
+constexpr int kBlock = 64;   // pixels; a tile's width is padded to whole blocks
 constexpr int kPrefetchRows = 4;
-using TileRow = std::array<std::int16_t, kTile>;
-
-constexpr TileRow ascending() {
-    TileRow row{};
-    for (int x = 0; x < kTile; ++x) row[static_cast<std::size_t>(x)] = static_cast<std::int16_t>(x);
-    return row;
-}
-constexpr TileRow kColumn = ascending();
-
-struct RowSums {
-    int count, x;
-};
+constexpr std::uint8_t kSkin = 255;
 
 /// Raw moments of integer pixel indices, relative to the region's corner; exact.
 struct Sums {
     std::int64_t count = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 };
 
-/// Counts one row's skin and adds it to the counts of the columns.
-TRICUE_MULTIVERSION
-RowSums sum_row(const std::int16_t* __restrict boundary, int n, std::int16_t least,
-                std::int16_t* __restrict columns) {
-    int count = 0, sum = 0;
-    for (int x = 0; x < n; ++x) {
-        const std::int16_t skin = boundary[x] >= least;
-        count += skin;
-        sum += skin * kColumn[static_cast<std::size_t>(x)];
-        columns[x] = static_cast<std::int16_t>(columns[x] + skin);
-    }
-    return {count, sum};
+/// Of each column: how many pixels are skin, and the sum of their rows.
+template <typename Number>
+struct Columns {
+    alignas(kBlock) std::array<Number, kTile> count, rows;
+};
+
+/// As long as possible in bytes: |a - b| as max - min, and a difference that is at least 0.
+inline std::uint8_t distance(std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::max(a, b) - std::min(a, b));
 }
 
-void add_tile(const ImageView& image, const Bgr& reference, std::int16_t least, const Region& region,
+inline std::uint8_t difference(std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::max(a, b) - b);
+}
+
+/// Marks the pixels of a row whose boundary value, eta - delta of skin_boundary, is at least `least`, below 256.
+TRICUE_MULTIVERSION
+void mark_skin(const std::uint8_t* __restrict pixels, int n, const Bgr& reference, int least,
+               std::uint8_t* __restrict skin) {
+    const std::uint8_t b0 = reference[0], g0 = reference[1], r0 = reference[2];
+    const auto eta = [=](std::ptrdiff_t x) {
+        return std::max(pixels[3 * x], std::max(pixels[3 * x + 1], pixels[3 * x + 2]));
+    };
+    const auto delta = [=](std::ptrdiff_t x) {
+        return std::max(distance(pixels[3 * x], b0),
+                        std::max(distance(pixels[3 * x + 1], g0), distance(pixels[3 * x + 2], r0)));
+    };
+    const auto limit = static_cast<std::uint8_t>(std::abs(least));
+    if (least > 0)
+        for_overlapping_blocks<kBlock>(
+            n, [=](std::ptrdiff_t x) { skin[x] = difference(eta(x), delta(x)) >= limit ? kSkin : 0; });
+    else
+        for_overlapping_blocks<kBlock>(
+            n, [=](std::ptrdiff_t x) { skin[x] = difference(delta(x), eta(x)) <= limit ? kSkin : 0; });
+}
+
+/// Adds a row, the row-th of its strip, to the strip's n columns, whole blocks, and counts its skin.
+TRICUE_MULTIVERSION
+void add_row(const std::uint8_t* skin, int n, std::uint8_t row, std::uint8_t* count, std::uint8_t* rows,
+             int* found) {
+    using Block = Pack<std::uint8_t, kBlock>;
+    Block total = {}, marks, each;
+    for (int x = 0; x < n; x += kBlock) {
+        load(skin + x, marks);
+        total -= marks;
+        load(count + x, each);
+        each -= marks;
+        store(each, count + x);
+        load(rows + x, each);
+        each += marks & row;
+        store(each, rows + x);
+    }
+    std::uint8_t lanes[kBlock];
+    store(total, lanes);
+    int sum = 0;
+    for (int lane = 0; lane < kBlock; ++lane) sum += lanes[lane];
+    *found = sum;
+}
+
+/// Adds a strip that begins at a row of the tile to the tile's n columns, and empties it.
+TRICUE_MULTIVERSION
+void add_strip(std::uint8_t* __restrict count, std::uint8_t* __restrict rows, int n, int row,
+               std::int32_t* __restrict all_count, std::int32_t* __restrict all_rows) {
+    for (int x = 0; x < n; ++x) {
+        all_count[x] += count[x];
+        all_rows[x] += row * count[x] + rows[x];
+        count[x] = rows[x] = 0;
+    }
+}
+
+void add_tile(const ImageView& image, const Bgr& reference, int least, const Region& region,
               const Region& tile, Sums& sums) {
-    const int width = tile.x1 - tile.x0;
-    const std::int64_t left = tile.x0 - region.x0;
-    TileRow boundary, columns{};
-    for (int row = tile.y0; row < tile.y1; ++row) {
-        if (row + kPrefetchRows < tile.y1)
-            prefetch_bytes(image.row(row + kPrefetchRows) + 3 * std::ptrdiff_t{tile.x0}, 3 * width);
-        skin_boundary_row(image.row(row) + 3 * std::ptrdiff_t{tile.x0}, width, reference, boundary.data());
-        const RowSums skin = sum_row(boundary.data(), width, least, columns.data());
-        const std::int64_t y = row - region.y0, x = skin.x + left * skin.count;
-        sums.count += skin.count;
-        sums.y += y * skin.count;
-        sums.yy += y * y * skin.count;
-        sums.xy += y * x;
-        sums.x += x;
+    const int width = tile.x1 - tile.x0, height = tile.y1 - tile.y0;
+    const int padded = (width + kBlock - 1) / kBlock * kBlock;
+    const std::int64_t left = tile.x0 - region.x0, top = tile.y0 - region.y0;
+    alignas(kBlock) std::array<std::uint8_t, kTile> skin;
+    Columns<std::uint8_t> strip;
+    Columns<std::int32_t> columns;
+    std::fill_n(skin.begin(), padded, std::uint8_t{0});
+    std::fill_n(strip.count.begin(), padded, std::uint8_t{0});
+    std::fill_n(strip.rows.begin(), padded, std::uint8_t{0});
+    std::fill_n(columns.count.begin(), padded, 0);
+    std::fill_n(columns.rows.begin(), padded, 0);
+    for (int row = 0; row < height; ++row) {
+        const std::ptrdiff_t begin = 3 * std::ptrdiff_t{tile.x0};
+        if (row + kPrefetchRows < height)
+            prefetch_bytes(image.row(tile.y0 + row + kPrefetchRows) + begin, 3 * width);
+        mark_skin(image.row(tile.y0 + row) + begin, width, reference, least, skin.data());
+        int found = 0;
+        add_row(skin.data(), padded, static_cast<std::uint8_t>(row % kStrip), strip.count.data(),
+                strip.rows.data(), &found);
+        sums.yy += (top + row) * (top + row) * found;
+        if (row % kStrip == kStrip - 1 || row + 1 == height)
+            add_strip(strip.count.data(), strip.rows.data(), padded, row - row % kStrip, columns.count.data(),
+                      columns.rows.data());
     }
     for (int column = 0; column < width; ++column) {
-        const std::int64_t x = left + column;
-        sums.xx += x * x * columns[static_cast<std::size_t>(column)];
+        const std::int64_t x = left + column, count = columns.count[static_cast<std::size_t>(column)];
+        const std::int64_t y = columns.rows[static_cast<std::size_t>(column)] + top * count;
+        sums.count += count;
+        sums.x += x * count;
+        sums.y += y;
+        sums.xx += x * x * count;
+        sums.xy += x * y;
     }
 }
 
 }  // namespace
 
 Vector skin_moments(const ImageView& image, const Bgr& reference, double threshold, const Region& region) {
-    const auto least = static_cast<std::int16_t>(least_skin(threshold));
+    const int least = least_skin(threshold);
+    if (least > 255) return Vector::Zero(6);
     const Region visible = region.clipped(image);
     Sums sums;
     for (int y = visible.y0; y < visible.y1; y += kTile)

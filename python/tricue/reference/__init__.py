@@ -28,6 +28,7 @@ from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
 from tricue.reference.cues.color.rank_sections import rank_sections
+from tricue.reference.cues.color.rank_window import rank_window
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
 from tricue.reference.cues.color.sample_windows import sample_windows
 from tricue.reference.cues.color.section_distance import section_distance
@@ -81,6 +82,7 @@ from tricue.reference.fuse.learn_size_filter import learn_size_filter
 from tricue.reference.fuse.localize_target import localize_target
 from tricue.reference.fuse.log_polar_shift import log_polar_shift
 from tricue.reference.fuse.propose import propose
+from tricue.reference.fuse.rank_filter import rank_filter
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.regularized_filter import regularized_filter
 from tricue.reference.fuse.resample import resample
@@ -150,8 +152,10 @@ __all__ = [
     "propose",
     "pyramid_flow",
     "rank_distance",
+    "rank_filter",
     "rank_likelihood",
     "rank_sections",
+    "rank_window",
     "rectangle_histogram",
     "rectangle_prior",
     "rectify_verged",

@@ -84,9 +84,7 @@ def test_the_model_is_that_of_the_previous_frame(small):
     tracker.init(frames[0], box)
     tracker.update(frames[1])
     k, state = kernels.load("native"), tracker._state
-    np.testing.assert_array_equal(
-        state.appearance.model.sections, k.rank_sections(state.samples.inside[:1], 16)[0]
-    )
+    np.testing.assert_array_equal(state.appearance.model.sections, k.rank_sections(state.seen.inside, 16)[0])
 
 
 def test_no_stage_of_ours_runs(small, monkeypatch):

@@ -19,7 +19,22 @@ void find_cells(const std::uint8_t* __restrict blue, const std::uint8_t* __restr
     });
 }
 
+TRICUE_MULTIVERSION
+void find_word_cells(const std::uint32_t* __restrict words, std::ptrdiff_t n, int bits,
+                     std::int32_t* __restrict cells) {
+    const std::uint32_t mask = (1U << bits) - 1U;
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+        const std::uint32_t b = words[k] >> (8 - bits) & mask, g = words[k] >> (16 - bits) & mask,
+                            r = words[k] >> (24 - bits) & mask;
+        cells[k] = static_cast<std::int32_t>((((b << bits) | g) << bits) | r);
+    }
+}
+
 }  // namespace
+
+void word_cells(const std::uint32_t* words, std::ptrdiff_t n, int bits, std::int32_t* cells) {
+    find_word_cells(words, n, bits, cells);
+}
 
 int bits_of_bins(std::ptrdiff_t bins, const char* name) {
     for (int bits = 0; bits <= 6; ++bits)

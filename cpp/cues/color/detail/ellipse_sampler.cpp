@@ -78,22 +78,27 @@ EllipseSampler::EllipseSampler(const ImageView& image, StatesRef pattern, const 
 }
 
 void EllipseSampler::read(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes) {
-    for (; count > 0; count -= kBatch, ellipses += 4 * kBatch, planes += 3 * size() * kBatch)
-        read_batch(ellipses, std::min(count, kBatch), planes);
+    for (; count > 0; count -= kBatch, ellipses += 4 * kBatch, planes += 3 * size() * kBatch) {
+        const std::ptrdiff_t batch = std::min(count, kBatch);
+        split(read_words(ellipses, batch), batch, planes);
+    }
 }
 
 /// Each step is done for the whole batch before the next: wide loads have to wait for the narrow stores before them.
-void EllipseSampler::read_batch(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes) {
+const std::uint32_t* EllipseSampler::read_words(const double* ellipses, std::ptrdiff_t count) {
     const std::ptrdiff_t n = size();
     const bool single = image_.rows == 1 && image_.cols == 1;
     for (std::ptrdiff_t i = 0; i < count; ++i)
         find_offsets(u_.data(), v_.data(), n, ellipses + 4 * i, image_.cols, image_.rows,
                      static_cast<std::int32_t>(image_.stride), offsets_.data() + n * i);
     gather(single ? single_pixel_ : image_.data, last_word_, offsets_.data(), n * count, words_.data());
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        std::uint8_t* out = planes + 3 * n * i;
-        split_channels(words_.data() + n * i, n, out, out + n, out + 2 * n);
-    }
+    return words_.data();
+}
+
+void EllipseSampler::split(const std::uint32_t* words, std::ptrdiff_t count, std::uint8_t* planes) const {
+    const std::ptrdiff_t n = size();
+    for (std::ptrdiff_t i = 0; i < count; ++i, words += n, planes += 3 * n)
+        split_channels(words, n, planes, planes + n, planes + 2 * n);
 }
 
 }  // namespace tricue

@@ -22,9 +22,14 @@ public:
     /// How many ellipses are read at once.
     static constexpr std::ptrdiff_t kBatch = 8;
 
-private:
-    void read_batch(const double* ellipses, std::ptrdiff_t count, std::uint8_t* planes);
+    /// The samples of at most kBatch ellipses as words, size() an ellipse, valid until the next call: the lowest byte is blue, then
+    /// green, red, and one without a meaning.
+    const std::uint32_t* read_words(const double* ellipses, std::ptrdiff_t count);
 
+    /// Writes the planes of the words of so many ellipses.
+    void split(const std::uint32_t* words, std::ptrdiff_t count, std::uint8_t* planes) const;
+
+private:
     ImageView image_;
     std::int32_t last_word_;        ///< the offset of the last word that can be read
     std::uint8_t single_pixel_[4];  ///< an image of a single pixel, too short for a word

@@ -26,33 +26,54 @@ inline std::int64_t sum_absolute_differences(const Count* __restrict a, const Co
     return sum;
 }
 
-inline void find_ranks(const RankTable<std::uint8_t>& table, const std::uint8_t* levels, std::size_t n,
+inline void find_ranks(const RankTable<std::uint8_t>& table, const std::uint8_t* places, std::size_t n,
                        std::uint8_t* ranks) {
-    look_up_bytes(table.data(), levels, n, ranks);
+    look_up_bytes(table.data(), places, n, ranks);
 }
 
 template <typename Count>
-inline void find_ranks(const RankTable<Count>& table, const std::uint8_t* levels, std::size_t n,
+inline void find_ranks(const RankTable<Count>& table, const std::uint8_t* places, std::size_t n,
                        Count* ranks) {
-    for (std::size_t k = 0; k < n; ++k) ranks[k] = table[levels[k]];
+    for (std::size_t k = 0; k < n; ++k) ranks[k] = table[places[k]];
 }
 
-/// The distances between the samples of one ellipse and each of the M models.
+/// The models, and buffers for the samples of as many ellipses as are compared at once.
 template <typename Count>
-TRICUE_MULTIVERSION void measure_distances(const SampleView& samples, std::ptrdiff_t ellipse,
-                                           const Count* models, std::ptrdiff_t M, Count* ranks,
-                                           double* distances) {
-    const auto n = static_cast<std::size_t>(samples.n);
-    std::array<RankTable<Count>, 3> tables;
-    rank_tables(samples, ellipse, tables);
-    for (std::size_t channel = 0; channel < 3; ++channel)
-        find_ranks(tables[channel], samples.plane(ellipse, static_cast<int>(channel)), n,
-                   ranks + channel * n);
+struct Buffers {
+    const Count* models;
+    std::ptrdiff_t M;
+    std::uint8_t* places;
+    Count* ranks;
+};
+
+/// The distances between the samples of kEllipses ellipses, which follow each other, and each of the M models.
+template <std::size_t kEllipses, typename Count>
+TRICUE_INLINE void measure_distances(const std::uint8_t* planes, std::size_t n, const Buffers<Count>& buffers,
+                                     double* distances) {
+    rank_places(planes, 3 * n * kEllipses, buffers.places);
+    alignas(64) std::array<RankTable<Count>, 3 * kEllipses> tables;
+    rank_tables(buffers.places, n, tables);
+    for (std::size_t plane = 0; plane < tables.size(); ++plane)
+        find_ranks(tables[plane], buffers.places + plane * n, n, buffers.ranks + plane * n);
     const auto size = static_cast<double>(n);
-    for (std::ptrdiff_t m = 0; m < M; ++m) {
-        const std::int64_t sum = sum_absolute_differences(ranks, models + 3 * m * samples.n, 3 * n);
-        distances[m] = static_cast<double>(sum) / (3.0 * size * size);
-    }
+    for (std::size_t ellipse = 0; ellipse < kEllipses; ++ellipse)
+        for (std::ptrdiff_t m = 0; m < buffers.M; ++m) {
+            const std::int64_t sum = sum_absolute_differences(
+                buffers.ranks + 3 * n * ellipse, buffers.models + 3 * n * static_cast<std::size_t>(m), 3 * n);
+            *distances++ = static_cast<double>(sum) / (3.0 * size * size);
+        }
+}
+
+template <typename Count>
+TRICUE_MULTIVERSION void measure_all_distances(const SampleView& samples, const Buffers<Count>& buffers,
+                                               double* distances) {
+    std::ptrdiff_t i = 0;
+    for (; i + 2 <= samples.ellipses; i += 2)
+        measure_distances<2>(samples.plane(i, 0), static_cast<std::size_t>(samples.n), buffers,
+                             distances + i * buffers.M);
+    if (i < samples.ellipses)
+        measure_distances<1>(samples.plane(i, 0), static_cast<std::size_t>(samples.n), buffers,
+                             distances + i * buffers.M);
 }
 
 template <typename Count>
@@ -88,23 +109,30 @@ std::vector<Count> to_counts(FloatsRef models, std::ptrdiff_t n) {
 
 }  // namespace
 
-RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()) {
+void require_rank_maps(FloatsRef models, std::ptrdiff_t n) {
     if (n < 1) refuse("samples", "at least one an ellipse", "none");
     if (models.cols() != 3 * n)
         refuse("models", "3 x " + std::to_string(n) + " ranks, as many as samples",
                std::to_string(models.cols()));
     require_ranks(models);
+}
+
+RankMaps::RankMaps(FloatsRef models, std::ptrdiff_t n) : size_(models.rows()) {
+    require_rank_maps(models, n);
     with_count_type(static_cast<std::size_t>(n), [&](auto count) {
         using Count = decltype(count);
         counts_ =
-            Counts<Count>{to_counts<Count>(models, n), std::vector<Count>(static_cast<std::size_t>(3 * n))};
+            Counts<Count>{to_counts<Count>(models, n), std::vector<Count>(static_cast<std::size_t>(6 * n))};
     });
+    places_.resize(static_cast<std::size_t>(6 * n));
 }
 
-void RankMaps::compare(const SampleView& samples, std::ptrdiff_t ellipse, double* distances) {
+void RankMaps::compare(const SampleView& samples, double* distances) {
     std::visit(
         [&](auto& counts) {
-            measure_distances(samples, ellipse, counts.models.data(), size_, counts.ranks.data(), distances);
+            using Count = typename std::decay_t<decltype(counts)>::Number;
+            const Buffers<Count> buffers{counts.models.data(), size_, places_.data(), counts.ranks.data()};
+            measure_all_distances(samples, buffers, distances);
         },
         counts_);
 }

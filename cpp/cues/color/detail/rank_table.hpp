@@ -7,11 +7,14 @@
 #include <cstring>
 #include <limits>
 
-#include "base/sample_view.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 
 /// Twice the mid-rank of every level as a count, samples below the level + samples up to it: from 0 to 2n, a whole number.
+///
+/// The number of a level is at its place, its byte rotated by three bits: row `level % 8`, column `level / 8` of 8 x 32. So the
+/// sums over eight successive levels are those of columns, which vectors add up.
 template <typename Count>
 using RankTable = std::array<Count, 256>;
 
@@ -19,51 +22,72 @@ using RankTable = std::array<Count, 256>;
 template <typename Count>
 constexpr std::size_t kMaxSamples = std::numeric_limits<Count>::max() / 2;
 
-/// The tables of the three channels of one ellipse, n <= kMaxSamples<Count>.
-///
-/// Each step is done for all channels before the next: a vector load has to wait for the narrow stores before it, and that
-/// wait then goes into the other channels' work.
-template <typename Count>
-inline void rank_tables(const SampleView& samples, std::ptrdiff_t ellipse,
-                        std::array<RankTable<Count>, 3>& tables) {
-    // Neighboring pixels are alike: two histograms per channel, so that a count needn't wait for the one just written.
-    alignas(64) Count counts[3][2][256] = {};
-    const std::uint8_t* plane[] = {samples.plane(ellipse, 0), samples.plane(ellipse, 1),
-                                   samples.plane(ellipse, 2)};
-    const std::ptrdiff_t even = samples.n & ~std::ptrdiff_t{1};
-    for (std::ptrdiff_t k = 0; k < even; k += 2)
-        for (int channel = 0; channel < 3; ++channel)
-            for (int lane = 0; lane < 2; ++lane) ++counts[channel][lane][plane[channel][k + lane]];
-    if (even < samples.n)
-        for (int channel = 0; channel < 3; ++channel) ++counts[channel][0][plane[channel][even]];
+/// The places of n levels.
+TRICUE_INLINE void rank_places(const std::uint8_t* __restrict levels, std::size_t n,
+                               std::uint8_t* __restrict places) {
+    for (std::size_t k = 0; k < n; ++k)
+        places[k] = static_cast<std::uint8_t>((levels[k] >> 3) | (levels[k] << 5));
+}
 
-    // A word holds several counts, and one multiplication sums them up. None overflows into the next, being at most 2n.
-    constexpr auto kCounts = static_cast<int>(sizeof(std::uint64_t) / sizeof(Count));
-    constexpr int kWords = 256 / kCounts;
+/// Counts the places of three planes, eight of each at a time, as to load bytes one by one takes as long as to count them.
+template <typename Count>
+TRICUE_INLINE void count_places(const std::uint8_t* places, std::size_t n, Count (*counts)[2][256]) {
+    const std::size_t whole = n & ~std::size_t{7};
+    for (std::size_t k = 0; k < whole; k += 8)
+        for (std::size_t plane = 0; plane < 3; ++plane) {
+            std::uint64_t eight;
+            std::memcpy(&eight, places + plane * n + k, sizeof eight);
+            for (std::size_t i = 0; i < 8; ++i) ++counts[plane][i & 1][eight >> (8 * i) & 255];
+        }
+    for (std::size_t plane = 0; plane < 3; ++plane)
+        for (std::size_t k = whole; k < n; ++k) ++counts[plane][k & 1][places[plane * n + k]];
+}
+
+/// The tables of planes of n places, a multiple of three, which follow each other, n <= kMaxSamples<Count>.
+///
+/// Each step is done for all planes before the next: a vector load has to wait for the narrow stores before it, and that wait
+/// then goes into the other planes' work.
+template <typename Count, std::size_t kPlanes>
+TRICUE_INLINE void rank_tables(const std::uint8_t* places, std::size_t n,
+                               std::array<RankTable<Count>, kPlanes>& tables) {
+    constexpr std::size_t kRows = 8, kColumns = 32;
+    // Neighboring pixels are alike: two histograms per plane, so that a count needn't wait for the one just written.
+    alignas(64) Count counts[kPlanes][2][256] = {};
+    for (std::size_t plane = 0; plane < kPlanes; plane += 3)
+        count_places(places + plane * n, n, &counts[plane]);
+
+    using Row = Pack<Count, kColumns>;
+    Row up_to[kPlanes][kRows];  // the counts from the first level of a column to each of its levels
+    for (std::size_t plane = 0; plane < kPlanes; ++plane)
+        for (std::size_t row = 0; row < kRows; ++row) {
+            Row lane[2];
+            for (std::size_t k = 0; k < 2; ++k) load(&counts[plane][k][kColumns * row], lane[k]);
+            up_to[plane][row] = lane[0] + lane[1];
+            if (row > 0) up_to[plane][row] += up_to[plane][row - 1];
+        }
+
+    // The counts before each column. A word holds several, and one multiplication sums them up. None overflows into the next,
+    // being at most 2n.
+    constexpr std::size_t kCounts = sizeof(std::uint64_t) / sizeof(Count);
+    constexpr std::size_t kWords = kColumns / kCounts;
     constexpr std::uint64_t kOnes =
         std::numeric_limits<std::uint64_t>::max() / std::numeric_limits<Count>::max();
-    std::uint64_t own[3][std::size_t{kWords}], up_to[3][std::size_t{kWords}], before[3][std::size_t{kWords}];
-    for (int channel = 0; channel < 3; ++channel)
-        for (int word = 0; word < kWords; ++word) {
-            std::uint64_t lane[2];
-            std::memcpy(&lane[0], &counts[channel][0][kCounts * word], sizeof lane[0]);
-            std::memcpy(&lane[1], &counts[channel][1][kCounts * word], sizeof lane[1]);
-            own[channel][word] = lane[0] + lane[1];
-            up_to[channel][word] = own[channel][word] * kOnes;
+    Row before[kPlanes];
+    for (std::size_t plane = 0; plane < kPlanes; ++plane) {
+        std::uint64_t own[kWords], sum = 0;
+        store(up_to[plane][kRows - 1], own);
+        for (std::uint64_t& word : own) {
+            const std::uint64_t inclusive = word * kOnes + sum * kOnes;
+            word = inclusive - word;
+            sum = inclusive >> (64 - 8 * sizeof(Count));
         }
-    for (int channel = 0; channel < 3; ++channel) {
-        std::uint64_t sum = 0;
-        for (int word = 0; word < kWords; ++word) {
-            before[channel][word] = sum;
-            sum += up_to[channel][word] >> (64 - 8 * sizeof(Count));
-        }
+        load(own, before[plane]);
     }
-    for (int channel = 0; channel < 3; ++channel)
-        for (int word = 0; word < kWords; ++word) {
-            const std::uint64_t total = up_to[channel][word] + before[channel][word] * kOnes;
-            const std::uint64_t twice = 2 * total - own[channel][word];
-            std::memcpy(&tables[static_cast<std::size_t>(channel)][static_cast<std::size_t>(kCounts * word)],
-                        &twice, sizeof twice);
+    for (std::size_t plane = 0; plane < kPlanes; ++plane)
+        for (std::size_t row = 0; row < kRows; ++row) {
+            Row twice = before[plane] + before[plane] + up_to[plane][row];
+            if (row > 0) twice += up_to[plane][row - 1];
+            store(twice, &tables[plane][kColumns * row]);
         }
 }
 

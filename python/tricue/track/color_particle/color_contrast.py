@@ -44,7 +44,7 @@ class ColorContrast(NamedTuple):
         Colors change slowly: only every second call learns, with twice the rate.
         """
         if rate < 1 and not self.skipped:
-            return self._replace(skipped=True)
+            return ColorContrast(self.weight, self.target, self.surround, self.table, skipped=True)
         inside, around = (
             k.sample_ellipses(image, ellipse, pattern) for pattern in (TARGET_PATTERN, SURROUND_PATTERN)
         )

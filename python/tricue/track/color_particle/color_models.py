@@ -11,6 +11,7 @@ from tricue.track.color_particle.observation_model import (
     Floats,
     Samples,
     Singles,
+    WindowSamples,
     blend,
     distance_score,
 )
@@ -37,14 +38,14 @@ class Histogram(NamedTuple):
     def create(cls, p: ColorParticleParams) -> "Histogram":
         return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Histogram":
-        return Histogram(blend(self.histogram, k.color_histogram(inside[:1], HISTOGRAM_BINS)[0], rate))
+    def learn(self, k: Kernels, seen: WindowSamples, rate: float) -> "Histogram":
+        return Histogram(blend(self.histogram, k.color_histogram(seen.inside, HISTOGRAM_BINS)[0], rate))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.bhattacharyya(k.color_histogram(inside, HISTOGRAM_BINS), self.histogram, 3)
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
-        return distance_score(self, k, inside, around, unrelated=0.6)
+    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return distance_score(self, k, seen, unrelated=0.6)
 
 
 class Region(NamedTuple):
@@ -56,14 +57,14 @@ class Region(NamedTuple):
     def create(cls, p: ColorParticleParams) -> "Region":
         return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Region":
+    def learn(self, k: Kernels, seen: WindowSamples, rate: float) -> "Region":
         return self
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return skin_distance(k.skin_rule(inside), k.skin_rule(around))
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
-        return distance_score(self, k, inside, around, unrelated=1.0)
+    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return distance_score(self, k, seen, unrelated=1.0)
 
 
 class Gaussian(NamedTuple):
@@ -77,8 +78,8 @@ class Gaussian(NamedTuple):
     def create(cls, p: ColorParticleParams) -> "Gaussian":
         return cls(np.zeros(2), np.eye(2))
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Gaussian":
-        b, g, r = inside[0].astype(np.float64)
+    def learn(self, k: Kernels, seen: WindowSamples, rate: float) -> "Gaussian":
+        b, g, r = seen.inside[0].astype(np.float64)
         luma = 0.299 * r + 0.587 * g + 0.114 * b
         chroma = np.stack([(b - luma) * 0.564 + 128, (r - luma) * 0.713 + 128])
         covariance = np.cov(chroma, bias=True) + MIN_CHROMA_VARIANCE * np.eye(2)
@@ -90,8 +91,8 @@ class Gaussian(NamedTuple):
         skin, other = (k.skin_gaussian(each, self.mean, precision) for each in (inside, around))
         return skin_distance(skin, other)
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
-        return distance_score(self, k, inside, around, unrelated=1.0)
+    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return distance_score(self, k, seen, unrelated=1.0)
 
 
 class Lookup(NamedTuple):
@@ -105,12 +106,12 @@ class Lookup(NamedTuple):
     def create(cls, p: ColorParticleParams) -> "Lookup":
         return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "Lookup":
-        histogram = blend(self.histogram, k.joint_histogram(inside[:1], HISTOGRAM_BINS)[0], rate)
+    def learn(self, k: Kernels, seen: WindowSamples, rate: float) -> "Lookup":
+        histogram = blend(self.histogram, k.joint_histogram(seen.inside, HISTOGRAM_BINS)[0], rate)
         return Lookup(histogram, (histogram / histogram.max()).reshape(3 * [HISTOGRAM_BINS]))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return skin_distance(k.color_lookup(inside, self.table), k.color_lookup(around, self.table))
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
-        return distance_score(self, k, inside, around, unrelated=1.0)
+    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return distance_score(self, k, seen, unrelated=1.0)

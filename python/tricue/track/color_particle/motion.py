@@ -53,13 +53,13 @@ class EllipseMotion(NamedTuple):
         top, bottom = min(max(y - step, 0.0), height), min(max(y + step, 0.0), height)
         mean_minor, mean_major = self.mean_size
         (smallest, largest), (first_minor, first_major) = p.size_range, self.first_size
-        rows = (
-            (p.drift * vx, p.drift * vy, pull * (mean_minor - minor), pull * (mean_major - major)),
-            (noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major),
-            (left, top, smallest * first_minor, smallest * first_major),
-            (right, bottom, largest * first_minor, largest * first_major),
+        numbers = (
+            *(p.drift * vx, p.drift * vy, pull * (mean_minor - minor), pull * (mean_major - major)),
+            *(noise + k * abs(vx), noise + k * abs(vy), size_noise * minor, size_noise * major),
+            *(left, top, smallest * first_minor, smallest * first_major),
+            *(right, bottom, largest * first_minor, largest * first_major),
         )
-        return Prediction(*np.array(rows))  # one array is made faster than four
+        return Prediction(*np.array(numbers).reshape(4, 4))  # one array is made faster than four
 
     def update(self, ellipse: Ellipse, p: ColorParticleParams) -> "EllipseMotion":
         """Move to a new estimate; its step updates the velocity, its size the mean size."""

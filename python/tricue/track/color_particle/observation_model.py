@@ -1,21 +1,31 @@
 # SPDX-License-Identifier: MIT
 """The protocol of the six observation models, which weigh particles by the samples of their windows.
 
-A model gets samples only: ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) in its ring.
+Samples are ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) in its ring. What a model
+learns, and is scored by, is seen in one window: its samples, or for ``RankSpatial`` their ranks.
 """
 
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
+from tricue.track.base.ellipse_pattern import grid
+from tricue.track.color_particle.params import ColorParticleParams
 
 Samples = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 
 NO_MODEL: Singles = np.empty(0, np.float32)  # before the first frame is learned
+
+
+class WindowSamples(NamedTuple):
+    """Pixels of N windows: (N, 3, n) on the grid inside each window, (N, 3, m) in the ring around it."""
+
+    inside: Samples
+    around: Samples
 
 
 class ObservationModel(Protocol):
@@ -25,8 +35,8 @@ class ObservationModel(Protocol):
     def sharpness(self) -> float:
         """The default of the exponential likelihood exp(-sharpness d²), found by experiment."""
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "ObservationModel":
-        """Blend in the first window; a rate of 1 initializes the model."""
+    def learn(self, k: Kernels, seen: Any, rate: float) -> "ObservationModel":
+        """Blend in what is seen in one window; a rate of 1 initializes the model."""
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         """(N,) distances of the windows to the model, in [0, 1].
@@ -34,8 +44,14 @@ class ObservationModel(Protocol):
         searching: for a lost target, to the most similar appearance that the model remembers.
         """
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
-        """Confidence, in [0, 1], that the first window shows the target; about 0 for unrelated windows."""
+    def score(self, k: Kernels, seen: Any, searching: bool = False) -> float:
+        """Confidence, in [0, 1], that this is the target; about 0 for what is seen in unrelated windows."""
+
+
+def window_grid(p: ColorParticleParams) -> NDArray[np.float64]:
+    """(n, 2): sample positions in the window, semi-axes."""
+    places = grid(*p.grid, p.grid_reach)
+    return places[np.hypot(*places.T) <= p.grid_reach] if p.window_shape == "ellipse" else places
 
 
 def blend(old: NDArray[Any], new: NDArray[Any], rate: float) -> NDArray[Any]:
@@ -43,8 +59,6 @@ def blend(old: NDArray[Any], new: NDArray[Any], rate: float) -> NDArray[Any]:
     return new if rate >= 1 else old + new.dtype.type(rate) * (new - old)
 
 
-def distance_score(
-    model: ObservationModel, k: Kernels, inside: Samples, around: Samples, unrelated: float
-) -> float:
+def distance_score(model: ObservationModel, k: Kernels, seen: WindowSamples, unrelated: float) -> float:
     """1 - d / unrelated, at least 0. unrelated: the typical distance of windows without the target."""
-    return max(1 - float(model.distance(k, inside[:1], around[:1])[0]) / unrelated, 0.0)
+    return max(1 - float(model.distance(k, *seen)[0]) / unrelated, 0.0)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The observation models by color ranks, section III.B: which changes of brightness leave."""
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -12,8 +11,10 @@ from tricue.track.color_particle.observation_model import (
     Floats,
     Samples,
     Singles,
+    WindowSamples,
     blend,
     distance_score,
+    window_grid,
 )
 from tricue.track.color_particle.params import ColorParticleParams
 
@@ -21,16 +22,11 @@ RANK_QUANTILES = 16  # of the printed color ranks
 MIN_RANK_SPREAD = 0.1  # sum of squared deviations of ranks; below it a window is flat and has no order
 
 
-def rank_correlation(a: Singles, b: Singles) -> float:
-    """Spearman's correlation of two rank maps, at least 0.
+class RankWindow(NamedTuple):
+    """The order of the pixels in one window."""
 
-    The mean of a map is 1/2, so sum(a b) - N / 4 is the sum of the products of their deviations.
-    """
-    ab, aa, bb = float(np.vdot(a, b)), float(np.vdot(a, a)), float(np.vdot(b, b))
-    even = a.size / 4
-    if min(aa, bb) - even <= MIN_RANK_SPREAD:
-        return 0.0
-    return min(max(ab - even, 0.0) / math.sqrt((aa - even) * (bb - even)), 1.0)
+    ranks: Singles  # (3, n)
+    correlations: Floats  # (2,) in [0, 1], with the learned map and the first frame's
 
 
 class RankSpatial(NamedTuple):
@@ -40,20 +36,24 @@ class RankSpatial(NamedTuple):
     """
 
     weights: Floats  # (2,) of the learned map and of the first frame's
-    maps: Singles = NO_MODEL  # (2, 3, n) both
+    maps: Singles  # (2, 3, n) both, (0, 3, n) before the first frame is learned
     sharpness: float = 110.0
 
     @classmethod
     def create(cls, p: ColorParticleParams) -> "RankSpatial":
-        return cls(np.array([1 - p.first_frame_weight, p.first_frame_weight]))
+        weights = np.array([1 - p.first_frame_weight, p.first_frame_weight])
+        return cls(weights, np.empty((0, 3, len(window_grid(p))), np.float32))
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "RankSpatial":
-        ranks = k.color_ranks(inside[:1])
+    def observe(self, k: Kernels, image: Samples, ellipse: Floats, grid: Floats) -> RankWindow:
+        """What is learned, and scored, of the window of an ellipse (4,)."""
+        return RankWindow(*k.rank_window(image, ellipse, grid, self.maps, MIN_RANK_SPREAD))
+
+    def learn(self, k: Kernels, seen: RankWindow, rate: float) -> "RankSpatial":
         if rate >= 1:
-            return RankSpatial(self.weights, np.concatenate([ranks, ranks]))
+            return RankSpatial(self.weights, np.stack([seen.ranks, seen.ranks]))
         maps = self.maps.copy()
         learned = maps[0]
-        change = ranks[0] - learned
+        change = seen.ranks - learned
         change *= np.float32(rate)
         learned += change
         return RankSpatial(self.weights, maps)
@@ -63,11 +63,10 @@ class RankSpatial(NamedTuple):
         combined: Floats = distances.min(axis=1) if searching else distances @ self.weights
         return combined
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
+    def score(self, k: Kernels, seen: RankWindow, searching: bool = False) -> float:
         """The rank correlation: it is 0 for a flat window, though the distance of that is small."""
-        ranks = k.color_ranks(inside[:1])[0]
-        maps = self.maps if searching else self.maps[:1]
-        return max(rank_correlation(ranks, each) for each in maps)
+        correlations: list[float] = seen.correlations.tolist()
+        return max(correlations) if searching else correlations[0]
 
 
 class RankSections(NamedTuple):
@@ -80,11 +79,11 @@ class RankSections(NamedTuple):
     def create(cls, p: ColorParticleParams) -> "RankSections":
         return cls()
 
-    def learn(self, k: Kernels, inside: Samples, around: Samples, rate: float) -> "RankSections":
-        return RankSections(blend(self.sections, k.rank_sections(inside[:1], RANK_QUANTILES)[0], rate))
+    def learn(self, k: Kernels, seen: WindowSamples, rate: float) -> "RankSections":
+        return RankSections(blend(self.sections, k.rank_sections(seen.inside, RANK_QUANTILES)[0], rate))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.section_distance(k.rank_sections(inside, RANK_QUANTILES), self.sections)
 
-    def score(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> float:
-        return distance_score(self, k, inside, around, unrelated=0.3)
+    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return distance_score(self, k, seen, unrelated=0.3)

@@ -56,7 +56,8 @@ def detect_skin(
     if p.skin_region == "image":
         region = (0, 0, image.shape[1], image.shape[0])
     else:
-        (left, top, *_), (right, bottom, *_) = prediction.lower.tolist(), prediction.upper.tolist()
+        left, top, *_ = prediction.lower.tolist()
+        right, bottom, *_ = prediction.upper.tolist()
         region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
     count, x, y, xx, yy, xy = k.skin_moments(image, skin_color, p.skin_threshold, region).tolist()
     if count < MIN_SKIN_AREA * 4 * minor * major:
@@ -64,8 +65,9 @@ def detect_skin(
     # Cholesky decomposition of the covariance.
     first = (xx + MIN_PIXEL_VARIANCE) ** 0.5
     cross = xy / first
-    root = np.array(((first, 0.0), (cross, (yy + MIN_PIXEL_VARIANCE - cross * cross) ** 0.5)))
-    return SkinDetection(np.array((x, y)), root, p.skin_share)
+    second = (yy + MIN_PIXEL_VARIANCE - cross * cross) ** 0.5
+    numbers = np.array((x, y, first, 0.0, cross, second))  # one array is made faster than two
+    return SkinDetection(numbers[:2], numbers[2:].reshape(2, 2), p.skin_share)
 
 
 def draw_candidates(

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.track.color_particle.appearance import Appearance, WindowSamples
+from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.motion import EllipseMotion
 from tricue.track.color_particle.params import ColorParticleParams
 
@@ -38,7 +38,7 @@ class State(NamedTuple):
     skin_color: NDArray[np.uint8]  # (3,) the reference color of the skin classifier
     motion: EllipseMotion
     particles: ParticleSet
-    samples: WindowSamples  # of the target's window, in the last frame in which it was estimated
+    seen: Any  # in the target's window, in the last frame in which it was estimated: what is learned of it
     score: float
     mean_log_likelihood: float  # running mean over the frames in which it was estimated
     recognized_mean: float  # the same over the frames in which it was recognized

@@ -15,7 +15,8 @@ from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
 from tricue.track.base.traits import Channels, Traits
-from tricue.track.color_particle.appearance import Appearance, WindowSamples
+from tricue.track.color_particle.appearance import Appearance
+from tricue.track.color_particle.filter_step import filter_step
 from tricue.track.color_particle.motion import EllipseMotion, size_mixing
 from tricue.track.color_particle.params import ColorParticleParams
 from tricue.track.color_particle.skin_detection import (
@@ -73,13 +74,14 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         # Weights are uniform where they are this very array. So it is pickled together with the state.
         self._uniform = np.full(self.params.particles, 1 / self.params.particles)
 
-    _derived = ("_k", "_random", "_rng", "_mixing")
+    _derived = ("_k", "_random", "_rng", "_mixing", "_equal")
 
     def _derive(self) -> None:
         super()._derive()
         self._random = RandomSource(self.seed)
         self._rng = self._random.generator
         self._mixing = size_mixing(self.params)
+        self._equal = np.zeros(self.params.particles)  # logarithms of equal weights, but for a constant
 
     @property
     def particles(self) -> Floats:
@@ -93,20 +95,21 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         """
         image, timestamp = validation.color_image(frame)
         k, ellipse = self._k, validation.initial_box(box, image.shape).ellipse
-        window = np.array([ellipse])
+        window = np.array(ellipse)
         appearance = Appearance.create(self.params)
-        samples = appearance.sample(k, image, window)
-        appearance = appearance.learn(k, image, window, samples, 1.0, 1.0)
-        log_likelihood = float(appearance.log_likelihood(k, image, window)[0])
-        particles, weights = self._particles_at(window)
+        seen = appearance.observe(k, image, window)
+        appearance = appearance.learn(k, image, window, seen, 1.0, 1.0)
+        seen = appearance.observe(k, image, window)
+        log_likelihood = float(appearance.log_likelihood(k, image, window[None])[0])
+        particles, _ = self._particles_at(window)
         state = State(
             shape=image.shape,
             appearance=appearance,
             skin_color=reference_color(k, image, ellipse),
             motion=EllipseMotion.start(ellipse),
-            particles=ParticleSet(particles, weights, len(weights), window[0], log_likelihood),
-            samples=samples,
-            score=appearance.score(k, samples),
+            particles=ParticleSet(particles, self._uniform, len(particles), window, log_likelihood),
+            seen=seen,
+            score=appearance.score(k, seen),
             mean_log_likelihood=log_likelihood,
             recognized_mean=log_likelihood,
             random=RandomSource(self.seed).save(),
@@ -144,32 +147,25 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         particles = self._filter(state, image, *self._resample(state.particles), prediction, detection)
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
-        samples = state.appearance.sample(k, image, particles.ellipse[None])
+        seen = state.appearance.observe(k, image, particles.ellipse)
         motion = motion.update(tuple(particles.ellipse.tolist()), p)
-        return self._accept(state, particles, samples, motion)
+        return self._accept(state, particles, seen, motion)
 
     def _filter(
         self,
         state: State,
         image: Image,
         particles: Floats,
-        weights: Floats,
+        log_weights: Floats,
         prediction: Prediction,
         detection: SkinDetection = NO_DETECTION,
     ) -> ParticleSet:
-        """One step of the particle filter: propose (30), weigh (2), estimate (31)."""
-        k, appearance = self._k, state.appearance
-        drift, scale, lower, upper = prediction
+        """One step of the particle filter, from particles and the logarithms of their weights."""
         noise = self._rng.standard_normal(particles.shape) @ self._mixing
-        moved = k.propose(particles, drift, scale, noise, *detection, lower, upper)
         searching = state.lost(self.params)
-        log_likelihood = appearance.log_likelihood(k, image, moved, searching)
-        if weights is not self._uniform:
-            log_likelihood += np.log(np.maximum(weights, MIN_WEIGHT))
-        weights, _ = k.reweight(log_likelihood, moved, particles, drift, scale, *detection)
-        ellipse, _, effective = k.summarize(moved, weights)
-        estimated = float(appearance.log_likelihood(k, image, ellipse[None], searching)[0])
-        return ParticleSet(moved, weights, effective, ellipse, estimated)
+        return filter_step(
+            self._k, image, state.appearance, particles, log_weights, noise, prediction, detection, searching
+        )
 
     def _search_wide(
         self, state: State, image: Image, narrow: ParticleSet, prediction: Prediction
@@ -177,12 +173,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         """Search widely around the last ellipse, then closely around the best particle: for sudden motion."""
         wide_scale = prediction.scale.copy()
         wide_scale[:2] = self.params.wide_search_spread * state.motion.side
-        last = np.array([state.motion.ellipse])
+        last = np.array(state.motion.ellipse)
         wide_prediction = prediction._replace(drift=NO_DRIFT, scale=wide_scale)
         wide = self._filter(state, image, *self._particles_at(last), wide_prediction)
         best = wide.particles[np.argmax(wide.weights)]
         close_prediction = prediction._replace(drift=NO_DRIFT, scale=prediction.scale / 2)
-        close = self._filter(state, image, *self._particles_at(best[None]), close_prediction)
+        close = self._filter(state, image, *self._particles_at(best), close_prediction)
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
     def _redetect(self, state: State, image: Image) -> State:
@@ -193,26 +189,24 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         best = candidates[np.argmax(log_likelihood)]
         motion = state.motion.restart_at(tuple(best.tolist()))
         prediction = motion.predict(p, state.shape)
-        particles = self._filter(state, image, *self._particles_at(best[None]), prediction)
-        samples = appearance.sample(k, image, particles.ellipse[None])
-        recognized = appearance.score(k, samples, searching=True) >= p.min_score_to_redetect
+        particles = self._filter(state, image, *self._particles_at(best), prediction)
+        seen = appearance.observe(k, image, particles.ellipse)
+        recognized = appearance.score(k, seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)
         if not recognized or particles.log_likelihood < required:
             return state._replace(score=0.0)
         motion = motion.restart_at(tuple(particles.ellipse.tolist()))
-        redetected = self._accept(state, particles, samples, motion)
+        redetected = self._accept(state, particles, seen, motion)
         return redetected._replace(appearance=self._learn(redetected, image, REDETECTION_RATE))
 
-    def _accept(
-        self, state: State, particles: ParticleSet, samples: WindowSamples, motion: EllipseMotion
-    ) -> State:
+    def _accept(self, state: State, particles: ParticleSet, seen: Any, motion: EllipseMotion) -> State:
         """The state with these particles; their score and likelihood tell whether they are on the target.
 
         By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
         which colors add, isn't; were it learned, the tracker would stay there.
         """
-        score, log_likelihood = state.appearance.score(self._k, samples), particles.log_likelihood
+        score, log_likelihood = state.appearance.score(self._k, seen), particles.log_likelihood
         missed, recognized_mean = state.missed_frames + 1, state.recognized_mean
         least = recognized_mean - self.params.max_likelihood_drop
         if score >= self.params.min_score and log_likelihood >= least:
@@ -220,7 +214,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         mean = state.mean_log_likelihood
         return state._replace(
             particles=particles,
-            samples=samples,
+            seen=seen,
             motion=motion,
             score=score,
             mean_log_likelihood=mean + MEAN_RATE * (log_likelihood - mean),
@@ -230,20 +224,23 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
 
     def _learn(self, state: State, image: Image, rate: float) -> Appearance:
         """The appearance with the estimated window blended in."""
-        window, color_rate = state.particles.ellipse[None], self.params.color_rate
-        return state.appearance.learn(self._k, image, window, state.samples, rate, color_rate)
+        ellipse, color_rate = state.particles.ellipse, self.params.color_rate
+        return state.appearance.learn(self._k, image, ellipse, state.seen, rate, color_rate)
 
     def _particles_at(self, ellipse: Floats) -> tuple[Floats, Floats]:
-        """All particles at one ellipse (1, 4), and their uniform weights."""
-        return np.repeat(ellipse, self.params.particles, axis=0), self._uniform
+        """All particles at one ellipse (4,), and the logarithms of equal weights."""
+        return np.repeat(ellipse[None], self.params.particles, axis=0), self._equal
 
     def _resample(self, particles: ParticleSet) -> tuple[Floats, Floats]:
-        """Particles and weights, after systematic resampling where the effective sample size is small."""
-        n = len(particles.weights)
-        if particles.effective >= self.params.resample_below * n:
-            return particles.particles, particles.weights
-        indices = self._k.resample(particles.weights, self._rng.random())
-        return particles.particles.take(indices, axis=0), self._uniform
+        """Particles and the logarithms of their weights, but for a constant, after systematic resampling
+        where the effective sample size is small.
+        """
+        weights = particles.weights
+        if particles.effective < self.params.resample_below * len(weights):
+            indices = self._k.resample(weights, self._rng.random())
+            return particles.particles.take(indices, axis=0), self._equal
+        equal = weights is self._uniform
+        return particles.particles, self._equal if equal else np.log(np.maximum(weights, MIN_WEIGHT))
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:
