@@ -187,4 +187,16 @@ States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states
     return measured;
 }
 
+Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,
+                    double z, double reach, Eigen::Index levels) {
+    const auto inner = static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
+    const auto outer = 4 * static_cast<std::size_t>(places.along);
+    DepthSamples samples{std::vector<float>(RelativeHistogram::padded(inner)),
+                         std::vector<float>(RelativeHistogram::padded(outer))};
+    GridReader(depth, places).read(project(camera, state), samples);
+    RelativeHistogram histogram(levels, reach, inner);
+    histogram.count(samples.inside.data(), z);
+    return histogram.shares();
+}
+
 }  // namespace tricue
