@@ -25,6 +25,12 @@ public:
     /// Adds the next row of `cols` labels and joins its runs with those of the previous row.
     void add_row(const std::uint8_t* labels);
 
+    /// The same, run by run, from left to right: add() each of a row, then end_row().
+    void add(int begin, int end, std::uint8_t label) {
+        runs_.push_back({row_, begin, end, label, runs_.size()});
+    }
+    void end_row();
+
     std::size_t size() const { return runs_.size(); }
     const PixelRun& operator[](std::size_t i) const { return runs_[i]; }
 
@@ -33,10 +39,10 @@ public:
 
 private:
     std::size_t find_edges(const std::uint8_t* labels);
-    void join_with_previous_row(std::size_t current);
+    void join_with_previous_row();
 
     int cols_, row_ = 0;
-    std::size_t previous_row_ = 0;  ///< index of its first run
+    std::size_t previous_row_ = 0, current_row_ = 0;  ///< indices of their first runs
     std::vector<std::uint8_t> changes_;
     std::vector<int> edges_;
     std::vector<PixelRun> runs_;

@@ -28,7 +28,7 @@ constexpr int kBins = 16;
 constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
-/// Most pixels of a frame are left out: they are skipped by the block, and by the word of their flags.
+/// Most pixels of a frame are left out: they are skipped by the block.
 constexpr int kBlock = 64;
 constexpr int kWord = sizeof(std::uint64_t);
 
@@ -197,10 +197,12 @@ public:
     /// Those of a row, whose mask has zeros up to a whole block.
     void add_row(int y, const float* distance, const std::uint8_t* mask) {
         for (int x = 0; x < cols_; x += kBlock) {
-            std::uint64_t any = 0;
+            std::uint64_t any = 0, bits = 0;
             for (int i = 0; i < kBlock; i += kWord) any |= word_at(mask + x + i);
             if (any == 0) continue;
+            for (int i = 0; i < kBlock; i += kWord) bits |= nonzero_bytes(word_at(mask + x + i)) << i;
             places_.push_back({y, x});
+            bits_.push_back(bits);
             masks_.insert(masks_.end(), mask + x, mask + x + kBlock);
             distances_.insert(distances_.end(), distance + x, distance + std::min(x + kBlock, cols_));
             distances_.resize(places_.size() * kBlock);
@@ -214,11 +216,10 @@ public:
         std::array<std::int32_t, kBlock> level;
         for (std::size_t i = 0; i < places_.size(); ++i) {
             find_levels(distance(i), mask(i), scale, level.data());
-            for (std::size_t first = 0; first < kBlock; first += kWord) {
-                if (word_at(mask(i) + first) == 0) continue;
-                for (std::size_t x = first; x < first + kWord; ++x)
-                    ++counts[(x % kTables) * bins + static_cast<std::size_t>(level[x])];
-            }
+            std::size_t table = 0;
+            for (std::uint64_t bits = bits_[i]; bits != 0; bits &= bits - 1, table = (table + 1) % kTables)
+                ++counts[table * bins +
+                         static_cast<std::size_t>(level[static_cast<std::size_t>(lowest_bit(bits))])];
         }
         Vector histogram = Vector::Zero(levels.count);
         for (std::size_t t = 0; t < kTables; ++t)
@@ -250,6 +251,7 @@ private:
 
     int cols_;
     std::vector<Place> places_;
+    std::vector<std::uint64_t> bits_;  ///< of the masks
     std::vector<float> distances_;
     std::vector<std::uint8_t> masks_;
 };
