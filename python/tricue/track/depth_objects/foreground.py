@@ -45,7 +45,7 @@ def extract_foreground(
     plane: the floor of the last frame, NO_FLOOR before the first. See :func:`find_floor`.
     """
     step = max(1, round(depth.shape[1] / p.resolution))
-    thinned_camera = camera / step
+    thinned_camera = camera / step if step > 1 else camera
     gaps = p.edge_gap, p.edge_slope, p.max_gap_share, p.gap_passes
     space = p.near, p.far, p.floor_clear
     test = FLOOR_TOLERANCE, floor_step(-(-depth.shape[1] // step))

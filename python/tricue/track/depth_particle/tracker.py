@@ -46,6 +46,9 @@ OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at 
 NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
 
 
+Learned = dict[str, Any]  # what of a state was learned, by its field
+
+
 class FilteredTarget(NamedTuple):
     """The particles, what was observed at their estimate, and the histogram (L,) of the depths there."""
 
@@ -185,11 +188,16 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
         found = self._filter(state, fg, prediction, target, measured)
         recognized = self._recognized(state, found.observed, target)
-        if recognized or not p.coast:
-            state = self._accept(state, fg, found, seconds)
-            clear = found.observed.front < MAX_COVERED_TO_LEARN
-            return self._learn(state, found, target) if recognized and clear else state
-        return self._coast(state._replace(motion=before), fg, prediction, seconds)
+        if not recognized and p.coast:
+            return self._coast(state._replace(motion=before), fg, prediction, seconds)
+        visible = state.missed_seconds == 0 and found.observed.front < p.max_covered
+        motion = motion.update(found.particles.state, p, seconds, visible)
+        learned: Learned = {}
+        if recognized and found.observed.front < MAX_COVERED_TO_LEARN:
+            learned = self._learn(state, found, target)
+            if target is not None:
+                motion = motion.learn_size(target.state[3:], target.whole, p)
+        return self._accept(state, fg, found, motion, learned)
 
     def _filter(
         self,
@@ -243,41 +251,36 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
 
     def _accept(
-        self,
-        state: State,
-        fg: Foreground,
-        found: FilteredTarget,
-        seconds: float,
+        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, learned: Learned
     ) -> State:
         """The state at the particles' estimate, which is where the target is."""
-        p, observed, estimate = self.params, found.observed, found.particles.state
-        visible = state.missed_seconds == 0 and observed.front < p.max_covered
+        others = remember_others(
+            self._k, state.others, fg, found.particles.state, self.params.histogram_reach
+        )
         return state._replace(
             particles=found.particles,
-            others=remember_others(self._k, state.others, fg, estimate, p.histogram_reach),
-            motion=state.motion.update(estimate, p, seconds, visible),
-            score=_score(observed),
+            others=others,
+            motion=motion,
+            score=_score(found.observed),
             missed_seconds=0.0,
             hidden=False,
             occluder=None,
             position_spread=0.0,
+            **learned,
         )
 
-    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> State:
-        """Update the depth model, the running means, the size and the signature."""
-        p, motion, signature, observed = self.params, state.motion, state.signature, found.observed
-        if target is not None:
-            motion = motion.learn_size(target.state[3:], target.whole, p)
-            if all(target.whole.tolist()):
-                signature = signature.learn(target.signature)
+    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Learned:
+        """Of the state the depth model, the running means and the signature, updated."""
+        p, signature, observed = self.params, state.signature, found.observed
+        if target is not None and all(target.whole.tolist()):
+            signature = signature.learn(target.signature)
         mean, mean_inside = state.mean_log_likelihood, state.mean_inside
-        return state._replace(
-            model=state.model.learn(found.histogram, p.learning_rate),
-            mean_log_likelihood=mean + MEAN_RATE * (observed.log_likelihood - mean),
-            mean_inside=mean_inside + MEAN_RATE * (observed.inside - mean_inside),
-            motion=motion,
-            signature=signature,
-        )
+        return {
+            "model": state.model.learn(found.histogram, p.learning_rate),
+            "mean_log_likelihood": mean + MEAN_RATE * (observed.log_likelihood - mean),
+            "mean_inside": mean_inside + MEAN_RATE * (observed.inside - mean_inside),
+            "signature": signature,
+        }
 
     def _coast(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> State:
         """The state of a missed target: moved as predicted; velocity, size and model are not learned."""
