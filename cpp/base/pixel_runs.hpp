@@ -27,7 +27,14 @@ public:
 
     /// The same, run by run, from left to right: add() each of a row, then end_row().
     void add(int begin, int end, std::uint8_t label) {
-        runs_.push_back({row_, begin, end, label, runs_.size()});
+        // In its place: to copy what has just been written, in other pieces, takes longer than all the rest.
+        const std::size_t parent = runs_.size();
+        PixelRun& run = runs_.emplace_back();
+        run.row = row_;
+        run.begin = begin;
+        run.end = end;
+        run.label = label;
+        run.parent = parent;
     }
     void end_row();
 
