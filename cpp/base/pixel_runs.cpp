@@ -46,22 +46,25 @@ std::size_t PixelRuns::find_edges(const std::uint8_t* labels) {
 }
 
 void PixelRuns::add_row(const std::uint8_t* labels) {
-    const std::size_t current = runs_.size();
     const std::size_t edges = find_edges(labels);
     int begin = 0;
     for (std::size_t i = 0; i < edges; begin = edges_[i++])
-        if (begin < edges_[i] && labels[begin])
-            runs_.push_back({row_, begin, edges_[i], labels[begin], runs_.size()});
-    join_with_previous_row(current);
-    previous_row_ = current;
+        if (begin < edges_[i] && labels[begin]) add(begin, edges_[i], labels[begin]);
+    end_row();
+}
+
+void PixelRuns::end_row() {
+    join_with_previous_row();
+    previous_row_ = current_row_;
+    current_row_ = runs_.size();
     ++row_;
 }
 
-void PixelRuns::join_with_previous_row(std::size_t current) {
+void PixelRuns::join_with_previous_row() {
     std::size_t above = previous_row_;
-    for (std::size_t c = current; c < runs_.size(); ++c) {
-        while (above < current && runs_[above].end < runs_[c].begin) ++above;
-        for (std::size_t a = above; a < current && runs_[a].begin <= runs_[c].end; ++a) {
+    for (std::size_t c = current_row_; c < runs_.size(); ++c) {
+        while (above < current_row_ && runs_[above].end < runs_[c].begin) ++above;
+        for (std::size_t a = above; a < current_row_ && runs_[a].begin <= runs_[c].end; ++a) {
             if (runs_[a].label != runs_[c].label) continue;
             const auto [first, second] = std::minmax({root(a), root(c)});
             runs_[second].parent = first;

@@ -25,6 +25,19 @@ public:
     /// Adds the next row of `cols` labels and joins its runs with those of the previous row.
     void add_row(const std::uint8_t* labels);
 
+    /// The same, run by run, from left to right: add() each of a row, then end_row().
+    void add(int begin, int end, std::uint8_t label) {
+        // In its place: to copy what has just been written, in other pieces, takes longer than all the rest.
+        const std::size_t parent = runs_.size();
+        PixelRun& run = runs_.emplace_back();
+        run.row = row_;
+        run.begin = begin;
+        run.end = end;
+        run.label = label;
+        run.parent = parent;
+    }
+    void end_row();
+
     std::size_t size() const { return runs_.size(); }
     const PixelRun& operator[](std::size_t i) const { return runs_[i]; }
 
@@ -33,10 +46,10 @@ public:
 
 private:
     std::size_t find_edges(const std::uint8_t* labels);
-    void join_with_previous_row(std::size_t current);
+    void join_with_previous_row();
 
     int cols_, row_ = 0;
-    std::size_t previous_row_ = 0;  ///< index of its first run
+    std::size_t previous_row_ = 0, current_row_ = 0;  ///< indices of their first runs
     std::vector<std::uint8_t> changes_;
     std::vector<int> edges_;
     std::vector<PixelRun> runs_;

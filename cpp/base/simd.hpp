@@ -155,6 +155,25 @@ TRICUE_INLINE double sum(const Pack<double, 4>& lanes) {
     return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
 
+/// Which of eight bytes aren't 0: bit i for byte i. A number has its first byte lowest on all machines that tricue is built for.
+TRICUE_INLINE std::uint64_t nonzero_bytes(std::uint64_t bytes) {
+    constexpr std::uint64_t kLow = 0x7F7F7F7F7F7F7F7F, kOnes = 0x0101010101010101,
+                            kGather = 0x0102040810204080;
+    const std::uint64_t ones = ((((bytes & kLow) + kLow) | bytes) >> 7) & kOnes;
+    return (ones * kGather) >> 56;
+}
+
+/// The index of the lowest bit that is set; there has to be one.
+TRICUE_INLINE int lowest_bit(std::uint64_t bits) {
+#if defined(__GNUC__)
+    return __builtin_ctzll(bits);
+#else
+    int index = 0;
+    while (!(bits & 1)) bits >>= 1, ++index;
+    return index;
+#endif
+}
+
 /// Begins to load the cache line of an address that is read soon.
 TRICUE_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)

@@ -10,6 +10,7 @@
 #include "cues/depth/depth_posterior.hpp"
 #include "cues/depth/divide_depth.hpp"
 #include "cues/depth/fill_gaps.hpp"
+#include "cues/depth/find_foreground.hpp"
 #include "cues/depth/floor_plane.hpp"
 #include "cues/depth/ground_distance.hpp"
 #include "cues/depth/median_depths.hpp"
@@ -82,6 +83,26 @@ Array<float> fill_gaps_arrays(const Array<float>& depth, double gap, double slop
                               int passes) {
     const auto view = depth_image(depth, "depth");
     return give(unlocked(pixels(view), [&] { return fill_gaps(view, gap, slope, ragged, passes); }));
+}
+
+std::tuple<Array<float>, Array<double>, std::tuple<int, int, int, int>> find_foreground_arrays(
+    const Array<float>& depth, int step, std::tuple<double, double, double, int> gaps,
+    const Array<double>& camera, const Array<double>& plane, std::pair<double, int> floor,
+    std::tuple<double, double, double> space, double margin) {
+    const auto view = depth_image(depth, "depth");
+    const auto lens = vector(camera, "camera");
+    const auto ground = vector(plane, "plane");
+    const auto [gap, slope, ragged, passes] = gaps;
+    const Gaps filled{gap, slope, ragged, passes};
+    const auto [near, far, clear] = space;
+    const Space within{near, far, clear};
+    auto found = unlocked(pixels(view), [&] {
+        return find_foreground(view, step, filled, lens, ground, {floor.first, floor.second}, within, margin);
+    });
+    const Region& measured = found.measured;
+    return {give(std::move(found.depth)),
+            give(std::move(found.support)),
+            {measured.x0, measured.y0, measured.x1, measured.y1}};
 }
 
 Eigen::Map<const Triples> index_triples(const Array<std::int64_t>& triples) {
@@ -168,6 +189,9 @@ void define_depth(py::module_& m) {
           py::arg("near_margin"), docs::depth_posterior);
     m.def("divide_depth", divide_depth_arrays, py::arg("depth"), py::arg("mask"), py::arg("dividers"),
           docs::divide_depth);
+    m.def("find_foreground", find_foreground_arrays, py::arg("depth"), py::arg("step"), py::arg("gaps"),
+          py::arg("camera"), py::arg("plane"), py::arg("floor"), py::arg("space"), py::arg("margin"),
+          docs::find_foreground);
     m.def("fill_gaps", fill_gaps_arrays, py::arg("depth"), py::arg("gap"), py::arg("slope"),
           py::arg("ragged"), py::arg("passes"), docs::fill_gaps);
     m.def("floor_plane", floor_plane_arrays, py::arg("depth"), py::arg("camera"), py::arg("triples"),

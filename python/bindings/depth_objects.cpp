@@ -111,25 +111,29 @@ Array<double> measure_objects_arrays(const Array<double>& table, const Array<flo
     }));
 }
 
+Region region_of(const std::tuple<int, int, int, int>& sides) {
+    const auto [x0, y0, x1, y1] = sides;
+    return {x0, y0, x1, y1};
+}
+
 std::tuple<Array<double>, Array<bool>, Array<float>, Array<float>> segment_depth_arrays(
-    const Array<float>& depth, const Array<std::uint8_t>& free, const Array<double>& camera,
-    const Array<double>& plane, std::tuple<int, int, int, int> measured,
-    std::tuple<double, double, int> levels, std::pair<double, double> edges,
-    std::pair<double, double> density, int min_area, std::tuple<int, double, double, double> cut,
-    std::pair<double, double> standing) {
+    const Array<float>& depth, const Array<float>& before, std::pair<double, double> noise,
+    std::tuple<int, int, int, int> region, const Array<double>& camera, const Array<double>& plane,
+    std::tuple<int, int, int, int> measured, std::tuple<double, double, int> levels,
+    std::pair<double, double> edges, std::pair<double, double> density, int min_area,
+    std::tuple<int, double, double, double> cut, std::pair<double, double> standing) {
     const auto meters = depth_image(depth, "depth");
-    const auto mask = mask_image(free, "free");
+    const SearchedPixels searched{region_of(region), depth_image(before, "before"), noise.first,
+                                  noise.second};
     const auto lens = vector(camera, "camera");
     const auto floor = vector(plane, "plane");
-    const auto [x0, y0, x1, y1] = measured;
-    const Region region{x0, y0, x1, y1};
     const auto [near, far, count] = levels;
     const Divisions divisions{{near, far, count}, edges.first,    edges.second,
                               density.first,      density.second, min_area};
     const auto [border, beside, nearer, share] = cut;
     const Cut sides{border, beside, nearer, share};
     auto found = unlocked(std::ptrdiff_t{meters.rows} * meters.cols, [&] {
-        return segment_depth(meters, mask, lens, floor, region, divisions, sides,
+        return segment_depth(meters, searched, lens, floor, region_of(measured), divisions, sides,
                              {standing.first, standing.second});
     });
     return {give(std::move(found.measured)), give(std::move(found.cut)), give(std::move(found.columns)),
@@ -146,9 +150,10 @@ void define_depth_objects(py::module_& m) {
           docs::depth_contrast);
     m.def("depth_density", depth_density_arrays, py::arg("histogram"), py::arg("bandwidth"),
           docs::depth_density);
-    m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("free"), py::arg("camera"),
-          py::arg("plane"), py::arg("measured"), py::arg("levels"), py::arg("edges"), py::arg("density"),
-          py::arg("min_area"), py::arg("cut"), py::arg("standing"), docs::segment_depth);
+    m.def("segment_depth", segment_depth_arrays, py::arg("depth"), py::arg("before"), py::arg("noise"),
+          py::arg("region"), py::arg("camera"), py::arg("plane"), py::arg("measured"), py::arg("levels"),
+          py::arg("edges"), py::arg("density"), py::arg("min_area"), py::arg("cut"), py::arg("standing"),
+          docs::segment_depth);
     m.def("density_extrema", density_extrema_arrays, py::arg("density"), py::arg("prominence"),
           docs::density_extrema);
     m.def("depth_components", depth_components_arrays, py::arg("labels"), py::arg("depth"), py::arg("near"),

@@ -8,6 +8,7 @@ void define_color(pybind11::module_& m);
 void define_color_search(pybind11::module_& m);
 void define_correlation(pybind11::module_& m);
 void define_depth(pybind11::module_& m);
+void define_depth_filter(pybind11::module_& m);
 void define_depth_objects(pybind11::module_& m);
 void define_fuse(pybind11::module_& m);
 void define_imgproc(pybind11::module_& m);
@@ -31,6 +32,7 @@ PYBIND11_MODULE(_core, m) {
     tricue::bindings::define_depth_objects(m);
     tricue::bindings::define_stereo(m);
     tricue::bindings::define_motion(m);
+    tricue::bindings::define_depth_filter(m);
     tricue::bindings::define_fuse(m);
     tricue::bindings::define_correlation(m);
     tricue::bindings::define_target(m);

@@ -1051,6 +1051,116 @@ def fill_gaps(
     Source: ours.
     """
 
+def filter_rectangles(
+    depth: numpy.typing.NDArray[numpy.float32],
+    camera: numpy.typing.NDArray[numpy.float64],
+    particles: numpy.typing.NDArray[numpy.float64],
+    weights: numpy.typing.NDArray[numpy.float64],
+    offset: float,
+    noise: numpy.typing.NDArray[numpy.float64],
+    dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    bounds: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+    refinement: tuple[numpy.typing.NDArray[numpy.float64], float],
+    model: numpy.typing.NDArray[numpy.float64],
+    levels: tuple[float, float],
+    grid: tuple[int, int],
+    ring: tuple[float, int],
+    reach: float,
+    nearer: float,
+    likelihood: tuple[bool, float, float],
+    usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+    measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) before a depth camera,
+    by resample, propose, depth_contrast, rectangle_prior, reweight and summarize.
+
+    A second sampling is drawn around the mean of the first: x = mean + scale * noise, W and H at least
+    `least`; its weights are the likelihoods. The log-likelihood is l(d) + contrast (inside - around) +
+    rectangle_prior, where d, inside and around are those of depth_contrast, and l(d) is -sharpness d²,
+    or log(max(1 - d, 1e-12)) where `linear`.
+
+    Args:
+        depth: float32 (H, W), meters
+        camera: float64 (4,): fx, fy, cx, cy, pixels
+        particles: float64 (N, 5), finite, Z, W, H above 0
+        weights: float64 (N,), as in resample
+        offset: as in resample
+        noise: float64 (S, N, 5), S 1 or 2 samplings: independent standard normal numbers, finite
+        dynamics: (drift, scale), as in propose and reweight
+        bounds: (lower, upper), as in propose
+        detection: (mean, root, share), as in propose and reweight
+        refinement: (scale, least): float64 (5,), and meters, above 0
+        model: float64 (L,): histogram of depth, of sum 1, or all 0, none negative
+        levels: (middle, span): the model's levels cover [middle - span, middle + span), meters; where
+            the middle is 0, they are relative to Z
+        grid: (rows, columns), as in depth_contrast
+        ring: (margin, along), as in depth_contrast
+        reach: of the shares inside and around, meters, as in depth_contrast
+        nearer: meters, as in depth_contrast
+        likelihood: (linear, sharpness, contrast): nats
+        usual: (size, spread), as in rectangle_prior
+        measured: (state, deviation, max_cost), as in rectangle_prior
+
+    Returns:
+        particles float64 (N, 5), weights (N,) of sum 1, their mean (5,) and covariance (5, 5); what
+            depth_contrast measures of the mean, (4,); and the histogram of the depths in it, (L,) of
+            sum 1, or all 0 where nothing counts
+
+    Raises:
+        ValueError: as those kernels
+
+    Source: Sabeti, Parvizi, Wu 2008, section IV; the second sampling and all of the likelihood but (37)
+    are ours.
+    """
+
+def find_foreground(
+    depth: numpy.typing.NDArray[numpy.float32],
+    step: int,
+    gaps: tuple[float, float, float, int],
+    camera: numpy.typing.NDArray[numpy.float64],
+    plane: numpy.typing.NDArray[numpy.float64],
+    floor: tuple[float, int],
+    space: tuple[float, float, float],
+    margin: float,
+) -> tuple[
+    numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float64], tuple[int, int, int, int]
+]:
+    """
+    The part of a frame in which a target can be: every step-th pixel of every step-th row, with its
+    gaps filled, above the floor and in range, by fill_gaps, plane_support and above_floor.
+
+    What was measured, its gaps filled, ends before the image does where at most the share `margin` of
+    the columns (or rows) at a side have no depth, as those of registered depth.
+
+    Args:
+        depth: float32 (H, W), meters
+        step: pixels, at least 1
+        gaps: (gap, slope, ragged, passes), as in fill_gaps
+        camera: float64 (4,): fx, fy, cx, cy of the thinned image, pixels, fx and fy above 0
+        plane: float64 (4,): the floor, as in above_floor; zeros for none
+        floor: (tolerance, step), as in plane_support
+        space: (near, far, clear), as in above_floor
+        margin: in [0, 1]
+
+    Returns:
+        float32 (h, w), meters, NaN in the background; float64 (2,), as plane_support gives it; (x0, y0,
+            x1, y1), pixels: outside of it nothing was measured
+
+    Raises:
+        ValueError: as those kernels
+
+    Source: ours.
+    """
+
 def floor_plane(
     depth: numpy.typing.NDArray[numpy.float32],
     camera: numpy.typing.NDArray[numpy.float64],
@@ -2599,7 +2709,9 @@ def section_distance(
 
 def segment_depth(
     depth: numpy.typing.NDArray[numpy.float32],
-    free: numpy.typing.NDArray[numpy.uint8],
+    before: numpy.typing.NDArray[numpy.float32],
+    noise: tuple[float, float],
+    region: tuple[int, int, int, int],
     camera: numpy.typing.NDArray[numpy.float64],
     plane: numpy.typing.NDArray[numpy.float64],
     measured: tuple[int, int, int, int],
@@ -2620,14 +2732,18 @@ def segment_depth(
     its density.
 
     One after the other ground_distance (where there is a floor, else distances are depths),
-    depth_edges, whose pixels belong to nothing, depth_histogram, depth_density, density_extrema,
-    divide_depth at near, the middles of the minima's levels (the first 254) and far, depth_components,
-    cut_sides, and measure_objects; those say what each does. An object is also cut at a side less than
-    `border` pixels from the edge of what was measured.
+    depth_edges, whose pixels belong to nothing, changed_depth, depth_histogram, depth_density,
+    density_extrema, divide_depth at near, the middles of the minima's levels (the first 254) and far,
+    depth_components, cut_sides, and measure_objects; those say what each does. An object is also cut at
+    a side less than `border` pixels from the edge of what was measured.
 
     Args:
         depth: float32 (H, W), meters, NaN in the background; in the range
-        free: uint8 (H, W): 0 where no object is looked for; (0, 0) for one that is 1 everywhere
+        before: float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for
+            none
+        noise: (noise, slope), as in changed_depth
+        region: (x0, y0, x1, y1), pixels: objects are looked for in [x0, x1) x [y0, y1), which may
+            extend beyond the image
         camera: float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
         plane: float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
         measured: (x0, y0, x1, y1), pixels: outside of it nothing was measured
@@ -3294,6 +3410,48 @@ class Kernels(Protocol):
     def fill_gaps(
         self, depth: numpy.typing.NDArray[numpy.float32], gap: float, slope: float, ragged: float, passes: int
     ) -> numpy.typing.NDArray[numpy.float32]: ...
+    def filter_rectangles(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        camera: numpy.typing.NDArray[numpy.float64],
+        particles: numpy.typing.NDArray[numpy.float64],
+        weights: numpy.typing.NDArray[numpy.float64],
+        offset: float,
+        noise: numpy.typing.NDArray[numpy.float64],
+        dynamics: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        bounds: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        detection: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+        refinement: tuple[numpy.typing.NDArray[numpy.float64], float],
+        model: numpy.typing.NDArray[numpy.float64],
+        levels: tuple[float, float],
+        grid: tuple[int, int],
+        ring: tuple[float, int],
+        reach: float,
+        nearer: float,
+        likelihood: tuple[bool, float, float],
+        usual: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]],
+        measured: tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], float],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+    ]: ...
+    def find_foreground(
+        self,
+        depth: numpy.typing.NDArray[numpy.float32],
+        step: int,
+        gaps: tuple[float, float, float, int],
+        camera: numpy.typing.NDArray[numpy.float64],
+        plane: numpy.typing.NDArray[numpy.float64],
+        floor: tuple[float, int],
+        space: tuple[float, float, float],
+        margin: float,
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float64], tuple[int, int, int, int]
+    ]: ...
     def floor_plane(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
@@ -3697,7 +3855,9 @@ class Kernels(Protocol):
     def segment_depth(
         self,
         depth: numpy.typing.NDArray[numpy.float32],
-        free: numpy.typing.NDArray[numpy.uint8],
+        before: numpy.typing.NDArray[numpy.float32],
+        noise: tuple[float, float],
+        region: tuple[int, int, int, int],
         camera: numpy.typing.NDArray[numpy.float64],
         plane: numpy.typing.NDArray[numpy.float64],
         measured: tuple[int, int, int, int],

@@ -18,11 +18,11 @@ PLANE, MEASURED = np.array([0.0, -1.0, 0.0, 1.0]), (0, 0, 176, 144)
 
 
 def script(
-    depth: Depth, free: NDArray[np.uint8], camera: Floats, plane: Floats, *_: Any
+    depth: Depth, before: Depth, noise: tuple[float, float], _: Any, camera: Floats, plane: Floats, *__: Any
 ) -> tuple[Floats, NDArray[np.bool_], Depth, Depth]:
     """The baseline: a call for each stage, and NumPy between them."""
     distance = _core.ground_distance(depth, camera, plane[:3], NEAR, FAR)
-    mask = (_core.depth_edges(distance, *EDGES) ^ np.uint8(1)) & free
+    mask = (_core.depth_edges(distance, *EDGES) ^ np.uint8(1)) & _core.changed_depth(depth, before, *noise)
     density = _core.depth_density(_core.depth_histogram(distance, mask, NEAR, FAR, LEVELS), DENSITY[0])
     _, minima = _core.density_extrema(density, DENSITY[1] * float(density.max()))
     dividers = np.array([NEAR, *(NEAR + (minima + 0.5) * ((FAR - NEAR) / LEVELS)), FAR])
@@ -44,10 +44,11 @@ def bench_segment_depth(
 ) -> None:
     """All find the same objects."""
     above = _core.above_floor(room, camera, PLANE, NEAR, FAR, 0.12)
-    free = np.ones(room.shape, np.uint8)
+    before = np.full_like(room, np.nan)
+    searched = before, (0.02, 0.005), MEASURED
     stages = (NEAR, FAR, LEVELS), EDGES, DENSITY, 8, CUT, STANDING
-    found = benchmark(segment_depth, above, free, camera, PLANE, MEASURED, *stages)
-    expected = reference.segment_depth(above, free, camera, PLANE, MEASURED, *stages)
+    found = benchmark(segment_depth, above, *searched, camera, PLANE, MEASURED, *stages)
+    expected = reference.segment_depth(above, *searched, camera, PLANE, MEASURED, *stages)
     assert_allclose(found[0], expected[0], rtol=1e-9, atol=1e-9)
     for one, other in zip(found[1:], expected[1:], strict=True):
         assert_array_equal(one, other)

@@ -10,27 +10,27 @@
 namespace tricue {
 namespace {
 
-/// No comparison with NaN holds.
 TRICUE_MULTIVERSION
 void compare_row(const float* __restrict depth, const float* __restrict before, int n, float noise,
                  float slope, std::uint8_t* __restrict changed) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
-        const float z = depth[x];
-        const bool same = std::abs(z - before[x]) <= noise + slope * z * z;
-        changed[x] = !same;
-    });
+    for_overlapping_blocks(
+        n, [=](std::ptrdiff_t x) { changed[x] = has_changed(depth[x], before[x], noise, slope); });
 }
 
-void require_noise(double value, const char* name) {
+void require_limit(double value, const char* name) {
     if (!(value >= 0.0 && std::isfinite(value))) refuse(name, "a finite number, not negative", value);
 }
 
 }  // namespace
 
+void require_noise(double noise, double slope) {
+    require_limit(noise, "noise");
+    require_limit(slope, "slope");
+}
+
 Labels changed_depth(const DepthView& depth, const DepthView& before, double noise, double slope) {
     require_same_shape(before, depth, "before");
-    require_noise(noise, "noise");
-    require_noise(slope, "slope");
+    require_noise(noise, slope);
     Labels changed(depth.rows, depth.cols);
     for (int y = 0; y < depth.rows; ++y)
         compare_row(depth.row(y), before.row(y), depth.cols, static_cast<float>(noise),

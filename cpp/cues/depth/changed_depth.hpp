@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "base/depth_pixels.hpp"
 #include "base/depth_view.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 
@@ -19,5 +22,13 @@ namespace tricue {
 /// @throws std::invalid_argument on images of different shapes, or an invalid noise or slope
 /// Source: ours.
 Labels changed_depth(const DepthView& depth, const DepthView& before, double noise, double slope);
+
+/// @throws std::invalid_argument as changed_depth
+void require_noise(double noise, double slope);
+
+/// Whether one pixel differs; no comparison with NaN holds.
+TRICUE_INLINE bool has_changed(float z, float before, float noise, float slope) {
+    return !(std::abs(z - before) <= noise + slope * z * z);
+}
 
 }  // namespace tricue

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
-#include "base/overlapping_blocks.hpp"
 #include "base/pixel_runs.hpp"
 #include "base/simd.hpp"
 
@@ -43,40 +43,84 @@ PixelRuns label_runs(const ImageView& labels) {
     return runs;
 }
 
-/// The labels of a row that have a label beside them, above or below, 0 elsewhere. Rows have one more pixel at either end.
-TRICUE_MULTIVERSION
-void leave_out_single(const std::uint8_t* __restrict above, const std::uint8_t* __restrict here,
-                      const std::uint8_t* __restrict below, int n, std::uint8_t* __restrict kept) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
-        const auto beside = static_cast<std::uint8_t>(here[x] | here[x + 2]);
-        const auto others = static_cast<std::uint8_t>(above[x] | above[x + 1] | above[x + 2] | below[x] |
-                                                      below[x + 1] | below[x + 2] | beside);
-        kept[x] = others != 0 ? here[x + 1] : std::uint8_t{0};
-    });
+/// Which pixels of a row have a label: bit x % 64 of word x / 64. There is one more word at either end, 0.
+class RowBits {
+public:
+    explicit RowBits(int cols) : cols_(cols), words_(static_cast<std::size_t>((cols + 63) / 64) + 2) {}
+
+    std::size_t size() const { return words_.size() - 2; }
+    std::uint64_t operator[](std::size_t i) const { return words_[i + 1]; }
+
+    void read(const std::uint8_t* labels) {
+        for (int x = 0; x < cols_; x += 64) words_[static_cast<std::size_t>(x / 64) + 1] = word(labels, x);
+    }
+    void clear() { std::fill(words_.begin(), words_.end(), 0); }
+
+    /// Bits of word i that have a bit left or right of them.
+    std::uint64_t beside(std::size_t i) const {
+        return words_[i + 1] << 1 | words_[i] >> 63 | words_[i + 1] >> 1 | words_[i + 2] << 63;
+    }
+
+private:
+    std::uint64_t word(const std::uint8_t* labels, int first) const {
+        std::uint64_t bits = 0;
+        for (int i = 0; i < 64 && first + i < cols_; i += 8) {
+            std::uint64_t bytes = 0;
+            if (first + i + 8 <= cols_)
+                std::memcpy(&bytes, labels + first + i, 8);
+            else
+                std::memcpy(&bytes, labels + first + i, static_cast<std::size_t>(cols_ - first - i));
+            if (bytes != 0) bits |= nonzero_bytes(bytes) << i;
+        }
+        return bits;
+    }
+
+    int cols_;
+    std::vector<std::uint64_t> words_;
+};
+
+/// Adds the runs of pixels [begin, end), all of which have a label.
+void add_labeled(PixelRuns& runs, const std::uint8_t* labels, int begin, int end) {
+    for (int x = begin + 1; x < end; ++x)
+        if (labels[x] != labels[begin]) {
+            runs.add(begin, x, labels[begin]);
+            begin = x;
+        }
+    runs.add(begin, end, labels[begin]);
 }
 
 /// The same without pixels that are alone: noise is mostly that, and each would be a run and a component.
 PixelRuns label_joined_runs(const ImageView& labels) {
     PixelRuns runs(labels.cols);
-    const auto n = static_cast<std::size_t>(labels.cols);
-    std::array<std::vector<std::uint8_t>, 3> rows;  // in turn, with a border of 0
-    rows.fill(std::vector<std::uint8_t>(n + 2));
-    std::vector<std::uint8_t> kept(n);
+    std::array<RowBits, 3> rows{RowBits(labels.cols), RowBits(labels.cols), RowBits(labels.cols)};  // in turn
     const auto read_row = [&](int y) {
-        auto& row = rows[static_cast<std::size_t>(y) % 3];
-        if (y < labels.rows)
-            std::copy_n(labels.row(y), n, row.begin() + 1);
-        else
-            std::fill(row.begin(), row.end(), std::uint8_t{0});
-        return row.data();
+        RowBits& row = rows[static_cast<std::size_t>(y) % 3];
+        y < labels.rows ? row.read(labels.row(y)) : row.clear();
     };
-    const std::uint8_t *above = rows[2].data(), *here = labels.rows > 0 ? read_row(0) : above;
+    if (labels.rows > 0) read_row(0);
     for (int y = 0; y < labels.rows; ++y) {
-        const std::uint8_t* below = read_row(y + 1);
-        leave_out_single(above, here, below, labels.cols, kept.data());
-        runs.add_row(kept.data());
-        above = here;
-        here = below;
+        read_row(y + 1);
+        const auto at = static_cast<std::size_t>(y);
+        const RowBits &above = rows[(at + 2) % 3], &here = rows[at % 3], &below = rows[(at + 1) % 3];
+        int begin = -1, end = -1;  // of pixels that follow one another, to which the next word may add
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            std::uint64_t kept =
+                here[i] & (here.beside(i) | above[i] | above.beside(i) | below[i] | below.beside(i));
+            const int first = static_cast<int>(i) * 64;
+            while (kept != 0) {
+                const int from = lowest_bit(kept);
+                const std::uint64_t rest = ~(kept >> from);  // 1 where the run has ended
+                const int length = rest != 0 ? lowest_bit(rest) : 64;
+                if (first + from != end) {
+                    if (end > begin) add_labeled(runs, labels.row(y), begin, end);
+                    begin = first + from;
+                }
+                end = first + from + length;
+                kept = from + length < 64 ? kept & (~std::uint64_t{0} << (from + length)) : 0;
+            }
+        }
+        if (end > begin) add_labeled(runs, labels.row(y), begin, end);
+        runs.end_row();
     }
     return runs;
 }

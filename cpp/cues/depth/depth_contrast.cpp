@@ -120,11 +120,18 @@ private:
     void read_grid(const Axis::Pixels& across, const Axis::Pixels& down, float* samples) const {
         if (across.end - across.begin < across.size || down.end - down.begin < down.size)
             std::fill_n(samples, across.size * down.size, 0.0f);
-        for (std::size_t v = down.begin; v < down.end; ++v) {
-            const float* from = depth_.row(down.pixel[v]);
-            float* to = samples + v * across.size;
-            for (std::size_t u = across.begin; u < across.end; ++u) to[u] = from[across.pixel[u]];
-        }
+        std::size_t v = down.begin;
+        for (; v + 4 <= down.end; v += 4) read_rows<4>(across, down.pixel + v, samples + v * across.size);
+        for (; v < down.end; ++v) read_rows<1>(across, down.pixel + v, samples + v * across.size);
+    }
+
+    /// A few rows at once: a column is looked up once for all of them.
+    template <std::size_t kRows>
+    void read_rows(const Axis::Pixels& across, const std::int32_t* row, float* samples) const {
+        const float* from[kRows];
+        for (std::size_t i = 0; i < kRows; ++i) from[i] = depth_.row(row[i]);
+        for (std::size_t u = across.begin; u < across.end; ++u)
+            for (std::size_t i = 0; i < kRows; ++i) samples[i * across.size + u] = from[i][across.pixel[u]];
     }
 
     DepthView depth_;
@@ -185,6 +192,18 @@ States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states
         }
     }
     return measured;
+}
+
+Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,
+                    double z, double reach, Eigen::Index levels) {
+    const auto inner = static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
+    const auto outer = 4 * static_cast<std::size_t>(places.along);
+    DepthSamples samples{std::vector<float>(RelativeHistogram::padded(inner)),
+                         std::vector<float>(RelativeHistogram::padded(outer))};
+    GridReader(depth, places).read(project(camera, state), samples);
+    RelativeHistogram histogram(levels, reach, inner);
+    histogram.count(samples.inside.data(), z);
+    return histogram.shares();
 }
 
 }  // namespace tricue

@@ -36,4 +36,11 @@ struct Places {
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
                       const Places& places, double nearer);
 
+/// The histogram of the depths inside one such rectangle, relative to a depth z: what its model learns, as by rectangle_histogram.
+///
+/// @param state (5,), finite, Z above 0
+/// @returns (levels,) of sum 1; all 0 where nothing counts
+Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,
+                    double z, double reach, Eigen::Index levels);
+
 }  // namespace tricue

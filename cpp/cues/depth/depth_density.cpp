@@ -36,9 +36,12 @@ Vector gaussian(double bandwidth) {
 Vector mirrored(const Vector& levels, Eigen::Index radius) {
     const Eigen::Index count = levels.size(), period = 2 * count;
     Vector longer(count + 2 * radius);
-    for (Eigen::Index i = 0; i < longer.size(); ++i) {
-        const Eigen::Index place = ((i - radius) % period + period) % period;
-        longer[i] = levels[place < count ? place : period - 1 - place];
+    longer.segment(radius, count) = levels;
+    for (Eigen::Index i = 0; i < radius; ++i) {
+        const Eigen::Index place = i % period;  // from the end, as if the levels went on
+        const Eigen::Index mirror = place < count ? place : period - 1 - place;
+        longer[radius - 1 - i] = levels[mirror];
+        longer[radius + count + i] = levels[count - 1 - mirror];
     }
     return longer;
 }

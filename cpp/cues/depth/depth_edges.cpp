@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-// The threshold grows with the neighbor's depth, rounding included, so the nearest neighbor decides. The pixel itself may be among
-// them, as it never exceeds its own threshold.
 #include "cues/depth/depth_edges.hpp"
 
 #include <algorithm>
@@ -46,15 +44,19 @@ void edges_of_row(const float* __restrict depth, const float* __restrict above, 
                   std::uint8_t* __restrict edges) {
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) {
         const float z = depth[x], nearest = smaller(smaller(above[x], here[x]), below[x]);
-        edges[x] = has_depth(z) & (z - nearest > gap + slope * (nearest * nearest));
+        edges[x] = is_edge(z, nearest, gap, slope);
     });
 }
 
 }  // namespace
 
-Labels depth_edges(const DepthView& depth, double gap, double slope) {
+void require_gap(double gap, double slope) {
     require_step(gap, "gap");
     require_step(slope, "slope");
+}
+
+Labels depth_edges(const DepthView& depth, double gap, double slope) {
+    require_gap(gap, slope);
     Labels edges(depth.rows, depth.cols);
     const auto n = static_cast<std::size_t>(depth.cols);
     std::array<std::vector<float>, 2> padded;   // of two rows, in turn

@@ -3,6 +3,7 @@
 
 #include "base/depth_pixels.hpp"
 #include "base/depth_view.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 
@@ -18,5 +19,14 @@ namespace tricue {
 /// @throws std::invalid_argument on an invalid gap or slope
 /// Source: ours.
 Labels depth_edges(const DepthView& depth, double gap, double slope);
+
+/// @throws std::invalid_argument as depth_edges
+void require_gap(double gap, double slope);
+
+/// Whether one pixel is an edge, by the nearest of its neighbors: the threshold grows with a neighbor's depth, rounding included. The
+/// pixel itself may be among them, as it never exceeds its own threshold.
+TRICUE_INLINE bool is_edge(float z, float nearest, float gap, float slope) {
+    return has_depth(z) & (z - nearest > gap + slope * (nearest * nearest));
+}
 
 }  // namespace tricue

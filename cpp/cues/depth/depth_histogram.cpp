@@ -25,14 +25,6 @@ std::size_t whole_words(std::size_t pixels) {
     return (pixels + kWord - 1) / kWord * kWord;
 }
 
-void require_levels(const DepthLevels& levels) {
-    if (!std::isfinite(levels.near)) refuse("near", "a finite number", levels.near);
-    if (!(std::isfinite(levels.far) && levels.far > levels.near))
-        refuse("far", "a finite number above near", levels.far);
-    if (levels.count < 1 || levels.count > 65536)
-        refuse("levels", "1 to 65536", std::to_string(levels.count));
-}
-
 /// Whether each pixel of a row is counted, and its level; `levels.count` for what isn't.
 TRICUE_MULTIVERSION
 void find_levels(const float* __restrict depth, const std::uint8_t* __restrict mask, int n,
@@ -53,6 +45,14 @@ void find_levels(const float* __restrict depth, const std::uint8_t* __restrict m
 }
 
 }  // namespace
+
+void require_levels(const DepthLevels& levels) {
+    if (!std::isfinite(levels.near)) refuse("near", "a finite number", levels.near);
+    if (!(std::isfinite(levels.far) && levels.far > levels.near))
+        refuse("far", "a finite number above near", levels.far);
+    if (levels.count < 1 || levels.count > 65536)
+        refuse("levels", "1 to 65536", std::to_string(levels.count));
+}
 
 Vector depth_histogram(const DepthView& depth, const ImageView& mask, const DepthLevels& levels) {
     require_mask(mask, depth);

@@ -25,4 +25,7 @@ struct DepthLevels {
 /// Source: Sabeti, Parvizi, Wu 2008, section IV.A: the histogram behind p(z), equation (32).
 Vector depth_histogram(const DepthView& depth, const ImageView& mask, const DepthLevels& levels);
 
+/// @throws std::invalid_argument as depth_histogram
+void require_levels(const DepthLevels& levels);
+
 }  // namespace tricue

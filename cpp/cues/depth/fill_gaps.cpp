@@ -63,19 +63,6 @@ void count_gaps(const float* __restrict depth, int n, std::uint8_t* __restrict k
     *gaps = short_gaps;
 }
 
-bool is_ragged(const DepthView& depth, double share) {
-    const int blocks = (depth.cols + kBlock - 1) / kBlock;
-    std::vector<std::uint8_t> known(static_cast<std::size_t>(blocks * kBlock) + 4);
-    std::int64_t measured = 0, gaps = 0;
-    for (int y = 0; y < depth.rows; ++y) {
-        std::int32_t measured_here = 0, gaps_here = 0;
-        count_gaps(depth.row(y), depth.cols, known.data(), &measured_here, &gaps_here);
-        measured += measured_here;
-        gaps += gaps_here;
-    }
-    return static_cast<double>(gaps) > share * static_cast<double>(measured);
-}
-
 /// A copy, NaN where nothing was measured.
 Floats copy_measured(const DepthView& depth) {
     Floats copy(depth.rows, depth.cols);
@@ -128,16 +115,37 @@ void require_step(double value, const char* name) {
 
 }  // namespace
 
-Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged, int passes) {
-    require_step(gap, "gap");
-    require_step(slope, "slope");
-    if (!(ragged >= 0.0 && ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", ragged);
-    require_count(passes, 0, kMaxPasses, "passes");
-    if (passes == 0 || !is_ragged(depth, ragged)) return copy_measured(depth);
+void require_gaps(const Gaps& gaps) {
+    require_step(gaps.gap, "gap");
+    require_step(gaps.slope, "slope");
+    if (!(gaps.ragged >= 0.0 && gaps.ragged <= 1.0)) refuse("ragged", "a share from 0 to 1", gaps.ragged);
+    require_count(gaps.passes, 0, kMaxPasses, "passes");
+}
+
+bool is_ragged(const DepthView& depth, double share) {
+    const int blocks = (depth.cols + kBlock - 1) / kBlock;
+    std::vector<std::uint8_t> known(static_cast<std::size_t>(blocks * kBlock) + 4);
+    std::int64_t measured = 0, gaps = 0;
+    for (int y = 0; y < depth.rows; ++y) {
+        std::int32_t measured_here = 0, gaps_here = 0;
+        count_gaps(depth.row(y), depth.cols, known.data(), &measured_here, &gaps_here);
+        measured += measured_here;
+        gaps += gaps_here;
+    }
+    return static_cast<double>(gaps) > share * static_cast<double>(measured);
+}
+
+Floats fill_ragged(const DepthView& depth, const Gaps& gaps) {
     PaddedDepth image(depth);
-    for (int pass = 0; pass == 0 || (pass < passes && is_ragged(image.view(), ragged / 2)); ++pass)
-        fill_pass(image, static_cast<float>(gap), static_cast<float>(slope));
+    for (int pass = 0; pass == 0 || (pass < gaps.passes && is_ragged(image.view(), gaps.ragged / 2)); ++pass)
+        fill_pass(image, static_cast<float>(gaps.gap), static_cast<float>(gaps.slope));
     return copy_measured(image.view());
+}
+
+Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged, int passes) {
+    const Gaps gaps{gap, slope, ragged, passes};
+    require_gaps(gaps);
+    return passes > 0 && is_ragged(depth, ragged) ? fill_ragged(depth, gaps) : copy_measured(depth);
 }
 
 }  // namespace tricue

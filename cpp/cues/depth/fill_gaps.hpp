@@ -6,6 +6,12 @@
 
 namespace tricue {
 
+/// Which gaps are filled, as in fill_gaps.
+struct Gaps {
+    double gap, slope, ragged;
+    int passes;
+};
+
 /// Fills the gaps of a depth image that is riddled with small ones, and would fall apart into pieces; leaves any other as it is.
 ///
 /// Small gaps are one to three unmeasured pixels between two measured ones of a row. An image is ragged where they are more than
@@ -25,5 +31,11 @@ namespace tricue {
 /// @throws std::invalid_argument on parameters out of range
 /// Source: ours.
 Floats fill_gaps(const DepthView& depth, double gap, double slope, double ragged, int passes);
+
+/// Its parts. @throws std::invalid_argument as fill_gaps
+void require_gaps(const Gaps& gaps);
+bool is_ragged(const DepthView& depth, double share);
+/// The passes, and the result.
+Floats fill_ragged(const DepthView& depth, const Gaps& gaps);
 
 }  // namespace tricue

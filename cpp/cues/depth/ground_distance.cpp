@@ -2,7 +2,6 @@
 #include "cues/depth/ground_distance.hpp"
 
 #include <cmath>
-#include <vector>
 
 #include "base/check.hpp"
 #include "base/depth_pixels.hpp"
@@ -11,20 +10,10 @@
 namespace tricue {
 namespace {
 
-struct Limits {
-    float near, far;
-};
-
-/// What is NaN stays NaN: no comparison with it holds.
 TRICUE_MULTIVERSION
 void measure_row(const float* __restrict depth, const double* __restrict across, int n, double down,
-                 const Limits& limits, float* __restrict distance) {
-    const auto [near, far] = limits;
-    for (int u = 0; u < n; ++u) {
-        const float along = depth[u] * static_cast<float>(down + across[u]);
-        const float least = along < near ? near : along;
-        distance[u] = least > far ? far : least;
-    }
+                 float near, float far, float* __restrict distance) {
+    for (int u = 0; u < n; ++u) distance[u] = along_ground(depth[u], down + across[u], near, far);
 }
 
 /// In the twin's order.
@@ -39,26 +28,31 @@ void require_limits(double near, double far) {
 
 }  // namespace
 
-Floats ground_distance(const DepthView& depth, VectorRef camera, VectorRef up, double near, double far) {
+GroundView::GroundView(int rows, int cols, VectorRef camera, VectorRef up, double near_, double far_)
+    : near(static_cast<float>(near_)), far(std::nextafter(static_cast<float>(far_), 0.0F)) {
     require_camera(camera);
     require_size(up, 3, "up");
     require_finite(up, "up");
     const double length = norm(up);
     if (!(std::abs(length - 1.0) <= 1e-6)) refuse("up", "a vector of length 1", length);
-    require_limits(near, far);
+    require_limits(near_, far_);
     Vector ahead(3);
     ahead << -up[2] * up[0], -up[2] * up[1], 1.0 - up[2] * up[2];
     const double level = norm(ahead);
     if (!(level > 1e-6)) refuse("up", "a direction across the view", "one along it");
     ahead /= level;
-    std::vector<double> across(static_cast<std::size_t>(depth.cols));
-    for (int u = 0; u < depth.cols; ++u)
-        across[static_cast<std::size_t>(u)] = ahead[0] * ((u - camera[2]) / camera[0]);
-    const Limits limits{static_cast<float>(near), std::nextafter(static_cast<float>(far), 0.0F)};
+    across.reserve(static_cast<std::size_t>(cols));
+    for (int u = 0; u < cols; ++u) across.push_back(ahead[0] * ((u - camera[2]) / camera[0]));
+    down.reserve(static_cast<std::size_t>(rows));
+    for (int v = 0; v < rows; ++v) down.push_back(ahead[1] * ((v - camera[3]) / camera[1]) + ahead[2]);
+}
+
+Floats ground_distance(const DepthView& depth, VectorRef camera, VectorRef up, double near, double far) {
+    const GroundView ground(depth.rows, depth.cols, camera, up, near, far);
     Floats distance(depth.rows, depth.cols);
     for (int v = 0; v < depth.rows; ++v)
-        measure_row(depth.row(v), across.data(), depth.cols,
-                    ahead[1] * ((v - camera[3]) / camera[1]) + ahead[2], limits, distance.row(v).data());
+        measure_row(depth.row(v), ground.across.data(), depth.cols, ground.down[static_cast<std::size_t>(v)],
+                    ground.near, ground.far, distance.row(v).data());
     return distance;
 }
 

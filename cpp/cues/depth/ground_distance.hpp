@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 
@@ -21,5 +24,20 @@ namespace tricue {
 /// @throws std::invalid_argument on other shapes or values
 /// Source: ours.
 Floats ground_distance(const DepthView& depth, VectorRef camera, VectorRef up, double near, double far);
+
+/// What its distances are computed by: pixel (u, v) is float32(across[u] + down[v]) times as far along the ground as it is deep.
+struct GroundView {
+    std::vector<double> across, down;
+    float near, far;  ///< limits of the distances, meters
+
+    /// @throws std::invalid_argument as ground_distance
+    GroundView(int rows, int cols, VectorRef camera, VectorRef up, double near_, double far_);
+};
+
+/// The distance of one pixel. What is NaN stays NaN: no comparison with it holds.
+TRICUE_INLINE float along_ground(float depth, double factor, float near, float far) {
+    const float along = depth * static_cast<float>(factor), least = along < near ? near : along;
+    return least > far ? far : least;
+}
 
 }  // namespace tricue

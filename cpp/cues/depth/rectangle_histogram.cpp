@@ -16,10 +16,7 @@ Vector rectangle_histogram(const DepthView& depth, VectorRef rectangle, int leve
     RelativeHistogram histogram(levels, reach, reader.places());
 
     histogram.count(reader.read(rectangle.data()), rectangle[4]);
-    if (histogram.total() == 0.0) return Vector::Zero(levels);
-    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(histogram.counts(), levels)
-               .cast<double>() /
-           histogram.total();
+    return histogram.shares();
 }
 
 }  // namespace tricue

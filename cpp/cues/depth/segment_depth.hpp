@@ -3,12 +3,18 @@
 
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
-#include "base/image_view.hpp"
 #include "base/region.hpp"
 #include "cues/depth/cut_sides.hpp"
 #include "cues/depth/depth_histogram.hpp"
 
 namespace tricue {
+
+/// Where objects are looked for: in a region, and there not where the depth is the one before.
+struct SearchedPixels {
+    Region region;
+    DepthView before;
+    double noise, noise_slope;  ///< as in changed_depth
+};
 
 /// Where one object ends and another begins; each as in the kernels that segment_depth calls.
 struct Divisions {
@@ -32,12 +38,14 @@ struct DepthObjects {
 /// The objects of a depth image: connected components of the divisions of its range at the minima of its density.
 ///
 /// One after the other ground_distance (where there is a floor, else distances are depths), depth_edges, whose pixels belong to
-/// nothing, depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's levels (the first 254)
+/// nothing, changed_depth, depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's levels (the first 254)
 /// and far, depth_components, cut_sides, and measure_objects; those say what each does. An object is also cut at a side less than
 /// `border` pixels from the edge of what was measured.
 ///
 /// @param depth float32 (H, W), meters, NaN in the background; in the range
-/// @param free uint8 (H, W): 0 where no object is looked for; (0, 0) for one that is 1 everywhere
+/// @param before float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
+/// @param noise (noise, slope), as in changed_depth
+/// @param region (x0, y0, x1, y1), pixels: objects are looked for in [x0, x1) x [y0, y1), which may extend beyond the image
 /// @param camera float64 (4,): fx, fy, cx, cy, pixels, fx and fy above 0
 /// @param plane float64 (4,): nx, ny, nz, d of the floor, meters; zeros where none is known
 /// @param measured (x0, y0, x1, y1), pixels: outside of it nothing was measured
@@ -49,8 +57,8 @@ struct DepthObjects {
 /// @param standing (feet, legs), as in measure_objects
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, equations (32)-(36), section IV.A; edges, floor and cuts are ours.
-DepthObjects segment_depth(const DepthView& depth, const ImageView& free, VectorRef camera, VectorRef plane,
-                           const Region& measured, const Divisions& divisions, const Cut& cut,
-                           const Standing& standing);
+DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
+                           VectorRef plane, const Region& measured, const Divisions& divisions,
+                           const Cut& cut, const Standing& standing);
 
 }  // namespace tricue

@@ -53,6 +53,7 @@ from tricue.reference.cues.depth.depth_picture import depth_picture
 from tricue.reference.cues.depth.depth_posterior import depth_posterior
 from tricue.reference.cues.depth.divide_depth import divide_depth
 from tricue.reference.cues.depth.fill_gaps import fill_gaps
+from tricue.reference.cues.depth.find_foreground import find_foreground
 from tricue.reference.cues.depth.floor_plane import floor_plane
 from tricue.reference.cues.depth.ground_distance import ground_distance
 from tricue.reference.cues.depth.measure_objects import measure_objects
@@ -75,6 +76,7 @@ from tricue.reference.fuse.combine_posteriors import combine_posteriors
 from tricue.reference.fuse.correlation_response import correlation_response
 from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.evidence_peak import evidence_peak
+from tricue.reference.fuse.filter_rectangles import filter_rectangles
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
 from tricue.reference.fuse.learn_place_filter import learn_place_filter
@@ -127,6 +129,8 @@ __all__ = [
     "ellipse_search",
     "evidence_peak",
     "fill_gaps",
+    "filter_rectangles",
+    "find_foreground",
     "floor_plane",
     "gradient_disparity",
     "gradient_flow",

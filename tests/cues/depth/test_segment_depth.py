@@ -15,9 +15,8 @@ from tricue.kernels import Kernels
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
-Mask = NDArray[np.uint8]
 NEAR, FAR, LEVELS = 0.3, 8.0, 256
-EVERYWHERE = np.empty((0, 0), np.uint8)
+NOTHING = np.empty((0, 0), np.float32)
 NO_FLOOR = np.zeros(4)
 LEVEL_FLOOR = np.array([0.0, -1.0, 0.0, 1.3])
 
@@ -27,7 +26,9 @@ def arguments(depth: Depth, camera: Floats, **changes: Any) -> dict[str, Any]:
     height, width = depth.shape
     usual: dict[str, Any] = {
         "depth": depth,
-        "free": EVERYWHERE,
+        "before": NOTHING,
+        "noise": (0.02, 0.005),
+        "region": (0, 0, width, height),
         "camera": camera,
         "plane": NO_FLOOR,
         "measured": (0, 0, width, height),
@@ -60,18 +61,26 @@ def assert_same(values: dict[str, Any]) -> int:
 
 
 @given(st.integers(0, 2**32), st.booleans(), st.booleans(), st.integers(1, 40))
-def test_twin_finds_the_same(seed: int, floor: bool, masked: bool, min_area: int) -> None:
-    """Native and reference find the same objects in any patches, with floor and mask or without."""
+def test_twin_finds_the_same(seed: int, floor: bool, known: bool, min_area: int) -> None:
+    """Native and reference find the same objects in any patches and region, with a floor and what was there
+    before, or without.
+    """
     rng = np.random.default_rng(seed)
-    height, width = int(rng.integers(1, 40)), int(rng.integers(1, 80))
+    height, width = int(rng.integers(1, 40)), int(rng.integers(1, 150))
     depth = rng.uniform(0, 9, (height // 7 + 1, width // 7 + 1)).repeat(7, 0).repeat(7, 1)[:height, :width]
     noisy = foreground((depth + rng.normal(0, 0.02, depth.shape)).astype(np.float32))
-    free = rng.choice(np.array([0, 1, 255], np.uint8), depth.shape, p=[0.1, 0.5, 0.4])
+    same = rng.random(depth.shape) < 0.3
+    before = np.where(same, noisy, rng.choice(np.array([1, 4, np.nan], np.float32), depth.shape))
+    x0, x1 = rng.integers(-9, width + 9, 2)
+    y0, y1 = rng.integers(-9, height + 9, 2)
+    corners = (min(x0, x1), min(y0, y1), max(x0, x1), max(y0, y1))
+    usual = (0, 0, width, height)
     assert_same(
         arguments(
             noisy,
             np.array([90.0, 91, 40, 20]),
-            free=free if masked else EVERYWHERE,
+            before=before if known else NOTHING,
+            region=tuple(map(int, corners)) if seed % 2 else usual,
             plane=LEVEL_FLOOR if floor else NO_FLOOR,
             min_area=min_area,
         )
@@ -128,13 +137,21 @@ def test_an_edge_separates(kernels: Kernels) -> None:
 
 
 def test_nothing_is_found_where_it_is_not_looked_for(kernels: Kernels) -> None:
-    """A mask takes an object away, or a part of it."""
-    free = np.ones((120, 160), np.uint8)
-    free[:, 85:] = 0
-    free[:40] = 0
-    measured, *_ = kernels.segment_depth(**arguments(drawn(*TWO), LENS, free=free))
+    """A region takes an object away, or a part of it."""
+    measured, *_ = kernels.segment_depth(**arguments(drawn(*TWO), LENS, region=(-5, 40, 85, 500)))
     assert len(measured) == 1
     assert_allclose(measured[0, 4], 50 * 2.0 / 140, rtol=1e-12)
+
+
+def test_what_was_there_before_is_left_out(kernels: Kernels) -> None:
+    """Of two boxes the one that was there before, but for noise, is no object; where nothing was measured
+    before, all is searched.
+    """
+    before = drawn(TWO[1]) + np.float32(0.03)
+    measured, *_ = kernels.segment_depth(**arguments(drawn(*TWO), LENS, before=before))
+    assert_allclose(measured[:, 2], [2.0], rtol=1e-12)
+    strict = arguments(drawn(*TWO), LENS, before=before, noise=(0.02, 0.0))
+    assert len(kernels.segment_depth(**strict)[0]) == 2
 
 
 @pytest.mark.parametrize("side", range(4))
@@ -162,7 +179,11 @@ def test_many_divisions(kernels: Kernels) -> None:
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"free": np.ones((2, 3), np.uint8)}, r"mask: expected shape \(120, 160\), got \(2, 3\)"),
+        ({"before": np.ones((2, 3), np.float32)}, r"before: expected shape \(120, 160\), got \(2, 3\)"),
+        (
+            {"before": drawn(*TWO), "noise": (-1.0, 0.0)},
+            "noise: expected a finite number, not negative, got -1",
+        ),
         ({"camera": np.ones(3)}, r"camera: expected shape \(4,\), got \(3,\)"),
         ({"plane": np.ones(3)}, "up: expected a vector of length 1"),
         ({"plane": np.zeros(3)}, r"plane: expected shape \(4,\), got \(3,\)"),
@@ -183,7 +204,7 @@ def test_refuses(kernels: Kernels, changes: dict[str, Any], message: str) -> Non
 
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"depth": np.ones((120, 160))}, r"depth: expected a float32 depth image \(H, W\), got float64"),
-    ({"free": np.ones((120, 160), np.bool_)}, r"free: expected a uint8 mask \(H, W\), got bool"),
+    ({"before": np.ones((120, 160))}, r"before: expected a float32 depth image \(H, W\), got float64"),
     ({"camera": LENS.astype(np.float32)}, "camera: expected float64"),
 ]
 

@@ -268,12 +268,12 @@ def test_the_edge_of_what_was_measured_cuts(kernels):
     assert not segment(kernels, drawn((Box(60, 30, 40, 60), NEARER), wall=np.nan), NO_FLOOR, P).cut.any()
 
 
-def test_only_free_pixels_make_objects(kernels):
+def test_only_searched_pixels_make_objects(kernels):
     """Where no object is looked for there is none, and what is there still cuts those beside it."""
     fg = drawn((Box(40, 20, 40, 100), 2.0), (Box(80, 30, 40, 80), 3.0), wall=np.nan)
-    free = np.ones(fg.depth.shape, np.uint8)
-    free[:, :80] = 0
-    objects, both = segment(kernels, fg, NO_FLOOR, P, free), segment(kernels, fg, NO_FLOOR, P)
+    height, width = fg.depth.shape
+    objects = segment(kernels, fg, NO_FLOOR, P, region=(80, 0, width, height))
+    both = segment(kernels, fg, NO_FLOOR, P)
     farther = int(np.argmax(both.states[:, 2]))
     np.testing.assert_array_equal(objects.states, both.states[[farther]])
     assert objects.cut.tolist() == [[True, False, False, False]]

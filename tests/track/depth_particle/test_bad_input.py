@@ -365,7 +365,7 @@ def test_nobody_is_in_a_tiny_image(shape):
         DepthParticleTracker().init(Frame(depth=np.full(shape, 2.5)))
 
 
-@pytest.mark.parametrize("kernel", ["segment_depth", "propose", "summarize"])
+@pytest.mark.parametrize("kernel", ["find_foreground", "segment_depth", "filter_rectangles"])
 def test_an_error_inside_leaves_the_state(kernel, monkeypatch: pytest.MonkeyPatch):
     """An error in the middle of an update, of whatever kind, leaves the tracker as it was, random numbers
     included.

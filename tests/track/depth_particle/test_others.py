@@ -6,8 +6,9 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, DepthParticleTracker, Frame, Intrinsics, _core
 from tricue.track.depth_objects.foreground import Foreground
+from tricue.track.depth_objects.objects import NOTHING_KNOWN, SAME_DEPTH, SAME_DEPTH_SLOPE
 from tricue.track.depth_objects.projection import back_project_box, camera_vector
-from tricue.track.depth_particle.others import NOTHING_KNOWN, inside_box, remember_others, without_others
+from tricue.track.depth_particle.others import region_in, remember_others
 
 CAMERA = Intrinsics.from_fov(176, 144, 47.5, 39.5)
 NUMBERS = camera_vector(CAMERA)
@@ -45,13 +46,18 @@ def test_what_is_behind_the_target_is_kept_from_before():
     assert (others[40:120, 60:90] == 5).all()
 
 
+def changed(depth: NDArray[np.float32], others: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """1 where objects are looked for."""
+    return _core.changed_depth(depth, others, SAME_DEPTH, SAME_DEPTH_SLOPE)
+
+
 def test_what_stays_as_it_was_is_left_out():
     """Of a target that steps aside its pixels are searched, and those it no longer covers; the wall and the
     desk aren't, though their depths are noisy, and the desk touches the target.
     """
     others = remember_others(_core, NOTHING_KNOWN, foreground(room()), STATE, REACH)
     noise = np.random.default_rng(0).normal(0, 0.01, (144, 176)).astype(np.float32)
-    free = without_others(_core, others, foreground(room(left=40) + noise))
+    free = changed(room(left=40) + noise, others)
     assert free.dtype == np.uint8
     assert (free[40:120, 40:57] == 1).all()
     assert (free[100:115, 100:170] == 0).all()
@@ -61,18 +67,17 @@ def test_what_stays_as_it_was_is_left_out():
 def test_unmeasured_pixels_are_searched():
     """Where nothing was known, or is measured now, nothing is left out; there is no warning."""
     unknown = np.full((144, 176), np.nan, np.float32)
-    assert (without_others(_core, unknown, foreground(room())) == 1).all()
-    assert (without_others(_core, room(), foreground(unknown)) == 1).all()
+    assert (changed(room(), unknown) == 1).all()
+    assert (changed(unknown, room()) == 1).all()
 
 
 @pytest.mark.parametrize("step", [1, 2])
 def test_a_box_is_searched_with_a_margin(step):
     """A tenth more than the box is searched, in pixels of the thinned image."""
     fg = Foreground(room()[::step, ::step], NUMBERS / step, step, (0, 0, 176 // step, 144 // step))
-    rows, columns = np.nonzero(inside_box(Box(60, 40, 40, 80), fg))
-    assert (columns[0] * step, columns[-1] * step + step) == (58, 102)
-    assert (rows[0] * step, rows[-1] * step + step) == (36, 124)
-    assert not inside_box(Box(-40, -40, 20, 20), fg).any()
+    assert [each * step for each in region_in(Box(60, 40, 40, 80), fg)] == [58, 36, 102, 124]
+    left, top, right, bottom = region_in(Box(-40, -40, 20, 20), fg)
+    assert (right - left, bottom - top) == (0, 0)
 
 
 @pytest.mark.parametrize("leave_out", [True, False])

@@ -11,7 +11,6 @@ import pytest
 import tricue
 from tricue import DepthParticleTracker, Status, Track
 from tricue.scenes import DepthScene
-from tricue.track.depth_objects.foreground import Foreground
 from tricue.track.depth_particle.measurement import NOT_MEASURED
 
 Params = DepthParticleTracker.Params
@@ -119,19 +118,12 @@ def test_no_size_prior_means_none(walkers, follow):
         tracker.init(scene.frames[0], scene.boxes[0])
         state = tracker._state
         wide = np.stack([state.motion.state, state.motion.state * [1, 1, 1, 2, 2]])
-        nowhere = extract_nothing(scene)
-        costs[weight] = np.ptp(tracker._log_likelihood(state, nowhere, wide, NOT_MEASURED))
-    assert costs[0.0] == 0
+        prior = tracker._k.rectangle_prior(
+            wide, state.motion.mean_size, tracker._size_deviation, *NOT_MEASURED
+        )
+        costs[weight] = np.ptp(prior)
+    assert costs[0.0] < 1e-100
     assert costs[1.0] > 5
-
-
-def extract_nothing(scene: DepthScene) -> Foreground:
-    """The foreground of a frame without any depth."""
-    camera = scene.intrinsics
-    depth = np.full(scene.frames[0].depth.shape, np.nan, np.float32)
-    return Foreground(
-        depth, np.array([camera.fx, camera.fy, camera.cx, camera.cy]), 1, (0, 0, *depth.shape[::-1])
-    )
 
 
 @pytest.mark.parametrize("name", [*CHOICES, "all"])

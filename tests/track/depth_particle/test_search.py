@@ -66,7 +66,8 @@ def test_the_depth_histogram_tells_two_apart(state, objects_of):
     z = np.float32(state.motion.state[2])
     depth[:, :middle] = z
     depth[:, middle:] = z + np.linspace(-0.3, 0.3, 144, dtype=np.float32)[:, None]
-    target = DepthModel.empty(P).learn(K, fg, np.array(slanted), 1.0)
+    model = DepthModel.empty(P)
+    target = model.learn(model.histogram_in(K, fg, np.array(slanted)), 1.0)
     state = state._replace(model=target)
     assert found(state, objects, fg) == pytest.approx(flat)
     assert found(state, objects, fg, depth_signature=True) == pytest.approx(slanted)

@@ -99,6 +99,13 @@ void RelativeHistogram::count(const float* depths, double z) {
     finish();
 }
 
+Vector RelativeHistogram::shares() const {
+    if (total() == 0.0) return Vector::Zero(levels_);
+    return Eigen::Map<const Eigen::Array<std::int32_t, Eigen::Dynamic, 1>>(counts_.data(), levels_)
+               .cast<double>() /
+           total();
+}
+
 double RelativeHistogram::distance(VectorRef model) const {
     const double counted = total();
     if (counted == 0.0) return 1.0;

@@ -28,7 +28,7 @@ public:
     void count();
     void finish();
 
-    const std::int32_t* counts() const { return counts_.data(); }  ///< of each level
+    Vector shares() const;  ///< (levels,) of sum 1; all 0 where nothing counts
     /// How many samples count.
     double total() const {
         return static_cast<double>(level_.size()) - counts_[static_cast<std::size_t>(levels_)];

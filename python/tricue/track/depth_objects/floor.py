@@ -20,22 +20,34 @@ MIN_FLOOR_SUPPORT = 0.06  # of all points, on a new floor
 MAX_BELOW_FLOOR = 0.03  # of all points, below a new floor
 
 
+def floor_step(columns: int) -> int:
+    """By how much an image of so many columns is thinned, pixels, before its floor is looked at."""
+    return max(1, round(columns / FLOOR_COLUMNS))
+
+
+def is_supported(plane: Floats, support: float) -> bool:
+    """Whether a plane (6,) is still the floor, as it has this share of a frame's points."""
+    return plane.item(4) > 0 and support >= MIN_SUPPORT_KEPT * plane.item(4)
+
+
 def find_floor(
-    k: Kernels, depth: Depth, camera: Floats, known: Floats, rng: np.random.Generator, near: float
+    k: Kernels,
+    depth: Depth,
+    camera: Floats,
+    known: Floats,
+    support: float,
+    rng: np.random.Generator,
+    near: float,
 ) -> Floats:
     """The plane (6,) with much support and hardly any points below it.
 
-    known: the plane of the last frame, or NO_FLOOR. It is kept while it has its support, and where this frame
-    has no better one. camera: (4,) of this image. near: meters, the smallest depth used.
+    known: the plane of the last frame, or NO_FLOOR; support: the share of this frame's points on it. It is
+    kept where this frame has no better one. camera: (4,) of this image. near: meters, the smallest depth
+    used.
 
     A plane is its unit normal, its distance from the camera, and the shares of the points on and below it.
     """
-    step = max(1, round(depth.shape[1] / FLOOR_COLUMNS))
-    support = 0.0
-    if known.item(4) > 0:
-        support = float(k.plane_support(depth, camera, known[:4], FLOOR_TOLERANCE, step)[0])
-        if support >= MIN_SUPPORT_KEPT * known[4]:
-            return known
+    step = floor_step(depth.shape[1])
     coarse = depth[::step, ::step]
     # Points within the tolerance of the camera would be on any plane through it.
     coarse = np.where(coarse >= near, coarse, np.float32(np.nan))
@@ -45,5 +57,6 @@ def find_floor(
         return known
     triples = lower[rng.integers(0, len(lower), (FLOOR_TRIALS, 3))]
     plane = k.floor_plane(coarse, camera / step, triples, FLOOR_TOLERANCE, UP, MIN_FLOOR_COSINE)
-    accepted = plane[4] > max(MIN_FLOOR_SUPPORT, support) and plane[5] < MAX_BELOW_FLOOR
+    least = support if known.item(4) > 0 else 0.0
+    accepted = plane[4] > max(MIN_FLOOR_SUPPORT, least) and plane[5] < MAX_BELOW_FLOOR
     return plane if accepted else known

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.depth_objects.floor import find_floor
+from tricue.track.depth_objects.floor import FLOOR_TOLERANCE, find_floor, floor_step, is_supported
 from tricue.track.depth_objects.params import SegmentationParams
 
 Floats = NDArray[np.float64]
@@ -45,35 +45,16 @@ def extract_foreground(
     plane: the floor of the last frame, NO_FLOOR before the first. See :func:`find_floor`.
     """
     step = max(1, round(depth.shape[1] / p.resolution))
-    thinned = np.ascontiguousarray(depth[::step, ::step])
-    if p.gap_passes:
-        thinned = k.fill_gaps(thinned, p.edge_gap, p.edge_slope, p.max_gap_share, p.gap_passes)
-    thinned_camera = camera / step
-    if p.floor:
-        plane = find_floor(k, thinned, thinned_camera, plane, rng, p.near)
-    kept = k.above_floor(thinned, thinned_camera, plane[:4], p.near, p.far, p.floor_clear)
-    return Foreground(kept, thinned_camera, step, _measured_bounds(thinned)), plane
-
-
-def _measured_bounds(depth: Depth) -> tuple[int, int, int, int]:
-    """Left, top, right, bottom of the pixels with a depth, as far as the image has narrow margins without."""
-    if all(map(_is_measured, (depth[0], depth[-1], depth[:, 0], depth[:, -1]))):
-        return 0, 0, depth.shape[1], depth.shape[0]  # four sides are looked at sooner than all pixels
-    known = depth > 0
-    (top, bottom), (left, right) = (_measured_span(np.asarray(known.any(axis=axis))) for axis in (1, 0))
-    return left, top, right, bottom
-
-
-def _is_measured(side: NDArray[np.float32]) -> bool:
-    """Whether a side of the image has any depth; mostly its middle has."""
-    return side.item(len(side) // 2) > 0 or bool((side > 0).any())
-
-
-def _measured_span(known: NDArray[np.bool_]) -> tuple[int, int]:
-    """The first and the end of what is known along a side, or the side's own end where that is far."""
-    length, where = len(known), np.flatnonzero(known)
-    if where.size == 0:
-        return 0, length
-    first, end = int(where[0]), int(where[-1]) + 1
-    margin = MAX_MARGIN * length
-    return first if first <= margin else 0, end if length - end <= margin else length
+    thinned_camera = camera / step if step > 1 else camera
+    gaps = p.edge_gap, p.edge_slope, p.max_gap_share, p.gap_passes
+    space = p.near, p.far, p.floor_clear
+    test = FLOOR_TOLERANCE, floor_step(-(-depth.shape[1] // step))
+    kept, support, measured = k.find_foreground(
+        depth, step, gaps, thinned_camera, plane[:4], test, space, MAX_MARGIN
+    )
+    if p.floor and not is_supported(plane, on_plane := support.item(0)):
+        filled = k.fill_gaps(np.ascontiguousarray(depth[::step, ::step]), *gaps)
+        found = find_floor(k, filled, thinned_camera, plane, on_plane, rng, p.near)
+        if found is not plane:
+            plane, kept = found, k.above_floor(filled, thinned_camera, found[:4], *space)
+    return Foreground(kept, thinned_camera, step, measured), plane

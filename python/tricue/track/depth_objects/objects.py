@@ -23,7 +23,10 @@ OCCLUDER_DISTANCE = 0.08  # meters from a side of an object, where an occluder i
 MAX_SIDE_COVERED = 0.15  # of a side; an object that is covered more is cut there
 NO_EDGES = 1e6  # meters: no jump of the depth is as large
 MIN_PIXELS = 8.0  # of an object, whatever its distance
-EVERYWHERE = np.empty((0, 0), np.uint8)
+SAME_DEPTH, SAME_DEPTH_SLOPE = 0.02, 0.005  # meters, and times z²: a sensor's noise
+NOTHING_KNOWN = np.empty((0, 0), np.float32)
+Region = tuple[int, int, int, int]
+EVERYWHERE: Region = (0, 0, 2**31 - 1, 2**31 - 1)
 
 
 class Objects(NamedTuple):
@@ -55,26 +58,36 @@ class Objects(NamedTuple):
 
 
 def segment(
-    k: Kernels, fg: Foreground, plane: Floats, p: SegmentationParams, free: NDArray[np.uint8] | None = None
+    k: Kernels,
+    fg: Foreground,
+    plane: Floats,
+    p: SegmentationParams,
+    *,
+    region: Region = EVERYWHERE,
+    others: Singles = NOTHING_KNOWN,
 ) -> Objects:
     """Divide the range at the minima of the distances' density, and each division into connected objects.
 
     plane: (6,) the floor, along which distances are measured, and to which the feet of objects are extended;
-    NO_FLOOR without one. free: (h, w) 0 where no object is looked for, otherwise 1; None for 1 everywhere.
+    NO_FLOOR without one. region: first and end of the columns and rows, x0, y0, x1, y1, in which objects are
+    looked for. others: (h, w) meters, of what no object is; what still has that depth, but for noise, is left
+    out.
     """
     fx, fy = fg.camera[:2].tolist()
     far_pixels = p.min_area * fx * fy / p.far**2
     measured, cut, columns, rows = k.segment_depth(
         fg.depth,
-        EVERYWHERE if free is None else free,
+        others,
+        (SAME_DEPTH, SAME_DEPTH_SLOPE),
+        region,
         fg.camera,
         plane[:4],
         fg.measured,
-        levels=(p.near, p.far, p.levels),
-        edges=(p.edge_gap if p.edges else NO_EDGES, p.edge_slope),
-        density=(p.bandwidth / ((p.far - p.near) / p.levels), p.prominence),
-        min_area=int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
-        cut=(BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
-        standing=(MAX_FEET_HEIGHT, LEGS_FILL),
+        (p.near, p.far, p.levels),
+        (p.edge_gap if p.edges else NO_EDGES, p.edge_slope),
+        (p.bandwidth / ((p.far - p.near) / p.levels), p.prominence),
+        int(min(max(MIN_PIXELS, far_pixels), fg.depth.size + 1.0)),
+        (BORDER, OCCLUDER_DISTANCE, p.occluder_margin, MAX_SIDE_COVERED),
+        (MAX_FEET_HEIGHT, LEGS_FILL),
     )
     return Objects(measured[:, :5], cut, measured[:, 5:7], columns, rows, measured[:, 7])

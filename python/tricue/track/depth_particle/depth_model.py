@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The target's depth histogram, (37), (38), and the likelihood of a rectangle."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +18,10 @@ Floats = NDArray[np.float64]
 SURROUND_SAMPLES = 12  # at each side of a rectangle
 NO_HISTOGRAM = np.zeros(1)
 MIN_LIKELIHOOD = 1e-12  # in the logarithm of the linear likelihood
+
+FilterSettings = tuple[
+    tuple[float, float], tuple[int, int], tuple[float, int], float, float, tuple[bool, float, float]
+]
 
 
 class DepthObservation(NamedTuple):
@@ -37,27 +42,32 @@ class DepthModel(NamedTuple):
     """The depth histogram of the target, relative to its own depth or absolute, sampled on a grid."""
 
     p: DepthParticleParams
-    grid: Floats
     histogram: Floats
 
     @classmethod
     def empty(cls, p: DepthParticleParams) -> "DepthModel":
         """A model that has learned nothing yet."""
-        return cls(p, grid(*p.grid), np.zeros(p.bins if p.histogram == "relative" else p.levels))
-
-    def log_likelihood(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
-        """(N,) nats of the foreground in and around the rectangles of states (N, 5): (37), or its exponential
-        form, times the contrast term.
-        """
-        return self._log_likelihood(k, fg, states, self._measure(k, fg, states))
+        return cls(p, np.zeros(p.bins if p.histogram == "relative" else p.levels))
 
     def observe(self, k: Kernels, fg: Foreground, state: Floats) -> DepthObservation:
         """Compare the foreground in and around the rectangle of a state (5,) with the model."""
         states = state[None]
-        measured = self._measure(k, fg, states)
-        log_likelihood = self._log_likelihood(k, fg, states, measured).item()
-        _, inside, front, around = measured[0].tolist()
-        return DepthObservation(log_likelihood, inside, inside - around, front)
+        measured = self._measure(k, fg, states)[0]
+        if self.p.histogram == "absolute":
+            measured[0] = self._absolute_distance(k, fg, states)[0]
+        return self.observation(measured)
+
+    def observation(self, measured: Floats) -> DepthObservation:
+        """What was measured of one rectangle, (4,) as the kernels give it; its log-likelihood is the kernel
+        filter_rectangles', without what is known before.
+        """
+        p, (distance, inside, front, around) = self.p, measured.tolist()
+        if p.likelihood == "linear":
+            likeness = math.log(max(1 - distance, MIN_LIKELIHOOD))
+        else:
+            likeness = -p.sharpness * distance * distance
+        contrast = inside - around
+        return DepthObservation(likeness + p.contrast * contrast, inside, contrast, front)
 
     def distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
         """(N,) the distance (38) of the histograms in the rectangles of states (N, 5), in [0, 1]."""
@@ -66,52 +76,70 @@ class DepthModel(NamedTuple):
         distance: Floats = self._measure(k, fg, states)[:, 0]
         return distance
 
-    def _measure(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
-        """(N, 4) as the kernel depth_contrast returns it; without distance for an absolute histogram."""
-        p = self.p
-        relative = self.histogram if p.histogram == "relative" else NO_HISTOGRAM
-        ring = (p.margin, SURROUND_SAMPLES)
-        reach, margin = p.histogram_reach, p.occluder_margin
-        measured: Floats = k.depth_contrast(
-            fg.depth, fg.camera, states, relative, p.grid, ring, reach, margin
-        )
-        return measured
-
-    def _log_likelihood(self, k: Kernels, fg: Foreground, states: Floats, measured: Floats) -> Floats:
-        p, (distance, inside, _, around) = self.p, measured.T
-        if p.histogram == "absolute":
-            distance = self._absolute_distance(k, fg, states)
-        if p.likelihood == "linear":
-            likeness = np.log(np.maximum(1 - distance, MIN_LIKELIHOOD))
-        else:
-            likeness = -p.sharpness * distance * distance
-        log_likelihood: Floats = likeness + p.contrast * (inside - around)
-        return log_likelihood
-
-    def learn(self, k: Kernels, fg: Foreground, state: Floats, rate: float) -> "DepthModel":
-        """Blend in the histogram of one rectangle, state (5,); the first one is taken as it is."""
+    def histogram_in(self, k: Kernels, fg: Foreground, state: Floats) -> Floats:
+        """The histogram of the depths in the rectangle of a state (5,)."""
         rectangle, reach = self._rectangles(fg, state[None])
-        new = k.rectangle_histogram(fg.depth, rectangle[0], len(self.histogram), self.grid, reach)
+        places = grid(*self.p.grid)
+        histogram: Floats = k.rectangle_histogram(fg.depth, rectangle[0], len(self.histogram), places, reach)
+        return histogram
+
+    def learn(self, new: Floats, rate: float) -> "DepthModel":
+        """Blend in the histogram of a rectangle; the first one that isn't empty is taken as it is."""
         if not np.count_nonzero(new):
             return self
         old = self.histogram
         known = bool(np.count_nonzero(old))
-        return DepthModel(self.p, self.grid, old + rate * (new - old) if known else new)
+        return DepthModel(self.p, old + rate * (new - old) if known else new)
+
+    def _measure(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
+        """(N, 4) as the kernel depth_contrast returns it; without distance for an absolute histogram."""
+        p = self.p
+        relative = self.histogram if p.histogram == "relative" else NO_HISTOGRAM
+        measured: Floats = k.depth_contrast(
+            fg.depth,
+            fg.camera,
+            states,
+            relative,
+            p.grid,
+            (p.margin, SURROUND_SAMPLES),
+            p.histogram_reach,
+            p.occluder_margin,
+        )
+        return measured
 
     def _absolute_distance(self, k: Kernels, fg: Foreground, states: Floats) -> Floats:
         rectangles, reach = self._rectangles(fg, states)
         margin = self.p.occluder_margin
-        measured = k.depth_distance(fg.depth, rectangles, self.histogram, self.grid, reach, margin)
+        measured = k.depth_distance(fg.depth, rectangles, self.histogram, grid(*self.p.grid), reach, margin)
         distance: Floats = measured[:, 0]
         return distance
 
     def _rectangles(self, fg: Foreground, states: Floats) -> tuple[Floats, float]:
-        """(N, 5) rectangles in pixels, and half the histogram's range around their depths, meters.
-
-        An absolute histogram is one relative to the middle of the camera's range.
-        """
+        """(N, 5) rectangles in pixels, and half the histogram's range around their depths, meters."""
         rectangles = np.array([project_rectangle(state, fg.camera) for state in states])
-        if self.p.histogram == "relative":
-            return rectangles, self.p.histogram_reach
-        rectangles[:, 4] = (self.p.near + self.p.far) / 2
-        return rectangles, (self.p.far - self.p.near) / 2
+        middle, reach = levels(self.p)
+        if middle:
+            rectangles[:, 4] = middle
+        return rectangles, reach
+
+
+def levels(p: DepthParticleParams) -> tuple[float, float]:
+    """Middle and half of the histogram's range, meters; the middle is 0 where it is the rectangle's depth.
+
+    An absolute histogram is one relative to the middle of the camera's range.
+    """
+    if p.histogram == "relative":
+        return 0.0, p.histogram_reach
+    return (p.near + p.far) / 2, (p.far - p.near) / 2
+
+
+def filter_settings(p: DepthParticleParams) -> FilterSettings:
+    """What the kernel filter_rectangles takes of the parameters, from ``levels`` to ``likelihood``."""
+    return (
+        levels(p),
+        p.grid,
+        (p.margin, SURROUND_SAMPLES),
+        p.histogram_reach,
+        p.occluder_margin,
+        (p.likelihood == "linear", p.sharpness, p.contrast),
+    )

@@ -69,6 +69,8 @@ def best_match(
             continue
         whole_state = complete_rectangle(state, cut, target, size) if complete else state
         cost = _cost(whole_state, target, deviation, known)
+        if cost >= best_cost:
+            continue
         if not any(cut):
             cost += SIGNATURE_COST * signature.distance(objects, i)
         if other_costs is not None:

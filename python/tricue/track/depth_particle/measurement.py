@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """A segmented object as a measurement of the target's state, in the likelihood and in the proposal."""
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -26,10 +27,15 @@ class Measurement(NamedTuple):
     @classmethod
     def create(cls, state: Floats, weight: float) -> "Measurement":
         """The state of an object, with a weight in the log-likelihood, which may be 0."""
-        if weight == 0:
-            return NOT_MEASURED
-        deviation = DEVIATION_FACTOR * OBJECT_DEVIATION / np.sqrt(weight)
-        return cls(state, deviation, weight * MAX_OBJECT_COST)
+        return cls(state, *_scale(weight))
 
 
 NOT_MEASURED = Measurement(np.zeros(5), np.full(5, np.inf), 0.0)
+
+
+@cache
+def _scale(weight: float) -> tuple[Floats, float]:
+    """Deviations and greatest cost of an object's state."""
+    if weight == 0:
+        return NOT_MEASURED.deviation, 0.0
+    return DEVIATION_FACTOR * OBJECT_DEVIATION / np.sqrt(weight), weight * MAX_OBJECT_COST

@@ -47,15 +47,17 @@ class BodyMotion(NamedTuple):
         target before them.
         """
         # Numbers one by one: arrays of two or three take longer.
-        velocity, mean_size, size = self.velocity.tolist(), self.mean_size.tolist(), self.state[3:].tolist()
+        (vx, vy, vz), (usual_width, usual_height) = self.velocity.tolist(), self.mean_size.tolist()
         drift = NO_DRIFT
         if p.motion == "velocity":
-            to_mean = [SIZE_RETURN * (mean - now) for mean, now in zip(mean_size, size, strict=True)]
-            drift = np.array([*[each * seconds for each in velocity], *to_mean])
+            width, height = self.state[3:].tolist()
+            to_mean = SIZE_RETURN * (usual_width - width), SIZE_RETURN * (usual_height - height)
+            drift = np.array((vx * seconds, vy * seconds, vz * seconds, *to_mean))
         time = min(seconds + missed, max(seconds, MAX_NOISE_TIME))
-        growth = (p.position_noise + p.speed_noise * math.hypot(*velocity)) * time
-        noise = [least + growth * axis for least, axis in zip(MIN_POSITION_NOISE, AXIS_NOISE, strict=True)]
-        scale = np.array([*noise, *[p.size_noise * each for each in mean_size]])
+        growth = (p.position_noise + p.speed_noise * math.hypot(vx, vy, vz)) * time
+        (x, y, z), (along_x, along_y, along_z) = MIN_POSITION_NOISE, AXIS_NOISE
+        position = x + growth * along_x, y + growth * along_y, z + growth * along_z
+        scale = np.array((*position, p.size_noise * usual_width, p.size_noise * usual_height))
         return Prediction(drift, scale, *_bounds(p.near, p.far))
 
     def update(self, state: Floats, p: DepthParticleParams, seconds: float, visible: bool) -> "BodyMotion":

@@ -13,28 +13,18 @@ from numpy.typing import NDArray
 from tricue.camera.box import Box
 from tricue.kernels import Kernels
 from tricue.track.depth_objects.foreground import Foreground
+from tricue.track.depth_objects.objects import Region
 from tricue.track.depth_objects.projection import project_box
 
 Floats = NDArray[np.float64]
 Depth = NDArray[np.float32]
-Mask = NDArray[np.uint8]
 
 OWN_REGION = 1.1  # times the target's rectangle, which may be off by that, or miss a hand
-SAME_DEPTH, SAME_DEPTH_SLOPE = 0.02, 0.005  # meters, and times z²: a sensor's noise
-NOTHING_KNOWN = np.empty((0, 0), np.float32)
 
 
-def without_others(k: Kernels, others: Depth, fg: Foreground) -> Mask:
-    """(h, w) 0 where the depth is the one of ``others`` (h, w), meters, but for noise; otherwise 1."""
-    return k.changed_depth(fg.depth, others, SAME_DEPTH, SAME_DEPTH_SLOPE)
-
-
-def inside_box(box: Box, fg: Foreground) -> Mask:
-    """(h, w) 1 in the region of a box, pixels of the frame, in which its target is; otherwise 0."""
-    mask = np.zeros(fg.depth.shape, np.uint8)
-    left, top, right, bottom = _region(Box(*(each / fg.step for each in box)), mask.shape)
-    mask[top:bottom, left:right] = 1
-    return mask
+def region_in(box: Box, fg: Foreground) -> Region:
+    """The columns and rows of the foreground, x0, y0, x1, y1, in which the target in a box is, pixels."""
+    return _region(Box(*(each / fg.step for each in box)), fg.depth.shape)
 
 
 def remember_others(k: Kernels, others: Depth, fg: Foreground, target: Floats, reach: float) -> Depth:
@@ -53,7 +43,7 @@ def enlarge(box: Box) -> Box:
     return Box(x - width / 2, y - height / 2, width, height)
 
 
-def _region(box: Box, shape: tuple[int, ...]) -> tuple[int, int, int, int]:
+def _region(box: Box, shape: tuple[int, ...]) -> Region:
     """First and end of the columns and rows, x0, y0, x1, y1, of the region of a box in an image."""
     left, top, right, bottom = enlarge(box).xyxy
     (height, width), floor, ceil = shape, math.floor, math.ceil

@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.kernels import Kernels
 from tricue.track.depth_objects.objects import Objects
 from tricue.track.depth_particle.depth_model import DepthModel
 from tricue.track.depth_particle.motion import BodyMotion
@@ -27,12 +26,6 @@ class ParticleSet(NamedTuple):
     weights: Floats
     state: Floats
     covariance: Floats
-
-    @classmethod
-    def create(cls, k: Kernels, particles: Floats, weights: Floats) -> "ParticleSet":
-        """Particles with their estimate."""
-        state, covariance, _ = k.summarize(particles, weights)
-        return cls(particles, weights, state, covariance)
 
     @classmethod
     def at_state(cls, state: Floats, n: int) -> "ParticleSet":

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The depth particle tracker of Sabeti, Parvizi and Wu (2008), section IV."""
 
-from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,27 +18,22 @@ from tricue.track.base.tracker import TrackerBase
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.depth_objects.floor import NO_FLOOR
 from tricue.track.depth_objects.foreground import Foreground, extract_foreground
-from tricue.track.depth_objects.objects import segment
+from tricue.track.depth_objects.objects import NOTHING_KNOWN, segment
 from tricue.track.depth_objects.projection import camera_vector, project_box, project_rectangle
-from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation
+from tricue.track.depth_particle.depth_model import DepthModel, DepthObservation, filter_settings
 from tricue.track.depth_particle.initialize import initialize_in_box, initialize_on_person
 from tricue.track.depth_particle.matching import TargetObject
 from tricue.track.depth_particle.measurement import NOT_MEASURED, OBJECT_DEVIATION, Measurement
-from tricue.track.depth_particle.motion import BodyMotion
+from tricue.track.depth_particle.motion import MIN_SIZE, BodyMotion
 from tricue.track.depth_particle.occluder import find_occluder
-from tricue.track.depth_particle.others import (
-    NOTHING_KNOWN,
-    inside_box,
-    remember_others,
-    without_others,
-)
+from tricue.track.depth_particle.others import region_in, remember_others
 from tricue.track.depth_particle.params import DepthParticleParams
 from tricue.track.depth_particle.search import find_target
 from tricue.track.depth_particle.state import ParticleSet, State
 
 Floats = NDArray[np.float64]
 
-REFINE_POSITION = np.array([0.06, 0.05, 0.05])  # meters of X, Y, Z, standard deviation of the second sampling
+REFINE_POSITION = (0.06, 0.05, 0.05)  # meters of X, Y, Z, standard deviation of the second sampling
 REFINE_SIZE = 0.05  # of the size, standard deviation of the second sampling
 VELOCITY_KEPT_HIDDEN, VELOCITY_KEPT = 0.97, 0.85  # per frame of coasting: behind an occluder, otherwise
 MEAN_RATE = 0.1  # per frame, of the running means
@@ -48,9 +42,19 @@ LOG_SIZE_DEVIATION = np.array([0.25, 0.2])  # of width and height against their 
 NO_SIZE_PRIOR = np.full(2, 1e100)  # deviations that no size feels
 MIN_POSITION_DEVIATION = 0.01  # meters, of a track's position
 IDENTITY = np.eye(3)
-NO_DRIFT = np.zeros(5)
 OBJECT_ROOT = np.diag(OBJECT_DEVIATION)  # of the covariance of the proposal at an object
 NO_OBJECT: tuple[Floats, Floats, float] = (np.zeros(1), np.eye(1), 0.0)  # no proposal at an object
+
+
+Learned = dict[str, Any]  # what of a state was learned, by its field
+
+
+class FilteredTarget(NamedTuple):
+    """The particles, what was observed at their estimate, and the histogram (L,) of the depths there."""
+
+    particles: ParticleSet
+    observed: DepthObservation
+    histogram: Floats
 
 
 class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
@@ -93,12 +97,15 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         super().__init__(params, seed, kernels, parameters)
         self.intrinsics = validation.intrinsics(intrinsics)
 
-    _derived = ("_k", "_random", "_rng")
+    _derived = ("_k", "_random", "_rng", "_settings", "_size_deviation")
 
     def _derive(self) -> None:
         super()._derive()
         self._random = RandomSource(self.seed)
         self._rng = self._random.generator
+        self._settings = filter_settings(self.params)
+        weight = self.params.size_prior
+        self._size_deviation = LOG_SIZE_DEVIATION / np.sqrt(weight) if weight > 0 else NO_SIZE_PRIOR
 
     @property
     def particles(self) -> Floats:
@@ -133,9 +140,10 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             target = initialize_on_person(objects, self.params)
         else:
             box_inside = validation.check_box_in(as_box(box), depth.shape)
-            objects = segment(self._k, fg, plane, self.params, inside_box(box_inside, fg))
+            objects = segment(self._k, fg, plane, self.params, region=region_in(box_inside, fg))
             target = initialize_in_box(box_inside, objects, fg, self.params)
-        model = DepthModel.empty(self.params).learn(self._k, fg, target.state, 1.0)
+        model = DepthModel.empty(self.params)
+        model = model.learn(model.histogram_in(self._k, fg, target.state), 1.0)
         observed = model.observe(self._k, fg, target.state)
         state = State(
             shape=depth.shape,
@@ -172,23 +180,24 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         """Segment, predict, measure, weigh, estimate; learn, or coast where the target is missed."""
         k, p = self._k, self.params
         fg, plane = extract_foreground(k, depth, state.camera, state.plane, self._rng, p)
-        free = without_others(k, state.others, fg) if p.leave_out_others else None
-        objects = segment(k, fg, plane, p, free)
+        objects = segment(k, fg, plane, p, others=state.others if p.leave_out_others else NOTHING_KNOWN)
         before = state.motion
         prediction = before.predict(p, seconds, state.missed_seconds)
         target, motion, occluder = find_target(k, state, fg, objects, prediction, seconds, p)
         state = state._replace(plane=plane, objects=objects, motion=motion, occluder=occluder)
         measured = NOT_MEASURED if target is None else Measurement.create(target.state, p.measurement)
-        particles = self._filter(state, fg, prediction, target, measured)
-        if p.sweeps > 1:
-            particles = self._refine(state, fg, particles, measured)
-        observed = state.model.observe(k, fg, particles.state)
-        recognized = self._recognized(state, observed, target)
-        if recognized or not p.coast:
-            state = self._accept(state, fg, particles, observed, seconds)
-            clear = observed.front < MAX_COVERED_TO_LEARN
-            return self._learn(state, fg, observed, target) if recognized and clear else state
-        return self._coast(state._replace(motion=before), fg, prediction, seconds)
+        found = self._filter(state, fg, prediction, target, measured)
+        recognized = self._recognized(state, found.observed, target)
+        if not recognized and p.coast:
+            return self._coast(state._replace(motion=before), fg, prediction, seconds)
+        visible = state.missed_seconds == 0 and found.observed.front < p.max_covered
+        motion = motion.update(found.particles.state, p, seconds, visible)
+        learned: Learned = {}
+        if recognized and found.observed.front < MAX_COVERED_TO_LEARN:
+            learned = self._learn(state, found, target)
+            if target is not None:
+                motion = motion.learn_size(target.state[3:], target.whole, p)
+        return self._accept(state, fg, found, motion, learned)
 
     def _filter(
         self,
@@ -197,39 +206,40 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         prediction: Prediction,
         target: TargetObject | None,
         measured: Measurement,
-    ) -> ParticleSet:
-        """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31)."""
-        k, p, particles = self._k, self.params, state.particles
-        drift, scale, lower, upper = prediction
-        noise = self._rng.standard_normal(particles.particles.shape)
-        detection = NO_OBJECT
-        if target is not None:
-            detection = (target.state, OBJECT_ROOT, p.object_share)
-        resampled = particles.particles.take(k.resample(particles.weights, self._rng.random()), axis=0)
-        moved = k.propose(resampled, drift, scale, noise, *detection, lower, upper)
-        log_likelihood = self._log_likelihood(state, fg, moved, measured)
-        weights, _ = k.reweight(log_likelihood, moved, resampled, drift, scale, *detection)
-        return ParticleSet.create(k, moved, weights)
+    ) -> FilteredTarget:
+        """One step of the particle filter: propose by (39) and at the object, weigh (2), estimate (31); then
+        again close to that estimate, as 100 particles are few in five dimensions.
+        """
+        p, before, size = self.params, state.particles, state.motion.mean_size
+        offset, noise = self._draw(before.particles.shape)
+        detection = NO_OBJECT if target is None else (target.state, OBJECT_ROOT, p.object_share)
+        particles, weights, mean, covariance, observed, histogram = self._k.filter_rectangles(
+            fg.depth,
+            fg.camera,
+            before.particles,
+            before.weights,
+            offset,
+            noise,
+            prediction[:2],
+            prediction[2:],
+            detection,
+            (np.array([*REFINE_POSITION, *[REFINE_SIZE * each for each in size.tolist()]]), MIN_SIZE),
+            state.model.histogram,
+            *self._settings,
+            (size, self._size_deviation),
+            measured,
+        )
+        found = ParticleSet(particles, weights, mean, covariance)
+        return FilteredTarget(found, state.model.observation(observed), histogram)
 
-    def _refine(
-        self, state: State, fg: Foreground, particles: ParticleSet, measured: Measurement
-    ) -> ParticleSet:
-        """Sample again, close to the first estimate: 100 particles are few in five dimensions."""
-        k = self._k
-        scale = np.concatenate([REFINE_POSITION, REFINE_SIZE * state.motion.mean_size])
-        close = particles.state + scale * self._rng.standard_normal(particles.particles.shape)
-        np.maximum(close[:, 2:], 0.1, out=close[:, 2:])
-        log_likelihood = self._log_likelihood(state, fg, close, measured)
-        weights, _ = k.reweight(log_likelihood, close, close, NO_DRIFT, scale, *NO_OBJECT)
-        return ParticleSet.create(k, close, weights)
-
-    def _log_likelihood(
-        self, state: State, fg: Foreground, particles: Floats, measured: Measurement
-    ) -> Floats:
-        """(N,) nats: of the depths in and around each rectangle, of its size, and of the measured object."""
-        deviation = _size_deviation(self.params.size_prior)
-        prior = self._k.rectangle_prior(particles, state.motion.mean_size, deviation, *measured)
-        return state.model.log_likelihood(self._k, fg, particles) + prior
+    def _draw(self, shape: tuple[int, ...]) -> tuple[float, Floats]:
+        """Random numbers of a step: of resampling, and normal ones of each sampling."""
+        noise = np.empty((self.params.sweeps, *shape))
+        self._rng.standard_normal(out=noise[0])
+        offset = self._rng.random()
+        if len(noise) > 1:
+            self._rng.standard_normal(out=noise[1])
+        return offset, noise
 
     def _recognized(self, state: State, observed: DepthObservation, target: TargetObject | None) -> bool:
         """Whether the target is visible at the estimate; after it was missed, only where an object is it."""
@@ -241,44 +251,36 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         )
 
     def _accept(
-        self,
-        state: State,
-        fg: Foreground,
-        particles: ParticleSet,
-        observed: DepthObservation,
-        seconds: float,
+        self, state: State, fg: Foreground, found: FilteredTarget, motion: BodyMotion, learned: Learned
     ) -> State:
         """The state at the particles' estimate, which is where the target is."""
-        p = self.params
-        visible = state.missed_seconds == 0 and observed.front < p.max_covered
+        others = remember_others(
+            self._k, state.others, fg, found.particles.state, self.params.histogram_reach
+        )
         return state._replace(
-            particles=particles,
-            others=remember_others(self._k, state.others, fg, particles.state, p.histogram_reach),
-            motion=state.motion.update(particles.state, p, seconds, visible),
-            score=_score(observed),
+            particles=found.particles,
+            others=others,
+            motion=motion,
+            score=_score(found.observed),
             missed_seconds=0.0,
             hidden=False,
             occluder=None,
             position_spread=0.0,
+            **learned,
         )
 
-    def _learn(
-        self, state: State, fg: Foreground, observed: DepthObservation, target: TargetObject | None
-    ) -> State:
-        """Update the depth model, the running means, the size and the signature."""
-        p, motion, signature = self.params, state.motion, state.signature
-        if target is not None:
-            motion = motion.learn_size(target.state[3:], target.whole, p)
-            if all(target.whole.tolist()):
-                signature = signature.learn(target.signature)
+    def _learn(self, state: State, found: FilteredTarget, target: TargetObject | None) -> Learned:
+        """Of the state the depth model, the running means and the signature, updated."""
+        p, signature, observed = self.params, state.signature, found.observed
+        if target is not None and all(target.whole.tolist()):
+            signature = signature.learn(target.signature)
         mean, mean_inside = state.mean_log_likelihood, state.mean_inside
-        return state._replace(
-            model=state.model.learn(self._k, fg, state.particles.state, p.learning_rate),
-            mean_log_likelihood=mean + MEAN_RATE * (observed.log_likelihood - mean),
-            mean_inside=mean_inside + MEAN_RATE * (observed.inside - mean_inside),
-            motion=motion,
-            signature=signature,
-        )
+        return {
+            "model": state.model.learn(found.histogram, p.learning_rate),
+            "mean_log_likelihood": mean + MEAN_RATE * (observed.log_likelihood - mean),
+            "mean_inside": mean_inside + MEAN_RATE * (observed.inside - mean_inside),
+            "signature": signature,
+        }
 
     def _coast(self, state: State, fg: Foreground, prediction: Prediction, seconds: float) -> State:
         """The state of a missed target: moved as predicted; velocity, size and model are not learned."""
@@ -313,12 +315,6 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         covariance = state.particles.covariance[:3, :3] + variance * IDENTITY
         position[:2] += state.signature.centroid_offset
         return Track(box, state.score, status, position, covariance, depth)
-
-
-@cache
-def _size_deviation(weight: float) -> Floats:
-    """(2,) of the logarithms of width and height against their running means, for their prior's weight."""
-    return LOG_SIZE_DEVIATION / np.sqrt(weight) if weight > 0 else NO_SIZE_PRIOR
 
 
 def _score(observed: DepthObservation) -> float:

@@ -4,7 +4,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from tricue.reference.base.depth_pixels import require_mask
+from tricue.reference.cues.depth.changed_depth import changed_depth
 from tricue.reference.cues.depth.cut_sides import cut_sides
 from tricue.reference.cues.depth.density_extrema import density_extrema
 from tricue.reference.cues.depth.depth_components import depth_components
@@ -17,7 +17,6 @@ from tricue.reference.cues.depth.measure_objects import measure_objects
 
 Depth = NDArray[np.float32]
 Floats = NDArray[np.float64]
-Mask = NDArray[np.uint8]
 
 BINS = 16  # of an object's distributions
 MAX_MINIMA = 254  # labels have 8 bits
@@ -25,7 +24,9 @@ MAX_MINIMA = 254  # labels have 8 bits
 
 def segment_depth(
     depth: Depth,
-    free: Mask,
+    before: Depth,
+    noise: tuple[float, float],
+    region: tuple[int, int, int, int],
     camera: Floats,
     plane: Floats,
     measured: tuple[int, int, int, int],
@@ -40,14 +41,20 @@ def segment_depth(
     near, far, count = levels
     distance = ground_distance(depth, camera, plane[:3], near, far) if plane[:3].any() else depth
     mask = 1 - depth_edges(distance, *edges)
-    if free.shape != (0, 0):
-        require_mask(free, depth)
-        mask[free == 0] = 0
+    if before.shape != (0, 0):
+        mask &= changed_depth(depth, before, *noise)
+    mask[~_inside(region, depth)] = 0
     dividers = _dividers(depth_histogram(distance, mask, near, far, count), near, far, *density)
     labels = divide_depth(distance, mask, dividers)
     table, _, columns, rows, _ = depth_components(labels, depth, near, far, 0, BINS, min_area, False)
     sides = cut_sides(depth, table, camera, *cut) | _at_edge(table, measured, cut[0])
     return measure_objects(table, columns, rows, sides, camera, plane, *standing), sides, columns, rows
+
+
+def _inside(region: tuple[int, int, int, int], depth: Depth) -> NDArray[np.bool_]:
+    x0, y0, x1, y1 = region
+    y, x = np.indices(depth.shape)
+    return np.asarray((x >= x0) & (x < x1) & (y >= y0) & (y < y1))
 
 
 def _dividers(counts: Floats, near: float, far: float, bandwidth: float, prominence: float) -> Floats:

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "cues/depth/find_foreground.hpp"
+
+#include "base/check.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/simd.hpp"
+#include "cues/depth/plane_support.hpp"
+
+namespace tricue {
+namespace {
+
+DepthView view_of(const Floats& image) {
+    return {image.data(), static_cast<int>(image.rows()), static_cast<int>(image.cols()), image.cols()};
+}
+
+Floats thin(const DepthView& depth, int step) {
+    Floats thinned((depth.rows + step - 1) / step, (depth.cols + step - 1) / step);
+    for (Eigen::Index y = 0; y < thinned.rows(); ++y) {
+        const float* from = depth.row(static_cast<int>(y) * step);
+        float* to = thinned.data() + y * thinned.cols();
+        for (Eigen::Index x = 0; x < thinned.cols(); ++x) to[x] = from[x * step];
+    }
+    return thinned;
+}
+
+/// A line of pixels along a side of the image.
+struct Line {
+    const float* first;
+    std::ptrdiff_t step;
+    int size;
+
+    bool has_any_depth() const {
+        if (size > 0 && has_depth(first[size / 2 * step])) return true;  // mostly
+        for (int i = 0; i < size; ++i)
+            if (has_depth(first[i * step])) return true;
+        return false;
+    }
+};
+
+struct Span {
+    int first, end;
+};
+
+/// The first and the end of the lines with a depth, each of them the image's where it is far from that.
+template <typename LineAt>
+Span measured_span(int count, double share, LineAt line) {
+    Span span{0, count};
+    while (span.first < count && !line(span.first).has_any_depth()) ++span.first;
+    if (span.first == count) return {0, count};
+    while (!line(span.end - 1).has_any_depth()) --span.end;
+    const double margin = share * count;
+    return {span.first <= margin ? span.first : 0, count - span.end <= margin ? span.end : count};
+}
+
+Region find_measured(const DepthView& depth, double margin) {
+    const Span rows =
+        measured_span(depth.rows, margin, [&](int y) { return Line{depth.row(y), 1, depth.cols}; });
+    const Span columns = measured_span(
+        depth.cols, margin, [&](int x) { return Line{depth.row(0) + x, depth.stride, depth.rows}; });
+    return {columns.first, rows.first, columns.end, rows.end};
+}
+
+}  // namespace
+
+DepthForeground find_foreground(const DepthView& depth, int step, const Gaps& gaps, VectorRef camera,
+                                VectorRef plane, const FloorTest& floor, const Space& space, double margin) {
+    if (step < 1) refuse("step", "at least 1", step);
+    if (!(margin >= 0.0 && margin <= 1.0)) refuse("margin", "a number in [0, 1]", margin);
+    require_gaps(gaps);
+    const Floats thinned = step > 1 ? thin(depth, step) : Floats();
+    const DepthView whole = step > 1 ? view_of(thinned) : depth;
+    const bool ragged = gaps.passes > 0 && is_ragged(whole, gaps.ragged);
+    const Floats filled = ragged ? fill_ragged(whole, gaps) : Floats();
+    const DepthView seen = ragged ? view_of(filled) : whole;
+    return {above_floor(seen, camera, plane, space),
+            plane_support(seen, camera, plane, floor.tolerance, floor.step), find_measured(seen, margin)};
+}
+
+}  // namespace tricue

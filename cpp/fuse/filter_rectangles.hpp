@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "base/arrays.hpp"
+#include "base/depth_view.hpp"
+#include "base/stack_view.hpp"
+#include "cues/depth/depth_contrast.hpp"
+#include "fuse/detail/proposal.hpp"
+#include "fuse/propose.hpp"
+#include "fuse/rectangle_prior.hpp"
+
+namespace tricue {
+
+/// Weighted rectangles, and the draw by which they are resampled.
+struct WeightedRectangles {
+    StatesRef particles;
+    VectorRef weights;
+    double offset;
+};
+
+/// How the second sampling is drawn.
+struct Refinement {
+    VectorRef scale;
+    double least;
+};
+
+/// How likely a rectangle is by the depths in and around it.
+struct DepthLikelihood {
+    DepthModel model;
+    double middle;
+    Places places;
+    double reach, nearer;
+    bool linear;
+    double sharpness, contrast;
+};
+
+struct FilteredRectangles {
+    States particles;
+    Vector weights, mean;
+    States covariance;
+    Vector observed, histogram;
+};
+
+/// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) before a depth camera, by resample, propose,
+/// depth_contrast, rectangle_prior, reweight and summarize.
+///
+/// A second sampling is drawn around the mean of the first: x = mean + scale * noise, W and H at least `least`; its weights are the
+/// likelihoods. The log-likelihood is l(d) + contrast (inside - around) + rectangle_prior, where d, inside and around are those of
+/// depth_contrast, and l(d) is -sharpness d², or log(max(1 - d, 1e-12)) where `linear`.
+///
+/// @param depth float32 (H, W), meters
+/// @param camera float64 (4,): fx, fy, cx, cy, pixels
+/// @param particles float64 (N, 5), finite, Z, W, H above 0
+/// @param weights float64 (N,), as in resample
+/// @param offset as in resample
+/// @param noise float64 (S, N, 5), S 1 or 2 samplings: independent standard normal numbers, finite
+/// @param dynamics (drift, scale), as in propose and reweight
+/// @param bounds (lower, upper), as in propose
+/// @param detection (mean, root, share), as in propose and reweight
+/// @param refinement (scale, least): float64 (5,), and meters, above 0
+/// @param model float64 (L,): histogram of depth, of sum 1, or all 0, none negative
+/// @param levels (middle, span): the model's levels cover [middle - span, middle + span), meters; where the middle is 0, they are
+///     relative to Z
+/// @param grid (rows, columns), as in depth_contrast
+/// @param ring (margin, along), as in depth_contrast
+/// @param reach of the shares inside and around, meters, as in depth_contrast
+/// @param nearer meters, as in depth_contrast
+/// @param likelihood (linear, sharpness, contrast): nats
+/// @param usual (size, spread), as in rectangle_prior
+/// @param measured (state, deviation, max_cost), as in rectangle_prior
+/// @returns particles float64 (N, 5), weights (N,) of sum 1, their mean (5,) and covariance (5, 5); what depth_contrast measures of the
+///     mean, (4,); and the histogram of the depths in it, (L,) of sum 1, or all 0 where nothing counts
+/// @throws std::invalid_argument as those kernels
+/// Source: Sabeti, Parvizi, Wu 2008, section IV; the second sampling and all of the likelihood but (37) are ours.
+FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
+                                     const WeightedRectangles& before, const StackView<double>& noise,
+                                     const Dynamics& dynamics, const Bounds& bounds,
+                                     const Detection& detection, const Refinement& refinement,
+                                     const DepthLikelihood& likelihood, const UsualSize& usual,
+                                     const MeasuredState& measured);
+
+}  // namespace tricue
