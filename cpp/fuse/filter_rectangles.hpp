@@ -34,11 +34,14 @@ struct DepthLikelihood {
     double sharpness, contrast;
 };
 
+/// N particles and their estimate.
 struct FilteredRectangles {
-    States particles;
-    Vector weights, mean;
-    States covariance;
-    Vector observed, histogram;
+    States particles;   ///< float64 (N, 5)
+    Vector weights;     ///< float64 (N,) of sum 1
+    Vector mean;        ///< float64 (5,): of the weighted particles
+    States covariance;  ///< float64 (5, 5)
+    Vector observed;    ///< float64 (4,): what depth_contrast measures of the mean
+    Vector histogram;   ///< float64 (L,): of the depths in the mean, of sum 1; all 0 where nothing counts
 };
 
 /// One step of a particle filter on upright rectangles in meters (X, Y, Z, W, H) before a depth camera, by resample, propose,
@@ -68,8 +71,6 @@ struct FilteredRectangles {
 /// @param likelihood (linear, sharpness, contrast): nats
 /// @param usual (size, spread), as in rectangle_prior
 /// @param measured (state, deviation, max_cost), as in rectangle_prior
-/// @returns particles float64 (N, 5), weights (N,) of sum 1, their mean (5,) and covariance (5, 5); what depth_contrast measures of the
-///     mean, (4,); and the histogram of the depths in it, (L,) of sum 1, or all 0 where nothing counts
 /// @throws std::invalid_argument as those kernels
 /// Source: Sabeti, Parvizi, Wu 2008, section IV; the second sampling and all of the likelihood but (37) are ours.
 FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,

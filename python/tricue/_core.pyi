@@ -1111,9 +1111,12 @@ def filter_rectangles(
         measured: (state, deviation, max_cost), as in rectangle_prior
 
     Returns:
-        particles float64 (N, 5), weights (N,) of sum 1, their mean (5,) and covariance (5, 5); what
-            depth_contrast measures of the mean, (4,); and the histogram of the depths in it, (L,) of
-            sum 1, or all 0 where nothing counts
+        particles: float64 (N, 5)
+        weights: float64 (N,) of sum 1
+        mean: float64 (5,): of the weighted particles
+        covariance: float64 (5, 5)
+        observed: float64 (4,): what depth_contrast measures of the mean
+        histogram: float64 (L,): of the depths in the mean, of sum 1; all 0 where nothing counts
 
     Raises:
         ValueError: as those kernels
@@ -1152,8 +1155,9 @@ def find_foreground(
         margin: in [0, 1]
 
     Returns:
-        float32 (h, w), meters, NaN in the background; float64 (2,), as plane_support gives it; (x0, y0,
-            x1, y1), pixels: outside of it nothing was measured
+        depth: float32 (h, w), meters, NaN in the background
+        support: float64 (2,), as plane_support gives it
+        measured: (x0, y0, x1, y1), pixels: outside of it nothing was measured
 
     Raises:
         ValueError: as those kernels

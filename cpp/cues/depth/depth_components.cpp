@@ -79,13 +79,25 @@ private:
     std::vector<std::uint64_t> words_;
 };
 
-/// Adds the runs of pixels [begin, end), all of which have a label.
+/// Adds the runs of pixels [begin, end), all of which have a label. Eight of the same label are skipped at once.
 void add_labeled(PixelRuns& runs, const std::uint8_t* labels, int begin, int end) {
-    for (int x = begin + 1; x < end; ++x)
-        if (labels[x] != labels[begin]) {
-            runs.add(begin, x, labels[begin]);
-            begin = x;
+    for (int x = begin + 1; x < end;) {
+        std::uint64_t other = labels[x] ^ labels[begin];
+        int step = 1;
+        if (end - x >= 8) {
+            std::uint64_t bytes;
+            std::memcpy(&bytes, labels + x, 8);
+            other = nonzero_bytes(bytes ^ (0x0101010101010101 * labels[begin]));
+            step = 8;
         }
+        if (other == 0) {
+            x += step;
+            continue;
+        }
+        if (step == 8) x += lowest_bit(other);
+        runs.add(begin, x, labels[begin]);
+        begin = x++;
+    }
     runs.add(begin, end, labels[begin]);
 }
 

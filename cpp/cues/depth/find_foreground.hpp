@@ -35,8 +35,6 @@ struct DepthForeground {
 /// @param floor (tolerance, step), as in plane_support
 /// @param space (near, far, clear), as in above_floor
 /// @param margin in [0, 1]
-/// @returns float32 (h, w), meters, NaN in the background; float64 (2,), as plane_support gives it; (x0, y0, x1, y1), pixels: outside of
-///     it nothing was measured
 /// @throws std::invalid_argument as those kernels
 /// Source: ours.
 DepthForeground find_foreground(const DepthView& depth, int step, const Gaps& gaps, VectorRef camera,

@@ -216,6 +216,11 @@ public:
         std::array<std::int32_t, kBlock> level;
         for (std::size_t i = 0; i < places_.size(); ++i) {
             find_levels(distance(i), mask(i), scale, level.data());
+            if (bits_[i] == ~std::uint64_t{0}) {
+                for (std::size_t x = 0; x < kBlock; ++x)
+                    ++counts[(x % kTables) * bins + static_cast<std::size_t>(level[x])];
+                continue;
+            }
             std::size_t table = 0;
             for (std::uint64_t bits = bits_[i]; bits != 0; bits &= bits - 1, table = (table + 1) % kTables)
                 ++counts[table * bins +

@@ -38,9 +38,9 @@ struct DepthObjects {
 /// The objects of a depth image: connected components of the divisions of its range at the minima of its density.
 ///
 /// One after the other ground_distance (where there is a floor, else distances are depths), depth_edges, whose pixels belong to
-/// nothing, changed_depth, depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's levels (the first 254)
-/// and far, depth_components, cut_sides, and measure_objects; those say what each does. An object is also cut at a side less than
-/// `border` pixels from the edge of what was measured.
+/// nothing, changed_depth, depth_histogram, depth_density, density_extrema, divide_depth at near, the middles of the minima's
+/// levels (the first 254) and far, depth_components, cut_sides, and measure_objects; those say what each does. An object is also
+/// cut at a side less than `border` pixels from the edge of what was measured.
 ///
 /// @param depth float32 (H, W), meters, NaN in the background; in the range
 /// @param before float32 (H, W), meters: no object is looked for where changed_depth gives 0; (0, 0) for none
