@@ -72,6 +72,7 @@ from tricue.reference.fuse.correlation_train import correlation_train
 from tricue.reference.fuse.evidence_peak import evidence_peak
 from tricue.reference.fuse.kalman_predict import kalman_predict
 from tricue.reference.fuse.kalman_update import kalman_update
+from tricue.reference.fuse.observe_target import observe_target
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
 from tricue.reference.fuse.regularized_filter import regularized_filter
@@ -79,6 +80,8 @@ from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
 from tricue.reference.fuse.target_distribution import target_distribution
+from tricue.reference.fuse.target_model import target_model
+from tricue.reference.fuse.target_outline import target_outline
 from tricue.reference.fuse.target_pixels import target_pixels
 from tricue.reference.fuse.temporal_window import temporal_window
 from tricue.reference.fuse.weighted_histogram import weighted_histogram
@@ -129,6 +132,7 @@ __all__ = [
     "learn_contrast",
     "measure_objects",
     "median_depths",
+    "observe_target",
     "pick_pixels",
     "plane_support",
     "propose",
@@ -159,6 +163,8 @@ __all__ = [
     "summarize",
     "support_pixels",
     "target_distribution",
+    "target_model",
+    "target_outline",
     "target_pixels",
     "temporal_window",
     "weighted_histogram",
