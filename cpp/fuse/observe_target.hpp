@@ -23,9 +23,9 @@ struct DisparityLimits {
 };
 
 struct TargetObservation {
-    TemporalWindow window;  ///< box (x0, y0, x1, y1), count and mask of the target's pixels, as of temporal_window
-    BlockCounts counts;     ///< of these and of the disparities in each block, as of block_counts
-    double occluded;        ///< share of the target's blocks in the image that something nearer hides
+    TemporalWindow window;
+    BlockCounts counts;
+    double occluded;
 };
 
 /// What a frame shows of the target, by its model: its pixels, and what is in its blocks.
@@ -49,6 +49,11 @@ struct TargetObservation {
 /// @param states int64 (N,): 0 where a block isn't the target's
 /// @param limits (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the tolerance from the
 ///     target's; above the third something hides it
+/// @returns box (x0, y0, x1, y1), pixels, of the temporal window
+/// @returns count number of target pixels
+/// @returns mask uint8 (H, W): 1 at the target's pixels, else 0
+/// @returns counts (pixels, targets, readings, mean, similar), (N,) each: what is in the blocks, as of block_counts
+/// @returns occluded share of the target's blocks in the image that something nearer hides, in [0, 1]
 /// @throws std::invalid_argument as these kernels, on unlike sizes and on a place that is not finite
 /// Source: Okada, Shirai, Miura 1996, sections 4.1 to 4.4.
 TargetObservation observe_target(const std::vector<Cue>& cues, const TargetPlace& place, double threshold,

@@ -21,7 +21,7 @@ using Index = Eigen::Index;
 
 constexpr std::size_t kTables = 4;  // as of weighted_histogram: neighbors mostly share a bin
 using Lanes = Pack<double, kTables>;
-constexpr float kMaxReading = 1e6F;  // of what counts in the sum of all weights, beyond any image
+constexpr float kMaxReading = 1e6F;   // of what counts in the sum of all weights, beyond any image
 constexpr double kLeastSum = 1e-300;  // keeps a density of zeros from a division by 0
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
@@ -44,7 +44,8 @@ void require_arguments(const std::vector<CueMap>& maps, const std::vector<Expect
                        const HistogramRules& rules) {
     if (maps.empty() || maps.size() > 3) refuse("maps", "1 to 3", std::to_string(maps.size()));
     if (expected.size() != maps.size())
-        refuse("expected", std::to_string(maps.size()) + ", as many as maps", std::to_string(expected.size()));
+        refuse("expected", std::to_string(maps.size()) + ", as many as maps",
+               std::to_string(expected.size()));
     for (const CueMap& map : maps)
         for (const PlaneView& plane : {map.readings, map.weights})
             if (shape(plane) != shape(maps[0].readings))
@@ -55,7 +56,8 @@ void require_arguments(const std::vector<CueMap>& maps, const std::vector<Expect
         if (!(peak.deviation > 0.0)) refuse("expected", "deviations above 0", peak.deviation);
     }
     if (!(rules.smoothing > 0.0)) refuse("smoothing", "a number above 0", rules.smoothing);
-    for (const auto& [share, name] : {std::pair{rules.memory, "memory"}, std::pair{rules.surround, "surround"}})
+    for (const auto& [share, name] :
+         {std::pair{rules.memory, "memory"}, std::pair{rules.surround, "surround"}})
         if (!(share >= 0.0 && share < 1.0)) refuse(name, "a number in [0, 1)", share);
     if (blocks) {
         require_numbers(blocks->grid, blocks->states, "states");
@@ -86,7 +88,8 @@ void mark_near(const float* __restrict readings, float disparity, float toleranc
 Labels depth_mask(const std::optional<DepthLimit>& depth, const PlaneView& disparity) {
     if (!depth) return Labels::Ones(disparity.rows, disparity.cols);
     Labels near(disparity.rows, disparity.cols);
-    const auto middle = static_cast<float>(depth->disparity), tolerance = static_cast<float>(depth->tolerance);
+    const auto middle = static_cast<float>(depth->disparity),
+               tolerance = static_cast<float>(depth->tolerance);
     for (int y = 0; y < disparity.rows; ++y)
         mark_near(disparity.row(y), middle, tolerance, disparity.cols, near.row(y).data());
     return near;
@@ -107,7 +110,8 @@ struct WeightRow {
 
 /// From the bins of a row, in `slot`, their places in all tables: those of the target where begin <= x < end, counted from begin.
 TRICUE_MULTIVERSION
-void place_weights(const HistogramRow& row, int n, int begin, int end, std::int32_t size, const WeightRow& to) {
+void place_weights(const HistogramRow& row, int n, int begin, int end, std::int32_t size,
+                   const WeightRow& to) {
     const float *readings = row.readings, *weights = row.weights;
     const std::uint8_t *targets = row.target, *counts = row.counted;
     std::int32_t* slots = to.slot;

@@ -192,7 +192,8 @@ std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
     const std::tuple<int, double, double, double, double>& rules) {
     std::vector<CueMap> each;
     std::vector<ExpectedPeak> at;
-    for (const auto& [values, weights] : maps) each.push_back({plane(values, "maps"), plane(weights, "maps")});
+    for (const auto& [values, weights] : maps)
+        each.push_back({plane(values, "maps"), plane(weights, "maps")});
     for (const auto& [value, deviation, half_range] : expected) at.push_back({value, deviation, half_range});
     const auto mine = target_blocks(blocks);
     const auto former = former_model(before);
@@ -201,8 +202,8 @@ std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
     const auto [bins, smoothing, ripple, memory, surround] = rules;
     const HistogramRules how{bins, smoothing, ripple, memory, surround};
     const auto work = each.empty() ? 0 : pixels(each[0].readings);
-    auto model = unlocked(
-        work, [&] { return target_model(each, at, rectangle(window), mine, limit, former, how); });
+    auto model =
+        unlocked(work, [&] { return target_model(each, at, rectangle(window), mine, limit, former, how); });
     return {give(std::move(model.densities)), give(std::move(model.alternatives)),
             give(std::move(model.peaks))};
 }
@@ -227,7 +228,8 @@ std::tuple<Box, std::int64_t, Bytes, Seen, double> observe_target_arrays(
         const auto row = [&](const auto& all) {
             return Eigen::Map<const Vector>(all.data() + i * all.cols(), all.cols());
         };
-        cues.push_back({plane(planes[k], "planes"), row(target), ranges[k].first, ranges[k].second, row(others)});
+        cues.push_back(
+            {plane(planes[k], "planes"), row(target), ranges[k].first, ranges[k].second, row(others)});
     }
     std::optional<PlaneView> distances;
     if (disparity) distances = plane(*disparity, "disparity");
@@ -235,27 +237,25 @@ std::tuple<Box, std::int64_t, Bytes, Seen, double> observe_target_arrays(
     const auto numbers = list<std::int64_t>(of_blocks, "states", "int64 (N,)");
     const auto [neighbors, share, trim] = clean;
     const auto [similar, tolerance, occluder] = limits;
-    auto found = unlocked(cues.empty() ? 0 : pixels(cues[0].readings), [&, neighbors = neighbors, share = share,
-                                                                        trim = trim, similar = similar,
-                                                                        tolerance = tolerance,
-                                                                        occluder = occluder] {
-        return observe_target(cues, {rectangle(window), rectangle(candidate)}, threshold,
-                              {neighbors, share, trim}, distances, grid, numbers,
-                              {similar, tolerance, occluder});
-    });
+    auto found = unlocked(cues.empty() ? 0 : pixels(cues[0].readings),
+                          [&, neighbors = neighbors, share = share, trim = trim, similar = similar,
+                           tolerance = tolerance, occluder = occluder] {
+                              return observe_target(cues, {rectangle(window), rectangle(candidate)},
+                                                    threshold, {neighbors, share, trim}, distances, grid,
+                                                    numbers, {similar, tolerance, occluder});
+                          });
     auto& [kept, counts, occluded] = found;
-    return {Box{kept.box.x0, kept.box.y0, kept.box.x1, kept.box.y1},
-            kept.count,
-            give(std::move(kept.mask)),
-            Seen{give(std::move(counts.pixels)), give(std::move(counts.targets)),
-                 give(std::move(counts.readings)), give(std::move(counts.mean)),
-                 give(std::move(counts.similar))},
-            occluded};
+    return {
+        Box{kept.box.x0, kept.box.y0, kept.box.x1, kept.box.y1}, kept.count, give(std::move(kept.mask)),
+        Seen{give(std::move(counts.pixels)), give(std::move(counts.targets)),
+             give(std::move(counts.readings)), give(std::move(counts.mean)), give(std::move(counts.similar))},
+        occluded};
 }
 
 std::tuple<Box, std::int64_t> target_outline_numbers(const Bytes& mask, const Array<float>& disparity,
                                                      const Array<double>& corners, const Place& place,
-                                                     const Counts& of_blocks, double target, double tolerance) {
+                                                     const Counts& of_blocks, double target,
+                                                     double tolerance) {
     const auto set = mask_view(mask, "mask");
     const auto distances = plane(disparity, "disparity");
     const BlockGrid grid = grid_of(corners, place);
@@ -301,8 +301,7 @@ void define_bayes(py::module_& m) {
     m.def("target_model", target_model_arrays, py::arg("maps"), py::arg("expected"), py::arg("window"),
           py::arg("blocks"), py::arg("depth"), py::arg("before"), py::arg("rules"), docs::target_model);
     m.def("target_outline", target_outline_numbers, py::arg("mask"), py::arg("disparity"), py::arg("corners"),
-          py::arg("place"), py::arg("states"), py::arg("target"), py::arg("tolerance"),
-          docs::target_outline);
+          py::arg("place"), py::arg("states"), py::arg("target"), py::arg("tolerance"), docs::target_outline);
     m.def("weighted_histogram", weighted_histogram_arrays, py::arg("values"), py::arg("weights"),
           py::arg("region"), py::arg("low"), py::arg("high"), py::arg("bins"), py::arg("mask") = py::none(),
           docs::weighted_histogram);

@@ -37,7 +37,8 @@ std::vector<Region> block_pixels(const BlockGrid& grid, int rows, int cols) {
     const auto count = static_cast<int>(grid.corners.rows());
     std::vector<int> edges(4 * static_cast<std::size_t>(count));
     const int strange = find_edges(grid.corners.data(), grid.place, rows, cols, count, edges.data());
-    if (strange > 0) refuse("corners", "finite numbers, where they are placed", std::to_string(strange) + " others");
+    if (strange > 0)
+        refuse("corners", "finite numbers, where they are placed", std::to_string(strange) + " others");
     std::vector<Region> blocks;
     blocks.reserve(static_cast<std::size_t>(count));
     for (const int* at = edges.data(); at < edges.data() + edges.size(); at += 4)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from tricue.reference.base.checks import refuse, require_shape
 from tricue.reference.fuse.block_mask import block_mask
 from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
-from tricue.reference.fuse.detail.rectangle_pixels import Rectangle
+from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, require_finite_corners
 from tricue.reference.fuse.detail.value_bins import require_range
 from tricue.reference.fuse.target_distribution import target_distribution
 from tricue.reference.fuse.weighted_histogram import weighted_histogram
@@ -38,7 +38,7 @@ def target_model(
 ) -> tuple[Floats, Floats, Floats]:
     """Takes the histograms of one observation at a time."""
     bins, smoothing, ripple, memory, surround = rules
-    _require(maps, expected, blocks, before, rules)
+    _require(maps, expected, blocks, before, rules, window)
     last = maps[-1][0]
     target = _target_mask(blocks, last.shape)
     near = np.ones_like(target)
@@ -106,6 +106,7 @@ def _require(
     blocks: Blocks | None,
     before: Former | None,
     rules: tuple[int, float, float, float, float],
+    window: Rectangle,
 ) -> None:
     bins, smoothing, _, memory, surround = rules
     if not 1 <= len(maps) <= 3:
@@ -127,6 +128,7 @@ def _require(
     for name, share in (("memory", memory), ("surround", surround)):
         if not 0 <= share < 1:
             refuse(name, "a number in [0, 1)", float(share))
+    require_finite_corners(window, "window")
     if blocks is not None:
         require_numbers(blocks[0], blocks[2], "states")
         require_numbers(blocks[0], blocks[3], "trusted")
