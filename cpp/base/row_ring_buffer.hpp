@@ -13,6 +13,8 @@ public:
     RowRingBuffer(int count, int length);
     RowRingBuffer(const RowRingBuffer&) = delete;  // rows_ points into data_
     RowRingBuffer& operator=(const RowRingBuffer&) = delete;
+    RowRingBuffer(RowRingBuffer&&) = default;
+    RowRingBuffer& operator=(RowRingBuffer&&) = default;
 
     float* row(int y) { return rows_[slot(y)]; }
 

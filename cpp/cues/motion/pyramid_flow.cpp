@@ -111,7 +111,7 @@ void finish_row(const NormalEquations& sums, const GuessRow& guess, float dampin
 
 /// Calls done(y, products) for each row y of the guess's area: the constraints of `before`, warped by the guess, and `now`.
 template <typename Done>
-void measure(const QuadImage& before, const ImageView& now, double sigma, int pool, const FlowGuess& guess,
+void measure(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
              const Done& done) {
     const auto [x0, y0, x1, y1] = guess.area();
     const int width = x1 - x0;
@@ -122,6 +122,7 @@ void measure(const QuadImage& before, const ImageView& now, double sigma, int po
         (length + kHalfBlock - 1) / kHalfBlock * kHalfBlock;  // pixels beyond cost less than a loop's rest
     std::vector<float> warped(static_cast<std::size_t>(whole)), here(warped);
     for (int y = -margin; y < y1 - y0 + margin; ++y) {
+        guess.advance(y);
         before.warped_row(y0 + y, x0 - margin, guess.u(y), guess.v(y), whole, warped.data());
         read_frame_row(now, y0 + y, x0 - margin, length, here.data());
         constraints.push(y + pool, warped.data(), here.data());
@@ -208,7 +209,7 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     const float damping = rounding_noise(sigma);
     const int margin = GaussianTaps(sigma).radius + pyramid.pool;
     const PyramidPlan plan = plan_levels(current, pyramid.levels, margin, area);
-    const FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
+    FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
     measure(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
             [&](int y, const NormalEquations& sums) {
                 finish_row(sums, {guess.u(y) + margin, guess.v(y) + margin}, damping, limits,

@@ -47,21 +47,6 @@ int whole_halves(int n) {
     return (n + kHalfBlock - 1) / kHalfBlock * kHalfBlock;
 }
 
-/// A plane with rows that end in a number of half blocks and one pixel more; what is beyond the plane repeats its end.
-struct PaddedPlane {
-    int rows, cols, stride;
-    std::vector<float> pixels;
-
-    PaddedPlane(int height, int width)
-        : rows(height),
-          cols(width),
-          stride(whole_halves(width) + 2),
-          pixels(static_cast<std::size_t>(height) * static_cast<std::size_t>(stride)) {}
-
-    float* row(int y) { return pixels.data() + std::ptrdiff_t{y} * stride; }
-    void repeat_end(int y, int end) { std::fill(row(y) + end, row(y) + stride, row(y)[end - 1]); }
-};
-
 PaddedPlane median(const Floats& plane, int cols) {
     const auto rows = static_cast<int>(plane.rows());
     PaddedPlane padded(rows + 2, cols + 2), result(rows, cols);
@@ -87,31 +72,47 @@ Region coarser_region(const Region& area, int rows, int cols) {
 FlowField::FlowField(const Region& part)
     : area(part), u(part.y1 - part.y0, whole_halves(part.x1 - part.x0)), v(u.rows(), u.cols()) {}
 
+PaddedPlane::PaddedPlane(int height, int width)
+    : rows(height),
+      cols(width),
+      stride(whole_halves(width) + 2),
+      pixels(static_cast<std::size_t>(height) * static_cast<std::size_t>(stride)) {}
+
+// An upsampled row may begin a pixel too far left, and ends in a whole number of blocks.
 FlowGuess::FlowGuess(const Region& area, int margin)
     : area_(area),
       margin_(margin),
-      // An upsampled row may begin a pixel too far left, and ends in a whole number of blocks.
-      stride_(whole_halves(area.x1 - area.x0 + 2 * margin) + 2 * kHalfBlock + 2),
-      u_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(area.y1 - area.y0)),
-      v_(u_.size()) {}
+      u_(0, 0),
+      v_(0, 0),
+      u_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2),
+      v_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2) {}
 
-FlowGuess::FlowGuess(const FlowField& coarse, const Region& area, int margin) : FlowGuess(area, margin) {
-    fill(coarse.u, coarse.area, u_);
-    fill(coarse.v, coarse.area, v_);
+FlowGuess::FlowGuess(const FlowField& coarse, const Region& area, int margin)
+    : area_(area),
+      margin_(margin),
+      x0_(2 * coarse.area.x0),
+      y0_(2 * coarse.area.y0),
+      u_(median(coarse.u, coarse.area.x1 - coarse.area.x0)),
+      v_(median(coarse.v, coarse.area.x1 - coarse.area.x0)),
+      u_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2),
+      v_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2) {}
+
+void FlowGuess::advance(int y) {
+    const int next = std::max(y, 0);
+    if (next != newest_ + 1 || next >= area_.y1 - area_.y0) return;
+    newest_ = next;
+    if (u_.rows == 0) return;
+    upsample(u_, u_rows_.row(next));
+    upsample(v_, v_rows_.row(next));
 }
 
-void FlowGuess::fill(const Floats& coarse, const Region& of, std::vector<float>& plane) const {
-    PaddedPlane smooth = median(coarse, of.x1 - of.x0);
-    const int skipped = area_.x0 - 2 * of.x0, width = area_.x1 - area_.x0, rows = area_.y1 - area_.y0;
-    for (int y = 0; y < rows; ++y) {
-        const int at = area_.y0 + y - 2 * of.y0, top = at / 2,
-                  bottom = std::min(top + at % 2, smooth.rows - 1);
-        float* row = plane.data() + std::ptrdiff_t{y} * stride_;
-        upsample_row(smooth.row(top), smooth.row(bottom), whole_halves((width + skipped + 1) / 2),
-                     row + margin_ - skipped);
-        std::fill_n(row, margin_, row[margin_]);
-        std::fill(row + margin_ + width, row + stride_, row[margin_ + width - 1]);
-    }
+void FlowGuess::upsample(PaddedPlane& coarse, float* row) {
+    const int skipped = area_.x0 - x0_, width = area_.x1 - area_.x0;
+    const int at = area_.y0 + newest_ - y0_, top = at / 2, bottom = std::min(top + at % 2, coarse.rows - 1);
+    upsample_row(coarse.row(top), coarse.row(bottom), whole_halves((width + skipped + 1) / 2),
+                 row + margin_ - skipped);
+    std::fill_n(row, margin_, row[margin_]);
+    std::fill_n(row + margin_ + width, margin_ + kHalfBlock, row[margin_ + width - 1]);
 }
 
 }  // namespace tricue

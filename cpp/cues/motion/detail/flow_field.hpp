@@ -7,6 +7,7 @@
 
 #include "base/arrays.hpp"
 #include "base/region.hpp"
+#include "base/row_ring_buffer.hpp"
 
 namespace tricue {
 
@@ -21,8 +22,19 @@ struct FlowField {
 /// The area of the next coarser level, of that size, between whose pixels an area lies.
 Region coarser_region(const Region& area, int rows, int cols);
 
+/// A plane with rows that end in a number of half blocks and two pixels more; what is beyond the plane repeats its end.
+struct PaddedPlane {
+    PaddedPlane(int height, int width);
+
+    float* row(int y) { return pixels.data() + std::ptrdiff_t{y} * stride; }
+    void repeat_end(int y, int end) { std::fill(row(y) + end, row(y) + stride, row(y)[end - 1]); }
+
+    int rows, cols, stride;
+    std::vector<float> pixels;
+};
+
 /// The initial flow of an area and of a margin around it, which repeats what is at the area's edge: from the next coarser level,
-/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level.
+/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and one more.
 class FlowGuess {
 public:
     FlowGuess(const Region& area, int margin);
@@ -30,21 +42,22 @@ public:
 
     const Region& area() const { return area_; }
 
-    /// Flow along x and y in row y of the area, 0 the first, from the margin on its left to that on its right, and up to a whole
+    /// Makes row y of the area, 0 the first, or those at its edge where that is beyond it; each y is one more than the last.
+    void advance(int y);
+
+    /// Flow along x and y in row y of the area, one of the newest, from the margin on its left to that on its right, and up to a whole
     /// number of half blocks.
-    const float* u(int y) const { return plane(u_, y); }
-    const float* v(int y) const { return plane(v_, y); }
+    const float* u(int y) { return u_rows_.row(std::clamp(y, 0, newest_)); }
+    const float* v(int y) { return v_rows_.row(std::clamp(y, 0, newest_)); }
 
 private:
-    void fill(const Floats& coarse, const Region& of, std::vector<float>& plane) const;
-    const float* plane(const std::vector<float>& plane, int y) const {
-        return plane.data() + std::clamp(y, 0, area_.y1 - area_.y0 - 1) * stride_;
-    }
+    void upsample(PaddedPlane& coarse, float* row);
 
     Region area_;
-    int margin_;
-    std::ptrdiff_t stride_;
-    std::vector<float> u_, v_;
+    int margin_, newest_ = -1;
+    int x0_ = 0, y0_ = 0;  ///< of the coarse planes, in pixels of the finer level
+    PaddedPlane u_, v_;
+    RowRingBuffer u_rows_, v_rows_;
 };
 
 }  // namespace tricue
