@@ -14,6 +14,20 @@ RANGES = [(-4.0, 4.0), (-4.0, 4.0), (0.0, 16.0)]
 COLUMNS, ROWS = 10, 20
 
 
+def cleaned(mask: Any, neighbors: int, share: float, trim: float) -> Any:
+    """Large regions of dense pixels, and the box around them."""
+    around = cv2.filter2D(mask, -1, np.ones((3, 3)), borderType=cv2.BORDER_CONSTANT) - mask
+    dense = mask * (around >= neighbors).astype(np.uint8)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(dense, connectivity=8)
+    areas = stats[:, cv2.CC_STAT_AREA]
+    large = areas >= share * areas[1:].max(initial=0)
+    large[0] = False
+    kept = large[labels].astype(np.uint8)
+    ys, xs = map(np.sort, np.nonzero(kept))
+    out = int(trim * len(xs))
+    return kept, tuple(map(int, (xs[out], ys[out], xs[-1 - out] + 1, ys[-1 - out] + 1)))
+
+
 def script(
     planes: Any,
     densities: Any,
@@ -40,17 +54,7 @@ def script(
         table = np.concatenate([[0], density / alternative, [0]]).astype(np.float32)
         odds *= table[np.clip(np.floor(places), -1, bins).astype(np.int32) + 1]
     mask = (odds / (odds + 1) >= threshold).astype(np.uint8)
-    around = cv2.filter2D(mask, -1, np.ones((3, 3)), borderType=cv2.BORDER_CONSTANT) - mask
-    dense = mask * (around >= clean[0]).astype(np.uint8)
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(dense, connectivity=8)
-    areas = stats[:, cv2.CC_STAT_AREA]
-    large = areas >= clean[1] * areas[1:].max(initial=0)
-    large[0] = False
-    mask = large[labels].astype(np.uint8)
-    ys, xs = np.nonzero(mask)
-    out = int(clean[2] * len(xs))
-    xs, ys = np.sort(xs), np.sort(ys)
-    box = tuple(map(int, (xs[out], ys[out], xs[-1 - out] + 1, ys[-1 - out] + 1)))
+    mask, box = cleaned(mask, *clean)
     size, x, y, left, top = place
     blocks = np.ceil(corners * size + [x - left, y - top] * 2 - 0.5).astype(int)
     rows_of = []
@@ -64,7 +68,7 @@ def script(
     mine = (states != 0) & (cells > 0)
     hidden = mine & (measured >= 0.2 * cells) & (mean > limits[2])
     share = np.count_nonzero(hidden) / max(np.count_nonzero(mine), 1)
-    return box, len(xs), mask, (cells, targets, measured, mean, similar), share
+    return box, int(mask.sum()), mask, (cells, targets, measured, mean, similar), share
 
 
 IMPLEMENTATIONS = {"native": _core.observe_target, "reference": reference.observe_target, "baseline": script}

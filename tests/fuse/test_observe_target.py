@@ -43,7 +43,7 @@ def case(seed: int = 0, cues: int = 3, **changes: Any) -> dict[str, Any]:
     corners = grid()
     return {
         "planes": planes,
-        "densities": np.array([density(*each) for each in zip(OURS, *zip(*RANGES), strict=True)][:cues]),
+        "densities": np.array([density(at, *ends) for at, ends in zip(OURS, RANGES, strict=True)][:cues]),
         "ranges": RANGES[:cues],
         "alternatives": np.full((cues, BINS), 1 / BINS),
         "window": (18.0, 8.0, 42.0, 32.0),
@@ -108,8 +108,8 @@ def test_finds_what_was_drawn(kernels: Kernels) -> None:
 
 
 def test_occluded_is_what_is_behind_something_nearer(kernels: Kernels) -> None:
-    """The share is of the target's blocks in the image; nearer needs a mean above the limit, and a fifth of the
-    block measured. Without disparities nothing is occluded, and every cell counts as measured.
+    """The share is of the target's blocks in the image; nearer needs a mean above the limit, and a fifth of
+    the block measured. Without disparities nothing is occluded, and every cell counts as measured.
     """
     a = case(states=np.ones(24, np.int64))
     nearer = a["disparity"].copy()

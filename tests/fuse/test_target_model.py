@@ -68,8 +68,8 @@ def test_twin_gives_the_same(seed: int, cues: int, blocks: bool, depth: bool, be
 
 @pytest.mark.parametrize("window", [(23.0, 11.0, 38.0, 29.0), (-5.0, -5.0, 99.0, 99.0)])
 def test_histograms_are_those_of_the_kernel(window: Any, kernels: Kernels) -> None:
-    """Without memory the density is the target_distribution of the weighted_histogram of the target's pixels, to
-    the last bit, of flow only at the target's depth; the peak is its value.
+    """Without memory the density is the target_distribution of the weighted_histogram of the target's pixels,
+    to the last bit, of flow only at the target's depth; the peak is its value.
     """
     a = case(window=window)
     densities, _, peaks = kernels.target_model(**a)
@@ -102,8 +102,8 @@ def test_finds_what_was_drawn(kernels: Kernels) -> None:
 
 
 def test_only_trusted_target_blocks_count(kernels: Kernels) -> None:
-    """Without a trusted target block nothing is read: the expected peaks, densities of zeros, and alternatives
-    of everything.
+    """Without a trusted target block nothing is read: the expected peaks, densities of zeros, and
+    alternatives of everything.
     """
     for states, trusted in (
         (np.array([0, 2, 2]), np.array([3, 3, 3])),

@@ -42,8 +42,8 @@ def test_twin_gives_the_same(seed: int, size: float, shift: float) -> None:
 
 @pytest.mark.parametrize("by", ["mask", "disparity"])
 def test_boxes_what_was_drawn(by: str, kernels: Kernels) -> None:
-    """A rectangle of target pixels, or of their disparity, is found, as far as it is in target blocks. Of 12 x
-    8 pixels one is left out at each side, less than a column or a row.
+    """A rectangle of target pixels, or of their disparity, is found, as far as it is in target blocks. Of
+    12 x 8 pixels one is left out at each side, less than a column or a row.
     """
     arguments = case()
     arguments[by][8:16, 20:32] = 8

@@ -108,31 +108,38 @@ def _require(
     rules: tuple[int, float, float, float, float],
     window: Rectangle,
 ) -> None:
-    bins, smoothing, _, memory, surround = rules
-    if not 1 <= len(maps) <= 3:
-        refuse("maps", "1 to 3", len(maps))
+    _require_maps(maps)
     if len(expected) != len(maps):
         refuse("expected", f"{len(maps)}, as many as maps", len(expected))
-    for each in maps:
-        for plane in each:
-            if plane.shape != maps[0][0].shape:
-                refuse("maps", f"shape {maps[0][0].shape}", plane.shape)
-    if bins < 2:
-        refuse("bins", "2 to 65536", bins)
+    _require_rules(*rules)
     for value, deviation, half_range in expected:
-        require_range(value - half_range, value + half_range, bins)
+        require_range(value - half_range, value + half_range, rules[0])
         if not deviation > 0:
             refuse("expected", "deviations above 0", float(deviation))
-    if not smoothing > 0:
-        refuse("smoothing", "a number above 0", float(smoothing))
-    for name, share in (("memory", memory), ("surround", surround)):
-        if not 0 <= share < 1:
-            refuse(name, "a number in [0, 1)", float(share))
     require_finite_corners(window, "window")
     if blocks is not None:
         require_numbers(blocks[0], blocks[2], "states")
         require_numbers(blocks[0], blocks[3], "trusted")
     if before is not None:
-        require_shape("before", before[0], (len(maps), bins))
+        require_shape("before", before[0], (len(maps), rules[0]))
         if not len(before[1]) == len(before[2]) == len(maps):
             refuse("before", f"{len(maps)} lows and peaks", len(before[1]))
+
+
+def _require_maps(maps: Sequence[tuple[Plane, Plane]]) -> None:
+    if not 1 <= len(maps) <= 3:
+        refuse("maps", "1 to 3", len(maps))
+    for each in maps:
+        for plane in each:
+            if plane.shape != maps[0][0].shape:
+                refuse("maps", f"shape {maps[0][0].shape}", plane.shape)
+
+
+def _require_rules(bins: int, smoothing: float, ripple: float, memory: float, surround: float) -> None:
+    if bins < 2:
+        refuse("bins", "2 to 65536", bins)
+    if not smoothing > 0:
+        refuse("smoothing", "a number above 0", float(smoothing))
+    for name, share in (("ripple", ripple), ("memory", memory), ("surround", surround)):
+        if not 0 <= share < 1:
+            refuse(name, "a number in [0, 1)", float(share))

@@ -121,7 +121,7 @@ class Blocks(NamedTuple):
     @property
     def rectangles(self) -> Floats:
         """(N, 4) x0, y0, x1, y1, cells."""
-        return self.corners * self.size + np.array(2 * self.anchor)
+        return np.asarray(self.corners * self.size + np.array(2 * self.anchor))
 
     def place_in(self, region: Region) -> Place:
         """Where kernels find the corners, from the corner of a region."""
