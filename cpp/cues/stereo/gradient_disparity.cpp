@@ -88,10 +88,10 @@ TRICUE_MULTIVERSION
 void finalize(const WindowMeans& means, const float* offset, const float* visible, const Limits& limits,
               int n, float* disparity) {
     const Limits most = limits;
-    if (n < kLine) return finalize_pixels(means, offset, visible, most, 0, n, disparity);
-    for (int x = 0; x < n; x += kLine) {
-        const int begin = std::min(x, n - kLine);
-        finalize_pixels(means, offset, visible, most, begin, begin + kLine, disparity);
+    if (n < kRowLine) return finalize_pixels(means, offset, visible, most, 0, n, disparity);
+    for (int x = 0; x < n; x += kRowLine) {
+        const int begin = std::min(x, n - kRowLine);
+        finalize_pixels(means, offset, visible, most, begin, begin + kRowLine, disparity);
     }
 }
 

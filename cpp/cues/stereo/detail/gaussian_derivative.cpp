@@ -14,7 +14,7 @@ namespace {
 template <int Reach, typename Pixel>
 TRICUE_INLINE void sum_symmetric(const Pixel* const* rows, const float* __restrict weights, int n,
                                  float* __restrict out) {
-    for_overlapping_blocks<kLine>(n, [=](std::ptrdiff_t x) {
+    for_overlapping_blocks<kRowLine>(n, [=](std::ptrdiff_t x) {
         float sum = weights[0] * static_cast<float>(rows[0][x]);
         for (int k = 1; k <= Reach; ++k) sum += weights[k] * static_cast<float>(rows[-k][x] + rows[k][x]);
         out[x] = sum;
@@ -92,8 +92,8 @@ DerivativeRows::DerivativeRows(const GrayLevel& level, const GaussianDerivative&
       x0_(x0),
       x1_(x1),
       padding_(padding),
-      smooth_(static_cast<std::size_t>(x1 - x0 + 2 * filter.reach + kLine)),
-      derivative_(static_cast<std::size_t>(x1 - x0 + 2 * padding + kLine)) {}
+      smooth_(static_cast<std::size_t>(x1 - x0 + 2 * filter.reach + kRowLine)),
+      derivative_(static_cast<std::size_t>(x1 - x0 + 2 * padding + kRowLine)) {}
 
 /// The rows that the filter reads, from column x on.
 template <typename Picture>

@@ -108,12 +108,12 @@ GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, cons
       shifted_(taps_.size() / kTaps),
       slope_(shifted_.size()),
       rings_{ring(true), ring(true), ring(finest), ring(finest), ring(finest)},
-      columns_(static_cast<int>(count_), wanted_.x1 - wanted_.x0 + 2 * radius + kLine),
+      columns_(static_cast<int>(count_), wanted_.x1 - wanted_.x0 + 2 * radius + kRowLine),
       means_(static_cast<int>(count_), wanted_.x1 - wanted_.x0) {}
 
 /// A line of room for the rest of rows that are shorter, but begin later.
 RowRingBuffer GradientLevel::ring(bool wanted) const {
-    return {wanted ? 2 * radius_ + 1 : 1, wanted_.x1 - wanted_.x0 + 2 * radius_ + kLine};
+    return {wanted ? 2 * radius_ + 1 : 1, wanted_.x1 - wanted_.x0 + 2 * radius_ + kRowLine};
 }
 
 void GradientLevel::add_row(int y) {

@@ -48,7 +48,7 @@ WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int fi
       cols_(cols),
       skip_(x0 % 2),
       pairs_((x1 - x0_ + 1) / 2),
-      offset_(static_cast<std::size_t>(whole_lines(2 * pairs_) + kLine), prior.rest),
+      offset_(static_cast<std::size_t>(whole_lines(2 * pairs_) + kRowLine), prior.rest),
       share_(offset_.size()),
       visible_(offset_.size()),
       column_(offset_.size()) {
