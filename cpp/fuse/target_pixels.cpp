@@ -17,6 +17,9 @@ namespace {
 
 using Table = std::vector<float>;
 
+/// Whole rows whose ratios are found at once: those of a small region are too short to begin a loop for each.
+constexpr int kBandPixels = 4096;
+
 std::string shape(const PlaneView& plane) {
     return "(" + std::to_string(plane.rows) + ", " + std::to_string(plane.cols) + ")";
 }
@@ -126,18 +129,25 @@ TargetPixels target_pixels(const std::vector<Cue>& cues, const TargetPlace& plac
     for (const Cue& cue : cues) tables.push_back(likelihood_ratios(cue));
 
     TargetPixels target{Labels::Zero(first.rows, first.cols), Floats::Zero(first.rows, first.cols)};
-    const int n = visible.x1 - visible.x0;
-    std::vector<std::int32_t> bin(columns.size());
-    std::vector<float> ratio(columns.size());
-    for (int y = visible.y0; y < visible.y1; ++y) {
+    const int band = std::max(kBandPixels / std::max(first.cols, 1), 1);
+    std::vector<std::int32_t> bin(static_cast<std::size_t>(band) * static_cast<std::size_t>(first.cols));
+    std::vector<float> ratio(bin.size());
+    for (int y0 = visible.y0; y0 < visible.y1; y0 += band) {
+        const int y1 = std::min(y0 + band, visible.y1);
         std::fill(ratio.begin(), ratio.end(), 1.0f);
         for (std::size_t k = 0; k < cues.size(); ++k) {
-            find_value_bins(cues[k].readings.row(y) + visible.x0, n, range_of(cues[k]), bin.data());
-            multiply_ratios(bin.data(), n, tables[k].data(), ratio.data());
+            const PlaneView& plane = cues[k].readings;
+            const int together = plane.stride == plane.cols ? y1 - y0 : 1;  // rows that follow each other
+            for (int y = y0; y < y1; y += together)
+                find_value_bins(plane.row(y), together * plane.cols, range_of(cues[k]),
+                                bin.data() + std::ptrdiff_t{y - y0} * plane.cols);
+            multiply_ratios(bin.data(), (y1 - y0) * plane.cols, tables[k].data(), ratio.data());
         }
-        apply_bayes(ratio.data(), columns.data(), rows[static_cast<std::size_t>(y - visible.y0)], n,
-                    round_up_to_float(threshold), target.posterior.row(y).data() + visible.x0,
-                    target.mask.row(y).data() + visible.x0);
+        for (int y = y0; y < y1; ++y)
+            apply_bayes(ratio.data() + std::ptrdiff_t{y - y0} * first.cols + visible.x0, columns.data(),
+                        rows[static_cast<std::size_t>(y - visible.y0)], visible.x1 - visible.x0,
+                        round_up_to_float(threshold), target.posterior.row(y).data() + visible.x0,
+                        target.mask.row(y).data() + visible.x0);
     }
     return target;
 }

@@ -5,11 +5,15 @@
 #include <optional>
 
 #include "arrays.hpp"
+#include "base/check.hpp"
 #include "fuse/block_counts.hpp"
 #include "fuse/block_mask.hpp"
 #include "fuse/block_votes.hpp"
 #include "fuse/combine_posteriors.hpp"
+#include "fuse/observe_target.hpp"
 #include "fuse/target_distribution.hpp"
+#include "fuse/target_model.hpp"
+#include "fuse/target_outline.hpp"
 #include "fuse/target_pixels.hpp"
 #include "fuse/temporal_window.hpp"
 #include "fuse/weighted_histogram.hpp"
@@ -157,6 +161,112 @@ std::tuple<Counts, Counts, Counts, Array<bool>, Counts, Counts> block_votes_arra
             give(std::move(after.core)),   give(std::move(after.trusted)), give(std::move(after.unproven))};
 }
 
+using Place = std::tuple<double, double, double, double, double>;
+
+BlockGrid grid_of(const Array<double>& corners, const Place& place) {
+    const auto [size, x, y, left, top] = place;
+    return {states(corners, "corners"), {size, x, y, left, top}};
+}
+
+using Maps = std::vector<std::pair<Array<float>, Array<float>>>;
+using Peaks = std::vector<std::tuple<double, double, double>>;
+using Blocks = std::tuple<Array<double>, Place, Counts, Counts>;
+using Former = std::tuple<Array<double>, std::vector<double>, std::vector<double>>;
+
+std::optional<FormerModel> former_model(const std::optional<Former>& before) {
+    if (!before) return {};
+    const auto& [densities, lows, peaks] = *before;
+    return FormerModel{states(densities, "before"), lows, peaks};
+}
+
+std::optional<TargetBlocks> target_blocks(const std::optional<Blocks>& blocks) {
+    if (!blocks) return {};
+    const auto& [corners, place, of_blocks, trusted] = *blocks;
+    return TargetBlocks{grid_of(corners, place), list<std::int64_t>(of_blocks, "states", "int64 (N,)"),
+                        list<std::int64_t>(trusted, "trusted", "int64 (N,)")};
+}
+
+std::tuple<Array<double>, Array<double>, Array<double>> target_model_arrays(
+    const Maps& maps, const Peaks& expected, const Corners& window, const std::optional<Blocks>& blocks,
+    const std::optional<std::pair<double, double>>& depth, const std::optional<Former>& before,
+    const std::tuple<int, double, double, double, double>& rules) {
+    std::vector<CueMap> each;
+    std::vector<ExpectedPeak> at;
+    for (const auto& [values, weights] : maps)
+        each.push_back({plane(values, "maps"), plane(weights, "maps")});
+    for (const auto& [value, deviation, half_range] : expected) at.push_back({value, deviation, half_range});
+    const auto mine = target_blocks(blocks);
+    const auto former = former_model(before);
+    std::optional<DepthLimit> limit;
+    if (depth) limit = {depth->first, depth->second};
+    const auto [bins, smoothing, ripple, memory, surround] = rules;
+    const HistogramRules how{bins, smoothing, ripple, memory, surround};
+    const auto work = each.empty() ? 0 : pixels(each[0].readings);
+    auto model =
+        unlocked(work, [&] { return target_model(each, at, rectangle(window), mine, limit, former, how); });
+    return {give(std::move(model.densities)), give(std::move(model.alternatives)),
+            give(std::move(model.peaks))};
+}
+
+using Seen = std::tuple<Counts, Counts, Counts, Array<double>, Counts>;
+
+std::tuple<Box, std::int64_t, Bytes, Seen, double> observe_target_arrays(
+    const std::vector<Array<float>>& planes, const Array<double>& densities,
+    const std::vector<std::pair<double, double>>& ranges, const Array<double>& alternatives,
+    const Corners& window, const Corners& candidate, double threshold,
+    const std::tuple<int, double, double>& clean, const std::optional<Array<float>>& disparity,
+    const Array<double>& corners, const Place& place, const Counts& of_blocks,
+    const std::tuple<double, double, double>& limits) {
+    const auto target = states(densities, "densities"), others = states(alternatives, "alternatives");
+    const auto count = static_cast<Eigen::Index>(planes.size());
+    require_shape(target, count, target.cols(), "densities");
+    require_shape(others, count, target.cols(), "alternatives");
+    if (ranges.size() != planes.size()) refuse("ranges", "as many as planes", std::to_string(ranges.size()));
+    std::vector<Cue> cues;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const auto row = [&](const auto& all) {
+            return Eigen::Map<const Vector>(all.data() + i * all.cols(), all.cols());
+        };
+        cues.push_back(
+            {plane(planes[k], "planes"), row(target), ranges[k].first, ranges[k].second, row(others)});
+    }
+    std::optional<PlaneView> distances;
+    if (disparity) distances = plane(*disparity, "disparity");
+    const BlockGrid grid = grid_of(corners, place);
+    const auto numbers = list<std::int64_t>(of_blocks, "states", "int64 (N,)");
+    const auto [neighbors, share, trim] = clean;
+    const auto [similar, tolerance, occluder] = limits;
+    auto found = unlocked(cues.empty() ? 0 : pixels(cues[0].readings),
+                          [&, neighbors = neighbors, share = share, trim = trim, similar = similar,
+                           tolerance = tolerance, occluder = occluder] {
+                              return observe_target(cues, {rectangle(window), rectangle(candidate)},
+                                                    threshold, {neighbors, share, trim}, distances, grid,
+                                                    numbers, {similar, tolerance, occluder});
+                          });
+    auto& [kept, counts, occluded] = found;
+    return {
+        Box{kept.box.x0, kept.box.y0, kept.box.x1, kept.box.y1}, kept.count, give(std::move(kept.mask)),
+        Seen{give(std::move(counts.pixels)), give(std::move(counts.targets)),
+             give(std::move(counts.readings)), give(std::move(counts.mean)), give(std::move(counts.similar))},
+        occluded};
+}
+
+std::tuple<Box, std::int64_t> target_outline_numbers(const Bytes& mask, const Array<float>& disparity,
+                                                     const Array<double>& corners, const Place& place,
+                                                     const Counts& of_blocks, double target,
+                                                     double tolerance) {
+    const auto set = mask_view(mask, "mask");
+    const auto distances = plane(disparity, "disparity");
+    const BlockGrid grid = grid_of(corners, place);
+    const auto numbers = list<std::int64_t>(of_blocks, "states", "int64 (N,)");
+    const auto found = unlocked(pixels(distances), [&] {
+        return target_outline(set, distances, grid, numbers, static_cast<float>(target),
+                              static_cast<float>(tolerance));
+    });
+    return {Box{found.box.x0, found.box.y0, found.box.x1, found.box.y1}, found.count};
+}
+
 Bytes block_mask_array(const Array<double>& blocks, int height, int width) {
     const auto each = states(blocks, "blocks");
     return give(unlocked(std::ptrdiff_t{height} * width, [&] { return block_mask(each, height, width); }));
@@ -184,6 +294,14 @@ void define_bayes(py::module_& m) {
           py::arg("alternatives") = py::none(), docs::target_pixels);
     m.def("temporal_window", temporal_window_arrays, py::arg("mask"), py::arg("neighbors"), py::arg("share"),
           py::arg("trim") = 0.02, docs::temporal_window);
+    m.def("observe_target", observe_target_arrays, py::arg("planes"), py::arg("densities"), py::arg("ranges"),
+          py::arg("alternatives"), py::arg("window"), py::arg("candidate"), py::arg("threshold"),
+          py::arg("clean"), py::arg("disparity"), py::arg("corners"), py::arg("place"), py::arg("states"),
+          py::arg("limits"), docs::observe_target);
+    m.def("target_model", target_model_arrays, py::arg("maps"), py::arg("expected"), py::arg("window"),
+          py::arg("blocks"), py::arg("depth"), py::arg("before"), py::arg("rules"), docs::target_model);
+    m.def("target_outline", target_outline_numbers, py::arg("mask"), py::arg("disparity"), py::arg("corners"),
+          py::arg("place"), py::arg("states"), py::arg("target"), py::arg("tolerance"), docs::target_outline);
     m.def("weighted_histogram", weighted_histogram_arrays, py::arg("values"), py::arg("weights"),
           py::arg("region"), py::arg("low"), py::arg("high"), py::arg("bins"), py::arg("mask") = py::none(),
           docs::weighted_histogram);

@@ -1956,6 +1956,72 @@ def median_depths(
     1993, (1.2).
     """
 
+def observe_target(
+    planes: collections.abc.Sequence[numpy.typing.NDArray[numpy.float32]],
+    densities: numpy.typing.NDArray[numpy.float64],
+    ranges: collections.abc.Sequence[tuple[float, float]],
+    alternatives: numpy.typing.NDArray[numpy.float64],
+    window: tuple[float, float, float, float],
+    candidate: tuple[float, float, float, float],
+    threshold: float,
+    clean: tuple[int, float, float],
+    disparity: numpy.typing.NDArray[numpy.float32] | None,
+    corners: numpy.typing.NDArray[numpy.float64],
+    place: tuple[float, float, float, float, float],
+    states: numpy.typing.NDArray[numpy.int64],
+    limits: tuple[float, float, float],
+) -> tuple[
+    tuple[int, int, int, int],
+    int,
+    numpy.typing.NDArray[numpy.uint8],
+    tuple[
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.int64],
+    ],
+    float,
+]:
+    """
+    What a frame shows of the target, by its model: its pixels, and what is in its blocks.
+
+    The target_pixels of the observations, cleaned as by temporal_window, and the block_counts of what
+    is kept. A block is occluded if the mean of its disparities is above the occluder's, and a fifth of
+    its pixels or more have one. Blocks that aren't in the image don't count.
+
+    Args:
+        planes: float32 (H, W), one to three: observations u, v or d, NaN where there is none
+        densities: float64 (K, bins), one for each: P(reading | target), of sum 1 or 0
+        ranges: (low, high) for each plane: what its bins span, finite, low < high
+        alternatives: float64 (K, bins): P(reading | not the target), above 0, of a sum of at most 1
+        window: (x0, y0, x1, y1), where the target surely may be, pixels, finite
+        candidate: (x0, y0, x1, y1), where the target may be at all, pixels, finite
+        threshold: smallest posterior of a target pixel, in (0, 1]
+        clean: (neighbors, share, trim) as of temporal_window
+        disparity: float32 (H, W), pixels, NaN where there is none; None without: then all pixels of a
+            block count as measured, and no block is occluded
+        corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
+        place: (size, x, y, left, top), finite: a corner is in the pixel size corner + (x, y) - (left,
+            top)
+        states: int64 (N,): 0 where a block isn't the target's
+        limits: (target, tolerance, occluder), disparities, pixels: similar ones differ by less than the
+            tolerance from the target's; above the third something hides it
+
+    Returns:
+        box: (x0, y0, x1, y1), pixels, of the temporal window
+        count: number of target pixels
+        mask: uint8 (H, W): 1 at the target's pixels, else 0
+        counts: (pixels, targets, readings, mean, similar), (N,) each: what is in the blocks, as of
+            block_counts
+        occluded: share of the target's blocks in the image that something nearer hides, in [0, 1]
+
+    Raises:
+        ValueError: as these kernels, on unlike sizes and on a place that is not finite
+
+    Source: Okada, Shirai, Miura 1996, sections 4.1 to 4.4.
+    """
+
 def pick_pixels(
     image: numpy.typing.NDArray[numpy.uint8], places: numpy.typing.NDArray[numpy.int64]
 ) -> numpy.typing.NDArray[numpy.uint8]:
@@ -3048,6 +3114,108 @@ def target_distribution(
     section 4.1) are ours.
     """
 
+def target_model(
+    maps: collections.abc.Sequence[
+        tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]
+    ],
+    expected: collections.abc.Sequence[tuple[float, float, float]],
+    window: tuple[float, float, float, float],
+    blocks: tuple[
+        numpy.typing.NDArray[numpy.float64],
+        tuple[float, float, float, float, float],
+        numpy.typing.NDArray[numpy.int64],
+        numpy.typing.NDArray[numpy.int64],
+    ]
+    | None,
+    depth: tuple[float, float] | None,
+    before: tuple[
+        numpy.typing.NDArray[numpy.float64], collections.abc.Sequence[float], collections.abc.Sequence[float]
+    ]
+    | None,
+    rules: tuple[int, float, float, float, float],
+) -> tuple[
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+    numpy.typing.NDArray[numpy.float64],
+]:
+    """
+    The target's densities of each observation u, v, d, those of what is around it, and its velocity and
+    disparity: what is known of the target in a frame before its pixels are.
+
+    Of each observation there is a weighted_histogram of `bins` from value - half_range to value +
+    half_range of the pixels of the target's blocks in the window. Its target_distribution, with a
+    ripple and the peak expected in the middle, is the density, and its peak the representative value;
+    without readings the expected one. In histograms of flow, all but the last observation, count only
+    pixels that have no disparity or one near the target's.
+
+    The density is mixed with the one before, moved to the new peak: memory before + (1 - memory)
+    density, divided by the sum. Between bins it is linear, 0 beyond them.
+
+    The alternative is surround S + (1 - surround) / bins, with S the histogram of all pixels that
+    aren't in the target's blocks over the sum of their weights (of readings in [-1e6, 1e6)), smoothed
+    by a Gaussian of sum 1, cut off at ceil(3 smoothing) bins; without such pixels it is 1 / bins.
+
+    Args:
+        maps: (values, weights) of each observation, one to three, as of weighted_histogram: float32 (H,
+            W) each
+        expected: (value, deviation, half_range) of each: its peak, the standard deviation from there,
+            and half of the histogram's range; finite, the latter two above 0, the deviation infinite
+            for no expectation
+        window: (x0, y0, x1, y1), pixels, finite: where the target's histograms are taken
+        blocks: (corners, place, states, trusted) as of observe_target; the target's are those of state
+            1 that are trusted for a frame or more. None for all pixels
+        depth: (disparity, tolerance), pixels, that flow needs; None for any
+        before: (densities, lows, peaks) of the frame before, with the lowest value of each histogram;
+            None for none
+        rules: (bins, smoothing, ripple, memory, surround): 2 to 65536 bins, smoothing, above 0, and
+            ripple as of target_distribution, the others in [0, 1)
+
+    Returns:
+        densities: float64 (K, bins), of sum 1 or 0: P(reading | target)
+        alternatives: float64 (K, bins), above 0: P(reading | not the target)
+        peaks: float64 (K,): representative velocity and disparity
+
+    Raises:
+        ValueError: on another number of observations, unlike shapes, or numbers out of range
+
+    Source: Okada, Shirai, Miura 1996, section 4.2; blocks, memory and the surround are ours.
+    """
+
+def target_outline(
+    mask: numpy.typing.NDArray[numpy.uint8],
+    disparity: numpy.typing.NDArray[numpy.float32],
+    corners: numpy.typing.NDArray[numpy.float64],
+    place: tuple[float, float, float, float, float],
+    states: numpy.typing.NDArray[numpy.int64],
+    target: float,
+    tolerance: float,
+) -> tuple[tuple[int, int, int, int], int]:
+    """
+    The rectangle around what is the target's in its blocks: its target pixels, and those at its
+    disparity.
+
+    The temporal_window, without clean-up, of the pixels in blocks of state 1 that are set in the mask
+    or whose disparity differs by less than the tolerance from the target's.
+
+    Args:
+        mask: uint8 (H, W): target pixels, those that are not 0
+        disparity: float32 (H, W), pixels, NaN where there is none
+        corners: float64 (N, 4): x0, y0, x1, y1 of each block in its grid
+        place: (size, x, y, left, top) as of observe_target
+        states: int64 (N,)
+        target: the target's disparity, pixels
+        tolerance: pixels
+
+    Returns:
+        box: (x0, y0, x1, y1), pixels; all 0 without any such pixel
+        count: of these pixels
+
+    Raises:
+        ValueError: on unlike shapes and sizes, and corners that are not finite
+
+    Source: ours.
+    """
+
 def target_pixels(
     planes: collections.abc.Sequence[numpy.typing.NDArray[numpy.float32]],
     densities: collections.abc.Sequence[numpy.typing.NDArray[numpy.float64]],
@@ -3672,6 +3840,34 @@ class Kernels(Protocol):
         max_offset: float,
         min_share: float,
     ) -> numpy.typing.NDArray[numpy.float64]: ...
+    def observe_target(
+        self,
+        planes: collections.abc.Sequence[numpy.typing.NDArray[numpy.float32]],
+        densities: numpy.typing.NDArray[numpy.float64],
+        ranges: collections.abc.Sequence[tuple[float, float]],
+        alternatives: numpy.typing.NDArray[numpy.float64],
+        window: tuple[float, float, float, float],
+        candidate: tuple[float, float, float, float],
+        threshold: float,
+        clean: tuple[int, float, float],
+        disparity: numpy.typing.NDArray[numpy.float32] | None,
+        corners: numpy.typing.NDArray[numpy.float64],
+        place: tuple[float, float, float, float, float],
+        states: numpy.typing.NDArray[numpy.int64],
+        limits: tuple[float, float, float],
+    ) -> tuple[
+        tuple[int, int, int, int],
+        int,
+        numpy.typing.NDArray[numpy.uint8],
+        tuple[
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.float64],
+            numpy.typing.NDArray[numpy.int64],
+        ],
+        float,
+    ]: ...
     def pick_pixels(
         self, image: numpy.typing.NDArray[numpy.uint8], places: numpy.typing.NDArray[numpy.int64]
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
@@ -3938,6 +4134,43 @@ class Kernels(Protocol):
         expected: float = ...,
         spread: float = 1.0,
     ) -> tuple[numpy.typing.NDArray[numpy.float64], float]: ...
+    def target_model(
+        self,
+        maps: collections.abc.Sequence[
+            tuple[numpy.typing.NDArray[numpy.float32], numpy.typing.NDArray[numpy.float32]]
+        ],
+        expected: collections.abc.Sequence[tuple[float, float, float]],
+        window: tuple[float, float, float, float],
+        blocks: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            tuple[float, float, float, float, float],
+            numpy.typing.NDArray[numpy.int64],
+            numpy.typing.NDArray[numpy.int64],
+        ]
+        | None,
+        depth: tuple[float, float] | None,
+        before: tuple[
+            numpy.typing.NDArray[numpy.float64],
+            collections.abc.Sequence[float],
+            collections.abc.Sequence[float],
+        ]
+        | None,
+        rules: tuple[int, float, float, float, float],
+    ) -> tuple[
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+        numpy.typing.NDArray[numpy.float64],
+    ]: ...
+    def target_outline(
+        self,
+        mask: numpy.typing.NDArray[numpy.uint8],
+        disparity: numpy.typing.NDArray[numpy.float32],
+        corners: numpy.typing.NDArray[numpy.float64],
+        place: tuple[float, float, float, float, float],
+        states: numpy.typing.NDArray[numpy.int64],
+        target: float,
+        tolerance: float,
+    ) -> tuple[tuple[int, int, int, int], int]: ...
     def target_pixels(
         self,
         planes: collections.abc.Sequence[numpy.typing.NDArray[numpy.float32]],

@@ -60,7 +60,7 @@ def record_calls() -> Calls:
 
 def _call_stages(k: Any) -> None:
     """Call the kernels that trackers don't: one of an experiment, those that count and average an ellipse's
-    colors, and the stages of ``segment_depth``.
+    colors, and the stages of ``segment_depth``, ``target_model`` and ``observe_target``.
     """
     image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
     k.skin_boundary(image, image[0, 0])
@@ -78,6 +78,20 @@ def _call_stages(k: Any) -> None:
     table, _, columns, rows, _ = k.depth_components(labels, depth, 0.3, 8.0, 0, 16, 8, False)
     cut = k.cut_sides(depth, table, camera, 2, 0.08, 0.3, 0.15)
     k.measure_objects(table, columns, rows, cut, camera, plane, 0.35, 0.7)
+    _call_target_stages(k, depth)
+
+
+def _call_target_stages(k: Any, disparity: Any) -> None:
+    height, width = disparity.shape
+    window = 0.25 * width, 0.25 * height, 0.75 * width, 0.75 * height
+    blocks = np.array([window, (-5.0, 3.0, 10.5, 20.0)])
+    mask = k.block_mask(blocks, height, width)
+    histogram = k.weighted_histogram(disparity, np.ones_like(disparity), window, 0.0, 8.0, 48, mask)
+    density, _ = k.target_distribution(histogram, 1.5, 0.05, 24.0, 8.0)
+    whole = 0.0, 0.0, float(width), float(height)
+    pixels, _ = k.target_pixels([disparity], [density], [(0.0, 8.0)], window, whole, 0.5)
+    k.temporal_window(pixels, 3, 0.2, 0.02)
+    k.block_counts(pixels, disparity, blocks, 3.0, 0.5)
 
 
 def _runs() -> Iterator[tuple[str, Any, str | None, list[dict[str, Any]]]]:

@@ -51,9 +51,17 @@ TRICUE_INLINE void solve(float xx, float xy, float yy, float xt, float yt, float
     step.determinant = determinant;
 }
 
+/// The guess of a row, and what becomes of it.
+struct GuessRow {
+    const float *u, *v;
+};
+
+/// n is a number of half blocks.
 TRICUE_MULTIVERSION
-void add_steps(const NormalEquations& sums, float damping, int n, float* us, float* vs) {
+void add_steps(const NormalEquations& sums, const GuessRow& guess, float damping, int n, float* us,
+               float* vs) {
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
+    const float *u0 = guess.u, *v0 = guess.v;
     // no row is another
     TRICUE_INDEPENDENT
     for (int x = 0; x < n; ++x) {
@@ -61,20 +69,20 @@ void add_steps(const NormalEquations& sums, float damping, int n, float* us, flo
         solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
         const float u = step.u < kMaxStep ? step.u : kMaxStep;
         const float v = step.v < kMaxStep ? step.v : kMaxStep;
-        us[x] += u > -kMaxStep ? u : -kMaxStep;
-        vs[x] += v > -kMaxStep ? v : -kMaxStep;
+        us[x] = u0[x] + (u > -kMaxStep ? u : -kMaxStep);
+        vs[x] = v0[x] + (v > -kMaxStep ? v : -kMaxStep);
     }
 }
 
-/// u and v hold the flow that the step is from.
-TRICUE_MULTIVERSION
-void finish_row(const NormalEquations& sums, float damping, const Limits& limits, int n, const FlowRow& out) {
+/// Pixels [begin, end) of a row.
+TRICUE_INLINE void finish_pixels(const NormalEquations& sums, const GuessRow& guess, float damping,
+                                 const Limits& least, int begin, int end, const FlowRow& out) {
     const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
+    const float *u0 = guess.u, *v0 = guess.v;
     float *us = out.u, *vs = out.v, *angles = out.angle, *contrasts = out.contrast;
-    const Limits least = limits;
     // no row is another
     TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
+    for (int x = begin; x < end; ++x) {
         Step step;
         solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
         const float contrast = xx[x] + yy[x], size = contrast > kMinDivisor ? contrast : kMinDivisor;
@@ -82,21 +90,22 @@ void finish_row(const NormalEquations& sums, float damping, const Limits& limits
         const float square = step.u * step.u + step.v * step.v;
         const bool kept =
             (angle >= least.angle) & (contrast >= least.contrast) & (square <= least.step * least.step);
-        const float u = us[x] + step.u, v = vs[x] + step.v;
-        us[x] = kept ? u : kNoFlow;
-        vs[x] = kept ? v : kNoFlow;
+        us[x] = kept ? u0[x] + step.u : kNoFlow;
+        vs[x] = kept ? v0[x] + step.v : kNoFlow;
         angles[x] = angle;
         contrasts[x] = contrast;
     }
 }
 
-/// Row y of the guess, its first or last beyond it, with a margin on both sides that repeats its ends.
-void guess_row(FlowGuess& guess, int y, int margin, float* u, float* v) {
-    const int rows = guess.area().y1 - guess.area().y0, cols = guess.area().x1 - guess.area().x0;
-    guess.row(std::clamp(y, 0, rows - 1), u + margin, v + margin);
-    for (float* row : {u, v}) {
-        std::fill_n(row, margin, row[margin]);
-        std::fill_n(row + margin + cols, margin, row[margin + cols - 1]);
+/// By half blocks, of which the last begins sooner: the planes have no room beyond their rows.
+TRICUE_MULTIVERSION
+void finish_row(const NormalEquations& sums, const GuessRow& guess, float damping, const Limits& limits,
+                int n, const FlowRow& out) {
+    const Limits least = limits;
+    if (n < kHalfBlock) return finish_pixels(sums, guess, damping, least, 0, n, out);
+    for (int x = 0; x < n; x += kHalfBlock) {
+        const int begin = std::min(x, n - kHalfBlock);
+        finish_pixels(sums, guess, damping, least, begin, begin + kHalfBlock, out);
     }
 }
 
@@ -111,10 +120,10 @@ void measure(const QuadImage& before, const ImageView& now, double sigma, int po
     const int radius = constraints.radius(), margin = radius + pool, length = width + 2 * margin;
     const int whole =
         (length + kHalfBlock - 1) / kHalfBlock * kHalfBlock;  // pixels beyond cost less than a loop's rest
-    std::vector<float> u(static_cast<std::size_t>(whole)), v(u), warped(u), here(u);
+    std::vector<float> warped(static_cast<std::size_t>(whole)), here(warped);
     for (int y = -margin; y < y1 - y0 + margin; ++y) {
-        guess_row(guess, y, margin, u.data(), v.data());
-        before.warped_row(y0 + y, x0 - margin, u.data(), v.data(), whole, warped.data());
+        guess.advance(y);
+        before.warped_row(y0 + y, x0 - margin, guess.u(y), guess.v(y), whole, warped.data());
         read_frame_row(now, y0 + y, x0 - margin, length, here.data());
         constraints.push(y + pool, warped.data(), here.data());
         if (y < radius - pool) continue;
@@ -168,16 +177,16 @@ FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, doub
     const std::vector<Region> coarser(plan.stored.begin() + 1, plan.stored.end());
     const auto before = coarser_levels(previous, coarser), now = coarser_levels(current, coarser);
     const float damping = rounding_noise(sigma);
-    FlowGuess guess(areas.back());
+    const int margin = GaussianTaps(sigma).radius + pyramid.pool;
+    FlowGuess guess(areas.back(), margin);
     for (std::size_t i = now.size(); i > 0; --i) {
-        const Eigen::Index rows = areas[i].y1 - areas[i].y0, cols = areas[i].x1 - areas[i].x0;
-        FlowField flow{areas[i], Floats(rows, cols), Floats(rows, cols)};
+        FlowField flow(areas[i]);
         measure(QuadImage(before[i - 1].view(), plan.warped[i]), now[i - 1].view(), sigma, pyramid.pool,
                 guess, [&](int y, const NormalEquations& sums) {
-                    guess.row(y, &flow.u(y, 0), &flow.v(y, 0));
-                    add_steps(sums, damping, static_cast<int>(cols), &flow.u(y, 0), &flow.v(y, 0));
+                    add_steps(sums, {guess.u(y) + margin, guess.v(y) + margin}, damping,
+                              static_cast<int>(flow.u.cols()), &flow.u(y, 0), &flow.v(y, 0));
                 });
-        guess = FlowGuess(flow, areas[i - 1]);
+        guess = FlowGuess(flow, areas[i - 1], margin);
     }
     return guess;
 }
@@ -203,9 +212,8 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
     measure(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
             [&](int y, const NormalEquations& sums) {
-                const FlowRow row = result.row(y);
-                guess.row(y, row.u, row.v);
-                finish_row(sums, damping, limits, area.x1 - area.x0, row);
+                finish_row(sums, {guess.u(y) + margin, guess.v(y) + margin}, damping, limits,
+                           area.x1 - area.x0, result.row(y));
             });
     return result;
 }

@@ -67,22 +67,31 @@ struct Limits {
     float base, min_reliability, max_residual, max_step;
 };
 
-TRICUE_MULTIVERSION
-void finalize(const WindowMeans& means, const float* __restrict offset, const float* __restrict visible,
-              const Limits& limits, int n, float* __restrict disparity) {
-    const float* __restrict ss = means.ss;
-    const float* __restrict st = means.st;
-    const float* __restrict tt = means.tt;
-    const float* __restrict power = means.power;
-    const float* __restrict reliability = means.reliability;
-    const Limits most = limits;
-    for (int x = 0; x < n; ++x) {
+/// Pixels [begin, end) of a row.
+TRICUE_INLINE void finalize_pixels(const WindowMeans& means, const float* offset, const float* visible,
+                                   const Limits& most, int begin, int end, float* disparity) {
+    const float *ss = means.ss, *st = means.st, *tt = means.tt;
+    const float *power = means.power, *reliability = means.reliability;
+    TRICUE_INDEPENDENT
+    for (int x = begin; x < end; ++x) {
         const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge), d = offset[x] + step;
         const float left_over = tt[x] - 2.0F * d * st[x] + d * d * ss[x];
         const bool kept = (visible[x] != 0.0F) & (reliability[x] >= most.min_reliability) &
                           (left_over <= most.max_residual * (power[x] + kMinPower)) &
                           (std::abs(step) <= most.max_step);
         disparity[x] = kept ? most.base + d : kNone;
+    }
+}
+
+/// By lines, of which the last begins sooner: the result has no room beyond its rows.
+TRICUE_MULTIVERSION
+void finalize(const WindowMeans& means, const float* offset, const float* visible, const Limits& limits,
+              int n, float* disparity) {
+    const Limits most = limits;
+    if (n < kRowLine) return finalize_pixels(means, offset, visible, most, 0, n, disparity);
+    for (int x = 0; x < n; x += kRowLine) {
+        const int begin = std::min(x, n - kRowLine);
+        finalize_pixels(means, offset, visible, most, begin, begin + kRowLine, disparity);
     }
 }
 
@@ -169,7 +178,7 @@ void measure(const ImageView& left, const ImageView& right, double predicted,
             GrayPlane next(wanted, level.left.rows(), level.left.cols());
             rows.run([](int) -> float* { return nullptr; },
                      [&](int y, const WindowMeans& means, const WarpedColumns& known) {
-                         refine(means, known.offset(), n, next.row(y) + wanted.x0);
+                         refine(means, known.offset(), whole_lines(n), next.row(y) + wanted.x0);
                      });
             found = std::move(next);
             continue;

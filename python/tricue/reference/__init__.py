@@ -83,6 +83,7 @@ from tricue.reference.fuse.learn_place_filter import learn_place_filter
 from tricue.reference.fuse.learn_size_filter import learn_size_filter
 from tricue.reference.fuse.localize_target import localize_target
 from tricue.reference.fuse.log_polar_shift import log_polar_shift
+from tricue.reference.fuse.observe_target import observe_target
 from tricue.reference.fuse.propose import propose
 from tricue.reference.fuse.rank_filter import rank_filter
 from tricue.reference.fuse.rectangle_prior import rectangle_prior
@@ -91,6 +92,8 @@ from tricue.reference.fuse.resample import resample
 from tricue.reference.fuse.reweight import reweight
 from tricue.reference.fuse.summarize import summarize
 from tricue.reference.fuse.target_distribution import target_distribution
+from tricue.reference.fuse.target_model import target_model
+from tricue.reference.fuse.target_outline import target_outline
 from tricue.reference.fuse.target_pixels import target_pixels
 from tricue.reference.fuse.temporal_window import temporal_window
 from tricue.reference.fuse.weighted_histogram import weighted_histogram
@@ -151,6 +154,7 @@ __all__ = [
     "log_polar_shift",
     "measure_objects",
     "median_depths",
+    "observe_target",
     "pick_pixels",
     "plane_support",
     "propose",
@@ -183,6 +187,8 @@ __all__ = [
     "summarize",
     "support_pixels",
     "target_distribution",
+    "target_model",
+    "target_outline",
     "target_pixels",
     "temporal_window",
     "weighted_histogram",

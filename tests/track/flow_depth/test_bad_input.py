@@ -521,13 +521,10 @@ def test_long_lost_is_sane():
     [
         "pyramid_flow",
         "gradient_disparity",
-        "weighted_histogram",
-        "target_distribution",
-        "block_mask",
-        "target_pixels",
-        "temporal_window",
-        "block_counts",
+        "target_model",
+        "observe_target",
         "block_votes",
+        "target_outline",
         "back_project",
     ],
 )

@@ -45,7 +45,7 @@ def block(state: int, core: bool = True) -> Blocks:
     none = np.zeros(1, np.int64)
     return Blocks(
         corners=np.array([[0.0, 0.0, 8.0, 5.0]]),
-        anchor=np.zeros(2),
+        anchor=(0.0, 0.0),
         size=1.0,
         states=np.array([state]),
         votes=none,
@@ -312,18 +312,6 @@ def test_blocks_move_and_grow_round_their_anchor():
 def test_without_a_block_there_is_no_window():
     """A target of whose blocks none is left has no window."""
     assert block(NOT_TARGET_BLOCK).window is None
-
-
-def test_the_occluded_share_is_of_blocks_in_the_image():
-    """Of four blocks of the target, one outside the picture, two of the other three behind something nearer,
-    two thirds are occluded; of none, none.
-    """
-    four = Blocks.of((0.0, 0.0, 20.0, 20.0), FlowDepthTracker.Params(block_side=0.5))
-    four = four._replace(**{n: getattr(four, n)[four.core] for n in ("corners", "states", "votes", "core")})
-    shown = [BEHIND, BEHIND, AWAY, OUTSIDE]
-    together = BlockObservation(*(np.concatenate(fields) for fields in zip(*shown, strict=True)))
-    assert four.occluded_share(together, LIMITS) == pytest.approx(2 / 3)
-    assert four._replace(states=np.zeros(4, np.int64)).occluded_share(together, LIMITS) == 0
 
 
 PRINTED = FlowDepthTracker.Params(block_rules="printed", votes_to_add=2, votes_to_remove=3)

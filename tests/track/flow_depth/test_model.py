@@ -6,8 +6,9 @@ import dataclasses
 import numpy as np
 import pytest
 from tricue import FlowDepthTracker
+from tricue.track.flow_depth.blocks import TARGET_BLOCK, Blocks
 from tricue.track.flow_depth.cues import CueMap, Cues
-from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
+from tricue.track.flow_depth.model import ExpectedPeak, TargetModel, estimate_model
 
 P = FlowDepthTracker.Params()
 H, W = 40, 60
@@ -32,14 +33,24 @@ def cues_of(*pairs: tuple[float, float]) -> Cues:
 
 
 CUES = cues_of(*zip(OURS, AROUND, strict=True))
-OWN = np.zeros((H, W), np.uint8)
-OWN[INSIDE] = 1
-MASKS = HistogramMasks(OWN, np.ones_like(OWN))
 
 
-def model_of(k, cues=CUES, expected=EXPECTED, masks=MASKS, before=None, **changes) -> TargetModel:
+def blocks_of(*window: float) -> Blocks:
+    """One block, the target's."""
+    none = np.zeros(1, np.int64)
+    own = np.array([TARGET_BLOCK])
+    return Blocks(np.array([window]), (0.0, 0.0), 1.0, own, none, none, np.array([True]), own, none)
+
+
+OWN, EVERYWHERE = blocks_of(*WINDOW), blocks_of(0.0, 0.0, W, H)
+
+
+def model_of(
+    k, cues=CUES, expected=EXPECTED, blocks=OWN, same_depth=None, before=None, **changes
+) -> TargetModel:
     """The model of the cues in the window."""
-    return estimate_model(k, cues, expected, WINDOW, masks, before, dataclasses.replace(P, **changes))
+    p = dataclasses.replace(P, **changes)
+    return estimate_model(k, cues, expected, WINDOW, blocks, same_depth, before, p)
 
 
 def test_peaks_are_the_targets(kernels):
@@ -73,8 +84,8 @@ def test_each_density_is_highest_where_its_own_are(kernels):
 
 def test_without_surround_the_alternative_is_uniform(kernels):
     """With ``surround_weight=0``, and without any surround, the alternative is uniform, as printed."""
-    everywhere = HistogramMasks(np.ones_like(OWN), np.ones_like(OWN))
-    for found in (model_of(kernels, surround_weight=0), model_of(kernels, masks=everywhere)):
+    everywhere = [model_of(kernels, blocks=blocks) for blocks in (EVERYWHERE, None)]
+    for found in (model_of(kernels, surround_weight=0), *everywhere):
         for alternative in found.alternatives:
             np.testing.assert_allclose(alternative, 1 / P.bins, rtol=1e-12)
 
@@ -98,9 +109,7 @@ def test_flow_is_that_of_the_visible(kernels):
     hider = np.s_[10:30, 20:33]
     for each, value in zip(cues.maps, (-1.5, 1.5, 16.0), strict=True):
         each.values[hider] = value
-    visible = np.ones_like(OWN)
-    visible[hider] = 0
-    u, v, d = model_of(kernels, cues, masks=HistogramMasks(OWN, visible)).peaks
+    u, v, d = model_of(kernels, cues, same_depth=(12.0, 1.0)).peaks
     assert (u, v) == pytest.approx((0.9, -0.4), abs=0.05)
     assert d == pytest.approx(16, abs=0.13)  # half a bin
     assert model_of(kernels, cues).peaks[0] == pytest.approx(-1.5, abs=0.05)

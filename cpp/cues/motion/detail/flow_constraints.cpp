@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cues/motion/detail/flow_constraints.hpp"
 
+#include <array>
+
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -9,10 +12,10 @@ namespace {
 TRICUE_MULTIVERSION
 void mean_and_change(const float* __restrict before, const float* __restrict now, int n,
                      float* __restrict mean, float* __restrict change) {
-    for (int x = 0; x < n; ++x) {
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
         mean[x] = 0.5F * (before[x] + now[x]);
         change[x] = now[x] - before[x];
-    }
+    });
 }
 
 }  // namespace
@@ -38,11 +41,14 @@ void ConstraintRows::push(int y, const float* before, const float* now) {
 
 Constraints ConstraintRows::row(int y) {
     const auto around = [&](const RowRingBuffer& ring) { return ring.from(y - taps_.radius); };
-    filter_down(around(mean_curvature_), taps_.smooth, length_, result_.row(0));
-    slope_down(around(mean_slope_), taps_.slope, length_, result_.row(1));
-    filter_down(around(mean_smooth_), taps_.curvature, length_, result_.row(2));
-    filter_down(around(change_slope_), taps_.smooth, length_, result_.row(3));
-    slope_down(around(change_smooth_), taps_.slope, length_, result_.row(4));
+    const float *smooth = taps_.smooth.data(), *slope = taps_.slope.data(),
+                *curvature = taps_.curvature.data();
+    const std::array<ColumnFilter, 5> filters{{{around(mean_curvature_), smooth, false, result_.row(0)},
+                                               {around(mean_slope_), slope, true, result_.row(1)},
+                                               {around(mean_smooth_), curvature, false, result_.row(2)},
+                                               {around(change_slope_), smooth, false, result_.row(3)},
+                                               {around(change_smooth_), slope, true, result_.row(4)}}};
+    filter_down(filters.data(), 5, taps_.radius, length_);
     return {result_.row(0), result_.row(1), result_.row(2), result_.row(3), result_.row(4)};
 }
 

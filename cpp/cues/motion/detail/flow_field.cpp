@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/arrays.hpp"
 #include "base/simd.hpp"
+#include "cues/motion/detail/row_block.hpp"
 
 namespace tricue {
 namespace {
@@ -15,7 +15,8 @@ TRICUE_INLINE void sort_pair(float& a, float& b) {
     b = more;
 }
 
-/// Rows with one pixel more on both sides. Sorting network of Paeth 1990, for the middle one of nine only.
+/// n is a number of half blocks, and rows have one pixel more on both sides. Sorting network of Paeth 1990, for the middle one of
+/// nine only.
 TRICUE_MULTIVERSION
 void median_row(const float* __restrict above, const float* __restrict here, const float* __restrict below,
                 int n, float* __restrict out) {
@@ -31,32 +32,34 @@ void median_row(const float* __restrict above, const float* __restrict here, con
     }
 }
 
-/// Twice the mean of two rows.
+/// Upsamples n pixels, a number of half blocks, by two, with the numbers doubled: of two rows the sum at even pixels, between them
+/// the mean of two sums.
 TRICUE_MULTIVERSION
-void add_rows(const float* __restrict a, const float* __restrict b, int n, float* __restrict out) {
-    for (int x = 0; x < n; ++x) out[x] = a[x] + b[x];
-}
-
-/// Upsamples by two: sum[x] at even pixels, the mean of two neighbors between them.
-TRICUE_MULTIVERSION
-void interpolate_row(const float* __restrict sum, int n, float* __restrict out) {
-    for (int x = 0; x < n / 2; ++x) {
-        out[2 * x] = sum[x];
-        out[2 * x + 1] = 0.5F * (sum[x] + sum[x + 1]);
+void upsample_row(const float* __restrict top, const float* __restrict bottom, int n, float* __restrict out) {
+    for (int x = 0; x < n; ++x) {
+        const float sum = top[x] + bottom[x], next = top[x + 1] + bottom[x + 1];
+        out[2 * x] = sum;
+        out[2 * x + 1] = 0.5F * (sum + next);
     }
-    if (n % 2 == 1) out[n - 1] = sum[n / 2];
 }
 
-Floats median(const Floats& plane) {
-    Floats padded(plane.rows() + 2, plane.cols() + 2), result(plane.rows(), plane.cols());
-    padded.block(1, 1, plane.rows(), plane.cols()) = plane;
-    padded.row(0) = padded.row(1);
-    padded.row(plane.rows() + 1) = padded.row(plane.rows());
-    padded.col(0) = padded.col(1);
-    padded.col(plane.cols() + 1) = padded.col(plane.cols());
-    const int cols = static_cast<int>(plane.cols());
-    for (Eigen::Index y = 0; y < plane.rows(); ++y)
-        median_row(&padded(y, 0), &padded(y + 1, 0), &padded(y + 2, 0), cols, &result(y, 0));
+int whole_halves(int n) {
+    return (n + kHalfBlock - 1) / kHalfBlock * kHalfBlock;
+}
+
+PaddedPlane median(const Floats& plane, int cols) {
+    const auto rows = static_cast<int>(plane.rows());
+    PaddedPlane padded(rows + 2, cols + 2), result(rows, cols);
+    for (int y = 0; y < rows + 2; ++y) {
+        const float* from = &plane(std::clamp(y - 1, 0, rows - 1), 0);
+        std::copy(from, from + cols, padded.row(y) + 1);
+        padded.row(y)[0] = from[0];
+        padded.repeat_end(y, cols + 1);
+    }
+    for (int y = 0; y < rows; ++y) {
+        median_row(padded.row(y), padded.row(y + 1), padded.row(y + 2), whole_halves(cols), result.row(y));
+        result.repeat_end(y, cols);
+    }
     return result;
 }
 
@@ -66,32 +69,50 @@ Region coarser_region(const Region& area, int rows, int cols) {
     return {area.x0 / 2, area.y0 / 2, std::min(area.x1 / 2 + 1, cols), std::min(area.y1 / 2 + 1, rows)};
 }
 
-FlowGuess::FlowGuess(const FlowField& coarse, const Region& area)
+FlowField::FlowField(const Region& part)
+    : area(part), u(part.y1 - part.y0, whole_halves(part.x1 - part.x0)), v(u.rows(), u.cols()) {}
+
+PaddedPlane::PaddedPlane(int height, int width)
+    : rows(height),
+      cols(width),
+      stride(whole_halves(width) + 2),
+      pixels(static_cast<std::size_t>(height) * static_cast<std::size_t>(stride)) {}
+
+// An upsampled row may begin a pixel too far left, and ends in a whole number of blocks.
+FlowGuess::FlowGuess(const Region& area, int margin)
     : area_(area),
+      margin_(margin),
+      u_(0, 0),
+      v_(0, 0),
+      u_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2),
+      v_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2) {}
+
+FlowGuess::FlowGuess(const FlowField& coarse, const Region& area, int margin)
+    : area_(area),
+      margin_(margin),
       x0_(2 * coarse.area.x0),
       y0_(2 * coarse.area.y0),
-      u_(median(coarse.u)),
-      v_(median(coarse.v)),
-      sum_(1, u_.cols() + 1) {}
+      u_(median(coarse.u, coarse.area.x1 - coarse.area.x0)),
+      v_(median(coarse.v, coarse.area.x1 - coarse.area.x0)),
+      u_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2),
+      v_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2) {}
 
-void FlowGuess::row(int y, float* u, float* v) {
-    if (u_.size() == 0) {
-        std::fill_n(u, area_.x1 - area_.x0, 0.0F);
-        std::fill_n(v, area_.x1 - area_.x0, 0.0F);
-    } else {
-        upsample_row(u_, y, u);
-        upsample_row(v_, y, v);
-    }
+void FlowGuess::advance(int y) {
+    const int next = std::max(y, 0);
+    if (next != newest_ + 1 || next >= area_.y1 - area_.y0) return;
+    newest_ = next;
+    if (u_.rows == 0) return;
+    upsample(u_, u_rows_.row(next));
+    upsample(v_, v_rows_.row(next));
 }
 
-void FlowGuess::upsample_row(const Floats& plane, int y, float* out) {
-    const int at = area_.y0 + y - y0_, skipped = area_.x0 - x0_, width = area_.x1 - area_.x0;
-    const Eigen::Index top = at / 2, bottom = std::min<Eigen::Index>(top + at % 2, plane.rows() - 1);
-    float* sum = sum_.data();
-    add_rows(&plane(top, 0), &plane(bottom, 0), static_cast<int>(plane.cols()), sum);
-    sum[plane.cols()] = sum[plane.cols() - 1];
-    if (skipped == 1) *out++ = 0.5F * (sum[0] + sum[1]);
-    interpolate_row(sum + skipped, width - skipped, out);
+void FlowGuess::upsample(PaddedPlane& coarse, float* row) {
+    const int skipped = area_.x0 - x0_, width = area_.x1 - area_.x0;
+    const int at = area_.y0 + newest_ - y0_, top = at / 2, bottom = std::min(top + at % 2, coarse.rows - 1);
+    upsample_row(coarse.row(top), coarse.row(bottom), whole_halves((width + skipped + 1) / 2),
+                 row + margin_ - skipped);
+    std::fill_n(row, margin_, row[margin_]);
+    std::fill_n(row + margin_ + width, margin_ + kHalfBlock, row[margin_ + width - 1]);
 }
 
 }  // namespace tricue

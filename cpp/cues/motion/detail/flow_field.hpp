@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "base/arrays.hpp"
 #include "base/region.hpp"
+#include "base/row_ring_buffer.hpp"
 
 namespace tricue {
 
-/// Flow of an area, not empty, of one level of a pyramid, in that level's pixels.
+/// Flow of an area, not empty, of one level of a pyramid, in that level's pixels. Rows have room up to a whole number of half blocks.
 struct FlowField {
+    explicit FlowField(const Region& part);
+
     Region area;
     Floats u, v;
 };
@@ -15,24 +22,42 @@ struct FlowField {
 /// The area of the next coarser level, of that size, between whose pixels an area lies.
 Region coarser_region(const Region& area, int rows, int cols);
 
-/// The initial flow of an area, from the next coarser level: median-filtered (3x3), upsampled linearly, and doubled. Zero without a
-/// coarser level.
+/// A plane with rows that end in a number of half blocks and two pixels more; what is beyond the plane repeats its end.
+struct PaddedPlane {
+    PaddedPlane(int height, int width);
+
+    float* row(int y) { return pixels.data() + std::ptrdiff_t{y} * stride; }
+    void repeat_end(int y, int end) { std::fill(row(y) + end, row(y) + stride, row(y)[end - 1]); }
+
+    int rows, cols, stride;
+    std::vector<float> pixels;
+};
+
+/// The initial flow of an area and of a margin around it, which repeats what is at the area's edge: from the next coarser level,
+/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and one more.
 class FlowGuess {
 public:
-    explicit FlowGuess(const Region& area) : area_(area) {}
-    FlowGuess(const FlowField& coarse, const Region& area);
+    FlowGuess(const Region& area, int margin);
+    FlowGuess(const FlowField& coarse, const Region& area, int margin);
 
     const Region& area() const { return area_; }
 
-    /// Of row y of the area, 0 the first, all pixels.
-    void row(int y, float* u, float* v);
+    /// Makes row y of the area, 0 the first, or those at its edge where that is beyond it; each y is one more than the last.
+    void advance(int y);
+
+    /// Flow along x and y in row y of the area, one of the newest, from the margin on its left to that on its right, and up to a whole
+    /// number of half blocks.
+    const float* u(int y) { return u_rows_.row(std::clamp(y, 0, newest_)); }
+    const float* v(int y) { return v_rows_.row(std::clamp(y, 0, newest_)); }
 
 private:
-    void upsample_row(const Floats& plane, int y, float* out);
+    void upsample(PaddedPlane& coarse, float* row);
 
     Region area_;
+    int margin_, newest_ = -1;
     int x0_ = 0, y0_ = 0;  ///< of the coarse planes, in pixels of the finer level
-    Floats u_, v_, sum_;
+    PaddedPlane u_, v_;
+    RowRingBuffer u_rows_, v_rows_;
 };
 
 }  // namespace tricue

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -10,7 +11,7 @@ namespace {
 
 TRICUE_MULTIVERSION
 void to_floats(const std::uint8_t* __restrict from, int n, float* __restrict to) {
-    for (int x = 0; x < n; ++x) to[x] = from[x];
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) { to[x] = from[x]; });
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cues/motion/detail/gaussian_rows.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
@@ -13,84 +11,101 @@ namespace tricue {
 namespace {
 
 constexpr double kSupportSigmas = 3.5;  // sigmas on each side, up to the outer edge of the last pixel
+constexpr int kUsualRadius = 3;         // of the flow and depth tracker's sigma, 0.8 pixels
 
-TRICUE_INLINE void sum_and_difference(const float* before, const float* after, RowBlock& sum,
-                                      RowBlock& difference) {
-    RowBlock left, right;
-    load(before, left);
-    load(after, right);
-    sum = {right.a + left.a, right.b + left.b};
-    difference = {right.a - left.a, right.b - left.b};
+/// The weights and rows of filter_across.
+struct AcrossFilters {
+    int radius;
+    const float *smooth_weights, *slope_weights, *curvature_weights;
+    float *smooth, *slope, *curvature;
+};
+
+template <typename Block, bool kWithCurvature>
+TRICUE_INLINE void filter_block_across(const float* row, int x, int radius, const AcrossFilters& filters) {
+    Block middle, left, right, sum, difference, smooth_sum{}, slope_sum{}, curvature_sum{};
+    load(row + x, middle);
+    add(filters.smooth_weights[0], middle, smooth_sum);
+    if (kWithCurvature) add(filters.curvature_weights[0], middle, curvature_sum);
+    for (int k = 1; k <= radius; ++k) {
+        load(row + x - k, left);
+        load(row + x + k, right);
+        sum_and_difference(left, right, sum, difference);
+        add(filters.smooth_weights[k], sum, smooth_sum);
+        add(filters.slope_weights[k], difference, slope_sum);
+        if (kWithCurvature) add(filters.curvature_weights[k], sum, curvature_sum);
+    }
+    store(smooth_sum, filters.smooth + x);
+    store(slope_sum, filters.slope + x);
+    if (kWithCurvature) store(curvature_sum, filters.curvature + x);
 }
 
-template <bool kWithCurvature>
-TRICUE_INLINE void filter_across_by(const float* row, int radius, const float* smooth_weights,
-                                    const float* slope_weights, const float* curvature_weights, int n,
-                                    float* smooth, float* slope, float* curvature) {
-    for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock middle, smooth_sum{}, slope_sum{}, curvature_sum{}, sum, difference;
-        load(row + x, middle);
-        add(smooth_weights[0], middle, smooth_sum);
-        if (kWithCurvature) add(curvature_weights[0], middle, curvature_sum);
-        for (int k = 1; k <= radius; ++k) {
-            sum_and_difference(row + x - k, row + x + k, sum, difference);
-            add(smooth_weights[k], sum, smooth_sum);
-            add(slope_weights[k], difference, slope_sum);
-            if (kWithCurvature) add(curvature_weights[k], sum, curvature_sum);
-        }
-        store(smooth_sum, smooth + x);
-        store(slope_sum, slope + x);
-        if (kWithCurvature) store(curvature_sum, curvature + x);
+/// kRadius 0 is any; a radius that is known at compile time leaves sums and weights in registers.
+template <bool kWithCurvature, int kRadius>
+TRICUE_INLINE void filter_across_by(const float* row, int n, const AcrossFilters& filters) {
+    const AcrossFilters each = filters;
+    const int radius = kRadius > 0 ? kRadius : each.radius, blocks = in_row_blocks(n);
+    for (int x = 0; x < blocks; x += kRowBlock)
+        filter_block_across<RowBlock, kWithCurvature>(row, x, radius, each);
+    if (blocks < n) filter_block_across<HalfBlock, kWithCurvature>(row, blocks, radius, each);
+}
+
+template <typename Block, bool kOdd>
+TRICUE_INLINE void filter_block_down(const float* const* rows, int x, int radius, const float* weights,
+                                     float* out) {
+    Block middle, above, below, sum, difference, total{};
+    load(rows[radius] + x, middle);
+    if (!kOdd) add(weights[0], middle, total);
+    for (int k = 1; k <= radius; ++k) {
+        load(rows[radius - k] + x, above);
+        load(rows[radius + k] + x, below);
+        sum_and_difference(above, below, sum, difference);
+        add(weights[k], kOdd ? difference : sum, total);
+    }
+    store(total, out + x);
+}
+
+template <bool kOdd, int kRadius>
+TRICUE_INLINE void filter_down_by(const ColumnFilter& filter, int any_radius, int n) {
+    const int radius = kRadius > 0 ? kRadius : any_radius, blocks = in_row_blocks(n);
+    for (int x = 0; x < blocks; x += kRowBlock)
+        filter_block_down<RowBlock, kOdd>(filter.rows, x, radius, filter.weights, filter.out);
+    if (blocks < n)
+        filter_block_down<HalfBlock, kOdd>(filter.rows, blocks, radius, filter.weights, filter.out);
+}
+
+TRICUE_MULTIVERSION
+void across_three(const float* row, int n, const AcrossFilters& filters) {
+    if (filters.radius == kUsualRadius)
+        filter_across_by<true, kUsualRadius>(row, n, filters);
+    else
+        filter_across_by<true, 0>(row, n, filters);
+}
+
+TRICUE_MULTIVERSION
+void across_two(const float* row, int n, const AcrossFilters& filters) {
+    if (filters.radius == kUsualRadius)
+        filter_across_by<false, kUsualRadius>(row, n, filters);
+    else
+        filter_across_by<false, 0>(row, n, filters);
+}
+
+template <int kRadius>
+TRICUE_INLINE void filter_rows_down_by(const ColumnFilter* filters, int count, int radius, int n) {
+    for (int i = 0; i < count; ++i) {
+        const ColumnFilter filter = filters[i];
+        if (filter.odd)
+            filter_down_by<true, kRadius>(filter, radius, n);
+        else
+            filter_down_by<false, kRadius>(filter, radius, n);
     }
 }
 
-template <bool kOdd>
-TRICUE_INLINE void filter_down_by(const float* const* rows, int radius, const float* weights, int n,
-                                  float* out) {
-    for (int x = 0; x < n; x += kRowBlock) {
-        RowBlock middle, total{}, sum, difference;
-        load(rows[radius] + x, middle);
-        if (!kOdd) add(weights[0], middle, total);
-        for (int k = 1; k <= radius; ++k) {
-            sum_and_difference(rows[radius - k] + x, rows[radius + k] + x, sum, difference);
-            add(weights[k], kOdd ? difference : sum, total);
-        }
-        store(total, out + x);
-    }
-}
-
 TRICUE_MULTIVERSION
-void across_three(const float* row, int radius, const float* smooth_weights, const float* slope_weights,
-                  const float* curvature_weights, int n, float* smooth, float* slope, float* curvature) {
-    filter_across_by<true>(row, radius, smooth_weights, slope_weights, curvature_weights, n, smooth, slope,
-                           curvature);
-}
-
-TRICUE_MULTIVERSION
-void across_two(const float* row, int radius, const float* smooth_weights, const float* slope_weights, int n,
-                float* smooth, float* slope) {
-    filter_across_by<false>(row, radius, smooth_weights, slope_weights, nullptr, n, smooth, slope, nullptr);
-}
-
-TRICUE_MULTIVERSION
-void even_down(const float* const* rows, int radius, const float* weights, int n, float* out) {
-    filter_down_by<false>(rows, radius, weights, n, out);
-}
-
-TRICUE_MULTIVERSION
-void odd_down(const float* const* rows, int radius, const float* weights, int n, float* out) {
-    filter_down_by<true>(rows, radius, weights, n, out);
-}
-
-/// The first cache line: loads that cross a line take twice as long.
-float* aligned(std::vector<float>& data) {
-    void* begin = data.data();
-    std::size_t room = data.size() * sizeof data[0];
-    return static_cast<float*>(std::align(kRowBlock * sizeof data[0], 1, begin, room));
-}
-
-int radius_of(const std::vector<float>& weights) {
-    return static_cast<int>(weights.size()) - 1;
+void filter_rows_down(const ColumnFilter* filters, int count, int radius, int n) {
+    if (radius == kUsualRadius)
+        filter_rows_down_by<kUsualRadius>(filters, count, radius, n);
+    else
+        filter_rows_down_by<0>(filters, count, radius, n);
 }
 
 }  // namespace
@@ -122,29 +137,17 @@ void require_sigma(double sigma) {
 
 void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope,
                    float* curvature) {
-    across_three(row, taps.radius, taps.smooth.data(), taps.slope.data(), taps.curvature.data(), n, smooth,
-                 slope, curvature);
+    across_three(row, n,
+                 {taps.radius, taps.smooth.data(), taps.slope.data(), taps.curvature.data(), smooth, slope,
+                  curvature});
 }
 
 void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope) {
-    across_two(row, taps.radius, taps.smooth.data(), taps.slope.data(), n, smooth, slope);
+    across_two(row, n, {taps.radius, taps.smooth.data(), taps.slope.data(), nullptr, smooth, slope, nullptr});
 }
 
-void filter_down(const float* const* rows, const std::vector<float>& weights, int n, float* out) {
-    even_down(rows, radius_of(weights), weights.data(), n, out);
-}
-
-void slope_down(const float* const* rows, const std::vector<float>& weights, int n, float* out) {
-    odd_down(rows, radius_of(weights), weights.data(), n, out);
-}
-
-RowRingBuffer::RowRingBuffer(int count, int length)
-    : count_(count),
-      data_(static_cast<std::size_t>(whole_blocks(length)) * static_cast<std::size_t>(count) + kRowBlock) {
-    float* first = aligned(data_);
-    rows_.reserve(2 * static_cast<std::size_t>(count));
-    for (int i = 0; i < 2 * count; ++i)
-        rows_.push_back(first + std::ptrdiff_t{i % count} * whole_blocks(length));
+void filter_down(const ColumnFilter* filters, int count, int radius, int n) {
+    filter_rows_down(filters, count, radius, n);
 }
 
 }  // namespace tricue

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
+#include "base/row_ring_buffer.hpp"
 #include "cues/motion/detail/row_block.hpp"
 
 namespace tricue {
@@ -32,30 +32,16 @@ void filter_across(const float* row, const GaussianTaps& taps, int n, float* smo
                    float* curvature);
 void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope);
 
-/// Along y, from 2 radius + 1 rows, the uppermost first: with weights that are the same above and below (smooth, curvature),
-/// or of the other sign above (slope).
-void filter_down(const float* const* rows, const std::vector<float>& weights, int n, float* out);
-void slope_down(const float* const* rows, const std::vector<float>& weights, int n, float* out);
-
-/// The last `count` rows: a row takes the place of the one `count` above it.
-class RowRingBuffer {
-public:
-    RowRingBuffer(int count, int length);
-    RowRingBuffer(const RowRingBuffer&) = delete;  // rows_ points into data_
-    RowRingBuffer& operator=(const RowRingBuffer&) = delete;
-
-    /// Any y from -count on.
-    float* row(int y) { return rows_[slot(y)]; }
-
-    /// Of `count` rows from y on, the uppermost first.
-    const float* const* from(int y) const { return rows_.data() + slot(y); }
-
-private:
-    std::size_t slot(int y) const { return static_cast<std::size_t>((y + count_) % count_); }
-
-    int count_;
-    std::vector<float> data_;
-    std::vector<float*> rows_;  ///< twice, so that `count` consecutive pointers begin at any row
+/// A filter along y, of 2 radius + 1 rows, the uppermost first: with weights that are the same above and below (smooth, curvature), or
+/// of the other sign above (slope), which is odd.
+struct ColumnFilter {
+    const float* const* rows;
+    const float* weights;  ///< radius + 1
+    bool odd;
+    float* out;
 };
+
+/// Some filters of one radius and n pixels each, in one call, as rows are short.
+void filter_down(const ColumnFilter* filters, int count, int radius, int n);
 
 }  // namespace tricue

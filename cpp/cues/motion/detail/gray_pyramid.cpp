@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -12,8 +13,9 @@ namespace {
 TRICUE_MULTIVERSION
 void smooth_down(const std::array<const std::uint8_t*, 5>& rows, int n, std::uint16_t* __restrict out) {
     const std::uint8_t *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4];
-    for (int x = 0; x < n; ++x)
+    for_overlapping_blocks<32>(n, [=](std::ptrdiff_t x) {
         out[x] = static_cast<std::uint16_t>(a[x] + e[x] + 4 * (b[x] + d[x]) + 6 * c[x]);
+    });
 }
 
 /// Every second of `in`, which has two pixels more on both sides.

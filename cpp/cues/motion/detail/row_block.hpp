@@ -36,4 +36,25 @@ TRICUE_INLINE void add(float weight, const RowBlock& block, RowBlock& sum) {
     sum.b += weight * block.b;
 }
 
+TRICUE_INLINE void add(float weight, const HalfBlock& block, HalfBlock& sum) {
+    sum += weight * block;
+}
+
+TRICUE_INLINE void sum_and_difference(const RowBlock& left, const RowBlock& right, RowBlock& sum,
+                                      RowBlock& difference) {
+    sum = {right.a + left.a, right.b + left.b};
+    difference = {right.a - left.a, right.b - left.b};
+}
+
+TRICUE_INLINE void sum_and_difference(const HalfBlock& left, const HalfBlock& right, HalfBlock& sum,
+                                      HalfBlock& difference) {
+    sum = right + left;
+    difference = right - left;
+}
+
+/// How many of n pixels are filtered in whole blocks; the rest, if any, fits half a block: rows of a small region are short.
+constexpr int in_row_blocks(int n) {
+    return (n + kHalfBlock - 1) / kRowBlock * kRowBlock;
+}
+
 }  // namespace tricue

@@ -2,6 +2,7 @@
 #include "cues/stereo/detail/box_filter.hpp"
 
 #include "base/simd.hpp"
+#include "cues/stereo/detail/gray_plane.hpp"
 
 namespace tricue {
 namespace {
@@ -25,40 +26,42 @@ TRICUE_INLINE void sum_across(const float* __restrict in, float share, int n, fl
     }
 }
 
+/// All columns first: a load that reaches over what was just stored has to wait for it.
 template <int Count>
-TRICUE_INLINE void filter_by(const float* const* rows, int n, float* __restrict column,
-                             float* __restrict mean) {
-    sum_down<Count>(rows, n + Count - 1, column);
-    sum_across<Count>(column, 1.0F / static_cast<float>(Count * Count), n, mean);
+TRICUE_INLINE void filter_by(const BoxFilter* filters, int planes, int n) {
+    for (int i = 0; i < planes; ++i)
+        sum_down<Count>(filters[i].rows, whole_lines(n + Count - 1), filters[i].column);
+    for (int i = 0; i < planes; ++i)
+        sum_across<Count>(filters[i].column, 1.0F / static_cast<float>(Count * Count), whole_lines(n),
+                          filters[i].mean);
 }
 
 TRICUE_MULTIVERSION
-void filter_row(const float* const* rows, int count, int n, float* __restrict column,
-                float* __restrict mean) {
+void filter_rows(const BoxFilter* filters, int planes, int count, int n) {
     switch (count) {
         case 1:
-            return filter_by<1>(rows, n, column, mean);
+            return filter_by<1>(filters, planes, n);
         case 3:
-            return filter_by<3>(rows, n, column, mean);
+            return filter_by<3>(filters, planes, n);
         case 5:
-            return filter_by<5>(rows, n, column, mean);
+            return filter_by<5>(filters, planes, n);
         case 7:
-            return filter_by<7>(rows, n, column, mean);
+            return filter_by<7>(filters, planes, n);
         case 9:
-            return filter_by<9>(rows, n, column, mean);
+            return filter_by<9>(filters, planes, n);
         case 11:
-            return filter_by<11>(rows, n, column, mean);
+            return filter_by<11>(filters, planes, n);
         case 13:
-            return filter_by<13>(rows, n, column, mean);
+            return filter_by<13>(filters, planes, n);
         default:
-            return filter_by<kMaxWindow>(rows, n, column, mean);
+            return filter_by<kMaxWindow>(filters, planes, n);
     }
 }
 
 }  // namespace
 
-void box_filter_row(const float* const* rows, int count, int n, float* column, float* mean) {
-    filter_row(rows, count, n, column, mean);
+void box_filter_rows(const BoxFilter* filters, int planes, int count, int n) {
+    filter_rows(filters, planes, count, n);
 }
 
 }  // namespace tricue

@@ -5,11 +5,17 @@ namespace tricue {
 
 constexpr int kMaxWindow = 15;
 
-/// The means of n windows of `count` x `count` numbers side by side, an odd count up to kMaxWindow.
+/// A plane, of which means over windows are wanted.
+struct BoxFilter {
+    const float* const* rows;  ///< as many as a window has, the uppermost first
+    float* column;             ///< room for their sums, and a line more
+    float* mean;
+};
+
+/// The means of n windows of `count` x `count` numbers side by side, an odd count up to kMaxWindow, of some planes.
 ///
-/// @param rows   `count` rows of n + count - 1 numbers; each sum adds them in this order, so it has the same bits wherever the
-///               window is, which running sums wouldn't have
-/// @param column room for n + count - 1 numbers, that overlaps none of the rows
-void box_filter_row(const float* const* rows, int count, int n, float* column, float* mean);
+/// Rows have n + count - 1 numbers. All are read, and columns and means written, up to a whole number of lines. Each sum adds the rows
+/// in their order, so it has the same bits wherever the window is, which running sums wouldn't have.
+void box_filter_rows(const BoxFilter* filters, int planes, int count, int n);
 
 }  // namespace tricue

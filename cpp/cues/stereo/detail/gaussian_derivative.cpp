@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -13,11 +14,11 @@ namespace {
 template <int Reach, typename Pixel>
 TRICUE_INLINE void sum_symmetric(const Pixel* const* rows, const float* __restrict weights, int n,
                                  float* __restrict out) {
-    for (int x = 0; x < n; ++x) {
+    for_overlapping_blocks<kRowLine>(n, [=](std::ptrdiff_t x) {
         float sum = weights[0] * static_cast<float>(rows[0][x]);
         for (int k = 1; k <= Reach; ++k) sum += weights[k] * static_cast<float>(rows[-k][x] + rows[k][x]);
         out[x] = sum;
-    }
+    });
 }
 
 /// `rows` points at the middle one of 2 reach + 1. The order of sums is the same for any reach.
@@ -91,8 +92,8 @@ DerivativeRows::DerivativeRows(const GrayLevel& level, const GaussianDerivative&
       x0_(x0),
       x1_(x1),
       padding_(padding),
-      smooth_(static_cast<std::size_t>(x1 - x0 + 2 * filter.reach)),
-      derivative_(static_cast<std::size_t>(x1 - x0 + 2 * padding)) {}
+      smooth_(static_cast<std::size_t>(x1 - x0 + 2 * filter.reach + kRowLine)),
+      derivative_(static_cast<std::size_t>(x1 - x0 + 2 * padding + kRowLine)) {}
 
 /// The rows that the filter reads, from column x on.
 template <typename Picture>
@@ -116,12 +117,13 @@ const float* DerivativeRows::row(int y) {
         smooth_floats(rows_around(*level_.plane, y, begin).data() + reach, weights, reach, end - begin,
                       inside);
     std::fill(smooth_.data(), inside, *inside);
-    std::fill(inside + (end - begin), smooth_.data() + smooth_.size(), inside[end - begin - 1]);
+    std::fill_n(inside + (end - begin), x1_ + reach - end, inside[end - begin - 1]);
 
     float* inner = derivative_.data() + padding_;
-    differentiate_across(smooth_.data() + reach, filter_.derivative.data(), reach, x1_ - x0_, inner);
+    differentiate_across(smooth_.data() + reach, filter_.derivative.data(), reach, whole_lines(x1_ - x0_),
+                         inner);
     std::fill(derivative_.data(), inner, *inner);
-    std::fill(inner + (x1_ - x0_), derivative_.data() + derivative_.size(), inner[x1_ - x0_ - 1]);
+    std::fill_n(inner + (x1_ - x0_), padding_, inner[x1_ - x0_ - 1]);
     return inner - x0_;
 }
 

@@ -27,7 +27,7 @@ public:
     /// @param x0, x1 columns wanted, inside the picture; the border is replicated for `padding` more on each side
     DerivativeRows(const GrayLevel& level, const GaussianDerivative& filter, int x0, int x1, int padding);
 
-    /// Row y, in the picture; row(y)[x], x in [x0 - padding, x1 + padding). Valid until the next call.
+    /// Row y, in the picture; row(y)[x], x in [x0 - padding, x1 + padding), and a line more. Valid until the next call.
     const float* row(int y);
 
 private:

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 #include "base/simd.hpp"
 #include "cues/stereo/detail/box_filter.hpp"
@@ -12,8 +11,7 @@
 namespace tricue {
 namespace {
 
-constexpr int kLine = 16;  // floats in a cache line
-constexpr int kTaps = 4;   // of f_R: the columns that x - d lies between, and one more on each side
+constexpr int kTaps = 4;  // of f_R: the columns that x - d lies between, and one more on each side
 
 /// Copies all taps of a pixel at once: several times faster than a gather for each tap.
 void gather(const float* f, const int* column, int n, float* taps) {
@@ -106,59 +104,54 @@ GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, cons
       right_(right, filter, std::max(parts.first - 1, 0), std::min(parts.last + 3, left.cols()), 2),
       incoming_(known, pooled_.x0, pooled_.x1, parts.first, parts.last, left.cols()),
       center_(known, wanted_.x0, wanted_.x1, parts.first, parts.last, left.cols()),
-      width_(static_cast<std::size_t>((wanted_.x1 - wanted_.x0 + 2 * radius + kLine - 1) / kLine * kLine)),
-      taps_(static_cast<std::size_t>(kTaps * (pooled_.x1 - pooled_.x0))),
+      taps_(static_cast<std::size_t>(kTaps * whole_lines(pooled_.x1 - pooled_.x0))),
       shifted_(taps_.size() / kTaps),
       slope_(shifted_.size()),
-      ring_(count_ * static_cast<std::size_t>(2 * radius + 1) * width_ + kLine),
-      column_(width_),
-      means_(count_ * width_) {}
+      rings_{ring(true), ring(true), ring(finest), ring(finest), ring(finest)},
+      columns_(static_cast<int>(count_), wanted_.x1 - wanted_.x0 + 2 * radius + kRowLine),
+      means_(static_cast<int>(count_), wanted_.x1 - wanted_.x0) {}
 
-/// The first cache line: accesses that cross a line take twice as long.
-float* GradientLevel::ring() {
-    void* begin = ring_.data();
-    std::size_t room = ring_.size() * sizeof(float);
-    return static_cast<float*>(std::align(kLine * sizeof(float), sizeof(float), begin, room));
-}
-
-float* GradientLevel::ring_row(std::size_t mean, int y) {
-    const int side = 2 * radius_ + 1;
-    const auto turn = static_cast<std::size_t>((y + side * side) % side);  // y is at least -radius
-    return ring() + (mean * static_cast<std::size_t>(side) + turn) * width_;
+/// A line of room for the rest of rows that are shorter, but begin later.
+RowRingBuffer GradientLevel::ring(bool wanted) const {
+    return {wanted ? 2 * radius_ + 1 : 1, wanted_.x1 - wanted_.x0 + 2 * radius_ + kRowLine};
 }
 
 void GradientLevel::add_row(int y) {
     latest_ = y;
-    const int skip = pooled_.x0 - (wanted_.x0 - radius_), n = pooled_.x1 - pooled_.x0;
+    const int skip = pooled_.x0 - (wanted_.x0 - radius_), n = pooled_.x1 - pooled_.x0, whole = whole_lines(n);
     if (y < 0 || y >= rows_) {  // 0 beyond the picture
-        for (std::size_t mean = 0; mean < count_; ++mean) std::fill_n(ring_row(mean, y) + skip, n, 0.0F);
+        for (std::size_t mean = 0; mean < count_; ++mean) std::fill_n(rings_[mean].row(y) + skip, n, 0.0F);
         return;
     }
     incoming_.move_to(y);
     const float* left = left_.row(y) + pooled_.x0;
     gather(right_.row(y), incoming_.column(), n, taps_.data());
-    interpolate(taps_.data(), incoming_.share(), n, shifted_.data(), slope_.data());
+    interpolate(taps_.data(), incoming_.share(), whole, shifted_.data(), slope_.data());
     const Equations row{left, shifted_.data(), slope_.data(), incoming_.visible(), incoming_.offset()};
-    Products out{ring_row(0, y) + skip, ring_row(1, y) + skip, nullptr, nullptr, nullptr};
-    if (count_ == 2) return multiply(row, n, out);
-    out.tt = ring_row(2, y) + skip;
-    out.power = ring_row(3, y) + skip;
-    out.reliability = ring_row(4, y) + skip;
-    multiply_finest(row, n, out);
+    Products out{rings_[0].row(y) + skip, rings_[1].row(y) + skip, nullptr, nullptr, nullptr};
+    if (count_ > 2) {
+        out.tt = rings_[2].row(y) + skip;
+        out.power = rings_[3].row(y) + skip;
+        out.reliability = rings_[4].row(y) + skip;
+        multiply_finest(row, whole, out);
+    } else {
+        multiply(row, whole, out);
+    }
+    const int beyond = wanted_.x1 + radius_ - pooled_.x1;  // columns right of the picture
+    for (std::size_t mean = 0; beyond > 0 && mean < count_; ++mean)
+        std::fill_n(rings_[mean].row(y) + skip + n, beyond, 0.0F);
 }
 
 WindowMeans GradientLevel::means(float* reliability) {
-    const int side = 2 * radius_ + 1;
-    std::array<const float*, kMaxWindow> rows;
-    std::array<const float*, kMeans> found{};
+    const int side = 2 * radius_ + 1, n = wanted_.x1 - wanted_.x0;
+    std::array<BoxFilter, kMeans> filters{};
     for (std::size_t mean = 0; mean < count_; ++mean) {
-        for (int k = 0; k < side; ++k)
-            rows[static_cast<std::size_t>(k)] = ring_row(mean, latest_ - side + 1 + k);
-        float* to = mean + 1 < kMeans ? means_.data() + mean * width_ : reliability;
-        box_filter_row(rows.data(), side, wanted_.x1 - wanted_.x0, column_.data(), to);
-        found[mean] = to;
+        const auto row = static_cast<int>(mean);
+        filters[mean] = {rings_[mean].from(latest_ - side + 1), columns_.row(row), means_.row(row)};
     }
-    return {found[0], found[1], found[2], found[3], found[4]};
+    box_filter_rows(filters.data(), static_cast<int>(count_), side, n);
+    if (reliability != nullptr) std::copy_n(filters[kMeans - 1].mean, n, reliability);
+    return {filters[0].mean, filters[1].mean, filters[2].mean, filters[3].mean, filters[4].mean};
 }
 
 }  // namespace tricue

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "base/row_ring_buffer.hpp"
 #include "cues/stereo/detail/gaussian_derivative.hpp"
 #include "cues/stereo/detail/gray_plane.hpp"
 #include "cues/stereo/detail/warped_columns.hpp"
@@ -56,8 +57,7 @@ private:
 
     void add_row(int y);
     WindowMeans means(float* reliability);
-    float* ring();
-    float* ring_row(std::size_t mean, int y);
+    RowRingBuffer ring(bool wanted) const;
 
     int radius_, rows_;
     std::size_t count_;  ///< of means: 2 or kMeans
@@ -66,8 +66,9 @@ private:
     WarpedColumns incoming_,
         center_;  ///< of the row that comes into the window, and of the one in its middle
     int latest_ = 0;
-    std::size_t width_;  ///< of rows of the ring, so that all are aligned
-    std::vector<float> taps_, shifted_, slope_, ring_, column_, means_;
+    std::vector<float> taps_, shifted_, slope_;
+    std::array<RowRingBuffer, kMeans> rings_;  ///< rows of what the means are of
+    RowRingBuffer columns_, means_;            ///< a row for each mean
 };
 
 }  // namespace tricue

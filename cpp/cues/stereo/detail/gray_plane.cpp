@@ -47,7 +47,8 @@ GrayPlane::GrayPlane(const Region& part, int rows, int cols)
       rows_(rows),
       cols_(cols),
       pixels_(new float[static_cast<std::size_t>(part.x1 - part.x0) *
-                        static_cast<std::size_t>(part.y1 - part.y0)]) {}
+                            static_cast<std::size_t>(part.y1 - part.y0) +
+                        kRowLine]) {}
 
 Region downsample_source(const Region& part, int rows, int cols) {
     return {std::max(2 * part.x0 - 1, 0), std::max(2 * part.y0 - 1, 0), std::min(2 * part.x1 + 1, cols),
@@ -59,7 +60,7 @@ GrayPlane downsampled(const GrayLevel& level, const Region& part) {
     GrayPlane half(part, (rows + 1) / 2, (cols + 1) / 2);
     const Region from = downsample_source(part, rows, cols);
     const int first = 2 * part.x0 - 1, last = 2 * part.x1 + 1;  // columns, possibly beyond the border
-    std::vector<float> smooth(static_cast<std::size_t>(last - first));
+    std::vector<float> smooth(static_cast<std::size_t>(last - first) + 2 * kRowLine);
     float* inside = smooth.data() + (from.x0 - first);
     const int n = from.x1 - from.x0;
     for (int y = part.y0; y < part.y1; ++y) {
@@ -75,7 +76,7 @@ GrayPlane downsampled(const GrayLevel& level, const Region& part) {
             smooth_floats(four(*level.plane), n, inside);
         std::fill(smooth.data(), inside, *inside);
         std::fill(inside + n, smooth.data() + smooth.size(), inside[n - 1]);
-        smooth_pairs(smooth.data(), part.x1 - part.x0, half.row(y) + part.x0);
+        smooth_pairs(smooth.data(), whole_lines(part.x1 - part.x0), half.row(y) + part.x0);
     }
     return half;
 }

@@ -9,7 +9,15 @@
 
 namespace tricue {
 
-/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture.
+/// Rows are measured in whole lines of so many pixels, as the rest of a row one by one would take as long as all before: buffers have
+/// the room.
+constexpr int kRowLine = 16;  // floats in a cache line
+
+constexpr int whole_lines(int n) {
+    return (n + kRowLine - 1) / kRowLine * kRowLine;
+}
+
+/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture. A line of room follows its last row.
 class GrayPlane {
 public:
     GrayPlane() = default;

@@ -47,7 +47,8 @@ WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int fi
       last_(last),
       cols_(cols),
       skip_(x0 % 2),
-      offset_(static_cast<std::size_t>((x1 - x0_ + 1) / 2 * 2), prior.rest),
+      pairs_((x1 - x0_ + 1) / 2),
+      offset_(static_cast<std::size_t>(whole_lines(2 * pairs_) + kRowLine), prior.rest),
       share_(offset_.size()),
       visible_(offset_.size()),
       column_(offset_.size()) {
@@ -57,13 +58,12 @@ WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int fi
 void WarpedColumns::move_to(int y) {
     if (prior_.coarse == nullptr || y / 2 == row_) return;
     row_ = y / 2;
-    upsample(prior_.coarse->row(row_) + x0_ / 2, static_cast<int>(offset_.size() / 2), prior_.rest,
-             offset_.data());
+    upsample(prior_.coarse->row(row_) + x0_ / 2, pairs_, prior_.rest, offset_.data());
     update_columns();
 }
 
 void WarpedColumns::update_columns() {
-    find_columns(offset_.data(), static_cast<int>(offset_.size()), {x0_ - prior_.base, first_, last_, cols_},
+    find_columns(offset_.data(), whole_lines(2 * pairs_), {x0_ - prior_.base, first_, last_, cols_},
                  column_.data(), share_.data(), visible_.data());
 }
 

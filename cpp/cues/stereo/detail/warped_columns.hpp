@@ -15,7 +15,8 @@ struct DisparityPrior {
     const GrayPlane* coarse;  ///< or nullptr
 };
 
-/// Where the pixels of one row of the left picture are in the right one: x - d for the expected disparity d.
+/// Where the pixels of one row of the left picture are in the right one: x - d for the expected disparity d. All can be read for a
+/// line more.
 class WarpedColumns {
 public:
     /// @param x0, x1       the left picture's columns
@@ -37,7 +38,8 @@ private:
 
     DisparityPrior prior_;
     int x0_, first_, last_, cols_;
-    int skip_;  ///< 1 where x0 is odd: columns begin at an even one, two for each of the coarser level
+    int skip_;   ///< 1 where x0 is odd: columns begin at an even one, two for each of the coarser level
+    int pairs_;  ///< of columns
     int row_ = -1;
     std::vector<float> offset_, share_, visible_;
     std::vector<int> column_;

@@ -14,6 +14,8 @@ from tricue.track.flow_depth.rectangles import Rectangle, Region
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 Counts = NDArray[np.int64]
+Point = tuple[float, float]
+Place = tuple[float, float, float, float, float]
 
 NOT_TARGET_BLOCK, TARGET_BLOCK, OCCLUDED_BLOCK = 0, 1, 2  # states of figure 7
 GRID_MARGIN = 0.6  # of the window's height, half of it on each side: for arms and legs
@@ -69,7 +71,7 @@ class BlockObservation(NamedTuple):
 class Blocks(NamedTuple):
     """A grid that moves with the target and grows as its disparity does.
 
-    corners: (N, 4) x0, y0, x1, y1 from the anchor, in the first frame, cells. anchor: (2,) cells.
+    corners: (N, 4) x0, y0, x1, y1 from the anchor, in the first frame, cells. anchor: x, y, cells.
     size: factor by which the corners have grown. states: (N,) of figure 7.
     votes: (N,) frames for a block to become a target block, at most as many as are needed.
     votes_against: (N,) frames for it to become none.
@@ -80,7 +82,7 @@ class Blocks(NamedTuple):
     """
 
     corners: Floats
-    anchor: Floats
+    anchor: Point
     size: float
     states: Counts
     votes: Counts
@@ -107,46 +109,33 @@ class Blocks(NamedTuple):
         corners = np.stack([left, top, left + width / columns, top + height / rows], axis=1)
         zeros = np.zeros(len(corners), np.int64)
         core = ((i >= 0) & (i < columns) & (j >= 0) & (j < rows)).ravel()
-        anchor = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
+        anchor = (x0 + x1) / 2, (y0 + y1) / 2
         states = np.where(core & adaptive, TARGET_BLOCK, NOT_TARGET_BLOCK)
         return cls(corners, anchor, 1.0, states, zeros, zeros, core, TRUSTED_FRAMES * core, zeros)
 
     def moved(self, right: float, down: float) -> "Blocks":
         """The grid, moved."""
-        return self._replace(anchor=self.anchor + np.array([right, down]))
+        x, y = self.anchor
+        return self._replace(anchor=(x + right, y + down))
 
     @property
     def rectangles(self) -> Floats:
         """(N, 4) x0, y0, x1, y1, cells."""
-        rectangles = self.corners * self.size
-        points = rectangles.view(
-            np.complex128
-        )  # x + iy: to add one number is faster than to add rows of four
-        points += complex(*self.anchor.tolist())
-        return rectangles
+        return np.asarray(self.corners * self.size + np.array(2 * self.anchor))
 
-    def rectangles_in(self, region: Region) -> Floats:
-        """(N, 4) the same from the corner of a region."""
-        x, y = region[:2]
-        rectangles = self.rectangles
-        points = rectangles.view(np.complex128)
-        points -= complex(x, y)
-        return rectangles
+    def place_in(self, region: Region) -> Place:
+        """Where kernels find the corners, from the corner of a region."""
+        return self.size, *self.anchor, *region[:2]
 
     @property
     def window(self) -> Rectangle | None:
         """The rectangle around target and occluded blocks; None where there are none."""
-        mine = self.rectangles[self.states != NOT_TARGET_BLOCK]
+        mine = self.corners[self.states != NOT_TARGET_BLOCK]
         if len(mine) == 0:
             return None
-        (x0, y0), (x1, y1) = mine[:, :2].min(axis=0).tolist(), mine[:, 2:].max(axis=0).tolist()
-        return x0, y0, x1, y1
-
-    def occluded_share(self, observed: BlockObservation, limits: DisparityLimits) -> float:
-        """The share of the target's blocks inside the image that something nearer hides."""
-        mine = (self.states != NOT_TARGET_BLOCK) & (observed.cells > 0)
-        hidden = int(np.count_nonzero(mine & observed.is_nearer(limits)))
-        return hidden / max(int(np.count_nonzero(mine)), 1)
+        (left, top, _, _), (_, _, right, bottom) = mine.min(axis=0).tolist(), mine.max(axis=0).tolist()
+        (x, y), size = self.anchor, self.size
+        return left * size + x, top * size + y, right * size + x, bottom * size + y
 
     def voted(
         self, k: Kernels, observed: BlockObservation, limits: DisparityLimits, p: FlowDepthParams

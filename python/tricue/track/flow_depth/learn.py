@@ -4,13 +4,12 @@
 import numpy as np
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, TARGET_BLOCK, Blocks
+from tricue.track.flow_depth.blocks import NOT_TARGET_BLOCK, OCCLUDED_BLOCK, Blocks
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.masks import mask_blocks, mask_disparity
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, around, moved
 from tricue.track.flow_depth.state import FlowDepthState, Velocity
-from tricue.track.flow_depth.verify import Verdict
+from tricue.track.flow_depth.verify import Verdict, disparity_limits
 
 MAX_OCCLUDED_FOR_OUTLINE = 0.05  # of the blocks, up to which the outline is learned
 MAX_OCCLUDED_FOR_MEANS = 0.15  # of the blocks, up to which the running means are learned
@@ -49,9 +48,10 @@ def learn(
 
 def _target_window(blocks: Blocks, verdict: Verdict, p: FlowDepthParams) -> Rectangle | None:
     """The window around the blocks, section 4.5, and around the target pixels where they count, too."""
-    if p.target_window == "outline" or blocks.window is None:
-        return blocks.window if p.target_window == "outline" else verdict.temporal_window
-    return around(blocks.window, verdict.temporal_window)
+    window = blocks.window
+    if p.target_window == "outline":
+        return window
+    return verdict.temporal_window if window is None else around(window, verdict.temporal_window)
 
 
 def _estimate_size(state: FlowDepthState) -> float:
@@ -71,9 +71,16 @@ def _learn_unoccluded(
     mine = int(np.count_nonzero(states != NOT_TARGET_BLOCK))
     occluded = int(np.count_nonzero(states == OCCLUDED_BLOCK)) / max(mine, 1)
     if occluded <= MAX_OCCLUDED_FOR_OUTLINE and cues.disparity is not None:
-        mask = mask_blocks(k, state, cues, states == TARGET_BLOCK)
-        mask &= verdict.pixels | mask_disparity(state, cues, state.disparity, p)
-        box, count, _ = k.temporal_window(mask, 0, 0.0)
+        blocks, (disparity, tolerance, _) = state.blocks, disparity_limits(state, state.disparity, p)
+        box, count = k.target_outline(
+            verdict.pixels,
+            cues.disparity.values,
+            blocks.corners,
+            blocks.place_in(cues.region),
+            states,
+            disparity,
+            tolerance,
+        )
         if count:
             outline = state.outline.learned(moved(box, *cues.region[:2]), state.blocks)
             state = state._replace(outline=outline)

@@ -29,12 +29,12 @@ class PixelOutline(NamedTuple):
 
     def rectangle(self, blocks: Blocks) -> Rectangle:
         """The outline in cells of this frame, where the blocks are now."""
-        x, y = blocks.anchor.tolist()
+        x, y = blocks.anchor
         x0, y0, x1, y1 = (edge * blocks.size for edge in self.edges)
         return x0 + x, y0 + y, x1 + x, y1 + y
 
 
 def _to_relative(window: Rectangle, blocks: Blocks) -> Rectangle:
-    x, y = blocks.anchor.tolist()
+    x, y = blocks.anchor
     x0, y0, x1, y1 = window
     return (x0 - x) / blocks.size, (y0 - y) / blocks.size, (x1 - x) / blocks.size, (y1 - y) / blocks.size

@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.flow_depth.blocks import TARGET_BLOCK, BlockObservation, DisparityLimits
+from tricue.track.flow_depth.blocks import BlockObservation, DisparityLimits
 from tricue.track.flow_depth.cues import Cues
-from tricue.track.flow_depth.masks import disparity_tolerance, mask_blocks
-from tricue.track.flow_depth.model import ExpectedPeak, HistogramMasks, TargetModel, estimate_model
+from tricue.track.flow_depth.model import ExpectedPeak, TargetModel, estimate_model
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.rectangles import Rectangle, grown, moved
 from tricue.track.flow_depth.state import FlowDepthState
@@ -63,25 +62,42 @@ def verify(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) ->
 def verify_by(
     k: Kernels, state: FlowDepthState, cues: Cues, model: TargetModel | None, p: FlowDepthParams
 ) -> Verdict:
-    """The same by a model, whose disparity is the state's; or by that of this frame."""
+    """The same by a model, whose disparity is the state's; or by that of this frame.
+
+    Without disparities every cell of a block counts as measured.
+    """
     x, y = cues.region[:2]
     known = model is not None
     model = model or estimate(k, state, cues, p)
-    box, count, pixels = _find_pixels(k, state, cues, model, p)
     disparity = state.disparity if known or cues.disparity is None else model.peaks[-1]
-    observed = _observe_blocks(k, state, cues, pixels, disparity, p)
     limits = disparity_limits(state, disparity, p)
-    share = state.blocks.occluded_share(observed, limits)
-    return Verdict(model, disparity, pixels, count, moved(box, x, y), observed, limits, share)
+    x0, y0, x1, y1 = window = moved(state.window, -x, -y)
+    box, count, pixels, observed, share = k.observe_target(
+        [cue.values for cue in cues.maps],
+        model.densities,
+        model.ranges,
+        model.alternatives,
+        grown(window, (p.prior_center - 1) * (x1 - x0) / 2, (p.prior_center - 1) * (y1 - y0) / 2),
+        moved(candidate_region(state, p), -x, -y),
+        p.min_posterior if len(p.cues) > 1 else p.min_posterior_one_cue,
+        (p.min_neighbors, p.min_region_share, p.outlier_share),
+        cues.disparity and cues.disparity.values,
+        state.blocks.corners,
+        state.blocks.place_in(cues.region),
+        state.blocks.states,
+        limits,
+    )
+    seen = BlockObservation(*observed)
+    return Verdict(model, disparity, pixels, count, moved(box, x, y), seen, limits, share)
 
 
 def disparity_limits(state: FlowDepthState, disparity: float, p: FlowDepthParams) -> DisparityLimits:
     """Which disparities are similar to the target's, and which hide it."""
-    margin = max(
-        p.occluder_margin * state.reduced.disparity_scale(p),
-        p.thickness * abs(disparity + state.disparity_offset),
-    )
-    return DisparityLimits(disparity, disparity_tolerance(state, disparity, p), disparity + margin)
+    reduced = state.reduced
+    scale = reduced.disparity_scale(p)
+    thickness = p.thickness * abs(disparity + state.disparity_offset)
+    tolerance = max(p.disparity_tolerance, thickness / reduced.scale) * scale
+    return DisparityLimits(disparity, tolerance, disparity + max(p.occluder_margin * scale, thickness))
 
 
 def candidate_region(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
@@ -95,66 +111,33 @@ def candidate_region(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
 
 
 def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:
-    """The target's densities in the temporal window, section 4.2."""
-    scale = state.reduced.scale
-    x, y = cues.region[:2]
+    """The target's densities in the temporal window, section 4.2.
+
+    What is at another depth, as the background in the first window, moves differently: flow counts only at
+    the target's.
+    """
+    scale, disparity_scale = state.reduced.scale, state.reduced.disparity_scale(p)
     expected = []
     if cues.flow is not None:
         deviation = p.flow_change if state.has_mean_velocity else p.flow_half_range
         expected += [
             ExpectedPeak(each, deviation * scale, p.flow_half_range * scale) for each in state.velocity
         ]
-    everywhere = np.ones(cues.shape, np.uint8)
-    masks = HistogramMasks(everywhere, everywhere)
+    same_depth = None
     if cues.disparity is not None:
-        disparity_scale = state.reduced.disparity_scale(p)
         parallel = abs(state.disparity + state.disparity_offset)
         change = max(p.disparity_change * disparity_scale, MIN_DISPARITY_CHANGE * parallel)
         half_range = max(p.disparity_half_range * disparity_scale, MIN_DISPARITY_HALF_RANGE * parallel)
         expected.append(ExpectedPeak(state.disparity, change, half_range))
-    if p.histogram_region == "blocks":
-        masks = _histogram_masks(k, state, cues, p)
-    window = moved(state.temporal_window, -x, -y)
-    return estimate_model(k, cues, expected, window, masks, state.model, p)
-
-
-def _histogram_masks(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> HistogramMasks:
-    """The cells of the target's blocks; flow counts only at the target's depth."""
-    blocks = state.blocks
-    target = mask_blocks(k, state, cues, (blocks.states == TARGET_BLOCK) & (blocks.trusted > 0))
-    same_depth = np.ones(cues.shape, np.uint8)
-    if cues.disparity is not None:
-        # What is at another depth, as the background in the first window, moves differently.
-        off = np.abs(cues.disparity.values - np.float32(state.disparity))
-        tolerance = np.float32(p.disparity_tolerance * state.reduced.disparity_scale(p))
-        same_depth = (~(off > tolerance)).view(np.uint8)
-    return HistogramMasks(target, same_depth)
-
-
-def _find_pixels(
-    k: Kernels, state: FlowDepthState, cues: Cues, model: TargetModel, p: FlowDepthParams
-) -> tuple[tuple[int, int, int, int], int, Mask]:
-    """The target pixels of section 4.3 without noise: the box around them, their number, and (h, w) which."""
-    x, y = cues.region[:2]
-    window, candidate = (moved(each, -x, -y) for each in (state.window, candidate_region(state, p)))
-    x0, y0, x1, y1 = window
-    center = grown(window, (p.prior_center - 1) * (x1 - x0) / 2, (p.prior_center - 1) * (y1 - y0) / 2)
-    min_posterior = p.min_posterior if len(p.cues) > 1 else p.min_posterior_one_cue
-    values = [cue.values for cue in cues.maps]
-    mask, _ = k.target_pixels(
-        values, model.densities, model.ranges, center, candidate, min_posterior, model.alternatives
+        same_depth = state.disparity, p.disparity_tolerance * disparity_scale
+    by_blocks = p.histogram_region == "blocks"
+    return estimate_model(
+        k,
+        cues,
+        expected,
+        state.temporal_window,
+        state.blocks if by_blocks else None,
+        same_depth if by_blocks else None,
+        state.model,
+        p,
     )
-    return k.temporal_window(mask, p.min_neighbors, p.min_region_share, p.outlier_share)
-
-
-def _observe_blocks(
-    k: Kernels, state: FlowDepthState, cues: Cues, pixels: Mask, disparity: float, p: FlowDepthParams
-) -> BlockObservation:
-    """The measurements in the blocks, section 4.4; without disparities every cell counts as measured."""
-    rectangles = state.blocks.rectangles_in(cues.region)
-    tolerance = disparity_tolerance(state, disparity, p)
-    cells, targets, with_disparity, mean, same_depth = k.block_counts(
-        pixels, cues.disparities(), rectangles, disparity, tolerance
-    )
-    measured = cells if cues.disparity is None else with_disparity
-    return BlockObservation(cells, targets, measured, mean, same_depth)

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace tricue {
+
+/// The last `count` rows or some more, of `length` numbers, at first 0: a new row takes the place of the oldest. Each begins at a
+/// cache line, and has room up to a whole number of pairs of them.
+class RowRingBuffer {
+public:
+    RowRingBuffer(int count, int length);
+    RowRingBuffer(const RowRingBuffer&) = delete;  // rows_ points into data_
+    RowRingBuffer& operator=(const RowRingBuffer&) = delete;
+    RowRingBuffer(RowRingBuffer&&) = default;
+    RowRingBuffer& operator=(RowRingBuffer&&) = default;
+
+    float* row(int y) { return rows_[slot(y)]; }
+
+    /// Of `count` rows from y on, the uppermost first.
+    const float* const* from(int y) const { return rows_.data() + slot(y); }
+
+private:
+    std::size_t slot(int y) const { return static_cast<std::size_t>(y & last_); }
+
+    int last_;  ///< of a number of rows that is a power of two: a division for each row would take as long as to filter it
+    std::vector<float> data_;
+    std::vector<float*> rows_;  ///< twice, so that `count` consecutive pointers begin at any row
+};
+
+}  // namespace tricue

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/arrays.hpp"
+#include "base/depth_pixels.hpp"
+#include "base/region.hpp"
+
+namespace tricue {
+
+using BlockNumbers = Eigen::Ref<const Indices>;
+
+/// Where a grid of blocks is: its corners are `size` times those in the grid, plus (x, y), minus (left, top).
+struct GridPlace {
+    double size, x, y, left, top;
+};
+
+/// The target's blocks: they move with it, and grow as it comes nearer.
+struct BlockGrid {
+    StatesRef corners;  ///< (N, 4)
+    GridPlace place;
+};
+
+/// The pixels of each block in an image, those whose centers lie in it.
+///
+/// @throws std::invalid_argument unless corners are (N, 4), and all finite where they are placed
+std::vector<Region> block_pixels(const BlockGrid& grid, int rows, int cols);
+
+/// (rows, cols) 1 in the pixels of some blocks, else 0.
+Labels mask_regions(const std::vector<Region>& blocks, int rows, int cols);
+
+/// @throws std::invalid_argument unless there is a number for each block
+void require_numbers(const BlockGrid& grid, BlockNumbers numbers, const char* name);
+
+}  // namespace tricue

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""The target's grid of blocks, where it is in the image."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse, require_shape
+
+Floats = NDArray[np.float64]
+Place = tuple[float, float, float, float, float]
+
+
+def placed(corners: Floats, place: Place) -> Floats:
+    """(N, 4) x0, y0, x1, y1, pixels: size times the corners, plus (x, y), minus (left, top)."""
+    require_shape("corners", corners, (len(corners), 4))
+    size, x, y, left, top = place
+    with np.errstate(invalid="ignore", over="ignore"):
+        blocks = corners * size + [x, y, x, y] - np.array([left, top, left, top])
+    strange = np.count_nonzero(~np.isfinite(blocks))
+    if strange:
+        refuse("corners", "finite numbers, where they are placed", f"{strange} others")
+    return np.asarray(blocks)
+
+
+def require_numbers(corners: Floats, numbers: NDArray[np.int64], name: str) -> None:
+    """ValueError unless there is a number for each block."""
+    if len(numbers) != len(corners):
+        refuse(name, f"{len(corners)} numbers", len(numbers))

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT
+"""What a frame shows of the target, by its model (Okada, Shirai, Miura 1996, sections 4.1 to 4.4)."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.fuse.block_counts import block_counts
+from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
+from tricue.reference.fuse.detail.rectangle_pixels import Rectangle
+from tricue.reference.fuse.target_pixels import target_pixels
+from tricue.reference.fuse.temporal_window import temporal_window
+
+Plane = NDArray[np.float32]
+Floats = NDArray[np.float64]
+Counts = NDArray[np.int64]
+
+MIN_MEASURED_SHARE = 0.2  # of a block's pixels: with fewer disparities nothing is concluded from them
+
+
+def observe_target(
+    planes: Sequence[Plane],
+    densities: Floats,
+    ranges: Sequence[tuple[float, float]],
+    alternatives: Floats,
+    window: Rectangle,
+    candidate: Rectangle,
+    threshold: float,
+    clean: tuple[int, float, float],
+    disparity: Plane | None,
+    corners: Floats,
+    place: Place,
+    states: Counts,
+    limits: tuple[float, float, float],
+) -> tuple[
+    tuple[int, int, int, int], int, NDArray[np.uint8], tuple[Counts, Counts, Counts, Floats, Counts], float
+]:
+    """Calls the kernels of each step."""
+    require_shape("densities", densities, (len(planes), densities.shape[1]))
+    require_shape("alternatives", alternatives, densities.shape)
+    if len(ranges) != len(planes):
+        refuse("ranges", "as many as planes", len(ranges))
+    require_numbers(corners, states, "states")
+    found, _ = target_pixels(
+        planes, list(densities), ranges, window, candidate, threshold, list(alternatives)
+    )
+    box, count, kept = temporal_window(found, *clean)
+    if disparity is not None and disparity.shape != kept.shape:
+        refuse("disparity", "the shape of planes", "another")
+    distances = np.full(kept.shape, np.nan, np.float32) if disparity is None else disparity
+    target, tolerance, occluder = limits
+    pixels, targets, readings, mean, similar = block_counts(
+        kept, distances, placed(corners, place), target, tolerance
+    )
+    measured = pixels if disparity is None else readings
+    mine = (states != 0) & (pixels > 0)
+    hidden = mine & (measured >= MIN_MEASURED_SHARE * pixels) & (mean > occluder)
+    share = int(np.count_nonzero(hidden)) / max(int(np.count_nonzero(mine)), 1)
+    return box, count, kept, (pixels, targets, measured, mean, similar), share

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: MIT
+"""The target's velocity and disparity, and their densities (Okada, Shirai, Miura 1996, section 4.2)."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse, require_shape
+from tricue.reference.fuse.block_mask import block_mask
+from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
+from tricue.reference.fuse.detail.rectangle_pixels import Rectangle, require_finite_corners
+from tricue.reference.fuse.detail.value_bins import require_range
+from tricue.reference.fuse.target_distribution import target_distribution
+from tricue.reference.fuse.weighted_histogram import weighted_histogram
+
+Plane = NDArray[np.float32]
+Mask = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+Counts = NDArray[np.int64]
+Peak = tuple[float, float, float]
+Blocks = tuple[Floats, Place, Counts, Counts]
+Former = tuple[Floats, Sequence[float], Sequence[float]]
+
+MAX_READING = 1e6  # pixels: none is beyond
+MIN_DENSITY_SUM = 1e-300  # keeps a density of zeros from a division by 0
+
+
+def target_model(
+    maps: Sequence[tuple[Plane, Plane]],
+    expected: Sequence[Peak],
+    window: Rectangle,
+    blocks: Blocks | None,
+    depth: tuple[float, float] | None,
+    before: Former | None,
+    rules: tuple[int, float, float, float, float],
+) -> tuple[Floats, Floats, Floats]:
+    """Takes the histograms of one observation at a time."""
+    bins, smoothing, ripple, memory, surround = rules
+    _require(maps, expected, blocks, before, rules, window)
+    last = maps[-1][0]
+    target = _target_mask(blocks, last.shape)
+    near = np.ones_like(target)
+    if depth is not None:
+        disparity, tolerance = map(np.float32, depth)
+        near = (~(np.abs(last - disparity) > tolerance)).astype(np.uint8)
+    densities, alternatives, peaks = [], [], []
+    for i, ((values, weights), (value, deviation, half_range)) in enumerate(zip(maps, expected, strict=True)):
+        low, high, width = value - half_range, value + half_range, 2 * half_range / bins
+        counted = target if i + 1 == len(maps) else target & near
+        histogram = weighted_histogram(values, weights, window, low, high, bins, counted)
+        density, peak = target_distribution(histogram, smoothing, ripple, bins / 2, deviation / width)
+        if math.isnan(peak):
+            peak = bins / 2
+        elif before is not None and memory:
+            former, lows, places = before
+            density = _blend(density, former[i], (places[i] - lows[i]) / width - peak, memory)
+        densities.append(density)
+        alternatives.append(
+            _alternative(values, weights, (low, high), 1 - target, (bins, smoothing, surround))
+        )
+        peaks.append(low + peak * width)
+    return np.array(densities), np.array(alternatives), np.array(peaks)
+
+
+def _target_mask(blocks: Blocks | None, shape: tuple[int, ...]) -> Mask:
+    if blocks is None:
+        return np.ones(shape, np.uint8)
+    corners, place, states, trusted = blocks
+    return block_mask(placed(corners, place)[(states == 1) & (trusted > 0)], *shape)
+
+
+def _blend(density: Floats, before: Floats, shift: float, memory: float) -> Floats:
+    """The density mixed with the one before, moved down by ``shift`` bins; of sum 1."""
+    bins = np.arange(len(density))
+    moved = np.interp(bins + shift, bins, before, left=0, right=0)
+    both = memory * moved + (1 - memory) * density
+    return np.asarray(both / max(both.sum(), MIN_DENSITY_SUM))
+
+
+def _alternative(
+    values: Plane,
+    weights: Plane,
+    ends: tuple[float, float],
+    surround: Mask,
+    rules: tuple[int, float, float],
+) -> Floats:
+    """Partly the density of the surround, partly uniform."""
+    bins, smoothing, share = rules
+    height, width = surround.shape
+    whole = 0.0, 0.0, float(width), float(height)
+    total = weighted_histogram(values, weights, whole, -MAX_READING, MAX_READING, 1, surround)[0]
+    if not (share and total > 0):
+        return np.full(bins, 1 / bins)
+    histogram = weighted_histogram(values, weights, whole, *ends, bins, surround)
+    radius = math.ceil(3 * smoothing)
+    gaussian = np.exp(-0.5 * (np.arange(-radius, radius + 1) / smoothing) ** 2)
+    smooth = np.convolve(histogram, gaussian / gaussian.sum())[radius : radius + bins]
+    return np.asarray(share * smooth / total + (1 - share) / bins)
+
+
+def _require(
+    maps: Sequence[tuple[Plane, Plane]],
+    expected: Sequence[Peak],
+    blocks: Blocks | None,
+    before: Former | None,
+    rules: tuple[int, float, float, float, float],
+    window: Rectangle,
+) -> None:
+    _require_maps(maps)
+    if len(expected) != len(maps):
+        refuse("expected", f"{len(maps)}, as many as maps", len(expected))
+    _require_rules(*rules)
+    for value, deviation, half_range in expected:
+        require_range(value - half_range, value + half_range, rules[0])
+        if not deviation > 0:
+            refuse("expected", "deviations above 0", float(deviation))
+    require_finite_corners(window, "window")
+    if blocks is not None:
+        require_numbers(blocks[0], blocks[2], "states")
+        require_numbers(blocks[0], blocks[3], "trusted")
+    if before is not None:
+        require_shape("before", before[0], (len(maps), rules[0]))
+        if not len(before[1]) == len(before[2]) == len(maps):
+            refuse("before", f"{len(maps)} lows and peaks", len(before[1]))
+
+
+def _require_maps(maps: Sequence[tuple[Plane, Plane]]) -> None:
+    if not 1 <= len(maps) <= 3:
+        refuse("maps", "1 to 3", len(maps))
+    for each in maps:
+        for plane in each:
+            if plane.shape != maps[0][0].shape:
+                refuse("maps", f"shape {maps[0][0].shape}", plane.shape)
+
+
+def _require_rules(bins: int, smoothing: float, ripple: float, memory: float, surround: float) -> None:
+    if bins < 2:
+        refuse("bins", "2 to 65536", bins)
+    if not smoothing > 0:
+        refuse("smoothing", "a number above 0", float(smoothing))
+    for name, share in (("ripple", ripple), ("memory", memory), ("surround", surround)):
+        if not 0 <= share < 1:
+            refuse(name, "a number in [0, 1)", float(share))

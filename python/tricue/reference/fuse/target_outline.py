@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+"""The rectangle around what is the target's in its blocks; ours."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+from tricue.reference.fuse.block_mask import block_mask
+from tricue.reference.fuse.detail.block_grid import Place, placed, require_numbers
+from tricue.reference.fuse.temporal_window import temporal_window
+
+
+def target_outline(
+    mask: NDArray[np.uint8],
+    disparity: NDArray[np.float32],
+    corners: NDArray[np.float64],
+    place: Place,
+    states: NDArray[np.int64],
+    target: float,
+    tolerance: float,
+) -> tuple[tuple[int, int, int, int], int]:
+    """Combines masks, and boxes what is left."""
+    if mask.shape != disparity.shape:
+        refuse("mask", "the shape of disparity", "another")
+    require_numbers(corners, states, "states")
+    mine = block_mask(placed(corners, place)[states == 1], *mask.shape)
+    near = np.abs(disparity - np.float32(target)) < np.float32(tolerance)
+    box, count, _ = temporal_window(mine & ((mask != 0) | near), 0, 0.0)
+    return box, count
