@@ -13,6 +13,7 @@ from tricue.track.fused.experts.depth import (
     measure_depth,
 )
 from tricue.track.fused.experts.size import SizeExpert
+from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.frame_observation import FrameObservation
 from tricue.track.fused.identity import FirstColors
 from tricue.track.fused.localize import TargetModel, localize
@@ -78,6 +79,7 @@ def _appearance_models(observation: TargetObservation, target: Target, p: FusedP
         CorrelationFilterExpert.from_window(window, p),
         ColorExpert.from_window(window),
         SizeExpert.from_target(observation, target, p),
+        TurnExpert.from_target(observation, target, p),
         FirstColors.from_window(window),
     )
 

@@ -54,7 +54,7 @@ def without_drift(target: Target, match: Match) -> Target:
     if peak[2] < MIN_FIRST_RESPONSE or max(abs(right), abs(down)) > MAX_DRIFT:
         return target
     cell = CELL_PIXELS * window.pixel_size
-    return clamp_to_image(target.shift(cell * right, cell * down), window)
+    return clamp_to_image(target.shift(*window.target.along(cell * right, cell * down)), window)
 
 
 def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
@@ -65,6 +65,7 @@ def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) 
         filter=models.filter.learn(window),
         color=models.color.learn(window, color_rate),
         size=models.size.learn(observation, window.target, size_rate),
+        turn=models.turn.learn(observation, window.target, size_rate) if "turn" in p.cues else models.turn,
     )
 
 

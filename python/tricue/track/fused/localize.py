@@ -73,7 +73,7 @@ def localize(model: TargetModel, window: Window) -> Candidate:
     right, down, evidence, response, contrast, _, first_response, sharpness, similarity = found.tolist()
     cell = CELL_PIXELS * window.pixel_size
     return Candidate(
-        clamp_to_image(window.target.shift(cell * right, cell * down), window),
+        clamp_to_image(window.target.shift(*window.target.along(cell * right, cell * down)), window),
         window,
         CELL_PIXELS * right,
         CELL_PIXELS * down,
@@ -96,4 +96,4 @@ def clamp_to_image(target: Target, window: Window) -> Target:
     """The target with its center moved into the window's image."""
     height, width = window.observation.shape
     x, y = min(max(target.x, 0.0), width), min(max(target.y, 0.0), height)
-    return Target(x, y, target.width, target.height)
+    return target._replace(x=x, y=y)

@@ -89,6 +89,9 @@ def measure(model: TargetModel, recognition: Recognition) -> Match:
             predicted = predicted.scale(model.depth.growth(depth, predicted.side))
     growth = model.appearance.size.growth(observation, predicted) if "size" in p.cues else 1.0
     measured = predicted.scale(growth)
+    recognized = probability(recognition.log_odds) >= p.min_score
+    if "turn" in p.cues and observation.depth_source is None and recognized:
+        measured = measured.turn_by(model.appearance.turn.turn(observation, predicted))
     return Match(
         target=measured.scale(model.limit_growth(1.0, measured)),
         window=window,

@@ -9,6 +9,7 @@ from tricue.track.fused.experts.color import ColorParams
 from tricue.track.fused.experts.correlation_filter import FilterParams
 from tricue.track.fused.experts.depth import DepthParams
 from tricue.track.fused.experts.size import SizeParams
+from tricue.track.fused.experts.turn import TurnParams
 from tricue.track.fused.outline import OutlineParams
 from tricue.track.fused.position_filter import PositionParams
 from tricue.track.fused.sources import OURS
@@ -16,7 +17,7 @@ from tricue.track.fused.sources import OURS
 
 @dataclass(frozen=True, kw_only=True)
 class FusedParams(  # dataclasses take the fields of the last base first
-    PositionParams, OutlineParams, DepthParams, SizeParams, ColorParams, FilterParams, CueParams
+    PositionParams, OutlineParams, DepthParams, TurnParams, SizeParams, ColorParams, FilterParams, CueParams
 ):
     """Units: "target" is the side of the square with the target's area, "box" a side of its box."""
 

@@ -105,7 +105,8 @@ def _color_proposals(model: TargetModel, observation: TargetObservation, lost: L
     flat = np.ascontiguousarray(samples.reshape(1, -1, 3).transpose(0, 2, 1))
     posterior = k.color_lookup(flat, model.appearance.color.table).reshape(rows, columns)
     across, down = width / columns, height / rows
-    size = target.width / across, target.height / down
+    upright = target.upright
+    size = upright.width / across, upright.height / down
     contrast = k.box_contrast(posterior, *size, model.params.surround_size, 1.0)
     y = down * (rows // 2 + 2.0 * (np.arange(rows // 2) - rows // 4))[:, None]
     x = across * (columns // 2 + 2.0 * (np.arange(columns // 2) - columns // 4))[None]

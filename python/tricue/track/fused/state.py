@@ -9,6 +9,7 @@ from tricue.track.fused.experts.color import ColorExpert
 from tricue.track.fused.experts.correlation_filter import CorrelationFilterExpert
 from tricue.track.fused.experts.depth import DepthExpert
 from tricue.track.fused.experts.size import SizeExpert
+from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.identity import FirstColors, IdentityFeatures
 from tricue.track.fused.outline import BOX_OUTLINE, Outline, Sides
 from tricue.track.fused.params import FusedParams
@@ -27,6 +28,7 @@ class AppearanceModels(NamedTuple):
     filter: CorrelationFilterExpert
     color: ColorExpert
     size: SizeExpert
+    turn: TurnExpert
     first_colors: FirstColors
 
 

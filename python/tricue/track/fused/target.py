@@ -1,19 +1,26 @@
 # SPDX-License-Identifier: MIT
-"""The target's place and size in the image."""
+"""The target's place, size and turn in the image."""
 
 import math
 from typing import NamedTuple
 
 from tricue.camera.box import Box
 
+TURN_STEPS = 1024  # of a full turn
+
 
 class Target(NamedTuple):
-    """Center, width and height in pixels of the image."""
+    """Center, width and height in pixels of the image.
+
+    turn: of the axes that its width and height are along, clockwise, in steps of 1/1024 of a full turn, from
+    -512 to 511.
+    """
 
     x: float
     y: float
     width: float
     height: float
+    turn: int = 0
 
     @classmethod
     def of(cls, box: Box) -> "Target":
@@ -22,7 +29,7 @@ class Target(NamedTuple):
 
     @property
     def box(self) -> Box:
-        """The same as a box."""
+        """The same as a box, if it isn't turned."""
         return Box(self.x - self.width / 2, self.y - self.height / 2, self.width, self.height)
 
     @property
@@ -30,10 +37,36 @@ class Target(NamedTuple):
         """Side of the square with the target's area, in pixels."""
         return math.sqrt(self.width * self.height)
 
+    @property
+    def upright(self) -> "Target":
+        """The target that isn't turned and just holds this one's ellipse."""
+        if not self.turn:
+            return self
+        across, down = axes(self.turn)
+        width = math.hypot(self.width * across, self.height * down)
+        height = math.hypot(self.width * down, self.height * across)
+        return Target(self.x, self.y, width, height)
+
     def shift(self, right: float, down: float) -> "Target":
-        """The target so many pixels farther right and down."""
-        return Target(self.x + right, self.y + down, self.width, self.height)
+        """The target so many pixels farther right and down in the image."""
+        return self._replace(x=self.x + right, y=self.y + down)
+
+    def along(self, right: float, down: float) -> tuple[float, float]:
+        """How far right and down in the image so many pixels along its own axes are."""
+        cosine, sine = axes(self.turn)
+        return cosine * right - sine * down, sine * right + cosine * down
 
     def scale(self, factor: float) -> "Target":
         """The target with its sides multiplied, around the same center."""
-        return Target(self.x, self.y, float(self.width * factor), float(self.height * factor))
+        return self._replace(width=float(self.width * factor), height=float(self.height * factor))
+
+    def turn_by(self, steps: float) -> "Target":
+        """The target turned clockwise around its center, to the nearest step."""
+        half = TURN_STEPS // 2
+        return self._replace(turn=(self.turn + round(steps) + half) % TURN_STEPS - half)
+
+
+def axes(turn: int) -> tuple[float, float]:
+    """Cosine and sine of a turn."""
+    angle = math.tau * turn / TURN_STEPS
+    return math.cos(angle), math.sin(angle)

@@ -128,7 +128,10 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             rate = self.params.rate / UNTIMED_FACTOR
             passed = validation.elapsed(state.timestamp, observed.timestamp, rate)
             position = position.predict(self._k, passed, self.params)
+        # Depth is measured along the image's axes: with it the target is upright, and has an outline.
+        upright = state.target if observed.depth_source is None else state.target._replace(turn=0)
         return state.replace(
+            target=upright,
             position=position,
             depth_trust=trust,
             is_metric=state.is_metric and self._is_metric(observed),
@@ -159,7 +162,7 @@ class FusedTracker(TrackerBase[FusedParams, State]):
             status = Status.OCCLUDED
         else:
             status = Status.LOST
-        return Track(state.outline.apply_to(state.target).box, state.score, status, *_estimate(state))
+        return Track(state.outline.apply_to(state.target.upright).box, state.score, status, *_estimate(state))
 
 
 def _estimate(state: State) -> tuple[Floats, Floats, float | None] | tuple[None, None, None]:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Square windows of a frame around a target: the part that the experts read."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,6 +15,7 @@ from tricue.track.fused.sources import OURS
 from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.turned_pixels import UPRIGHT_SHARE, turned_grid, upright_side
 
 WINDOW_CELLS = 32  # on a side
 CELL_PIXELS = 2  # patch pixels on a side
@@ -91,9 +93,22 @@ def extract_windows(observation: TargetObservation, targets: list[Target], conte
     """The windows around targets; context: a window's side in sides of its target."""
     sides = [context * each.side for each in targets]
     squares = np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in zip(targets, sides, strict=True)])
-    patches = observation.sample(squares, PATCH_PIXELS)
+    patches = _sample_patches(observation, targets, squares)
     pixel_sizes = [side / PATCH_PIXELS for side in sides]
     return [Window(observation, *each) for each in zip(targets, patches, pixel_sizes, strict=True)]
+
+
+def _sample_patches(
+    observation: TargetObservation, targets: Sequence[Target], squares: Floats
+) -> Sequence[Image]:
+    """(64, 64, 3) samples of each square, turned as its target is."""
+    if not any(each.turn for each in targets):
+        return list(observation.sample(squares, PATCH_PIXELS))
+    upright = squares * (1, 1, UPRIGHT_SHARE, UPRIGHT_SHARE)
+    upright[:, :2] -= (upright[:, 2:] - squares[:, 2:]) / 2
+    patches = observation.sample(upright, upright_side(PATCH_PIXELS))
+    pick = observation.k.pick_pixels
+    return [pick(a, turned_grid(b.turn, PATCH_PIXELS)) for a, b in zip(patches, targets, strict=True)]
 
 
 def _span(center: float, length: float) -> slice:

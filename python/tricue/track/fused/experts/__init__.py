@@ -10,7 +10,7 @@ from typing import Literal
 
 from tricue.track.base.params import Params, parameter
 
-Cue = Literal["filter", "color", "size", "depth"]
+Cue = Literal["filter", "color", "size", "turn", "depth"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,7 +18,7 @@ class CueParams(Params):
     """Which experts are asked."""
 
     cues: tuple[Cue, ...] = parameter(
-        ("filter", "color", "size", "depth"),
+        ("filter", "color", "size", "turn", "depth"),
         unit="-",
         source="fused.md",
         doc="the experts that are used",

@@ -109,7 +109,7 @@ def measure_depth(
     noise = observation.depth_source.noise(expected.z, max(target.width, target.height) / DEPTH_SAMPLES)
     gate = GATE_SIGMAS * math.hypot(expected.sigma, noise), MIN_MEASURED_SHARE
     k, source = observation.k, observation.depth_source
-    return _measurements(source.medians(k, np.array([target], float), DEPTH_SAMPLES, expected, gate))[0]
+    return _measurements(source.medians(k, np.array([target[:4]]), DEPTH_SAMPLES, expected, gate))[0]
 
 
 def measure_center_depths(

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: MIT
+"""Correlation filters in log-polar coordinates, in which a change of size or a turn is a shift.
+
+They answer to it as to a shift in the image (Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang and Liu
+2019). They are running means over frames (Danelljan et al. 2014): one that is learned from a frame at a time
+lets the size wander.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.kernels import Kernels
+from tricue.track.base.params import parameter
+from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
+from tricue.track.fused.sources import OURS
+from tricue.track.fused.turned_pixels import Places, nearest_pixels
+from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
+
+FilterParts = tuple[Spectra, Plane]  # numerator and denominator
+
+INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
+LABEL_WIDTH = 0.7  # cells
+LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
+
+
+@dataclass(frozen=True, kw_only=True)
+class LogPolarParams(FirstFrameParams):
+    """Of the cues "size" and "turn"."""
+
+    size_learning_rate: float = parameter(
+        0.025,
+        unit="per frame",
+        source="Danelljan et al. 2014",
+        low=0,
+        high=0.5,
+        doc="of the filters of size and turn",
+        was="filter_rate",
+    )
+    ridge: float = parameter(
+        1e-2, unit="of the mean energy", source=OURS, above=0, doc="regularization of these filters"
+    )
+    size_change_penalty: float = parameter(
+        0.05,
+        unit="per squared cell",
+        source=OURS,
+        low=0,
+        doc="on the evidence of another size or turn than the last",
+    )
+
+
+class Coordinates(NamedTuple):
+    """Log-polar coordinates of a patch: (64, 64) places of its pixels, and (32, 32) weights of the cells."""
+
+    places: Places
+    taper: Plane
+
+
+class LogPolarFilter(NamedTuple):
+    """A correlation filter on a patch in log-polar coordinates.
+
+    learned, first: numerator (19, 32, 17) and denominator (32, 17), as they are learned, and of the first
+    frame. applied: (1, 19, 32, 17) the learned one with a share of the first frame's, divided.
+    """
+
+    learned: FilterParts
+    first: FilterParts
+    applied: Spectra
+
+    @classmethod
+    def from_patch(
+        cls, k: Kernels, patch: Image, coordinates: Coordinates, p: LogPolarParams
+    ) -> "LogPolarFilter":
+        """Learned from the first frame."""
+        empty = np.zeros((CHANNELS, *LABEL.shape), np.complex64), np.zeros(LABEL.shape, np.float32)
+        begun = cls(empty, empty, empty[0])._learn(k, patch, coordinates, (1.0, 0.0, p.ridge))
+        return begun._replace(first=begun.learned)
+
+    def shift(
+        self, k: Kernels, patch: Image, coordinates: Coordinates, farthest: tuple[int, int], penalty: float
+    ) -> float:
+        """Cells by which the patch has shifted to the right; farthest: to the right, and down."""
+        return k.log_polar_shift(patch, *coordinates, self.applied, *farthest, penalty)
+
+    def learn(
+        self, k: Kernels, patch: Image, coordinates: Coordinates, rate: float, p: LogPolarParams
+    ) -> "LogPolarFilter":
+        """The filter with a patch blended in."""
+        return self._learn(k, patch, coordinates, (rate, p.first_frame_weight, p.ridge))
+
+    def _learn(
+        self, k: Kernels, patch: Image, coordinates: Coordinates, rates: tuple[float, float, float]
+    ) -> "LogPolarFilter":
+        """rates: the learning rate, the first frame's share, and the ridge."""
+        numerator, denominator, applied = k.learn_size_filter(
+            patch, *coordinates, LABEL, *self.learned, *self.first, *rates
+        )
+        return self._replace(learned=(numerator, denominator), applied=applied)
+
+
+@lru_cache(maxsize=512)
+def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> Places:
+    """(64, 64) places in a square patch: angles downwards from a target's axis, log radii to the right.
+
+    The patch holds the target's surround: width and height are the target's, the longer one being 1.
+    At small radii several samples share a pixel, which speaks for the size as it is: a new one is approached
+    over a few frames. Bilinear samples, which find it at once, let the size wander on recorded video.
+    """
+    steps = (np.arange(PATCH_PIXELS) + 0.5) / PATCH_PIXELS
+    radius = PATCH_PIXELS / 2 * (INNER_RADIUS / OUTER_RADIUS) ** (1 - steps)
+    angle = 2 * math.pi * steps[:, None]
+    return nearest_pixels(width * radius * np.cos(angle), height * radius * np.sin(angle), turn, PATCH_PIXELS)
+
+
+def _taper() -> Plane:
+    """(32, 32), so that the cells fade out towards the least and the largest radius; angles have no ends."""
+    profile = np.sin(np.pi * (np.arange(WINDOW_CELLS) + 0.5) / WINDOW_CELLS)
+    return np.tile(profile, (WINDOW_CELLS, 1)).astype(np.float32)
+
+
+TAPER: NDArray[np.float32] = _taper()
+LABEL = label_spectrum(LABEL_WIDTH)

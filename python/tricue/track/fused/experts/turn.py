@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+"""The target's turn in the picture's plane: in log-polar coordinates around its center it is a shift.
+
+Turns add up, and so do their errors: a walker's legs turn a little in every frame. As most targets are mostly
+upright, a little of each turn is taken back.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from tricue.track.base.params import parameter
+from tricue.track.fused.arrays import Image
+from tricue.track.fused.experts.log_polar import (
+    OUTER_RADIUS,
+    TAPER,
+    Coordinates,
+    LogPolarFilter,
+    LogPolarParams,
+    log_polar_pixels,
+)
+from tricue.track.fused.sources import OURS
+from tricue.track.fused.target import TURN_STEPS, Target
+from tricue.track.fused.target_observation import TargetObservation
+from tricue.track.fused.window import PATCH_PIXELS, WINDOW_CELLS
+
+FARTHEST = 2, 1  # cells of angle and of radius, from one frame to the next
+STEPS_PER_CELL = TURN_STEPS // WINDOW_CELLS
+
+
+@dataclass(frozen=True, kw_only=True)
+class TurnParams(LogPolarParams):
+    """Of the cue "turn"."""
+
+    turn_back: float = parameter(
+        0.1,
+        unit="per frame",
+        source=OURS,
+        low=0,
+        high=1,
+        doc="share of its turn, and of 11 degrees at most, by which a target turns back",
+    )
+
+
+class TurnExpert(NamedTuple):
+    """A filter on log-polar coordinates of a square around the target, which a turn leaves a square."""
+
+    filter: LogPolarFilter
+    params: TurnParams
+
+    @classmethod
+    def from_target(cls, observation: TargetObservation, target: Target, p: TurnParams) -> "TurnExpert":
+        """Learned from the first frame."""
+        return cls(LogPolarFilter.from_patch(observation.k, *_read(observation, target), p), p)
+
+    def turn(self, observation: TargetObservation, target: Target) -> float:
+        """Steps by which what is at a target's place is turned clockwise from the target, less what it
+        turns back.
+        """
+        p, patch = self.params, _read(observation, target)
+        shift = self.filter.shift(observation.k, *patch, FARTHEST, p.size_change_penalty)
+        back = p.turn_back * min(max(target.turn, -STEPS_PER_CELL), STEPS_PER_CELL)
+        return STEPS_PER_CELL * shift - back
+
+    def learn(self, observation: TargetObservation, target: Target, rate: float) -> "TurnExpert":
+        """The expert with a target blended in."""
+        patch = _read(observation, target)
+        return self._replace(filter=self.filter.learn(observation.k, *patch, rate, self.params))
+
+
+def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordinates]:
+    """(64, 64, 3) samples of a square around a target, and its coordinates in it: angles to the right."""
+    side = OUTER_RADIUS * target.side
+    square = np.array([[target.x - side / 2, target.y - side / 2, side, side]])
+    places = np.ascontiguousarray(log_polar_pixels(target.turn).T)
+    return observation.sample(square, PATCH_PIXELS)[0], Coordinates(places, ANGLES_TO_THE_RIGHT)
+
+
+ANGLES_TO_THE_RIGHT = np.ascontiguousarray(TAPER.T)
