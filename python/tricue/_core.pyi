@@ -1659,6 +1659,8 @@ def learn_histogram(
 
     Source: Moreno, Tarrida, Andrade-Cetto, Sanfeliu 2002, equation (2) and μ of equation (7); the
     mixture is ours.
+    """
+
 def learn_patch_colors(
     patch: numpy.typing.NDArray[numpy.uint8],
     other: numpy.typing.NDArray[numpy.float32],

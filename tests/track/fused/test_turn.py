@@ -109,9 +109,9 @@ def test_with_depth_it_is_upright() -> None:
 @pytest.mark.parametrize("degrees", [-15.0, -6.0, 0.0, 3.0, 12.0])
 @pytest.mark.parametrize("before", [0, 200])
 def test_expert_tells_the_turn(degrees: float, before: int) -> None:
-    """Learned of one frame it tells two fifths to all of the turn of the whole scene in the next one, whatever
-    it was before, and the rest in the frames to come: as with sizes, samples that share a pixel speak for the
-    turn as it is.
+    """Learned of one frame it tells two fifths to all of the turn of the whole scene in the next one,
+    whatever it was before, and the rest in the frames to come: as with sizes, samples that share a pixel
+    speak for the turn as it is.
     """
     start = before / STEPS_PER_DEGREE
     params = FusedTracker.Params(turn_back=0.0)
