@@ -21,7 +21,7 @@ def match(kernels, right, down, height=1.0):
     across, along = cells - FOUND[0] - right, cells[:, None] - FOUND[1] - down
     responses = (height * np.exp(-0.5 * (across**2 + along**2))).astype(np.float32)
     observation = SimpleNamespace(k=kernels, shape=(120, 160))
-    window = SimpleNamespace(observation=observation, pixel_size=PIXEL_SIZE)
+    window = SimpleNamespace(observation=observation, pixel_size=PIXEL_SIZE, target=TARGET)
     places = {"right": CELL_PIXELS * FOUND[0], "down": CELL_PIXELS * FOUND[1]}
     return SimpleNamespace(window=window, first_responses=responses, **places)
 

@@ -250,7 +250,7 @@ def test_an_outline_has_the_sides_that_are_seen():
 def test_apply_to_by_hand():
     """A box of 20 by 10 whose sides are at 1/2, 1, 3/2 and 2 halves is 20 by 15, 5 to the right, 2.5 down."""
     target = Target(100.0, 50.0, 20.0, 10.0)
-    assert Outline(0.5, 1.0, 1.5, 2.0).apply_to(target) == pytest.approx((105, 52.5, 20, 15))
+    assert Outline(0.5, 1.0, 1.5, 2.0).apply_to(target) == pytest.approx((105, 52.5, 20, 15, 0))
     assert Outline(0.5, 1.0, 1.5, 2.0).apply_to(target).box == pytest.approx((95, 45, 20, 15))
 
 
