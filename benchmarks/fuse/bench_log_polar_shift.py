@@ -15,19 +15,19 @@ TAPER = random.random((32, 32), np.float32)
 FILTER = (np.fft.rfft2(random.uniform(-1, 1, (1, 19, 32, 32))) / 1024).astype(np.complex64)
 
 
-def script(patch: Any, places: Any, taper: Any, model: Any, right: int, down: int, penalty: float) -> float:
+def script(patch: Any, places: Any, taper: Any, model: Any, right: int, down: int, penalty: float) -> Any:
     """The baseline: a call for each part, the peak in NumPy."""
     cells = _core.hog_color_cells(_core.pick_pixels(patch, places), taper)
     near = _core.correlation_response(cells, model)[0][16 - down : 17 + down, 16 - right : 17 + right]
     evidence = near - penalty * np.arange(-right, right + 1) ** 2
     row, column = np.unravel_index(evidence.argmax(), evidence.shape)
     if not 0 < column < 2 * right or near[row, column] <= 0:
-        return float(column) - right
+        return float(column) - right, near[row, column]
     neighbors = near[row, column - 1 : column + 2]
     before, top, after = np.log(np.maximum(neighbors, 0.05 * neighbors[1]))
     bend = before - 2 * top + after
     offset = np.clip(0.5 * (before - after) / bend, -0.5, 0.5) if bend < 0 else 0.0
-    return float(column + offset - right)
+    return float(column + offset - right), near[row, column]
 
 
 @pytest.mark.benchmark(group="log_polar_shift, 64x64")

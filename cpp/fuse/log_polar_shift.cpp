@@ -24,7 +24,7 @@ double peak_offset(const float* row, int column, int most) {
     return bend < 0 ? std::min(std::max(0.5 * (before - after) / bend, -kMaxOffset), kMaxOffset) : 0.0;
 }
 
-double find_shift(const Floats& response, const ShiftRange& range) {
+Shift find_shift(const Floats& response, const ShiftRange& range) {
     const Eigen::Index middle = response.cols() / 2;
     const auto penalty = static_cast<float>(range.penalty);
     const float* best_row = nullptr;
@@ -40,7 +40,7 @@ double find_shift(const Floats& response, const ShiftRange& range) {
             most = evidence;
         }
     }
-    return best + peak_offset(best_row, best, range.most_right);
+    return {best + peak_offset(best_row, best, range.most_right), best_row[best]};
 }
 
 void require_range(int most, Eigen::Index count, const char* name) {
@@ -49,8 +49,8 @@ void require_range(int most, Eigen::Index count, const char* name) {
 
 }  // namespace
 
-double log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper, const FilterStack& filter,
-                       const ShiftRange& range) {
+Shift log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper, const FilterStack& filter,
+                      const ShiftRange& range) {
     require_range(range.most_right, taper.cols(), "most_right");
     require_range(range.most_down, taper.rows(), "most_down");
     if (!std::isfinite(range.penalty)) refuse("penalty", "a finite number", range.penalty);

@@ -15,8 +15,14 @@ struct ShiftRange {
     double penalty;  ///< on a response, per squared column, finite
 };
 
-/// By how many cells a patch has shifted to the right in other coordinates: in log-polar ones by the logarithm of a change of size. One
-/// stage of the frame, in one call: pick_pixels, hog_color_cells, and correlation_response, of which the peak near the middle counts.
+/// A shift to the right, in cells, and the filter's response to what has shifted.
+struct Shift {
+    double right, response;
+};
+
+/// By how many cells a patch has shifted to the right in other coordinates: in log-polar ones by the logarithm of a change of size, or
+/// by a turn. One stage of the frame, in one call: pick_pixels, hog_color_cells, and correlation_response, of which the peak near the
+/// middle counts.
 ///
 /// The peak is the greatest response less `penalty` times the squared columns to the middle, in float32, the first of equal ones. The
 /// place between the columns is that of the parabola through the logarithms of the response and its neighbors, at most half a cell
@@ -29,10 +35,10 @@ struct ShiftRange {
 /// @param filter complex64 (1, 19, R, C // 2 + 1)
 /// @param most_right, most_down cells from column C // 2 and row R // 2, where all of them have to be cells
 /// @param penalty finite
-/// @returns columns to the right
+/// @returns columns to the right, and the response in the peak's cell
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).
-double log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper, const FilterStack& filter,
-                       const ShiftRange& range);
+Shift log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper, const FilterStack& filter,
+                      const ShiftRange& range);
 
 }  // namespace tricue

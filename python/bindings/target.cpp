@@ -56,15 +56,17 @@ std::tuple<Array<double>, Floating> localize_target_arrays(const Bytes& patch, c
             give(std::move(place.responses), {models.filters, weights.rows(), weights.cols()})};
 }
 
-double log_polar_shift_arrays(const Bytes& patch, const Array<std::int64_t>& places, const Floating& taper,
-                              const Complex& filter, int most_right, int most_down, double penalty) {
+std::tuple<double, double> log_polar_shift_arrays(const Bytes& patch, const Array<std::int64_t>& places,
+                                                  const Floating& taper, const Complex& filter,
+                                                  int most_right, int most_down, double penalty) {
     const auto view = color_image(patch, "patch");
     const auto pixels = pixel_places(places);
     const auto weights = plane(taper, "taper", kTaper);
     const auto model = filter_stack(filter, "filter");
-    return unlocked(work(view), [&] {
+    const Shift shift = unlocked(work(view), [&] {
         return log_polar_shift(view, pixels, weights, model, {most_right, most_down, penalty});
     });
+    return {shift.right, shift.response};
 }
 
 std::tuple<Complex, Complex> learn_place_filter_arrays(const Bytes& patch, const Floating& taper,

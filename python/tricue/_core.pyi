@@ -1847,11 +1847,11 @@ def log_polar_shift(
     most_right: int,
     most_down: int,
     penalty: float,
-) -> float:
+) -> tuple[float, float]:
     """
     By how many cells a patch has shifted to the right in other coordinates: in log-polar ones by the
-    logarithm of a change of size. One stage of the frame, in one call: pick_pixels, hog_color_cells,
-    and correlation_response, of which the peak near the middle counts.
+    logarithm of a change of size, or by a turn. One stage of the frame, in one call: pick_pixels,
+    hog_color_cells, and correlation_response, of which the peak near the middle counts.
 
     The peak is the greatest response less `penalty` times the squared columns to the middle, in
     float32, the first of equal ones. The place between the columns is that of the parabola through the
@@ -1869,7 +1869,7 @@ def log_polar_shift(
         penalty: finite
 
     Returns:
-        columns to the right
+        columns to the right, and the response in the peak's cell
 
     Raises:
         ValueError: on other shapes, or numbers out of range
@@ -3821,7 +3821,7 @@ class Kernels(Protocol):
         most_right: int,
         most_down: int,
         penalty: float,
-    ) -> float: ...
+    ) -> tuple[float, float]: ...
     def measure_objects(
         self,
         table: numpy.typing.NDArray[numpy.float64],

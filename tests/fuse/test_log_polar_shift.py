@@ -31,7 +31,9 @@ def filter_for(patch: NDArray[np.uint8], width: float = 1.0) -> NDArray[np.compl
 
 @pytest.mark.parametrize("seed", range(10))
 def test_native_is_the_twin(seed: int) -> None:
-    """Both find the same column, and the same place between columns, to the roundings of the responses."""
+    """Both find the same column, the same place between columns, and the same response there, to the
+    roundings of the responses.
+    """
     rng = np.random.default_rng(seed)
     places = rng.permutation(64 * 64).reshape(64, 64)
     spectra = np.fft.rfft2(rng.uniform(-1, 1, (1, 19, 32, 32))).astype(np.complex64)
@@ -47,9 +49,10 @@ def test_finds_a_shift(kernels: Kernels, shift: int) -> None:
     """A patch moved by whole cells is found moved by as many, as the filter answers with a Gaussian."""
     patch = noise(3)
     moved = np.roll(patch, 2 * shift, axis=1)
-    arguments = moved, PLACES, TAPER, filter_for(patch), 2, 1, 0.0
+    found, response = kernels.log_polar_shift(moved, PLACES, TAPER, filter_for(patch), 2, 1, 0.0)
     # Orientations at the left and right border, where gradients aren't those of a rolled patch, add a little.
-    assert kernels.log_polar_shift(*arguments) == pytest.approx(shift, abs=0.05)
+    assert found == pytest.approx(shift, abs=0.05)
+    assert response == pytest.approx(1.0, abs=0.1)
 
 
 @pytest.mark.parametrize("offset", [-0.45, -0.3, 0.0, 0.2, 0.45])
@@ -70,9 +73,9 @@ def test_range_and_penalty(kernels: Kernels) -> None:
     """A shift beyond the range isn't found, nor one whose penalty is above its response."""
     patch = noise(4)
     moved, own = np.roll(patch, 4, axis=1), filter_for(patch)
-    assert kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 0.0) == 2  # at the end: no neighbor
-    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 1, 1, 0.0)) <= 1
-    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 10.0)) <= 0.5
+    assert kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 0.0)[0] == 2  # at the end: no neighbor
+    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 1, 1, 0.0)[0]) <= 1
+    assert abs(kernels.log_polar_shift(moved, PLACES, TAPER, own, 2, 1, 10.0)[0]) <= 0.5
 
 
 @pytest.mark.parametrize(

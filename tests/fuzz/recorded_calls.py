@@ -60,7 +60,7 @@ def record_calls() -> Calls:
 
 def _call_stages(k: Any) -> None:
     """Call the kernels that trackers don't: one of an experiment, those that count and average an ellipse's
-    colors, and the stages of ``segment_depth``, ``target_model`` and ``observe_target``.
+    colors, and the stages of larger kernels.
     """
     image = np.ascontiguousarray(stress_scene("fast", 0).frames[0].color)
     k.skin_boundary(image, image[0, 0])
@@ -78,7 +78,28 @@ def _call_stages(k: Any) -> None:
     table, _, columns, rows, _ = k.depth_components(labels, depth, 0.3, 8.0, 0, 16, 8, False)
     cut = k.cut_sides(depth, table, camera, 2, 0.08, 0.3, 0.15)
     k.measure_objects(table, columns, rows, cut, camera, plane, 0.35, 0.7)
+    k.changed_depth(depth, depth + np.float32(0.1), 0.02, 0.01)
+    k.plane_support(depth, camera, plane, 0.05, 4)
+    states = np.tile([0.0, 0.0, 2.0, 0.5, 1.7], (8, 1))
+    k.rectangle_prior(states, states[0, 3:], np.full(2, 0.1), states[0], np.full(5, 0.2), 4.0)
     _call_target_stages(k, depth)
+    _call_filter_stages(k, image)
+
+
+def _call_filter_stages(k: Any, image: Any) -> None:
+    window, hann = np.array([[100.0, 60.0, 96.0, 96.0]]), np.ones((16, 16), np.float32)
+    patch = k.sample_windows(image, window, 32, 32)[0]
+    turned = k.pick_pixels(patch, np.arange(1024).reshape(32, 32).T.copy())
+    cells = k.hog_color_cells(turned, hann)
+    label = np.ones((16, 9), np.complex64)
+    empty = np.zeros((len(cells), 16, 9), np.complex64), np.zeros((16, 9), np.float32)
+    numerator, _ = k.correlation_train(cells, label, *empty, 1.0)
+    k.correlation_response(cells, numerator[None])
+    k.regularized_filter(cells, hann, label, numerator, 15.0, 0.1)
+    samples = np.ascontiguousarray(patch.reshape(1, -1, 3).transpose(0, 2, 1))
+    k.color_ranks(samples)
+    posterior = k.color_posterior(patch, np.full((8, 8, 8), 0.5, np.float32))
+    k.combine_posteriors(posterior, posterior)
 
 
 def _call_target_stages(k: Any, disparity: Any) -> None:

@@ -230,6 +230,7 @@ REFUSED: dict[type[Any], dict[str, tuple[Any, ...]]] = {
         "size_range": ((2.0, 1.0), (0.0, 1.0), (-1.0, 1.0), (1.0,), (1.0, 2.0, 3.0)),
         "depth_learning_rate": (-0.1, 1.1),
         "turn_back": (-0.1, 1.1),
+        "turn_noise": (0, -0.1),
         "outline_time_constant": (0, -1),
         "max_covered": (-0.1, 1.1),
         "depth_continuity_weight": (-0.1,),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A shift in log-polar coordinates: a change of size."""
+"""A shift in log-polar coordinates: a change of size, or a turn."""
 
 import math
 
@@ -24,7 +24,7 @@ def log_polar_shift(
     most_right: int,
     most_down: int,
     penalty: float,
-) -> float:
+) -> tuple[float, float]:
     """Calls the twins of its parts, and looks around the middle."""
     require_count("most_right", most_right, 0, (taper.shape[1] - 1) // 2)
     require_count("most_down", most_down, 0, (len(taper) - 1) // 2)
@@ -38,8 +38,7 @@ def log_polar_shift(
     squares = np.arange(-most_right, most_right + 1, dtype=np.float32) ** 2
     evidence = near - np.float32(penalty) * squares
     row, column = divmod(int(evidence.argmax()), near.shape[1])
-    shift: float = column - most_right + gaussian_peak_offset(near[row], column)
-    return shift
+    return column - most_right + gaussian_peak_offset(near[row], column), float(near[row, column])
 
 
 def gaussian_peak_offset(values: Plane, index: int) -> float:

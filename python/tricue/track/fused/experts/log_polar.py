@@ -19,6 +19,7 @@ from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Image, Plane
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
+from tricue.track.fused.target import TURN_STEPS
 from tricue.track.fused.turned_pixels import Places, nearest_pixels
 from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
 
@@ -26,6 +27,7 @@ FilterParts = tuple[Spectra, Plane]  # numerator and denominator
 
 INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
 LABEL_WIDTH = 0.7  # cells
+STEPS_PER_CELL = TURN_STEPS // WINDOW_CELLS
 LOG_PER_CELL = CELL_PIXELS * math.log(OUTER_RADIUS / INNER_RADIUS) / PATCH_PIXELS
 
 
@@ -83,8 +85,10 @@ class LogPolarFilter(NamedTuple):
 
     def shift(
         self, k: Kernels, patch: Image, coordinates: Coordinates, farthest: tuple[int, int], penalty: float
-    ) -> float:
-        """Cells by which the patch has shifted to the right; farthest: to the right, and down."""
+    ) -> tuple[float, float]:
+        """Cells by which the patch has shifted to the right, and the response to it; farthest: to the right,
+        and down.
+        """
         return k.log_polar_shift(patch, *coordinates, self.applied, *farthest, penalty)
 
     def learn(

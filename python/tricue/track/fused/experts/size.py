@@ -12,6 +12,7 @@ from tricue.track.fused.arrays import Image
 from tricue.track.fused.experts.log_polar import (
     LOG_PER_CELL,
     OUTER_RADIUS,
+    STEPS_PER_CELL,
     TAPER,
     Coordinates,
     LogPolarFilter,
@@ -56,7 +57,8 @@ class SizeExpert(NamedTuple):
     def growth(self, observation: TargetObservation, target: Target) -> float:
         """The ratio of the size of what is at a target's place to the target's."""
         patch, penalty = _read(observation, target), self.params.size_change_penalty
-        return math.exp(LOG_PER_CELL * self.filter.shift(observation.k, *patch, FARTHEST, penalty))
+        shift, _ = self.filter.shift(observation.k, *patch, FARTHEST, penalty)
+        return math.exp(LOG_PER_CELL * shift)
 
     def learn(self, observation: TargetObservation, target: Target, rate: float) -> "SizeExpert":
         """The expert with a target blended in."""
@@ -65,15 +67,16 @@ class SizeExpert(NamedTuple):
 
 
 def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordinates]:
-    """(64, 64, 3) samples around a target, and its coordinates in them."""
+    """(64, 64, 3) samples around a target, and its coordinates in them, turned by whole cells of angle."""
     width, height = OUTER_RADIUS * target.width, OUTER_RADIUS * target.height
-    if not target.turn:
+    turn = STEPS_PER_CELL * round(target.turn / STEPS_PER_CELL)
+    if not turn:
         window = np.array([[target.x - width / 2, target.y - height / 2, width, height]])
         return observation.sample(window, PATCH_PIXELS)[0], UPRIGHT
     longer = max(width, height)
     window = np.array([[target.x - longer / 2, target.y - longer / 2, longer, longer]])
     shape = round(width / longer, 3), round(height / longer, 3)  # few of them, as they are kept
-    places = log_polar_pixels(target.turn, *shape)
+    places = log_polar_pixels(turn, *shape)
     return observation.sample(window, PATCH_PIXELS)[0], Coordinates(places, TAPER)
 
 

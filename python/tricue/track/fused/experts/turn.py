@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """The target's turn in the picture's plane: in log-polar coordinates around its center it is a shift.
 
-Turns add up, and so do their errors: a walker's legs turn a little in every frame. As most targets are mostly
-upright, a little of each turn is taken back.
+Turns add up, and so do their errors: a walker's legs turn a little in every frame. So a turn counts less
+where the filter responds less to it, as Wiener's filter weighs a signal in noise; and as most targets are
+mostly upright, a little of it is taken back.
 """
 
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from tricue.track.base.params import parameter
 from tricue.track.fused.arrays import Image
 from tricue.track.fused.experts.log_polar import (
     OUTER_RADIUS,
+    STEPS_PER_CELL,
     TAPER,
     Coordinates,
     LogPolarFilter,
@@ -21,18 +23,20 @@ from tricue.track.fused.experts.log_polar import (
     log_polar_pixels,
 )
 from tricue.track.fused.sources import OURS
-from tricue.track.fused.target import TURN_STEPS, Target
+from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.window import PATCH_PIXELS, WINDOW_CELLS
+from tricue.track.fused.window import PATCH_PIXELS
 
 FARTHEST = 2, 1  # cells of angle and of radius, from one frame to the next
-STEPS_PER_CELL = TURN_STEPS // WINDOW_CELLS
 
 
 @dataclass(frozen=True, kw_only=True)
 class TurnParams(LogPolarParams):
     """Of the cue "turn"."""
 
+    turn_noise: float = parameter(
+        0.1, unit="response", source=OURS, above=0, doc="with which half of a turn counts"
+    )
     turn_back: float = parameter(
         0.1,
         unit="per frame",
@@ -59,9 +63,10 @@ class TurnExpert(NamedTuple):
         turns back.
         """
         p, patch = self.params, _read(observation, target)
-        shift = self.filter.shift(observation.k, *patch, FARTHEST, p.size_change_penalty)
+        shift, response = self.filter.shift(observation.k, *patch, FARTHEST, p.size_change_penalty)
+        power, noise = max(response, 0.0) ** 2, p.turn_noise**2
         back = p.turn_back * min(max(target.turn, -STEPS_PER_CELL), STEPS_PER_CELL)
-        return STEPS_PER_CELL * shift - back
+        return STEPS_PER_CELL * shift * power / (power + noise) - back
 
     def learn(self, observation: TargetObservation, target: Target, rate: float) -> "TurnExpert":
         """The expert with a target blended in."""
