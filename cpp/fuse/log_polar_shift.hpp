@@ -35,7 +35,8 @@ struct Shift {
 /// @param filter complex64 (1, 19, R, C // 2 + 1)
 /// @param most_right, most_down cells from column C // 2 and row R // 2, where all of them have to be cells
 /// @param penalty finite
-/// @returns columns to the right, and the response in the peak's cell
+/// @returns right columns to the right
+/// @returns response of the filter, in the cell of the peak
 /// @throws std::invalid_argument on other shapes, or numbers out of range
 /// Source: Reddy and Chatterji 1996; Li, Zhu, Hoi, Song, Wang, Liu 2019 (LDES).
 Shift log_polar_shift(const ImageView& patch, PlacesRef places, FloatsRef taper, const FilterStack& filter,

@@ -1869,7 +1869,8 @@ def log_polar_shift(
         penalty: finite
 
     Returns:
-        columns to the right, and the response in the peak's cell
+        right: columns to the right
+        response: of the filter, in the cell of the peak
 
     Raises:
         ValueError: on other shapes, or numbers out of range

@@ -23,7 +23,7 @@ def upright_side(side: int) -> int:
     return round(DENSITY * UPRIGHT_SHARE * side)
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=256)
 def turned_grid(turn: int, side: int) -> Places:
     """(side, side) places of a turned square's pixels in the upright one around it."""
     steps = DENSITY * (np.arange(side, dtype=np.float64) + 0.5 - side / 2)

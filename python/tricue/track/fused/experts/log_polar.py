@@ -8,7 +8,6 @@ lets the size wander.
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -107,7 +106,6 @@ class LogPolarFilter(NamedTuple):
         return self._replace(learned=(numerator, denominator), applied=applied)
 
 
-@lru_cache(maxsize=512)
 def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> Places:
     """(64, 64) places in a square patch: angles downwards from a target's axis, log radii to the right.
 

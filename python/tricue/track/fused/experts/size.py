@@ -3,6 +3,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -76,8 +77,12 @@ def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordi
     longer = max(width, height)
     window = np.array([[target.x - longer / 2, target.y - longer / 2, longer, longer]])
     shape = round(width / longer, 3), round(height / longer, 3)  # few of them, as they are kept
-    places = log_polar_pixels(turn, *shape)
-    return observation.sample(window, PATCH_PIXELS)[0], Coordinates(places, TAPER)
+    return observation.sample(window, PATCH_PIXELS)[0], _turned(turn, *shape)
+
+
+@lru_cache(maxsize=256)
+def _turned(turn: int, width: float, height: float) -> Coordinates:
+    return Coordinates(log_polar_pixels(turn, width, height), TAPER)
 
 
 UPRIGHT = Coordinates(log_polar_pixels(), TAPER)

@@ -7,6 +7,7 @@ mostly upright, a little of it is taken back.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -75,11 +76,12 @@ class TurnExpert(NamedTuple):
 
 
 def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordinates]:
-    """(64, 64, 3) samples of a square around a target, and its coordinates in it: angles to the right."""
+    """(64, 64, 3) samples of a square around a target, and its coordinates in it."""
     side = OUTER_RADIUS * target.side
     square = np.array([[target.x - side / 2, target.y - side / 2, side, side]])
-    places = np.ascontiguousarray(log_polar_pixels(target.turn).T)
-    return observation.sample(square, PATCH_PIXELS)[0], Coordinates(places, ANGLES_TO_THE_RIGHT)
+    return observation.sample(square, PATCH_PIXELS)[0], _angles_to_the_right(target.turn)
 
 
-ANGLES_TO_THE_RIGHT = np.ascontiguousarray(TAPER.T)
+@lru_cache(maxsize=256)
+def _angles_to_the_right(turn: int) -> Coordinates:
+    return Coordinates(np.ascontiguousarray(log_polar_pixels(turn).T), np.ascontiguousarray(TAPER.T))
