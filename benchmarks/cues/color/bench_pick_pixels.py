@@ -10,11 +10,12 @@ import pytest
 from numpy.testing import assert_array_equal
 from numpy.typing import NDArray
 from tricue import _core, reference
-from tricue.track.fused.experts.size import LOG_POLAR_PIXELS
+from tricue.track.fused.experts.log_polar import log_polar_pixels
 
 Image = NDArray[np.uint8]
 
-Y, X = (each.astype(np.float32) for each in np.divmod(LOG_POLAR_PIXELS, 64))
+PLACES = log_polar_pixels()
+Y, X = (each.astype(np.float32) for each in np.divmod(PLACES, 64))
 
 
 def script(image: Image, places: NDArray[np.int64]) -> Image:
@@ -32,5 +33,5 @@ def script(image: Image, places: NDArray[np.int64]) -> Image:
 def bench_pick_pixels(benchmark: Any, pick_pixels: Callable[..., Image], frame: Image) -> None:
     """All pick the same."""
     patch = np.ascontiguousarray(frame[40:104, 60:124])
-    picked = benchmark(pick_pixels, patch, LOG_POLAR_PIXELS)
-    assert_array_equal(picked, reference.pick_pixels(patch, LOG_POLAR_PIXELS))
+    picked = benchmark(pick_pixels, patch, PLACES)
+    assert_array_equal(picked, reference.pick_pixels(patch, PLACES))
