@@ -69,8 +69,15 @@ def test_page_has_shares_of_all_kernels() -> None:
 
 @pytest.mark.slow
 def test_no_kernel_beats_the_machine(tmp_path: Path) -> None:
-    """The declared work of no kernel is more than this machine can do in the kernel's time, measured now."""
-    found = tmp_path / "benchmarks.json"
+    """The declared work of no kernel is more than this machine can do in the kernel's time, measured now.
+    What others run meanwhile makes limits too low, so a kernel has to beat them in each of three runs.
+    """
+    faster = set.intersection(*(too_fast(tmp_path / f"{run}.json") for run in range(3)))
+    assert faster == set()
+
+
+def too_fast(found: Path) -> set[str]:
+    """The kernels that beat the machine's limits in a run of the benchmarks, which writes that file."""
     folders = [f"benchmarks/{each}" for each in ("camera", "cues", "fuse")]
     options = ["-k", "native", "-q", "--benchmark-max-time=0.05", "--benchmark-min-rounds=5"]
     command = [sys.executable, "-m", "pytest", *folders, *options, f"--benchmark-json={found}"]
@@ -79,7 +86,13 @@ def test_no_kernel_beats_the_machine(tmp_path: Path) -> None:
     results = json.loads(found.read_text())
     times = {each["group"]: each for each in results["benchmarks"] if each["param"].endswith("native")}
     assert {report.kernel_of(group) for group in times} == set(KERNELS)
-    for group, each in times.items():
-        work = {kind: amount for kind, amount in each["extra_info"]["work"].items() if kind != "why"}
-        least, _ = machine.least_time(work, results["limits"])
-        assert least < each["stats"]["min"], f"{group}: {work}"
+    return {
+        group
+        for group, each in times.items()
+        if machine.least_time(declared(each), results["limits"])[0] >= each["stats"]["min"]
+    }
+
+
+def declared(result: dict[str, Any]) -> dict[str, float]:
+    """The work that a benchmark declares, without its words."""
+    return {kind: amount for kind, amount in result["extra_info"]["work"].items() if kind != "why"}
