@@ -15,8 +15,9 @@ def arguments(seed: int = 0, first_weight: float = 0.2) -> list[Any]:
     rng = np.random.default_rng(seed)
     patch = rng.integers(0, 256, (64, 64, 3), np.uint8)
     taper, mask = rng.random((32, 32), np.float32), rng.random((32, 32), np.float32)
-    label = np.fft.rfft2(np.exp(-rng.random((32, 32)))).astype(np.complex64)
-    before, first = np.fft.rfft2(rng.uniform(-1, 1, (2, 19, 32, 32)) / 1024).astype(np.complex64)
+    label = np.ascontiguousarray(np.fft.rfft2(np.exp(-rng.random((32, 32)))), np.complex64)
+    weights = rng.uniform(-1, 1, (2, 19, 32, 32)) / 1024
+    before, first = np.ascontiguousarray(np.fft.rfft2(weights), np.complex64)
     return [patch, taper, mask, label, before, first, 2.0, 0.05, first_weight]
 
 

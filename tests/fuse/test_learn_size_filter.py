@@ -16,8 +16,8 @@ def arguments(seed: int = 0) -> list[Any]:
     patch = rng.integers(0, 256, (64, 64, 3), np.uint8)
     places = rng.permutation(64 * 64).reshape(64, 64)
     taper = rng.random((32, 32), np.float32)
-    label = np.fft.rfft2(np.exp(-rng.random((32, 32)))).astype(np.complex64)
-    numerators = np.fft.rfft2(rng.uniform(-1, 1, (2, 19, 32, 32))).astype(np.complex64)
+    label = np.ascontiguousarray(np.fft.rfft2(np.exp(-rng.random((32, 32)))), np.complex64)
+    numerators = np.ascontiguousarray(np.fft.rfft2(rng.uniform(-1, 1, (2, 19, 32, 32))), np.complex64)
     denominators = 1000 * rng.random((2, 32, 17), np.float32)
     filters = [numerators[0], denominators[0], numerators[1], denominators[1]]
     return [patch, places, taper, label, *filters, 0.1, 0.2, 0.01]
