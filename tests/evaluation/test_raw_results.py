@@ -21,9 +21,11 @@ SEEDS = 2
 
 @pytest.fixture(scope="module")
 def finished(folders, tmp_path_factory):
-    """An evaluation, and the folder of its raw results."""
+    """An evaluation by several protocols, and the folder of its raw results, which are of one."""
     place = tmp_path_factory.mktemp("evaluation")
-    options = evaluation.Options(trackers=("color-particle", "still-box"), seeds=SEEDS, restarts=False)
+    options = evaluation.Options(
+        trackers=("color-particle", "still-box"), seeds=SEEDS, restarts=False, protocols=("every-3",)
+    )
     done = evaluation.evaluate(folders, place, options)
     manifest = raw_results.write_raw(
         done, place, place / "raw", tables.settings(done, dataset="secret"), "MIT"
@@ -67,7 +69,7 @@ def test_times_have_a_column_a_seed_and_none_for_the_first_frame(finished):
     assert times.shape == (20, SEEDS)
     assert not times[0].any()
     assert (times[1:] > 0).all()
-    results = [each for each in done.results if each.task.entry.name == "there" and each.task.tracker.ours]
+    results = [each for each in done.one_pass if each.task.entry.name == "there" and each.task.tracker.ours]
     for column, each in zip(times.T, results, strict=True):
         assert 19 / column.sum() == pytest.approx(each.speed.fps, rel=1e-3)
 
@@ -75,7 +77,7 @@ def test_times_have_a_column_a_seed_and_none_for_the_first_frame(finished):
 def test_the_score_of_the_files_is_that_of_the_evaluation(finished):
     """Whoever evaluates the files anew gets our AUC."""
     done, _, raw = finished
-    for each in done.results:
+    for each in done.one_pass:
         opened = next(known for known in done.opened if known.entry == each.task.entry)
         name = f"{each.row.sequence}_{each.row.seed + 1:03d}.txt"
         found = read(raw / "got10k" / each.row.tracker / each.row.sequence / name)

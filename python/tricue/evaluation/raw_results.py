@@ -81,7 +81,7 @@ def write_raw(
     unfinished = folder.with_name(f"{folder.name}.part")
     shutil.rmtree(unfinished, ignore_errors=True)
     store = Store(finished / RUNS)
-    stored = [each for each in evaluation.results if store.path(each.task).is_file()]
+    stored = [each for each in evaluation.one_pass if store.path(each.task).is_file()]
     trackers = file_names({each.task.tracker.name: each.task.tracker.name for each in stored})
     sequences = file_names({each.entry.name: _short_name(each.entry) for each in evaluation.opened})
     frames: dict[str, int] = {}

@@ -95,6 +95,19 @@ def test_missing_frames_cost_only_their_pictures(folders, tmp_path):
     assert 'class="film"' not in text
 
 
+def test_the_best_on_a_sequence_is_in_its_pictures(folders, tmp_path):
+    """Also where two others are better on average."""
+    for name, sequence, box in (("A", "there", "1,1,300,300"), *((name, "back", "") for name in "BC")):
+        truth = (folders / sequence / "groundtruth_rect.txt").read_text().splitlines()
+        (tmp_path / name).mkdir()
+        lines = [truth[0], *(box or line for line in truth[1:])]
+        (tmp_path / name / f"{sequence}.txt").write_text("\n".join(lines) + "\n")
+    others = tuple(f"{name}={tmp_path / name}" for name in "ABC")
+    evaluation = evaluate(folders, tmp_path, Options((), restarts=False, results=others))
+    text = write_report(evaluation, tmp_path, {}).read_text(encoding="utf-8")
+    assert "worst frames of A on there" in text
+
+
 def test_what_did_not_run_is_listed(evaluation, report):
     """Sequences that couldn't be read, and trackers that couldn't run, with the reasons."""
     text = report.read_text(encoding="utf-8")

@@ -59,8 +59,8 @@ def sequences(
     baselines = _best_baselines(ranked, ours)
     items = []
     for index, each in enumerate(ranked):
-        drawn = {name: run for name, run in each.results.items() if name in ours or name in baselines}
-        drawn = {name: drawn[name] for name in sorted(drawn, key=lambda name: name != each.leader)}
+        chosen = [name for name in each.results if name in ours or name in baselines]
+        drawn = {name: each.results[name] for name in dict.fromkeys([each.leader, *chosen]) if name}
         film = None
         if each.leader and each.opened.entry.name in pictured:
             film = filmstrip(each.opened, each.leader, drawn, styles)
