@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The page: its parts, what they do together, and the keys.
 
-import { Model, LOST, NONE, STATUS_NAMES, clock } from "./model.js";
+import { Model, clock } from "./model.js";
+import { commonKeys, listenToKeys } from "./keys.js";
 import { command, listen, Pictures } from "./link.js";
 import { Panel } from "./panel.js";
 import { Stage } from "./stage.js";
+import { LOST, NONE, STATUS_NAMES } from "./targets.js";
 import { Timeline } from "./timeline.js";
 import { complain } from "./toasts.js";
 
@@ -325,6 +327,7 @@ get("frame").addEventListener("change", (event) => go(event.target.valueAsNumber
 // Keys
 
 const KEYS = {
+  ...commonKeys(model, stage),
   ArrowLeft: (event) => go(model.frame - (event.shiftKey ? 10 : 1)),
   ArrowRight: (event) => go(model.frame + (event.shiftKey ? 10 : 1)),
   Home: () => go(0),
@@ -335,39 +338,12 @@ const KEYS = {
   n: () => model.choose(null),
   l: nextTrouble,
   d: nextDrawn,
-  p: () => get("trail").click(),
   Delete: () => model.target() && act("delete", { target: model.chosen }),
   "?": () => get("help-dialog").showModal(),
-  "+": () => stage.zoomBy(1.5),
-  "=": () => stage.zoomBy(1.5),
-  "-": () => stage.zoomBy(1 / 1.5),
-  0: () => stage.zoomBy(0),
-  Escape() {
-    stage.cancel();
-    model.choose(null);
-  },
 };
-for (let number = 1; number <= 9; number++) {
-  KEYS[number] = () => {
-    const target = model.state.targets[number - 1];
-    if (target) model.choose(target.id);
-  };
-}
 
-document.addEventListener("keydown", (event) => {
-  if (!model.state || document.querySelector("dialog[open]") || event.altKey) return;
-  const { target, key } = event;
-  const typing = target.matches("input:not([type=checkbox]), select, textarea");
-  if (event.ctrlKey || event.metaKey) {
-    const undo = { z: event.shiftKey ? "redo" : "undo", y: "redo" }[key.toLowerCase()];
-    if (!undo || typing) return;
-    event.preventDefault();
-    act(undo);
-    return;
-  }
-  if (typing || (target.matches("button, a, input") && (key === " " || key === "Enter"))) return;
-  const action = KEYS[key] ?? KEYS[key.toLowerCase()];
-  if (!action) return;
-  event.preventDefault();
-  action(event);
+listenToKeys(model, KEYS, (event) => {
+  const undo = { z: event.shiftKey ? "redo" : "undo", y: "redo" }[event.key.toLowerCase()];
+  if (undo) act(undo);
+  return undo;
 });

@@ -2,10 +2,11 @@
 // The page of a camera: the newest picture, the targets in it, drawing, recording, and the keys.
 
 import { LiveModel } from "./live_model.js";
+import { commonKeys, listenToKeys } from "./keys.js";
 import { command, listen } from "./link.js";
-import { LOST, NONE, STATUS_NAMES } from "./model.js";
 import { Stage } from "./stage.js";
 import { listTargets } from "./target_list.js";
+import { LOST, NONE, STATUS_NAMES } from "./targets.js";
 import { complain } from "./toasts.js";
 
 const get = (id) => document.getElementById(id);
@@ -215,35 +216,12 @@ get("box").addEventListener("focusout", (event) => {
 // Keys
 
 const KEYS = {
+  ...commonKeys(model, stage),
   " ": CLICKS.pause,
   r: CLICKS.record,
   n: CLICKS.new,
-  p: () => get("trail").click(),
   Delete: remove,
   "?": CLICKS.help,
-  "+": () => stage.zoomBy(1.5),
-  "=": () => stage.zoomBy(1.5),
-  "-": () => stage.zoomBy(1 / 1.5),
-  0: () => stage.zoomBy(0),
-  Escape() {
-    stage.cancel();
-    model.choose(null);
-  },
 };
-for (let number = 1; number <= 9; number++) {
-  KEYS[number] = () => {
-    const target = model.state.targets[number - 1];
-    if (target) model.choose(target.id);
-  };
-}
 
-document.addEventListener("keydown", (event) => {
-  if (!model.state || document.querySelector("dialog[open]") || event.altKey || event.ctrlKey || event.metaKey) return;
-  const { target, key } = event;
-  if (target.matches("input:not([type=checkbox]), select")) return;
-  if (target.matches("button, a, input, summary") && (key === " " || key === "Enter")) return;
-  const action = KEYS[key] ?? KEYS[key.toLowerCase()];
-  if (!action) return;
-  event.preventDefault();
-  action(event);
-});
+listenToKeys(model, KEYS);

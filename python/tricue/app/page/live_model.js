@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What the page of a camera knows: the server's state, the tracks of the last frames, and what is chosen.
 
-import { COLORS, LOST, NONE } from "./model.js";
+import { LOST, NONE, Targets } from "./targets.js";
 
 const KEPT = 900; // frames
 
 /** Tells by the events "state", "tracks" and "choice" what has changed. */
-export class LiveModel extends EventTarget {
-  state = null;
-  chosen = null; // a target's id
+export class LiveModel extends Targets {
   frame = -1; // of the last tracks
   #frames = new Map(); // by number: seconds, and the targets' rows
 
-  tell(name) {
-    this.dispatchEvent(new Event(name));
-  }
-
   setState(state) {
-    const before = this.state;
-    this.state = state;
-    if (before && before.phase !== state.phase && state.phase === "connecting") this.#frames.clear();
-    if (this.chosen !== null && !this.target()) this.chosen = null;
-    this.tell("state");
+    if (this.state && this.state.phase !== state.phase && state.phase === "connecting") this.#frames.clear();
+    super.setState(state);
   }
 
   /** frames: [number, seconds, rows by target]. */
@@ -32,20 +23,6 @@ export class LiveModel extends EventTarget {
     }
     while (this.#frames.size > KEPT) this.#frames.delete(this.#frames.keys().next().value);
     this.tell("tracks");
-  }
-
-  choose(id) {
-    if (this.chosen === id) return;
-    this.chosen = id;
-    this.tell("choice");
-  }
-
-  target(id = this.chosen) {
-    return this.state?.targets.find((each) => each.id === id) ?? null;
-  }
-
-  color(id) {
-    return COLORS[(id - 1) % COLORS.length];
   }
 
   seconds(frame) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the page knows: the server's state, the tracks of each target, and what is looked at.
 
-export const TRACKED = 0, OCCLUDED = 1, LOST = 2, NONE = 255;
-export const COLORS = ["#4cc38a", "#58a6ff", "#f2b04c", "#d387e8", "#56d4dd", "#f78166", "#c9d152", "#ff9bce"];
+import { LOST, NONE, OCCLUDED, Targets } from "./targets.js";
 
 /** The tracks of one target, by frame. */
 class Tracks {
@@ -35,22 +34,14 @@ class Tracks {
 }
 
 /** Tells by the events "state", "tracks", "frame" and "choice" what has changed. */
-export class Model extends EventTarget {
-  state = null;
+export class Model extends Targets {
   frame = 0;
-  chosen = null; // a target's id
   times = [];
   tracks = new Map();
 
-  tell(name) {
-    this.dispatchEvent(new Event(name));
-  }
-
   setState(state) {
-    this.state = state;
     for (const id of this.tracks.keys()) if (!state.targets.some((each) => each.id === id)) this.tracks.delete(id);
-    if (this.chosen !== null && !this.target()) this.chosen = null;
-    this.tell("state");
+    super.setState(state);
   }
 
   setTracks(id, rows, whole) {
@@ -65,20 +56,6 @@ export class Model extends EventTarget {
     if (to === this.frame) return;
     this.frame = to;
     this.tell("frame");
-  }
-
-  choose(id) {
-    if (this.chosen === id) return;
-    this.chosen = id;
-    this.tell("choice");
-  }
-
-  target(id = this.chosen) {
-    return this.state?.targets.find((each) => each.id === id) ?? null;
-  }
-
-  color(id) {
-    return COLORS[(id - 1) % COLORS.length];
   }
 
   seconds(frame) {
@@ -122,8 +99,6 @@ export class Model extends EventTarget {
     return found;
   }
 }
-
-export const STATUS_NAMES = { [TRACKED]: "tracked", [OCCLUDED]: "occluded", [LOST]: "lost", [NONE]: "" };
 
 /** Seconds as 1:02.35. */
 export function clock(seconds) {

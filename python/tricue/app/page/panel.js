@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The targets beside the video: the list, and all of the chosen one; depth, right image, path.
 
-import { LOST, NONE, OCCLUDED, STATUS_NAMES, clock } from "./model.js";
+import { clock } from "./model.js";
 import { drawPath, hasPath } from "./path.js";
 import { listTargets } from "./target_list.js";
+import { LOST, NONE, OCCLUDED, STATUS_NAMES } from "./targets.js";
 
 const VIEW_INTERVAL = 200; // milliseconds between pictures of another channel
 const get = (id) => document.getElementById(id);

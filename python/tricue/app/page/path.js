@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The path from above: x to the right, distance upwards, meters, at one scale; the camera is at the bottom.
 
-import { LOST } from "./model.js";
+import { LOST } from "./targets.js";
 
 const MARGIN = 20; // pixels
 const STEPS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The frame with the boxes in it, where boxes are drawn, moved and resized.
 
-import { LOST, OCCLUDED, STATUS_NAMES } from "./model.js";
+import { LOST, OCCLUDED, STATUS_NAMES } from "./targets.js";
 import { drawTrail } from "./trail.js";
 
 const HANDLE = 7; // pixels of the screen, half a handle's side

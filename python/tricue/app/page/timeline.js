@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A lane for each target: its status and score over the frames, its drawn boxes; a click goes there.
 
-import { LOST, NONE, OCCLUDED, STATUS_NAMES, clock } from "./model.js";
+import { clock } from "./model.js";
+import { LOST, NONE, OCCLUDED, STATUS_NAMES } from "./targets.js";
 
 const RULER = 18, LANE = 22, GAP = 3; // pixels
 const MAX_HEIGHT = 190;
