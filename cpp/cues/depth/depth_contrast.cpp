@@ -206,8 +206,7 @@ States RectangleContrast::measure(StatesRef states, bool with_nearer) {
         const auto n = static_cast<std::size_t>(std::min(kBatch, states.rows() - first));
         const double* state = states.row(first).data();
         for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state + 5 * i), samples[i]);
-        for (std::size_t i = 0; i < n; ++i)
-            histograms[i].read(samples[i].inside.data(), state[5 * i + 2]);
+        for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state[5 * i + 2]);
         for (std::size_t i = 0; i < n; ++i) histograms[i].count();
         for (std::size_t i = 0; i < n; ++i) {
             histograms[i].finish();

@@ -30,6 +30,8 @@ constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
 constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remainder
+constexpr int kUsualShare =
+    8;  ///< of an image's pixels an eighth or fewer are searched, before a camera that doesn't move
 
 /// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
 constexpr std::size_t kTables = 4;
@@ -199,16 +201,14 @@ void mark_changes(const std::uint8_t* __restrict labels, const std::ptrdiff_t* _
 /// The pixels where objects are looked for, in reading order, and their distances. Mostly they are few, and apart.
 class SearchedDistances {
 public:
-    SearchedDistances(int rows, int cols)
-        : rows_(rows),
-          cols_(cols),
-          bits_(rows, cols),
-          pixels_(rows * Eigen::Index{cols} + kBlock),
-          distances_(pixels_.size()) {}
+    SearchedDistances(int rows, int cols) : rows_(rows), cols_(cols), bits_(rows, cols) {
+        make_room(rows * std::ptrdiff_t{cols} / kUsualShare);
+    }
 
     /// Those of a row whose mask isn't 0; row after row.
     void add_row(int y, const float* distance, const std::uint8_t* mask) {
         bits_.read(y, mask);
+        make_room(size_ + cols_ + kBlock);
         const std::ptrdiff_t first = y * std::ptrdiff_t{cols_}, *pixels = pixels_.data() + size_;
         const std::ptrdiff_t count = list_pixels(bits_, y, first, pixels_.data() + size_);
         float* to = distances_.data() + size_;
@@ -248,8 +248,18 @@ public:
     }
 
 private:
+    /// Memory as it is needed: that of a whole image is fetched from the system anew in every frame.
+    void make_room(std::ptrdiff_t pixels) {
+        if (pixels <= pixels_.size()) return;
+        pixels_.conservativeResize(std::max(pixels, 2 * pixels_.size()));
+        distances_.conservativeResize(pixels_.size());
+    }
+
     /// Distances that don't count, up to a whole block.
-    void fill_last_block() { distances_.segment(size_, kBlock) = kUnmeasured; }
+    void fill_last_block() {
+        make_room(size_ + kBlock);
+        distances_.segment(size_, kBlock) = kUnmeasured;
+    }
 
     std::vector<std::uint8_t> label(VectorRef dividers) {
         std::vector<float> limits;
@@ -269,15 +279,14 @@ private:
         for (auto at = changes.begin(); (at = std::find(at, changes.end(), 1)) != changes.end(); ++at) {
             const std::ptrdiff_t pixel = pixels_[at - changes.begin()], x = pixel % cols_;
             found.word(static_cast<int>(pixel / cols_), static_cast<int>(x / kBlock)) |= std::uint64_t{1}
-                                                                                        << (x % kBlock);
+                                                                                         << (x % kBlock);
         }
         return found;
     }
 
     int rows_, cols_;
     BitImage bits_;
-    // Of whole images and a block, but used, and so touched, as far as size_.
-    Eigen::Array<std::ptrdiff_t, Eigen::Dynamic, 1> pixels_;
+    Eigen::Array<std::ptrdiff_t, Eigen::Dynamic, 1> pixels_;  ///< used as far as size_, like the distances
     Eigen::ArrayXf distances_;
     std::ptrdiff_t size_ = 0;
 };
@@ -288,8 +297,7 @@ void require_arguments(const DepthView& depth, const SearchedPixels& searched, c
     require_noise(searched.noise, searched.noise_slope);
     require_gap(divisions.gap, divisions.slope);
     require_levels(divisions.levels);
-    if (divisions.levels.near < 0.0)
-        refuse("near", "a finite number, not negative", divisions.levels.near);
+    if (divisions.levels.near < 0.0) refuse("near", "a finite number, not negative", divisions.levels.near);
     if (divisions.min_area < 1) refuse("min_area", "at least 1", divisions.min_area);
 }
 
