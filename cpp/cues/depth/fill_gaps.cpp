@@ -43,7 +43,6 @@ struct PaddedDepth {
 };
 
 constexpr int kBlock = 64;  // pixels, so that loops over a row have no remainder
-constexpr int kMaxByte = 255;
 
 /// `known` has whole blocks and four more bytes, all 0 beyond the end of the row: pixels there count as not measured.
 TRICUE_MULTIVERSION
@@ -51,14 +50,12 @@ void count_gaps(const float* __restrict depth, int n, std::uint8_t* __restrict k
                 std::int32_t* gaps) {
     for_overlapping_blocks(n, [=](std::ptrdiff_t x) { known[x] = has_depth(depth[x]); });
     std::int32_t all = 0, short_gaps = 0;
-    for (int first = 0; first < n;) {
-        std::uint8_t here[kBlock] = {}, gap[kBlock] = {};  // counts, which a byte holds of so many blocks
-        for (int block = 0; block < kMaxByte && first < n; ++block, first += kBlock, known += kBlock)
-            for (int x = 0; x < kBlock; ++x) {
-                here[x] = static_cast<std::uint8_t>(here[x] + known[x]);
-                gap[x] = static_cast<std::uint8_t>(
-                    gap[x] + (known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4])));
-            }
+    for (int first = 0; first < n; first += kBlock, known += kBlock) {
+        std::uint8_t here[kBlock], gap[kBlock];
+        for (int x = 0; x < kBlock; ++x) {
+            here[x] = known[x];
+            gap[x] = known[x] & (known[x + 1] ^ 1) & (known[x + 2] | known[x + 3] | known[x + 4]);
+        }
         for (int x = 0; x < kBlock; ++x) all += here[x];
         for (int x = 0; x < kBlock; ++x) short_gaps += gap[x];
     }
