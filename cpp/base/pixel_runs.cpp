@@ -77,4 +77,9 @@ std::size_t PixelRuns::root(std::size_t i) {
     return i;
 }
 
+/// A parent comes before its children, so that its own parent is the first run by then.
+void PixelRuns::flatten() {
+    for (PixelRun& run : runs_) run.parent = runs_[run.parent].parent;
+}
+
 }  // namespace tricue

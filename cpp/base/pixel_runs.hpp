@@ -44,6 +44,9 @@ public:
     /// The first run of a run's component.
     std::size_t root(std::size_t i);
 
+    /// Makes that the parent of every run.
+    void flatten();
+
 private:
     std::size_t find_edges(const std::uint8_t* labels);
     void join_with_previous_row();

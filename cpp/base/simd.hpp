@@ -174,6 +174,17 @@ TRICUE_INLINE int lowest_bit(std::uint64_t bits) {
 #endif
 }
 
+/// How many bits are set. Processors have an instruction for it from the second level of x86-64 on.
+TRICUE_INLINE int count_bits(std::uint64_t bits) {
+#if defined(__GNUC__)
+    return __builtin_popcountll(bits);
+#else
+    int count = 0;
+    for (; bits != 0; bits &= bits - 1) ++count;
+    return count;
+#endif
+}
+
 /// Begins to load the cache line of an address that is read soon.
 TRICUE_INLINE void prefetch(const void* address) {
 #if defined(__GNUC__)

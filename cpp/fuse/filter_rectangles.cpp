@@ -20,15 +20,6 @@ using Index = Eigen::Index;
 constexpr Index kNumbers = 5;  // of a state
 constexpr double kMinLikelihood = 1e-12;
 
-/// All that is the same for both samplings.
-struct View {
-    const DepthView& depth;
-    VectorRef camera;
-    const DepthLikelihood& likelihood;
-    const UsualSize& usual;
-    const MeasuredState& measured;
-};
-
 /// Centers and sizes in pixels, all at one depth.
 States project(VectorRef camera, StatesRef states, double z) {
     States rectangles(states.rows(), kNumbers);
@@ -52,33 +43,57 @@ States grid_pattern(const Places& places) {
     return pattern;
 }
 
-/// (N, 4) as by depth_contrast, the distance that of absolute depths where the model is of these.
-States measure(const View& view, StatesRef states) {
-    const DepthLikelihood& by = view.likelihood;
-    if (by.middle == 0.0)
-        return depth_contrast(view.depth, view.camera, states, by.model, by.places, by.nearer);
-    const Vector nothing = Vector::Zero(1);
-    States measured =
-        depth_contrast(view.depth, view.camera, states, {nothing, by.reach}, by.places, by.nearer);
-    measured.col(0) = depth_distance(view.depth, project(view.camera, states, by.middle), by.model,
-                                     grid_pattern(by.places), by.nearer)
-                          .col(0);
-    return measured;
-}
+const Vector kNoModel = Vector::Zero(1);
 
-Vector log_likelihood(const View& view, StatesRef states) {
-    const DepthLikelihood& by = view.likelihood;
-    const States measured = measure(view, states);
-    const Vector prior = rectangle_prior(states, view.usual, view.measured);
-    Vector logs(states.rows());
-    for (Index i = 0; i < logs.size(); ++i) {
-        const double distance = measured(i, 0), inside = measured(i, 1), around = measured(i, 3);
-        const double likeness = by.linear ? std::log(std::max(1.0 - distance, kMinLikelihood))
-                                          : -by.sharpness * distance * distance;
-        logs[i] = (likeness + by.contrast * (inside - around)) + prior[i];
+/// What is seen in and around rectangles.
+class Observer {
+public:
+    Observer(const DepthView& depth, VectorRef camera, const DepthLikelihood& by)
+        : depth_(depth),
+          camera_(camera),
+          by_(by),
+          contrast_(depth, camera, is_relative() ? by.model : DepthModel{kNoModel, by.reach}, by.places,
+                    by.nearer) {}
+
+    /// (N, 4) as by depth_contrast, the distance that of absolute depths where the model is of these.
+    States measure(StatesRef states, bool with_nearer) {
+        States measured = contrast_.measure(states, with_nearer);
+        if (!is_relative())
+            measured.col(0) = depth_distance(depth_, project(camera_, states, by_.middle), by_.model,
+                                             grid_pattern(by_.places), by_.nearer)
+                                  .col(0);
+        return measured;
     }
-    return logs;
-}
+
+    /// Of a state that was just measured.
+    Vector histogram(const double* state) const {
+        if (is_relative()) return contrast_.shares();
+        const DepthModel& model = by_.model;
+        return depth_shares(depth_, camera_, state, by_.places, by_.middle, model.reach,
+                            model.histogram.size());
+    }
+
+    Vector log_likelihood(StatesRef states, const UsualSize& usual, const MeasuredState& object) {
+        const States measured = measure(states, false);
+        const Vector prior = rectangle_prior(states, usual, object);
+        Vector logs(states.rows());
+        for (Index i = 0; i < logs.size(); ++i) {
+            const double distance = measured(i, 0), inside = measured(i, 1), around = measured(i, 3);
+            const double likeness = by_.linear ? std::log(std::max(1.0 - distance, kMinLikelihood))
+                                               : -by_.sharpness * distance * distance;
+            logs[i] = (likeness + by_.contrast * (inside - around)) + prior[i];
+        }
+        return logs;
+    }
+
+private:
+    bool is_relative() const { return by_.middle == 0.0; }
+
+    const DepthView& depth_;
+    VectorRef camera_;
+    const DepthLikelihood& by_;
+    RectangleContrast contrast_;
+};
 
 Eigen::Map<const States> sampling(const StackView<double>& noise, int plane) {
     return {noise.row(plane, 0), noise.rows, noise.cols};
@@ -123,34 +138,28 @@ FilteredRectangles filter_rectangles(const DepthView& depth, VectorRef camera,
                                      const DepthLikelihood& likelihood, const UsualSize& usual,
                                      const MeasuredState& measured) {
     require_arguments(before, noise, refinement, likelihood);
-    const View view{depth, camera, likelihood, usual, measured};
+    Observer observer(depth, camera, likelihood);
     const Indices chosen = resample(before.weights, before.offset);
     States previous(before.particles.rows(), kNumbers);
     for (Index i = 0; i < chosen.size(); ++i) previous.row(i) = before.particles.row(chosen[i]);
     FilteredRectangles after;
+    const auto weigh = [&](const States& from, const Dynamics& moves, const Detection& seen) {
+        const Vector logs = observer.log_likelihood(after.particles, usual, measured);
+        after.weights = reweight(logs, after.particles, from, moves, seen).weights;
+        return summarize(after.particles, after.weights);
+    };
     after.particles = propose(previous, dynamics, sampling(noise, 0), detection, bounds);
-    after.weights =
-        reweight(log_likelihood(view, after.particles), after.particles, previous, dynamics, detection)
-            .weights;
-    Summary summary = summarize(after.particles, after.weights);
+    Summary summary = weigh(previous, dynamics, detection);
     if (noise.planes > 1) {
         after.particles = draw_around(summary.mean, refinement, sampling(noise, 1));
         const Vector still = Vector::Zero(kNumbers);
-        const Dynamics around{still, refinement.scale};
-        const Detection nothing{detection.mean, detection.root, 0.0};
-        after.weights =
-            reweight(log_likelihood(view, after.particles), after.particles, after.particles, around, nothing)
-                .weights;
-        summary = summarize(after.particles, after.weights);
+        summary = weigh(after.particles, {still, refinement.scale}, {detection.mean, detection.root, 0.0});
     }
     after.mean = std::move(summary.mean);
     after.covariance = std::move(summary.covariance);
     const Eigen::Map<const States> mean(after.mean.data(), 1, kNumbers);
-    after.observed = measure(view, mean).row(0);
-    const DepthModel& model = likelihood.model;
-    after.histogram = depth_shares(depth, camera, after.mean.data(), likelihood.places,
-                                   likelihood.middle == 0.0 ? after.mean[2] : likelihood.middle, model.reach,
-                                   model.histogram.size());
+    after.observed = observer.measure(mean, true).row(0);
+    after.histogram = observer.histogram(after.mean.data());
     return after;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// At 1e150 deviations the density is zero anyway, and the square is still finite.
-double clamped(double z) {
+TRICUE_INLINE double clamped(double z) {
     return std::min(std::max(z, -1e150), 1e150);
 }
 
@@ -25,43 +26,65 @@ double log_mixture(double ratio, double share) {
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
-/// Log density of N(0, root rootᵀ) at the offset by forward substitution, without its constants; z holds K numbers.
-double log_density(const double* offset, StatesRef root, double* z) {
-    double squares = 0.0;
-    for (Eigen::Index d = 0; d < root.rows(); ++d) {
-        double rest = clamped(offset[d]);
-        for (Eigen::Index e = 0; e < d; ++e) rest -= clamped(root(d, e) * z[e]);
-        z[d] = clamped(rest / root(d, d));
-        squares += z[d] * z[d];
+constexpr Eigen::Index kBlock = 16;  ///< particles side by side, so that loops over them are vectorized
+
+using Lanes = double[kBlock];
+
+/// Squared distances of a block from the origin of N(0, root rootᵀ) in deviations, by forward substitution; z holds as many lanes as
+/// there are numbers.
+TRICUE_MULTIVERSION
+void square_substituted(const Lanes* __restrict offset, const double* __restrict root, Eigen::Index size,
+                        Lanes* __restrict z, double* __restrict squares) {
+    for (Eigen::Index i = 0; i < kBlock; ++i) squares[i] = 0.0;
+    for (Eigen::Index d = 0; d < size; ++d) {
+        const double* row = root + d * size;
+        Lanes rest;
+        for (Eigen::Index i = 0; i < kBlock; ++i) rest[i] = clamped(offset[d][i]);
+        for (Eigen::Index e = 0; e < d; ++e)
+            for (Eigen::Index i = 0; i < kBlock; ++i) rest[i] -= clamped(row[e] * z[e][i]);
+        for (Eigen::Index i = 0; i < kBlock; ++i) {
+            z[d][i] = clamped(rest[i] / row[d]);
+            squares[i] += z[d][i] * z[d][i];
+        }
     }
-    return -0.5 * squares;
 }
 
 /// The same of N(0, diag(scale²)).
-double log_density(const double* offset, VectorRef scale) {
-    double squares = 0.0;
-    for (Eigen::Index d = 0; d < scale.size(); ++d) {
-        const double z = clamped(clamped(offset[d]) / scale[d]);
-        squares += z * z;
-    }
-    return -0.5 * squares;
+TRICUE_MULTIVERSION
+void square_scaled(const Lanes* __restrict offset, const double* __restrict scale, Eigen::Index size,
+                   double* __restrict squares) {
+    for (Eigen::Index i = 0; i < kBlock; ++i) squares[i] = 0.0;
+    for (Eigen::Index d = 0; d < size; ++d)
+        for (Eigen::Index i = 0; i < kBlock; ++i) {
+            const double z = clamped(clamped(offset[d][i]) / scale[d]);
+            squares[i] += z * z;
+        }
 }
 
 void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
                        const Detection& detection, Vector& log_weights) {
     const auto& [mean, root, share] = detection;
     const Eigen::Index size = mean.size();
-    const Vector drift = dynamics.drift.head(size), scale = dynamics.scale.head(size);
+    const Vector scale = dynamics.scale.head(size);
+    const States factors = root;  // without gaps between its rows
     const double constants = scale.log().sum() - root.matrix().diagonal().array().log().sum();
-    Vector from_detection(size), from_dynamics(size), z(size);
-    for (Eigen::Index i = 0; i < log_weights.size(); ++i) {
-        for (Eigen::Index d = 0; d < size; ++d) {
-            from_detection[d] = proposed(i, d) - mean[d];
-            from_dynamics[d] = proposed(i, d) - previous(i, d) - drift[d];
+    using Block = Eigen::Array<double, Eigen::Dynamic, kBlock, Eigen::RowMajor>;
+    Block from_detection = Block::Zero(size, kBlock), from_dynamics = from_detection, z(size, kBlock);
+    const auto lanes = [](Block& block) { return reinterpret_cast<Lanes*>(block.data()); };
+    Lanes detected, moved;
+    for (Eigen::Index first = 0; first < log_weights.size(); first += kBlock) {
+        const Eigen::Index n = std::min(kBlock, log_weights.size() - first);
+        for (Eigen::Index i = 0; i < n; ++i)
+            for (Eigen::Index d = 0; d < size; ++d) {
+                from_detection(d, i) = proposed(first + i, d) - mean[d];
+                from_dynamics(d, i) = proposed(first + i, d) - previous(first + i, d) - dynamics.drift[d];
+            }
+        square_substituted(lanes(from_detection), factors.data(), size, lanes(z), detected);
+        square_scaled(lanes(from_dynamics), scale.data(), size, moved);
+        for (Eigen::Index i = 0; i < n; ++i) {
+            const double ratio = -0.5 * detected[i] - -0.5 * moved[i] + constants;
+            log_weights[first + i] -= log_mixture(ratio, share);
         }
-        const double ratio = log_density(from_detection.data(), root, z.data()) -
-                             log_density(from_dynamics.data(), scale) + constants;
-        log_weights[i] -= log_mixture(ratio, share);
     }
 }
 

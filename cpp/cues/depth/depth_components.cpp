@@ -37,104 +37,56 @@ void find_levels(const float* __restrict depth, int n, double near, double scale
     }
 }
 
-PixelRuns label_runs(const ImageView& labels) {
-    PixelRuns runs(labels.cols);
-    for (int row = 0; row < labels.rows; ++row) runs.add_row(labels.row(row));
-    return runs;
+/// Whether a label differs from that of the pixel before it.
+TRICUE_MULTIVERSION
+void mark_changes(const std::uint8_t* __restrict labels, int n, std::uint8_t* __restrict changes) {
+    for (int x = 1; x < n; ++x) changes[x] = labels[x] != labels[x - 1];
 }
 
-/// Which pixels of a row have a label: bit x % 64 of word x / 64. There is one more word at either end, 0.
-class RowBits {
-public:
-    explicit RowBits(int cols) : cols_(cols), words_(static_cast<std::size_t>((cols + 63) / 64) + 2) {}
-
-    std::size_t size() const { return words_.size() - 2; }
-    std::uint64_t operator[](std::size_t i) const { return words_[i + 1]; }
-
-    void read(const std::uint8_t* labels) {
-        for (int x = 0; x < cols_; x += 64) words_[static_cast<std::size_t>(x / 64) + 1] = word(labels, x);
+/// Where the runs of a row begin and end. Returns how many there are.
+TRICUE_MULTIVERSION
+std::ptrdiff_t list_runs(const BitImage& labeled, const BitImage& changes, int y, bool single,
+                         std::int32_t* begins, std::int32_t* ends) {
+    std::int32_t *begin = begins, *end = ends;
+    std::uint64_t before = 0;
+    for (int i = 0; i <= labeled.words(); ++i) {  // the last run may end with the last word
+        const bool inside = i < labeled.words();
+        const std::uint64_t change = inside ? changes.word(y, i) : 0;
+        const std::uint64_t kept = !inside ? 0 : single ? labeled.word(y, i) : labeled.joined(y, i);
+        const std::uint64_t left = kept << 1 | before >> 63;
+        begin = list_bits<4>(kept & (~left | change), std::int32_t{i * BitImage::kWord}, begin);
+        end = list_bits<4>(left & (~kept | change), std::int32_t{i * BitImage::kWord}, end);
+        before = kept;
     }
-    void clear() { std::fill(words_.begin(), words_.end(), 0); }
-
-    /// Bits of word i that have a bit left or right of them.
-    std::uint64_t beside(std::size_t i) const {
-        return words_[i + 1] << 1 | words_[i] >> 63 | words_[i + 1] >> 1 | words_[i + 2] << 63;
-    }
-
-private:
-    std::uint64_t word(const std::uint8_t* labels, int first) const {
-        std::uint64_t bits = 0;
-        for (int i = 0; i < 64 && first + i < cols_; i += 8) {
-            std::uint64_t bytes = 0;
-            if (first + i + 8 <= cols_)
-                std::memcpy(&bytes, labels + first + i, 8);
-            else
-                std::memcpy(&bytes, labels + first + i, static_cast<std::size_t>(cols_ - first - i));
-            if (bytes != 0) bits |= nonzero_bytes(bytes) << i;
-        }
-        return bits;
-    }
-
-    int cols_;
-    std::vector<std::uint64_t> words_;
-};
-
-/// Adds the runs of pixels [begin, end), all of which have a label. Eight of the same label are skipped at once.
-void add_labeled(PixelRuns& runs, const std::uint8_t* labels, int begin, int end) {
-    for (int x = begin + 1; x < end;) {
-        std::uint64_t other = labels[x] ^ labels[begin];
-        int step = 1;
-        if (end - x >= 8) {
-            std::uint64_t bytes;
-            std::memcpy(&bytes, labels + x, 8);
-            other = nonzero_bytes(bytes ^ (0x0101010101010101 * labels[begin]));
-            step = 8;
-        }
-        if (other == 0) {
-            x += step;
-            continue;
-        }
-        if (step == 8) x += lowest_bit(other);
-        runs.add(begin, x, labels[begin]);
-        begin = x++;
-    }
-    runs.add(begin, end, labels[begin]);
+    return begin - begins;
 }
 
-/// The same without pixels that are alone: noise is mostly that, and each would be a run and a component.
-PixelRuns label_joined_runs(const ImageView& labels) {
+}  // namespace
+
+PixelRuns label_runs(const BitImage& labeled, const BitImage& changes, const ImageView& labels, bool single) {
     PixelRuns runs(labels.cols);
-    std::array<RowBits, 3> rows{RowBits(labels.cols), RowBits(labels.cols), RowBits(labels.cols)};  // in turn
-    const auto read_row = [&](int y) {
-        RowBits& row = rows[static_cast<std::size_t>(y) % 3];
-        y < labels.rows ? row.read(labels.row(y)) : row.clear();
-    };
-    if (labels.rows > 0) read_row(0);
+    const std::size_t most = static_cast<std::size_t>(labels.cols) + BitImage::kWord;
+    std::vector<std::int32_t> begins(most), ends(most);
     for (int y = 0; y < labels.rows; ++y) {
-        read_row(y + 1);
-        const auto at = static_cast<std::size_t>(y);
-        const RowBits &above = rows[(at + 2) % 3], &here = rows[at % 3], &below = rows[(at + 1) % 3];
-        int begin = -1, end = -1;  // of pixels that follow one another, to which the next word may add
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            std::uint64_t kept =
-                here[i] & (here.beside(i) | above[i] | above.beside(i) | below[i] | below.beside(i));
-            const int first = static_cast<int>(i) * 64;
-            while (kept != 0) {
-                const int from = lowest_bit(kept);
-                const std::uint64_t rest = ~(kept >> from);  // 1 where the run has ended
-                const int length = rest != 0 ? lowest_bit(rest) : 64;
-                if (first + from != end) {
-                    if (end > begin) add_labeled(runs, labels.row(y), begin, end);
-                    begin = first + from;
-                }
-                end = first + from + length;
-                kept = from + length < 64 ? kept & (~std::uint64_t{0} << (from + length)) : 0;
-            }
-        }
-        if (end > begin) add_labeled(runs, labels.row(y), begin, end);
+        const auto count =
+            static_cast<std::size_t>(list_runs(labeled, changes, y, single, begins.data(), ends.data()));
+        for (std::size_t i = 0; i < count; ++i) runs.add(begins[i], ends[i], labels.row(y)[begins[i]]);
         runs.end_row();
     }
     return runs;
+}
+
+namespace {
+
+PixelRuns label_runs(const ImageView& labels, bool single) {
+    BitImage labeled(labels.rows, labels.cols), changes(labels.rows, labels.cols);
+    std::vector<std::uint8_t> changed(static_cast<std::size_t>(labels.cols));
+    for (int y = 0; y < labels.rows; ++y) {
+        labeled.read(y, labels.row(y));
+        mark_changes(labels.row(y), labels.cols, changed.data());
+        changes.read(y, changed.data());
+    }
+    return label_runs(labeled, changes, labels, single);
 }
 
 struct Component {
@@ -156,39 +108,34 @@ struct Grouping {
     std::vector<std::int32_t> component;
 };
 
-/// All components; sets for every run the index of its component.
-std::vector<Component> collect_components(PixelRuns& runs, std::vector<std::int32_t>& component) {
-    std::vector<Component> components;
-    components.reserve(runs.size());
-    component.resize(runs.size());
+/// By the first run of each component: its box and area. No branch depends on what is joined, which can't be predicted.
+std::vector<Component> collect_components(PixelRuns& runs) {
+    runs.flatten();
+    std::vector<Component> components(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const std::size_t first = runs.root(i);
         const PixelRun& run = runs[i];
-        if (first == i) {
-            component[i] = static_cast<std::int32_t>(components.size());
-            components.push_back({run.begin, run.row, run.end, run.row, 0, run.label});
-        }
-        component[i] = component[first];
-        components[static_cast<std::size_t>(component[i])].add(run);
+        components[i] = {run.begin, run.row, run.end, run.row, 0, run.label};
+        components[run.parent].add(run);
     }
     return components;
 }
 
 Grouping group(PixelRuns& runs, int min_area) {
-    Grouping groups;
-    const auto all = collect_components(runs, groups.component);
+    const auto all = collect_components(runs);
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].area >= min_area) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
                      [&all](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
 
+    Grouping groups;
     std::vector<std::int32_t> component(all.size(), -1);
     for (const std::size_t i : order) {
         component[i] = static_cast<std::int32_t>(groups.components.size());
         groups.components.push_back(all[i]);
     }
-    for (auto& each : groups.component) each = component[static_cast<std::size_t>(each)];
+    groups.component.reserve(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) groups.component.push_back(component[runs[i].parent]);
     return groups;
 }
 
@@ -320,10 +267,8 @@ void require_arguments(const ImageView& labels, const DepthView& depth, const Si
 
 }  // namespace
 
-DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
-                                 int min_area, bool image) {
-    require_arguments(labels, depth, signature, min_area);
-    PixelRuns runs = min_area > 1 ? label_joined_runs(labels) : label_runs(labels);
+DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, const Signature& signature,
+                                    int min_area, bool image) {
     const Grouping groups = group(runs, min_area);
     const auto C = static_cast<Eigen::Index>(groups.components.size());
     DepthComponents result{States(C, 7), Floats::Zero(C, signature.levels), Floats::Zero(C, signature.bins),
@@ -342,6 +287,13 @@ DepthComponents depth_components(const ImageView& labels, const DepthView& depth
         write_shares(rebin(tally.rows, signature.bins), box.area, result.rows.row(i).data());
     }
     return result;
+}
+
+DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
+                                 int min_area, bool image) {
+    require_arguments(labels, depth, signature, min_area);
+    PixelRuns runs = label_runs(labels, min_area == 1);
+    return describe_components(runs, depth, signature, min_area, image);
 }
 
 }  // namespace tricue

@@ -6,6 +6,8 @@
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
 #include "base/image_view.hpp"
+#include "base/pixel_runs.hpp"
+#include "cues/depth/detail/bit_image.hpp"
 
 namespace tricue {
 
@@ -44,5 +46,16 @@ struct DepthComponents {
 /// Source: Sabeti, Parvizi, Wu 2008, section IV.A; labeling after Rosenfeld, Pfaltz 1966.
 DepthComponents depth_components(const ImageView& labels, const DepthView& depth, const Signature& signature,
                                  int min_area, bool image);
+
+/// The runs of equal labels of pixels that have one.
+///
+/// @param labeled which pixels have a label; of others it isn't read
+/// @param changes where, of two neighbors in a row that have a label, the right one has another
+/// @param single whether pixels count that are alone: noise is mostly that, and each would be a run and a component
+PixelRuns label_runs(const BitImage& labeled, const BitImage& changes, const ImageView& labels, bool single);
+
+/// The regions of these runs, as depth_components gives them.
+DepthComponents describe_components(PixelRuns& runs, const DepthView& depth, const Signature& signature,
+                                    int min_area, bool image);
 
 }  // namespace tricue

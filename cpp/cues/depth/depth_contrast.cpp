@@ -76,6 +76,9 @@ public:
                     pixel_.data());
     }
 
+    /// Whether all of them are in the image: the sides are the outermost.
+    bool is_inside() const { return (pixel_[inside_] >= 0) & (pixel_[inside_ + 1] >= 0); }
+
     /// They ascend or descend, so those in the image follow one another: [begin, end).
     struct Pixels {
         const std::int32_t* pixel;
@@ -89,6 +92,7 @@ public:
 private:
     Pixels part(std::size_t first, std::size_t n) const {
         Pixels pixels{pixel_.data() + first, n, 0, n};
+        if (is_inside()) return pixels;
         while (pixels.begin < n && pixels.pixel[pixels.begin] < 0) ++pixels.begin;
         while (pixels.end > pixels.begin && pixels.pixel[pixels.end - 1] < 0) --pixels.end;
         return pixels;
@@ -122,7 +126,8 @@ private:
             std::fill_n(samples, across.size * down.size, 0.0f);
         std::size_t v = down.begin;
         for (; v + 4 <= down.end; v += 4) read_rows<4>(across, down.pixel + v, samples + v * across.size);
-        for (; v < down.end; ++v) read_rows<1>(across, down.pixel + v, samples + v * across.size);
+        for (; v + 2 <= down.end; v += 2) read_rows<2>(across, down.pixel + v, samples + v * across.size);
+        if (v < down.end) read_rows<1>(across, down.pixel + v, samples + v * across.size);
     }
 
     /// A few rows at once: a column is looked up once for all of them.
@@ -142,13 +147,15 @@ void require_count(int count, const char* name) {
     if (count < 1 || count > kMaxSamples) refuse(name, "1 to " + std::to_string(kMaxSamples), count);
 }
 
-void require_arguments(VectorRef camera, StatesRef states, const DepthModel& model, const Places& places,
-                       double nearer) {
-    require_camera(camera);
+void require_states(StatesRef states) {
     require_shape(states, states.rows(), 5, "states");
     require_finite(states, "states");
     for (Eigen::Index i = 0; i < states.rows(); ++i)
         if (!(states(i, 2) > 0.0)) refuse("states", "Z above 0", states(i, 2));
+}
+
+void require_arguments(VectorRef camera, const DepthModel& model, const Places& places, double nearer) {
+    require_camera(camera);
     require_count(places.rows, "rows");
     require_count(places.columns, "columns");
     require_count(places.along, "along");
@@ -158,40 +165,71 @@ void require_arguments(VectorRef camera, StatesRef states, const DepthModel& mod
     require_nearer(nearer);
 }
 
+std::size_t places_inside(const Places& places) {
+    return static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
+}
+
+std::size_t places_around(const Places& places) {
+    return 4 * static_cast<std::size_t>(places.along);
+}
+
 }  // namespace
 
-States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
-                      const Places& places, double nearer) {
-    require_arguments(camera, states, model, places, nearer);
-    GridReader reader(depth, places);
-    const auto inner = static_cast<std::size_t>(places.rows) * static_cast<std::size_t>(places.columns);
-    const auto outer = 4 * static_cast<std::size_t>(places.along);
-    const auto batch = static_cast<std::size_t>(std::min(kBatch, states.rows()));
-    std::vector<DepthSamples> samples(batch,
-                                      DepthSamples{std::vector<float>(RelativeHistogram::padded(inner)),
-                                                   std::vector<float>(RelativeHistogram::padded(outer))});
-    std::vector<RelativeHistogram> histograms(batch,
-                                              RelativeHistogram(model.histogram.size(), model.reach, inner));
+struct RectangleContrast::Parts {
+    GridReader reader;
+    VectorRef camera;
+    DepthModel model;
+    double nearer, inside, around;  ///< meters, and numbers of places
+    std::vector<DepthSamples> samples;
+    std::vector<RelativeHistogram> histograms;
+};
+
+RectangleContrast::RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model,
+                                     const Places& places, double nearer) {
+    require_arguments(camera, model, places, nearer);
+    const std::size_t inside = places_inside(places), around = places_around(places);
+    const DepthSamples samples{std::vector<float>(RelativeHistogram::padded(inside)),
+                               std::vector<float>(RelativeHistogram::padded(around))};
+    const RelativeHistogram histogram(model.histogram.size(), model.reach, inside);
+    parts_.reset(new Parts{GridReader(depth, places), camera, model, nearer, static_cast<double>(inside),
+                           static_cast<double>(around), std::vector<DepthSamples>(kBatch, samples),
+                           std::vector<RelativeHistogram>(kBatch, histogram)});
+}
+
+RectangleContrast::~RectangleContrast() = default;
+
+States RectangleContrast::measure(StatesRef states, bool with_nearer) {
+    require_states(states);
+    auto& [reader, camera, model, nearer, inside, around, samples, histograms] = *parts_;
     States measured(states.rows(), 4);
     for (Eigen::Index first = 0; first < states.rows(); first += kBatch) {
         const auto n = static_cast<std::size_t>(std::min(kBatch, states.rows() - first));
-        const auto state = [&](std::size_t i) {
-            return states.row(first + static_cast<Eigen::Index>(i)).data();
-        };
-        for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state(i)), samples[i]);
-        for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state(i)[2]);
+        const double* state = states.row(first).data();
+        for (std::size_t i = 0; i < n; ++i) reader.read(project(camera, state + 5 * i), samples[i]);
+        for (std::size_t i = 0; i < n; ++i) histograms[i].read(samples[i].inside.data(), state[5 * i + 2]);
         for (std::size_t i = 0; i < n; ++i) histograms[i].count();
         for (std::size_t i = 0; i < n; ++i) {
             histograms[i].finish();
-            const auto& [inside, around] = samples[i];
-            const double z = state(i)[2];
-            measured.row(first + static_cast<Eigen::Index>(i)) << histograms[i].distance(model.histogram),
-                histograms[i].total() / static_cast<double>(inner),
-                count_below(inside.data(), inside.size(), z - nearer) / static_cast<double>(inner),
-                count_within(around.data(), around.size(), z, model.reach) / static_cast<double>(outer);
+            const auto& [within, beside] = samples[i];
+            const double z = state[5 * i + 2];
+            double* to = measured.row(first + static_cast<Eigen::Index>(i)).data();
+            to[0] = histograms[i].distance(model.histogram);
+            to[1] = histograms[i].total() / inside;
+            to[2] = with_nearer ? count_below(within.data(), within.size(), z - nearer) / inside : 0.0;
+            to[3] = count_within(beside.data(), beside.size(), z, model.reach) / around;
         }
     }
     return measured;
+}
+
+Vector RectangleContrast::shares() const {
+    return parts_->histograms.front().shares();
+}
+
+States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
+                      const Places& places, double nearer) {
+    require_states(states);
+    return RectangleContrast(depth, camera, model, places, nearer).measure(states, true);
 }
 
 Vector depth_shares(const DepthView& depth, VectorRef camera, const double* state, const Places& places,

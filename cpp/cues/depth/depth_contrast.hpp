@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "base/arrays.hpp"
 #include "base/depth_view.hpp"
 #include "cues/depth/depth_distance.hpp"
@@ -36,7 +38,26 @@ struct Places {
 States depth_contrast(const DepthView& depth, VectorRef camera, StatesRef states, const DepthModel& model,
                       const Places& places, double nearer);
 
-/// The histogram of the depths inside one such rectangle, relative to a depth z: what its model learns, as by rectangle_histogram.
+/// The same for one set of rectangles after the other, with memory that is kept.
+class RectangleContrast {
+public:
+    /// Camera and model are looked at as long as this lives.
+    RectangleContrast(const DepthView& depth, VectorRef camera, const DepthModel& model, const Places& places,
+                      double nearer);
+    ~RectangleContrast();
+
+    /// (N, 4), as by depth_contrast; what is nearer only if wanted, else 0.
+    States measure(StatesRef states, bool with_nearer);
+
+    /// The histogram (L,) of the rectangle, where one was measured: of sum 1; all 0 where nothing counts.
+    Vector shares() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// The histogram of the depths inside one such rectangle, relative to any depth z, as by rectangle_histogram.
 ///
 /// @param state (5,), finite, Z above 0
 /// @returns (levels,) of sum 1; all 0 where nothing counts

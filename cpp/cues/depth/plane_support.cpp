@@ -33,6 +33,16 @@ Count count_row(const float* __restrict depth, const float* __restrict across, i
     return {measured, within, below};
 }
 
+/// Every step-th of a row.
+TRICUE_MULTIVERSION
+void thin_row(const float* __restrict from, std::size_t n, std::ptrdiff_t step, float* __restrict to) {
+    const auto count = static_cast<std::ptrdiff_t>(n);
+    if (step == 2)
+        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = from[2 * i];
+    else
+        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = from[i * step];
+}
+
 }  // namespace
 
 Vector plane_support(const DepthView& depth, VectorRef camera, VectorRef plane, double tolerance, int step) {
@@ -50,8 +60,7 @@ Vector plane_support(const DepthView& depth, VectorRef camera, VectorRef plane, 
     row.resize(across.size());
     Count all;
     for (int v = 0; v < depth.rows; v += step) {
-        const float* from = depth.row(v);
-        for (std::size_t i = 0; i < row.size(); ++i, from += step) row[i] = *from;
+        thin_row(depth.row(v), row.size(), step, row.data());
         const Count count = count_row(row.data(), across.data(), static_cast<int>(row.size()),
                                       p[1] * lens.y[static_cast<std::size_t>(v)] + p[2], p[3], band);
         all.measured += count.measured;

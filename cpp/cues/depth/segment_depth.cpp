@@ -18,6 +18,7 @@
 #include "cues/depth/depth_components.hpp"
 #include "cues/depth/depth_density.hpp"
 #include "cues/depth/depth_edges.hpp"
+#include "cues/depth/detail/bit_image.hpp"
 #include "cues/depth/ground_distance.hpp"
 #include "cues/depth/measure_objects.hpp"
 
@@ -28,9 +29,9 @@ constexpr int kBins = 16;
 constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
-/// Most pixels of a frame are left out: they are skipped by the block.
-constexpr int kBlock = 64;
-constexpr int kWord = sizeof(std::uint64_t);
+constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remainder
+constexpr int kUsualShare =
+    8;  ///< of an image's pixels an eighth or fewer are searched, before a camera that doesn't move
 
 /// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
 constexpr std::size_t kTables = 4;
@@ -100,23 +101,22 @@ struct LevelScale {
 
 /// The levels of a block, `none` where a pixel doesn't count.
 TRICUE_MULTIVERSION
-void find_levels(const float* __restrict distance, const std::uint8_t* __restrict mask,
-                 const LevelScale& levels, std::int32_t* __restrict level) {
+void find_levels(const float* __restrict distance, const LevelScale& levels, std::int32_t* __restrict level) {
     const float least = levels.least, end = levels.end, near = levels.near, scale = levels.scale,
                 top = levels.top;
     const std::int32_t none = levels.none;
     for (int x = 0; x < kBlock; ++x) {
         const float z = distance[x], place = (z - near) * scale;
-        const bool counts = (mask[x] != 0) & (z >= least) & (z < end);
+        const bool counts = (z >= least) & (z < end);
         const float within = counts & (place < top) ? place : top;
         level[x] = counts ? static_cast<std::int32_t>(within) : none;
     }
 }
 
-/// The labels of a block, 0 where a pixel has none. As the dividers ascend, a distance has the label of the last that it has reached.
+/// The labels of a block, 0 beyond the dividers. As these ascend, a distance has the label of the last that it has reached.
 TRICUE_MULTIVERSION
-void divide(const float* __restrict distance, const std::uint8_t* __restrict mask,
-            const float* __restrict dividers, int divisions, std::uint8_t* __restrict labels) {
+void divide(const float* __restrict distance, const float* __restrict dividers, int divisions,
+            std::uint8_t* __restrict labels) {
     const float end = dividers[divisions];
     for (int x = 0; x < kBlock; ++x) labels[x] = 0;
     for (int k = 0; k < divisions; ++k) {
@@ -124,14 +124,7 @@ void divide(const float* __restrict distance, const std::uint8_t* __restrict mas
         const auto label = static_cast<std::uint8_t>(k + 1);
         for (int x = 0; x < kBlock; ++x) labels[x] = distance[x] >= least ? label : labels[x];
     }
-    for (int x = 0; x < kBlock; ++x)
-        labels[x] = (mask[x] != 0) & (distance[x] < end) ? labels[x] : std::uint8_t{0};
-}
-
-std::uint64_t word_at(const std::uint8_t* flags) {
-    std::uint64_t word;
-    std::memcpy(&word, flags, kWord);
-    return word;
+    for (int x = 0; x < kBlock; ++x) labels[x] = distance[x] < end ? labels[x] : std::uint8_t{0};
 }
 
 /// Reads an image row by row: the distances of one, and the nearest of each pixel's neighborhood in three rows.
@@ -189,42 +182,50 @@ private:
     std::array<std::vector<float>, 3> distance_, padded_, nearest_;  // of three rows, in turn
 };
 
-/// Blocks of pixels among which are some where objects are looked for. Of all others nothing is kept.
-class Blocks {
-public:
-    explicit Blocks(int cols) : cols_(cols) {}
+/// Lists the pixels of a row that are set, the first of which has the number `first`. Returns how many there are.
+TRICUE_MULTIVERSION
+std::ptrdiff_t list_pixels(const BitImage& mask, int y, std::ptrdiff_t first, std::ptrdiff_t* pixels) {
+    std::ptrdiff_t* end = pixels;
+    for (int i = 0; i < mask.words(); ++i, first += kBlock) end = list_bits<8>(mask.word(y, i), first, end);
+    return end - pixels;
+}
 
-    /// Those of a row, whose mask has zeros up to a whole block.
-    void add_row(int y, const float* distance, const std::uint8_t* mask) {
-        for (int x = 0; x < cols_; x += kBlock) {
-            std::uint64_t any = 0, bits = 0;
-            for (int i = 0; i < kBlock; i += kWord) any |= word_at(mask + x + i);
-            if (any == 0) continue;
-            for (int i = 0; i < kBlock; i += kWord) bits |= nonzero_bytes(word_at(mask + x + i)) << i;
-            places_.push_back({y, x});
-            bits_.push_back(bits);
-            masks_.insert(masks_.end(), mask + x, mask + x + kBlock);
-            distances_.insert(distances_.end(), distance + x, distance + std::min(x + kBlock, cols_));
-            distances_.resize(places_.size() * kBlock);
-        }
+/// Whether the label of a pixel isn't that of its left neighbor, which is the one listed before it.
+TRICUE_MULTIVERSION
+void mark_changes(const std::uint8_t* __restrict labels, const std::ptrdiff_t* __restrict pixels,
+                  std::ptrdiff_t n, std::uint8_t* __restrict changes) {
+    for (std::ptrdiff_t i = 1; i < n; ++i)
+        changes[i] = (labels[i] != labels[i - 1]) & (pixels[i] == pixels[i - 1] + 1);
+}
+
+/// The pixels where objects are looked for, in reading order, and their distances. Mostly they are few, and apart.
+class SearchedDistances {
+public:
+    SearchedDistances(int rows, int cols) : rows_(rows), cols_(cols), bits_(rows, cols) {
+        make_room(rows * std::ptrdiff_t{cols} / kUsualShare);
     }
 
-    Vector histogram(const DepthLevels& levels) const {
+    /// Those of a row whose mask isn't 0; row after row.
+    void add_row(int y, const float* distance, const std::uint8_t* mask) {
+        bits_.read(y, mask);
+        make_room(size_ + cols_ + kBlock);
+        const std::ptrdiff_t first = y * std::ptrdiff_t{cols_}, *pixels = pixels_.data() + size_;
+        const std::ptrdiff_t count = list_pixels(bits_, y, first, pixels_.data() + size_);
+        float* to = distances_.data() + size_;
+        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = distance[pixels[i] - first];
+        size_ += count;
+    }
+
+    Vector histogram(const DepthLevels& levels) {
         const LevelScale scale(levels);
         const auto bins = static_cast<std::size_t>(levels.count) + 1;
         std::vector<std::int32_t> counts(kTables * bins);
         std::array<std::int32_t, kBlock> level;
-        for (std::size_t i = 0; i < places_.size(); ++i) {
-            find_levels(distance(i), mask(i), scale, level.data());
-            if (bits_[i] == ~std::uint64_t{0}) {
-                for (std::size_t x = 0; x < kBlock; ++x)
-                    ++counts[(x % kTables) * bins + static_cast<std::size_t>(level[x])];
-                continue;
-            }
-            std::size_t table = 0;
-            for (std::uint64_t bits = bits_[i]; bits != 0; bits &= bits - 1, table = (table + 1) % kTables)
-                ++counts[table * bins +
-                         static_cast<std::size_t>(level[static_cast<std::size_t>(lowest_bit(bits))])];
+        fill_last_block();
+        for (std::ptrdiff_t first = 0; first < size_; first += kBlock) {
+            find_levels(distances_.data() + first, scale, level.data());
+            for (std::size_t i = 0; i < kBlock; ++i)
+                ++counts[(i % kTables) * bins + static_cast<std::size_t>(level[i])];
         }
         Vector histogram = Vector::Zero(levels.count);
         for (std::size_t t = 0; t < kTables; ++t)
@@ -233,32 +234,61 @@ public:
         return histogram;
     }
 
-    Labels label(int rows, VectorRef dividers) const {
-        std::vector<float> limits;
-        for (const double s : dividers) limits.push_back(round_up_to_float(s));
-        Labels labels = Labels::Zero(rows, cols_);
-        std::array<std::uint8_t, kBlock> block;
-        for (std::size_t i = 0; i < places_.size(); ++i) {
-            const auto [y, x] = places_[i];
-            divide(distance(i), mask(i), limits.data(), static_cast<int>(limits.size()) - 1, block.data());
-            std::copy_n(block.data(), std::min(kBlock, cols_ - x), labels.row(y).data() + x);
-        }
-        return labels;
+    /// The runs of pixels in the same division; without pixels that are alone, unless these count.
+    PixelRuns runs(VectorRef dividers, bool single) {
+        const std::vector<std::uint8_t> labels = label(dividers);
+        const bool all = std::memchr(labels.data(), 0, static_cast<std::size_t>(size_)) == nullptr;
+        Labels image(rows_, cols_);  // read only where a bit is set
+        if (!all) image.setZero();
+        for (std::ptrdiff_t i = 0; i < size_; ++i)
+            image.data()[pixels_[i]] = labels[static_cast<std::size_t>(i)];
+        if (!all)
+            for (int y = 0; y < rows_; ++y) bits_.read(y, image.row(y).data());
+        return label_runs(bits_, find_changes(labels), {image.data(), rows_, cols_, 1, cols_}, single);
     }
 
 private:
-    struct Place {
-        int row, first;
-    };
+    /// Memory as it is needed: that of a whole image is fetched from the system anew in every frame.
+    void make_room(std::ptrdiff_t pixels) {
+        if (pixels <= pixels_.size()) return;
+        pixels_.conservativeResize(std::max(pixels, 2 * pixels_.size()));
+        distances_.conservativeResize(pixels_.size());
+    }
 
-    const float* distance(std::size_t i) const { return distances_.data() + i * kBlock; }
-    const std::uint8_t* mask(std::size_t i) const { return masks_.data() + i * kBlock; }
+    /// Distances that don't count, up to a whole block.
+    void fill_last_block() {
+        make_room(size_ + kBlock);
+        distances_.segment(size_, kBlock) = kUnmeasured;
+    }
 
-    int cols_;
-    std::vector<Place> places_;
-    std::vector<std::uint64_t> bits_;  ///< of the masks
-    std::vector<float> distances_;
-    std::vector<std::uint8_t> masks_;
+    std::vector<std::uint8_t> label(VectorRef dividers) {
+        std::vector<float> limits;
+        for (const double s : dividers) limits.push_back(round_up_to_float(s));
+        std::vector<std::uint8_t> labels(static_cast<std::size_t>(size_) + kBlock);
+        fill_last_block();
+        for (std::ptrdiff_t first = 0; first < size_; first += kBlock)
+            divide(distances_.data() + first, limits.data(), static_cast<int>(limits.size()) - 1,
+                   labels.data() + first);
+        return labels;
+    }
+
+    BitImage find_changes(const std::vector<std::uint8_t>& labels) const {
+        BitImage found(rows_, cols_);
+        std::vector<std::uint8_t> changes(labels.size());
+        mark_changes(labels.data(), pixels_.data(), size_, changes.data());
+        for (auto at = changes.begin(); (at = std::find(at, changes.end(), 1)) != changes.end(); ++at) {
+            const std::ptrdiff_t pixel = pixels_[at - changes.begin()], x = pixel % cols_;
+            found.word(static_cast<int>(pixel / cols_), static_cast<int>(x / kBlock)) |= std::uint64_t{1}
+                                                                                         << (x % kBlock);
+        }
+        return found;
+    }
+
+    int rows_, cols_;
+    BitImage bits_;
+    Eigen::Array<std::ptrdiff_t, Eigen::Dynamic, 1> pixels_;  ///< used as far as size_, like the distances
+    Eigen::ArrayXf distances_;
+    std::ptrdiff_t size_ = 0;
 };
 
 void require_arguments(const DepthView& depth, const SearchedPixels& searched, const Divisions& divisions) {
@@ -267,17 +297,18 @@ void require_arguments(const DepthView& depth, const SearchedPixels& searched, c
     require_noise(searched.noise, searched.noise_slope);
     require_gap(divisions.gap, divisions.slope);
     require_levels(divisions.levels);
+    if (divisions.levels.near < 0.0) refuse("near", "a finite number, not negative", divisions.levels.near);
+    if (divisions.min_area < 1) refuse("min_area", "at least 1", divisions.min_area);
 }
 
-Blocks find_blocks(const DepthView& depth, const SearchedPixels& searched, VectorRef camera, VectorRef plane,
-                   const Divisions& divisions) {
-    Blocks blocks(depth.cols);
+SearchedDistances find_distances(const DepthView& depth, const SearchedPixels& searched, VectorRef camera,
+                                 VectorRef plane, const Divisions& divisions) {
+    SearchedDistances found(depth.rows, depth.cols);
     DistanceRows rows(depth, camera, plane, divisions.levels);
     const bool changing = searched.before.rows > 0;
     const int x0 = std::min(std::max(searched.region.x0, 0), depth.cols),
               x1 = std::min(searched.region.x1, depth.cols);
-    const auto whole = static_cast<std::size_t>((depth.cols + kBlock - 1) / kBlock * kBlock);
-    std::vector<std::uint8_t> mask(whole);
+    std::vector<std::uint8_t> mask(static_cast<std::size_t>(depth.cols));
     for (int y = 0; y < depth.rows; ++y) {
         rows.next(y);
         if (y < searched.region.y0 || y >= searched.region.y1 || x0 >= x1) continue;
@@ -288,9 +319,9 @@ Blocks find_blocks(const DepthView& depth, const SearchedPixels& searched, Vecto
                          static_cast<float>(searched.noise_slope), mask.data());
         std::fill(mask.begin(), mask.begin() + x0, std::uint8_t{0});
         std::fill(mask.begin() + x1, mask.end(), std::uint8_t{0});
-        blocks.add_row(y, rows.distance(y), mask.data());
+        found.add_row(y, rows.distance(y), mask.data());
     }
-    return blocks;
+    return found;
 }
 
 Vector find_dividers(const Vector& histogram, const Divisions& divisions) {
@@ -324,11 +355,10 @@ DepthObjects segment_depth(const DepthView& depth, const SearchedPixels& searche
                            const Cut& cut, const Standing& standing) {
     require_arguments(depth, searched, divisions);
     const auto& [near, far, levels] = divisions.levels;
-    const Blocks blocks = find_blocks(depth, searched, camera, plane, divisions);
-    const Labels labels =
-        blocks.label(depth.rows, find_dividers(blocks.histogram(divisions.levels), divisions));
-    auto found = depth_components({labels.data(), depth.rows, depth.cols, 1, depth.cols}, depth,
-                                  {near, far, 0, kBins}, divisions.min_area, false);
+    SearchedDistances distances = find_distances(depth, searched, camera, plane, divisions);
+    PixelRuns runs = distances.runs(find_dividers(distances.histogram(divisions.levels), divisions),
+                                    divisions.min_area == 1);
+    auto found = describe_components(runs, depth, {near, far, 0, kBins}, divisions.min_area, false);
     Flags sides = cut_sides(depth, found.table, camera, cut);
     cut_at_edge(found.table, measured, cut.border, sides);
     States states = measure_objects({found.table, found.columns, found.rows, sides}, camera,

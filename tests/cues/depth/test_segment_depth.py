@@ -97,6 +97,14 @@ def test_twin_finds_the_same_in_a_room(noisy_room: Depth, camera: Floats, floor:
     assert assert_same(arguments(foreground(noisy_room), camera, plane=floor)) > 1
 
 
+def test_twin_finds_the_same_beyond_the_range() -> None:
+    """Depths out of the range belong to nothing, also where they touch what is in it."""
+    depth = np.random.default_rng(0).uniform(1, 12, (40, 150)).astype(np.float32)
+    depth[10:20, 30:90] = 4.0
+    smooth = {"edges": (1e6, 0.0), "min_area": 2, "plane": NO_FLOOR}
+    assert assert_same(arguments(depth, LENS, **smooth)) > 1
+
+
 def drawn(*boxes: tuple[tuple[int, int, int, int], float]) -> Depth:
     """Flat boxes x, y, width, height at their depths, before nothing."""
     depth = np.full((120, 160), np.nan, np.float32)

@@ -32,7 +32,8 @@ class Body(NamedTuple):
     @property
     def whole(self) -> NDArray[np.bool_]:
         """(2,) whether the whole width and the whole height are visible."""
-        return ~(self.cut[::2] | self.cut[1::2])
+        left, right, top, bottom = self.cut.tolist()
+        return np.array((not (left or right), not (top or bottom)))
 
     def complete(self, expected: Floats, size: Floats) -> Floats:
         """The state as if nothing cut it; see :func:`complete_rectangle`."""
@@ -120,5 +121,5 @@ def _unite(body: Body, objects: Objects, pieces: list[int]) -> Body:
     return Body(
         np.concatenate([middle, body.state[2:3], last - first]),
         np.logical_or.reduce(objects.cut[pieces]),
-        body.signature._replace(centroid_offset=offset),
+        body.signature.with_centroid(offset),
     )

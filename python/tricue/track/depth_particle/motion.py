@@ -89,7 +89,8 @@ class BodyMotion(NamedTuple):
         be wider.
         """
         if all(whole.tolist()) and all(self.size_known.tolist()):
-            return self._replace(mean_size=self.mean_size + p.size_rate * (size - self.mean_size))
+            mean_size = self.mean_size + p.size_rate * (size - self.mean_size)
+            return BodyMotion(self.state, self.velocity, mean_size, self.size_known)
         size = np.where(whole, size, self.mean_size)
         known = whole & (whole | self.size_known)[::-1]
         first = whole & ~self.size_known

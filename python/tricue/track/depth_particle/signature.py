@@ -16,33 +16,42 @@ SIGNATURE_RATE = 0.1  # per frame, of learning
 class Signature(NamedTuple):
     """The distribution of a target over its box.
 
-    distribution: (2 DISTRIBUTION_BINS,) the horizontal and then the vertical one, each of sum 1.
-    centroid_offset: (2,) meters, from the box's center to the centroid.
+    values: (2 DISTRIBUTION_BINS + 2,) the distribution and the offset of the centroid, in one array, as they
+    are learned together.
     """
 
-    distribution: Floats
-    centroid_offset: Floats
+    values: Floats
+
+    @property
+    def distribution(self) -> Floats:
+        """(2 DISTRIBUTION_BINS,) the horizontal and then the vertical one, each of sum 1."""
+        return self.values[:-2]
+
+    @property
+    def centroid_offset(self) -> Floats:
+        """(2,) meters, from the box's center to the centroid."""
+        return self.values[-2:]
 
     @classmethod
     def uniform(cls) -> "Signature":
         """The signature of a target of unknown shape."""
-        return cls(np.full(2 * DISTRIBUTION_BINS, 1 / DISTRIBUTION_BINS), np.zeros(2))
+        return cls(np.append(np.full(2 * DISTRIBUTION_BINS, 1 / DISTRIBUTION_BINS), (0.0, 0.0)))
 
     @classmethod
     def from_object(cls, objects: Objects, index: int) -> "Signature":
         """The signature of a segmented object."""
-        return cls(_distribution(objects, index), objects.centroid_offset[index])
+        parts = objects.columns[index], objects.rows[index], objects.centroid_offset[index]
+        return cls(np.concatenate(parts, dtype=np.float64))
 
     def distance(self, objects: Objects, index: int) -> float:
         """The total variation distance to an object's distributions, their mean, in [0, 1]."""
-        return float(np.abs(_distribution(objects, index) - self.distribution).sum()) / 4
+        distribution = np.concatenate((objects.columns[index], objects.rows[index]), dtype=np.float64)
+        return float(np.add.reduce(np.abs(distribution - self.distribution))) / 4
 
     def learn(self, new: "Signature") -> "Signature":
         """Blend in another signature."""
-        distribution = self.distribution + SIGNATURE_RATE * (new.distribution - self.distribution)
-        offset = self.centroid_offset + SIGNATURE_RATE * (new.centroid_offset - self.centroid_offset)
-        return Signature(distribution, offset)
+        return Signature(self.values + SIGNATURE_RATE * (new.values - self.values))
 
-
-def _distribution(objects: Objects, index: int) -> Floats:
-    return np.concatenate((objects.columns[index], objects.rows[index]), dtype=np.float64)
+    def with_centroid(self, offset: Floats) -> "Signature":
+        """The same distribution with another offset (2,) of the centroid, meters."""
+        return Signature(np.concatenate((self.distribution, offset)))

@@ -211,6 +211,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
         again close to that estimate, as 100 particles are few in five dimensions.
         """
         p, before, size = self.params, state.particles, state.motion.mean_size
+        width, height = size.tolist()
         offset, noise = self._draw(before.particles.shape)
         detection = NO_OBJECT if target is None else (target.state, OBJECT_ROOT, p.object_share)
         particles, weights, mean, covariance, observed, histogram = self._k.filter_rectangles(
@@ -223,7 +224,7 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             prediction[:2],
             prediction[2:],
             detection,
-            (np.array([*REFINE_POSITION, *[REFINE_SIZE * each for each in size.tolist()]]), MIN_SIZE),
+            (np.array((*REFINE_POSITION, REFINE_SIZE * width, REFINE_SIZE * height)), MIN_SIZE),
             state.model.histogram,
             *self._settings,
             (size, self._size_deviation),
@@ -307,13 +308,13 @@ class DepthParticleTracker(TrackerBase[DepthParticleParams, State]):
             status = Status.TRACKED
         else:
             status = Status.LOST if state.lost(self.params) else Status.OCCLUDED
-        position = state.motion.state[:3].copy()
-        depth = float(position[2])  # the same before any camera
+        x, y, depth, *_ = state.motion.state.tolist()  # its depth is the same before any camera
         if self.intrinsics is None:
             return Track(box, state.score, status, depth=depth)
         variance = MIN_POSITION_DEVIATION**2 + state.position_spread**2
         covariance = state.particles.covariance[:3, :3] + variance * IDENTITY
-        position[:2] += state.signature.centroid_offset
+        right, down = state.signature.centroid_offset.tolist()
+        position = np.array((x + right, y + down, depth))
         return Track(box, state.score, status, position, covariance, depth)
 
 
