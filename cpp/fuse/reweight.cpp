@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// At 1e150 deviations the density is zero anyway, and the square is still finite.
-double clamped(double z) {
+inline double clamped(double z) {
     return std::min(std::max(z, -1e150), 1e150);
 }
 
@@ -25,44 +26,58 @@ double log_mixture(double ratio, double share) {
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
-/// Log density of N(0, root rootᵀ) at the offset by forward substitution, without its constants; z holds K numbers.
-double log_density(const double* offset, StatesRef root, double* z) {
-    double squares = 0.0;
-    for (Eigen::Index d = 0; d < root.rows(); ++d) {
-        double rest = clamped(offset[d]);
-        for (Eigen::Index e = 0; e < d; ++e) rest -= clamped(root(d, e) * z[e]);
-        z[d] = clamped(rest / root(d, d));
-        squares += z[d] * z[d];
+/// Rows of a number for each particle, one row for each number of the state that a detection is about.
+using Rows = States;
+
+/// For all particles at once: z = (offset - Σ factors[e] solved[e]) / divisor, whose squares are added up.
+TRICUE_MULTIVERSION
+void standardize(const double* offset, const double* solved, const double* factors, std::ptrdiff_t before,
+                 double divisor, std::ptrdiff_t n, double* __restrict z, double* __restrict squares) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) z[i] = clamped(offset[i]);
+    for (std::ptrdiff_t e = 0; e < before; ++e)
+        for (std::ptrdiff_t i = 0; i < n; ++i) z[i] -= clamped(factors[e] * solved[n * e + i]);
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        z[i] = clamped(z[i] / divisor);
+        squares[i] += z[i] * z[i];
     }
-    return -0.5 * squares;
+}
+
+/// -2 times the log density of N(0, root rootᵀ) at the offsets by forward substitution, without its constants.
+Vector squared_deviations(const Rows& offsets, StatesRef root) {
+    const Eigen::Index n = offsets.cols();
+    Vector squares = Vector::Zero(n);
+    Rows z(offsets.rows(), n);
+    for (Eigen::Index d = 0; d < offsets.rows(); ++d)
+        standardize(offsets.row(d).data(), z.data(), root.row(d).data(), d, root(d, d), n, z.row(d).data(),
+                    squares.data());
+    return squares;
 }
 
 /// The same of N(0, diag(scale²)).
-double log_density(const double* offset, VectorRef scale) {
-    double squares = 0.0;
-    for (Eigen::Index d = 0; d < scale.size(); ++d) {
-        const double z = clamped(clamped(offset[d]) / scale[d]);
-        squares += z * z;
-    }
-    return -0.5 * squares;
+Vector squared_deviations(const Rows& offsets, const Vector& scale) {
+    const Eigen::Index n = offsets.cols();
+    Vector squares = Vector::Zero(n), z(n);
+    for (Eigen::Index d = 0; d < offsets.rows(); ++d)
+        standardize(offsets.row(d).data(), nullptr, nullptr, 0, scale[d], n, z.data(), squares.data());
+    return squares;
 }
 
 void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
                        const Detection& detection, Vector& log_weights) {
     const auto& [mean, root, share] = detection;
-    const Eigen::Index size = mean.size();
-    const Vector drift = dynamics.drift.head(size), scale = dynamics.scale.head(size);
+    const Eigen::Index size = mean.size(), n = log_weights.size();
+    const Vector scale = dynamics.scale.head(size);
     const double constants = scale.log().sum() - root.matrix().diagonal().array().log().sum();
-    Vector from_detection(size), from_dynamics(size), z(size);
-    for (Eigen::Index i = 0; i < log_weights.size(); ++i) {
-        for (Eigen::Index d = 0; d < size; ++d) {
-            from_detection[d] = proposed(i, d) - mean[d];
-            from_dynamics[d] = proposed(i, d) - previous(i, d) - drift[d];
+    Rows from_detection(size, n), from_dynamics(size, n);
+    for (Eigen::Index d = 0; d < size; ++d)
+        for (Eigen::Index i = 0; i < n; ++i) {
+            from_detection(d, i) = proposed(i, d) - mean[d];
+            from_dynamics(d, i) = proposed(i, d) - previous(i, d) - dynamics.drift[d];
         }
-        const double ratio = log_density(from_detection.data(), root, z.data()) -
-                             log_density(from_dynamics.data(), scale) + constants;
-        log_weights[i] -= log_mixture(ratio, share);
-    }
+    const Vector detected = squared_deviations(from_detection, root);
+    const Vector moved = squared_deviations(from_dynamics, scale);
+    for (Eigen::Index i = 0; i < n; ++i)
+        log_weights[i] -= log_mixture(-0.5 * detected[i] - -0.5 * moved[i] + constants, share);
 }
 
 /// Equation (31) by log-sum-exp.
