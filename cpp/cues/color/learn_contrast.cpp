@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cues/color/learn_contrast.hpp"
 
+#include <cstdint>
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/simd.hpp"
 #include "cues/color/detail/color_cells.hpp"
 #include "cues/color/detail/ellipse_sampler.hpp"
 #include "cues/color/detail/learn_histograms.hpp"
@@ -11,14 +13,25 @@
 namespace tricue {
 namespace {
 
-/// The samples' histogram, as a cube.
+/// The shares of 0 to all samples, so that a histogram needs no division for each of its cells.
+TRICUE_MULTIVERSION
+void divide(std::ptrdiff_t samples, float* shares) {
+    const auto all = static_cast<float>(samples);
+    for (std::int32_t count = 0; count <= samples; ++count) shares[count] = static_cast<float>(count) / all;
+}
+
+/// The samples' histogram, as a cube. Most cells stay empty: only those of the samples are touched, some more than once.
 Floats seen_histogram(EllipseSampler& sampler, const double* ellipse, FloatsRef old) {
-    const int bits = bits_of_cube(old, "target");
-    std::vector<std::int32_t> cells(static_cast<std::size_t>(sampler.size()));
-    word_cells(sampler.read_words(ellipse, 1), sampler.size(), bits, cells.data());
-    ColorCounts counts(bits);
-    counts.add(cells);
-    return counts.shares(old.rows());
+    const auto n = static_cast<std::size_t>(sampler.size());
+    std::vector<std::int32_t> cells(n), counts(static_cast<std::size_t>(old.size()));
+    word_cells(sampler.read_words(ellipse, 1), sampler.size(), bits_of_cube(old, "target"), cells.data());
+    for (const std::int32_t cell : cells) ++counts[static_cast<std::size_t>(cell)];
+    std::vector<float> shares(n + 1);
+    divide(sampler.size(), shares.data());
+    Floats seen = Floats::Zero(old.rows(), old.cols());
+    for (const std::int32_t cell : cells)
+        seen.data()[cell] = shares[static_cast<std::size_t>(counts[static_cast<std::size_t>(cell)])];
+    return seen;
 }
 
 }  // namespace

@@ -11,22 +11,9 @@
 namespace tricue {
 namespace {
 
-constexpr std::ptrdiff_t kBlock = 16;
-
-/// Most colors aren't seen: blocks of zeros stay so without a division.
 TRICUE_MULTIVERSION
 void divide(const std::int32_t* __restrict counts, float all, std::ptrdiff_t n, float* __restrict shares) {
-    std::ptrdiff_t first = 0;
-    for (; first + kBlock <= n; first += kBlock) {
-        std::int32_t any = 0;
-        for (std::ptrdiff_t k = first; k < first + kBlock; ++k) any |= counts[k];
-        if (any == 0)
-            for (std::ptrdiff_t k = first; k < first + kBlock; ++k) shares[k] = 0.0F;
-        else
-            for (std::ptrdiff_t k = first; k < first + kBlock; ++k)
-                shares[k] = static_cast<float>(counts[k]) / all;
-    }
-    for (; first < n; ++first) shares[first] = static_cast<float>(counts[first]) / all;
+    for (std::ptrdiff_t k = 0; k < n; ++k) shares[k] = static_cast<float>(counts[k]) / all;
 }
 
 TRICUE_MULTIVERSION
@@ -37,17 +24,7 @@ void blend(const float* __restrict old, float rate, std::ptrdiff_t n, float* __r
 TRICUE_MULTIVERSION
 void compute_table(const float* __restrict target, const float* __restrict surround, float rare,
                    std::ptrdiff_t n, float* __restrict table) {
-    std::ptrdiff_t first = 0;
-    for (; first + kBlock <= n; first += kBlock) {
-        bool any = false;
-        for (std::ptrdiff_t k = first; k < first + kBlock; ++k) any |= target[k] != 0.0F;
-        if (!any)
-            for (std::ptrdiff_t k = first; k < first + kBlock; ++k) table[k] = 0.0F;
-        else
-            for (std::ptrdiff_t k = first; k < first + kBlock; ++k)
-                table[k] = target[k] / (target[k] + surround[k] + rare);
-    }
-    for (; first < n; ++first) table[first] = target[first] / (target[first] + surround[first] + rare);
+    for (std::ptrdiff_t k = 0; k < n; ++k) table[k] = target[k] / (target[k] + surround[k] + rare);
 }
 
 }  // namespace

@@ -20,11 +20,6 @@ struct ColorCounts {
         ++pixels;
     }
 
-    void add(const std::vector<std::int32_t>& seen) {
-        for (const std::int32_t cell : seen) ++cells[static_cast<std::size_t>(cell)];
-        pixels += static_cast<std::int32_t>(seen.size());
-    }
-
     /// The cube, in so many rows: of sum 1, or all 0 where there are no pixels.
     Floats shares(Eigen::Index rows) const;
 
