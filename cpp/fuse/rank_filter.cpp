@@ -66,8 +66,14 @@ FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& las
     Summary summary = summarize(moved, posterior.weights);
     const Eigen::Map<const States> estimate(summary.mean.data(), 1, 4);
     const double its_own = meter.log_likelihood(estimate)[0];
-    return {std::move(moved), std::move(posterior.weights), summary.effective, std::move(summary.mean),
-            its_own,          meter.first_window(flat)};
+    RankWindow window = meter.first_window(flat);
+    return {std::move(moved),
+            std::move(posterior.weights),
+            summary.effective,
+            std::move(summary.mean),
+            its_own,
+            std::move(window.ranks),
+            std::move(window.correlations)};
 }
 
 }  // namespace tricue

@@ -6,7 +6,6 @@
 #include "base/arrays.hpp"
 #include "base/image_view.hpp"
 #include "cues/color/rank_likelihood.hpp"
-#include "cues/color/rank_window.hpp"
 #include "fuse/propose.hpp"
 
 namespace tricue {
@@ -33,8 +32,8 @@ struct FilteredEllipses {
     double effective;       ///< effective sample size, from 1 to N
     Vector ellipse;         ///< float64 (4,): expected value
     double log_likelihood;  ///< of that ellipse, nats
-    RankWindow
-        window;  ///< ranks, float32 (3, n), and correlations, float64 (M,): rank_window of that ellipse
+    Floats ranks;         ///< float32 (3, n): of that ellipse, as rank_window has them; in C++ one row of 3 n
+    Vector correlations;  ///< float64 (M,): of that ellipse, as rank_window has them
 };
 
 /// One step of the color particle tracker's filter: particles are drawn, weighed by what the image shows under them, and summed up.

@@ -97,14 +97,13 @@ rank_filter_arrays(const Array<std::uint8_t>& image, const Array<double>& partic
         return rank_filter(view, last, draws, {moves[0], moves[1]}, {moves[2], moves[3]}, detection, windows,
                            look, {sharpness, contrast_weight}, flat);
     });
-    auto& [ranks, correlations] = result.window;
     return {give(std::move(result.particles)),
             give(std::move(result.weights)),
             result.effective,
             give(std::move(result.ellipse)),
             result.log_likelihood,
-            give(std::move(ranks), {3, places}),
-            give(std::move(correlations))};
+            give(std::move(result.ranks), {3, places}),
+            give(std::move(result.correlations))};
 }
 
 Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array<double>& size,

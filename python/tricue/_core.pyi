@@ -2298,7 +2298,8 @@ def rank_filter(
         effective: effective sample size, from 1 to N
         ellipse: float64 (4,): expected value
         log_likelihood: of that ellipse, nats
-        window: ranks, float32 (3, n), and correlations, float64 (M,): rank_window of that ellipse
+        ranks: float32 (3, n): of that ellipse, as rank_window has them; in C++ one row of 3 n
+        correlations: float64 (M,): of that ellipse, as rank_window has them
 
     Raises:
         ValueError: as the kernels that it joins, and on a correlation outside [-1, 1]
