@@ -51,15 +51,27 @@ def log_likelihoods(
 
 
 def script(
-    image: Image, particles: Floats, log_weights: Floats, noise: Floats, *others: Any
+    image: Image,
+    particles: Floats,
+    weights: Floats,
+    offset: float,
+    noise: Floats,
+    correlation: float,
+    *others: Any,
 ) -> tuple[Any, ...]:
     """The baseline: the same equations in NumPy."""
-    drift, scale, lower, upper, mean, root, share, inside, around, maps, shares, _, *color = others
+    *moves, root, share, inside, around, maps, shares, _, table, sharpness, contrast_weight, _ = others
+    drift, scale, lower, upper, mean = map(np.array, moves)
+    root = np.array([[root[0], 0], root[1:]])
+    color = table, sharpness, contrast_weight
+    particles = particles[np.searchsorted(np.cumsum(weights) / weights.sum(), (np.arange(N) + offset) / N)]
+    noise = noise.copy()
+    noise[:, 3] = correlation * noise[:, 2] + np.sqrt(1 - correlation**2) * noise[:, 3]
     moved = particles + drift + scale * noise
     drawn = np.diff(np.floor(np.arange(N + 1) * share)) > 0
     moved[drawn, :2] = mean + noise[drawn, :2] @ root.T
     moved = np.clip(moved, lower, upper)
-    log_weights = log_weights + log_likelihoods(image, moved, inside, around, maps, shares, *color)
+    log_weights = log_likelihoods(image, moved, inside, around, maps, shares, *color)
     detected = (((moved[:, :2] - mean) @ np.linalg.inv(root).T) ** 2).sum(axis=1)
     expected = (((moved - particles - drift) / scale)[:, :2] ** 2).sum(axis=1)
     ratio = (expected - detected) / 2 + np.log(scale[:2].prod() / np.linalg.det(root))
@@ -68,7 +80,8 @@ def script(
     weights /= weights.sum()
     ellipse = weights @ moved
     its_own = log_likelihoods(image, ellipse[None], inside, around, maps, shares, *color)[0]
-    return moved, weights, 1 / (weights**2).sum(), ellipse, its_own
+    window = reference.rank_window(image, ellipse, inside, maps, 0.1)
+    return moved, weights, 1 / (weights**2).sum(), ellipse, its_own, *window
 
 
 @pytest.mark.benchmark(group="rank_filter")
@@ -81,16 +94,12 @@ def bench_rank_filter(benchmark: Any, rank_filter: Callable[..., Any], frame: Im
     rng = np.random.default_rng(0)
     particles = rng.normal([160, 120, 25, 31], [5, 5, 1, 1], (N, 4))
     maps, table = rng.random((2, 3, 96), np.float32), rng.random((16, 16, 16), np.float32)
-    moves = (
-        np.array([1.0, 0, 0, 0]),
-        np.array([3, 3, 0.5, 0.6]),
-        np.zeros(4),
-        np.array([320.0, 240, 90, 90]),
-    )
-    detection = (np.array([162.0, 121]), np.array([[9.0, 0], [2, 8]]), 0.1)
-    look = (grid(12, 8), ring(40, 1.3, 1.8), maps, np.array([0.6, 0.4]), False, table, 110.0, 8.0)
-    arguments = (frame, particles, np.zeros(N), rng.standard_normal((N, 4)), *moves, *detection, *look)
-    moved, _, _, ellipse, _ = benchmark(rank_filter, *arguments)
+    moves = (1.0, 0.0, 0.0, 0.0), (3.0, 3.0, 0.5, 0.6), (0.0,) * 4, (320.0, 240.0, 90.0, 90.0)
+    detection = (162.0, 121.0), (9.0, 2.0, 8.0), 0.1
+    look = (grid(12, 8), ring(40, 1.3, 1.8), maps, np.array([0.6, 0.4]), False, table, 110.0, 8.0, 0.1)
+    before = frame, particles, rng.random(N), 0.3, rng.standard_normal((N, 4)), 0.96
+    arguments = (*before, *moves, *detection, *look)
+    moved, _, _, ellipse, *_ = benchmark(rank_filter, *arguments)
     expected = reference.rank_filter(*arguments)
     assert_allclose(moved, expected[0], rtol=0, atol=1e-10)
     assert_allclose(ellipse, expected[3], rtol=0, atol=1.0 if rank_filter is script else 1e-9)

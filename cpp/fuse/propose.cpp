@@ -2,7 +2,7 @@
 #include "fuse/propose.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 
 #include "base/check.hpp"
 
@@ -16,31 +16,29 @@ void require_valid(const Bounds& bounds, Eigen::Index dimensions) {
         if (!(bounds.lower[d] <= bounds.upper[d])) refuse("lower", "no number above upper", bounds.lower[d]);
 }
 
-void move(StatesRef particles, const Dynamics& dynamics, StatesRef noise, States& moved) {
-    for (Eigen::Index i = 0; i < moved.rows(); ++i)
-        for (Eigen::Index d = 0; d < moved.cols(); ++d)
-            moved(i, d) = particles(i, d) + dynamics.drift[d] + dynamics.scale[d] * noise(i, d);
-}
-
 /// Whether the share's running total passes a whole number here.
 bool detected(Eigen::Index i, double share) {
-    return std::floor(static_cast<double>(i + 1) * share) > std::floor(static_cast<double>(i) * share);
+    const auto whole = [share](Eigen::Index count) {
+        return static_cast<std::int64_t>(static_cast<double>(count) * share);
+    };
+    return whole(i + 1) > whole(i);
 }
 
-void detect(const Detection& detection, StatesRef noise, States& moved) {
-    for (Eigen::Index i = 0; i < moved.rows(); ++i) {
-        if (!detected(i, detection.share)) continue;
-        for (Eigen::Index d = 0; d < detection.mean.size(); ++d) {
-            moved(i, d) = detection.mean[d];
-            for (Eigen::Index e = 0; e <= d; ++e) moved(i, d) += detection.root(d, e) * noise(i, e);
-        }
+void move(const double* from, const Dynamics& dynamics, const double* noise, double* to) {
+    for (Eigen::Index d = 0; d < dynamics.drift.size(); ++d)
+        to[d] = from[d] + dynamics.drift[d] + dynamics.scale[d] * noise[d];
+}
+
+void detect(const Detection& detection, const double* noise, double* to) {
+    for (Eigen::Index d = 0; d < detection.mean.size(); ++d) {
+        to[d] = detection.mean[d];
+        for (Eigen::Index e = 0; e <= d; ++e) to[d] += detection.root(d, e) * noise[e];
     }
 }
 
-void clamp(const Bounds& bounds, States& moved) {
-    for (Eigen::Index i = 0; i < moved.rows(); ++i)
-        for (Eigen::Index d = 0; d < moved.cols(); ++d)
-            moved(i, d) = std::min(std::max(bounds.lower[d], moved(i, d)), bounds.upper[d]);
+void clamp(const Bounds& bounds, double* state) {
+    for (Eigen::Index d = 0; d < bounds.lower.size(); ++d)
+        state[d] = std::min(std::max(bounds.lower[d], state[d]), bounds.upper[d]);
 }
 
 }  // namespace
@@ -55,9 +53,13 @@ States propose(StatesRef particles, const Dynamics& dynamics, StatesRef noise, c
     require_valid(bounds, particles.cols());
 
     States moved(particles.rows(), particles.cols());
-    move(particles, dynamics, noise, moved);
-    detect(detection, noise, moved);
-    clamp(bounds, moved);
+    for (Eigen::Index i = 0; i < moved.rows(); ++i) {
+        double* state = moved.row(i).data();
+        const double* numbers = noise.row(i).data();
+        move(particles.row(i).data(), dynamics, numbers, state);
+        if (detected(i, detection.share)) detect(detection, numbers, state);
+        clamp(bounds, state);
+    }
     return moved;
 }
 

@@ -1,37 +1,79 @@
 // SPDX-License-Identifier: MIT
 #include "fuse/rank_filter.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/check.hpp"
+#include "fuse/resample.hpp"
 #include "fuse/reweight.hpp"
 #include "fuse/summarize.hpp"
 
 namespace tricue {
 namespace {
 
+constexpr double kMinWeight = 1e-300;  // of a particle, in the logarithm
+
 void require_valid(const WeightedEllipses& last) {
     if (last.particles.rows() < 1) refuse("particles", "at least one", "none");
     require_shape(last.particles, last.particles.rows(), 4, "particles");
-    require_size(last.log_weights, last.particles.rows(), "log_weights");
-    for (const double each : last.log_weights)
-        if (!(each <= 0.0)) refuse("log_weights", "numbers up to 0", each);
+    require_size(last.weights, last.particles.rows(), "weights");
+}
+
+/// The particles that the filter goes on from.
+States chosen(const WeightedEllipses& last) {
+    if (!last.offset) {
+        require_weights(last.weights);
+        return last.particles;
+    }
+    const Indices indices = resample(last.weights, *last.offset);
+    States particles(last.particles.rows(), 4);
+    for (Eigen::Index i = 0; i < particles.rows(); ++i)
+        std::copy_n(last.particles.row(indices[i]).data(), 4, particles.row(i).data());
+    return particles;
+}
+
+void add_logarithms(VectorRef weights, Vector& log_likelihood) {
+    for (Eigen::Index i = 0; i < weights.size(); ++i)
+        log_likelihood[i] += std::log(std::max(weights[i], kMinWeight));
+}
+
+/// The numbers of both semi-axes mixed, in one rounding, as a product of matrices does it.
+States mixed(const EllipseNoise& noise, Eigen::Index N) {
+    require_shape(noise.noise, N, 4, "noise");
+    const double common = noise.correlation;
+    if (!(std::abs(common) <= 1.0)) refuse("correlation", "a number in [-1, 1]", common);
+    const double own = std::sqrt(1.0 - common * common);
+    States numbers = noise.noise;
+    for (Eigen::Index i = 0; i < N; ++i) numbers(i, 3) = std::fma(numbers(i, 3), own, numbers(i, 2) * common);
+    return numbers;
 }
 
 }  // namespace
 
-FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, StatesRef noise,
+FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,
-                             const Windows& windows, const ColorLook& look, const LookWeights& weights) {
+                             const Windows& windows, const ColorLook& look, const LookWeights& weights,
+                             double flat) {
     require_valid(last);
-    States moved = propose(last.particles, dynamics, noise, detection, bounds);
-    const Vector log_likelihood = rank_likelihood(image, moved, windows, look, weights) + last.log_weights;
-    Reweighted posterior = reweight(log_likelihood, moved, last.particles, dynamics, detection);
+    const States before = chosen(last);
+    States moved = propose(before, dynamics, mixed(noise, before.rows()), detection, bounds);
+    RankMeter meter(image, windows, look, weights);
+    Vector log_likelihood = meter.log_likelihood(moved);
+    if (!last.offset) add_logarithms(last.weights, log_likelihood);
+    Reweighted posterior = reweight(log_likelihood, moved, before, dynamics, detection);
     Summary summary = summarize(moved, posterior.weights);
     const Eigen::Map<const States> estimate(summary.mean.data(), 1, 4);
-    const double its_own = rank_likelihood(image, estimate, windows, look, weights)[0];
-    return {std::move(moved), std::move(posterior.weights), summary.effective, std::move(summary.mean),
-            its_own};
+    const double its_own = meter.log_likelihood(estimate)[0];
+    RankWindow window = meter.first_window(flat);
+    return {std::move(moved),
+            std::move(posterior.weights),
+            summary.effective,
+            std::move(summary.mean),
+            its_own,
+            std::move(window.ranks),
+            std::move(window.correlations)};
 }
 
 }  // namespace tricue

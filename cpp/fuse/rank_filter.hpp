@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "base/arrays.hpp"
 #include "base/image_view.hpp"
 #include "cues/color/rank_likelihood.hpp"
@@ -10,8 +12,17 @@ namespace tricue {
 
 /// Particles as they were after the last frame.
 struct WeightedEllipses {
-    StatesRef particles;    ///< float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
-    VectorRef log_weights;  ///< float64 (N,): logarithms of their weights but for a constant, not above 0
+    StatesRef particles;  ///< float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
+    VectorRef weights;    ///< float64 (N,), finite, none negative, not all 0; need not sum to 1
+    /// where resample puts its comb, in [0, 1); None: they aren't resampled, and their weights count
+    std::optional<double> offset;
+};
+
+/// What particles are moved by.
+struct EllipseNoise {
+    StatesRef noise;  ///< float64 (N, 4): independent standard normal numbers
+    double
+        correlation;  ///< of the noise of both semi-axes, which that of the major one then gets, in [-1, 1]
 };
 
 /// Particles after a frame, and what they say of the target.
@@ -21,19 +32,23 @@ struct FilteredEllipses {
     double effective;       ///< effective sample size, from 1 to N
     Vector ellipse;         ///< float64 (4,): expected value
     double log_likelihood;  ///< of that ellipse, nats
+    Floats ranks;         ///< float32 (3, n): of that ellipse, as rank_window has them; in C++ one row of 3 n
+    Vector correlations;  ///< float64 (M,): of that ellipse, as rank_window has them
 };
 
 /// One step of the color particle tracker's filter: particles are drawn, weighed by what the image shows under them, and summed up.
 ///
-/// It joins propose; rank_likelihood, to which the logarithms of the particles' weights are added; reweight; summarize; and
-/// rank_likelihood of the expected value. So particles stay in the cache.
+/// It joins resample; propose; rank_likelihood, to which the logarithms of the weights are added where nothing was resampled, a
+/// weight counting as at least 1e-300; reweight; summarize; and rank_likelihood and rank_window of the expected value. So particles
+/// stay in the cache.
 ///
 /// @param image uint8 (H, W, 3) BGR, at least one pixel
-/// @param noise float64 (N, 4): independent standard normal numbers
-/// @throws std::invalid_argument as the kernels that it joins, and on log_weights that are above 0 or not a number
+/// @param flat as in rank_window
+/// @throws std::invalid_argument as the kernels that it joins, and on a correlation outside [-1, 1]
 /// Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
-FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, StatesRef noise,
+FilteredEllipses rank_filter(const ImageView& image, const WeightedEllipses& last, const EllipseNoise& noise,
                              const Dynamics& dynamics, const Bounds& bounds, const Detection& detection,
-                             const Windows& windows, const ColorLook& look, const LookWeights& weights);
+                             const Windows& windows, const ColorLook& look, const LookWeights& weights,
+                             double flat);
 
 }  // namespace tricue

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// At 1e150 deviations the density is zero anyway, and the square is still finite.
-TRICUE_INLINE double clamped(double z) {
+inline double clamped(double z) {
     return std::min(std::max(z, -1e150), 1e150);
 }
 
@@ -26,66 +26,58 @@ double log_mixture(double ratio, double share) {
     return std::max(ratio, 0.0) + std::log(greater + smaller * std::exp(-std::abs(ratio)));
 }
 
-constexpr Eigen::Index kBlock = 16;  ///< particles side by side, so that loops over them are vectorized
+/// Rows of a number for each particle, one row for each number of the state that a detection is about.
+using Rows = States;
 
-using Lanes = double[kBlock];
-
-/// Squared distances of a block from the origin of N(0, root rootᵀ) in deviations, by forward substitution; z holds as many lanes as
-/// there are numbers.
+/// For all particles at once: z = (offset - Σ factors[e] solved[e]) / divisor, whose squares are added up.
 TRICUE_MULTIVERSION
-void square_substituted(const Lanes* __restrict offset, const double* __restrict root, Eigen::Index size,
-                        Lanes* __restrict z, double* __restrict squares) {
-    for (Eigen::Index i = 0; i < kBlock; ++i) squares[i] = 0.0;
-    for (Eigen::Index d = 0; d < size; ++d) {
-        const double* row = root + d * size;
-        Lanes rest;
-        for (Eigen::Index i = 0; i < kBlock; ++i) rest[i] = clamped(offset[d][i]);
-        for (Eigen::Index e = 0; e < d; ++e)
-            for (Eigen::Index i = 0; i < kBlock; ++i) rest[i] -= clamped(row[e] * z[e][i]);
-        for (Eigen::Index i = 0; i < kBlock; ++i) {
-            z[d][i] = clamped(rest[i] / row[d]);
-            squares[i] += z[d][i] * z[d][i];
-        }
+void standardize(const double* offset, const double* solved, const double* factors, std::ptrdiff_t before,
+                 double divisor, std::ptrdiff_t n, double* __restrict z, double* __restrict squares) {
+    for (std::ptrdiff_t i = 0; i < n; ++i) z[i] = clamped(offset[i]);
+    for (std::ptrdiff_t e = 0; e < before; ++e)
+        for (std::ptrdiff_t i = 0; i < n; ++i) z[i] -= clamped(factors[e] * solved[n * e + i]);
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+        z[i] = clamped(z[i] / divisor);
+        squares[i] += z[i] * z[i];
     }
 }
 
+/// -2 times the log density of N(0, root rootᵀ) at the offsets by forward substitution, without its constants.
+Vector squared_deviations(const Rows& offsets, StatesRef root) {
+    const Eigen::Index n = offsets.cols();
+    Vector squares = Vector::Zero(n);
+    Rows z(offsets.rows(), n);
+    for (Eigen::Index d = 0; d < offsets.rows(); ++d)
+        standardize(offsets.row(d).data(), z.data(), root.row(d).data(), d, root(d, d), n, z.row(d).data(),
+                    squares.data());
+    return squares;
+}
+
 /// The same of N(0, diag(scale²)).
-TRICUE_MULTIVERSION
-void square_scaled(const Lanes* __restrict offset, const double* __restrict scale, Eigen::Index size,
-                   double* __restrict squares) {
-    for (Eigen::Index i = 0; i < kBlock; ++i) squares[i] = 0.0;
-    for (Eigen::Index d = 0; d < size; ++d)
-        for (Eigen::Index i = 0; i < kBlock; ++i) {
-            const double z = clamped(clamped(offset[d][i]) / scale[d]);
-            squares[i] += z * z;
-        }
+Vector squared_deviations(const Rows& offsets, const Vector& scale) {
+    const Eigen::Index n = offsets.cols();
+    Vector squares = Vector::Zero(n), z(n);
+    for (Eigen::Index d = 0; d < offsets.rows(); ++d)
+        standardize(offsets.row(d).data(), nullptr, nullptr, 0, scale[d], n, z.data(), squares.data());
+    return squares;
 }
 
 void divide_by_mixture(StatesRef proposed, StatesRef previous, const Dynamics& dynamics,
                        const Detection& detection, Vector& log_weights) {
     const auto& [mean, root, share] = detection;
-    const Eigen::Index size = mean.size();
+    const Eigen::Index size = mean.size(), n = log_weights.size();
     const Vector scale = dynamics.scale.head(size);
-    const States factors = root;  // without gaps between its rows
     const double constants = scale.log().sum() - root.matrix().diagonal().array().log().sum();
-    using Block = Eigen::Array<double, Eigen::Dynamic, kBlock, Eigen::RowMajor>;
-    Block from_detection = Block::Zero(size, kBlock), from_dynamics = from_detection, z(size, kBlock);
-    const auto lanes = [](Block& block) { return reinterpret_cast<Lanes*>(block.data()); };
-    Lanes detected, moved;
-    for (Eigen::Index first = 0; first < log_weights.size(); first += kBlock) {
-        const Eigen::Index n = std::min(kBlock, log_weights.size() - first);
-        for (Eigen::Index i = 0; i < n; ++i)
-            for (Eigen::Index d = 0; d < size; ++d) {
-                from_detection(d, i) = proposed(first + i, d) - mean[d];
-                from_dynamics(d, i) = proposed(first + i, d) - previous(first + i, d) - dynamics.drift[d];
-            }
-        square_substituted(lanes(from_detection), factors.data(), size, lanes(z), detected);
-        square_scaled(lanes(from_dynamics), scale.data(), size, moved);
+    Rows from_detection(size, n), from_dynamics(size, n);
+    for (Eigen::Index d = 0; d < size; ++d)
         for (Eigen::Index i = 0; i < n; ++i) {
-            const double ratio = -0.5 * detected[i] - -0.5 * moved[i] + constants;
-            log_weights[first + i] -= log_mixture(ratio, share);
+            from_detection(d, i) = proposed(i, d) - mean[d];
+            from_dynamics(d, i) = proposed(i, d) - previous(i, d) - dynamics.drift[d];
         }
-    }
+    const Vector detected = squared_deviations(from_detection, root);
+    const Vector moved = squared_deviations(from_dynamics, scale);
+    for (Eigen::Index i = 0; i < n; ++i)
+        log_weights[i] -= log_mixture(-0.5 * detected[i] - -0.5 * moved[i] + constants, share);
 }
 
 /// Equation (31) by log-sum-exp.

@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -212,10 +213,17 @@ auto unlocked(std::ptrdiff_t work, Kernel&& kernel) {
     return kernel();
 }
 
-/// Hands a result's memory to NumPy without a copy, in the shape given.
+/// Hands a result's memory to NumPy, in the shape given, without a copy where that takes longer than to make an owner.
 template <typename Result>
 Array<typename Result::Scalar> give(Result&& result, const std::vector<py::ssize_t>& shape) {
     static_assert(!std::is_lvalue_reference_v<Result>, "give(std::move(result))");
+    constexpr std::size_t kSmall = 4096;  // bytes
+    const auto size = static_cast<std::size_t>(result.size());
+    if (size * sizeof(typename Result::Scalar) <= kSmall) {
+        py::array_t<typename Result::Scalar> copy(shape);
+        std::copy_n(result.data(), size, copy.mutable_data());
+        return copy;
+    }
     auto* owned = new Result(std::forward<Result>(result));
     const py::capsule owner(owned, [](void* pointer) { delete static_cast<Result*>(pointer); });
     return py::array_t<typename Result::Scalar>(shape, owned->data(), owner);

@@ -6,6 +6,7 @@
 #include "cues/color/color_ranks.hpp"
 #include "cues/color/joint_histogram.hpp"
 #include "cues/color/learn_contrast.hpp"
+#include "cues/color/learn_ranks.hpp"
 #include "cues/color/rank_distance.hpp"
 #include "cues/color/rank_likelihood.hpp"
 #include "cues/color/rank_sections.hpp"
@@ -69,14 +70,23 @@ std::tuple<Array<float>, Array<double>> rank_window_arrays(const Bytes& image, c
     return {give(std::move(ranks), {3, places.rows()}), give(std::move(correlations))};
 }
 
-std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(const Bytes& inside,
-                                                                           const Bytes& around,
-                                                                           const Array<float>& target,
-                                                                           const Array<float>& surround,
-                                                                           double rate, double rare) {
-    const auto within = samples(inside, "inside"), without = samples(around, "around");
+Array<float> learn_ranks_arrays(const Array<float>& models, const Array<float>& ranks, double rate) {
+    const auto seen = floats(ranks, "ranks", {3, -1}, "float32 (3, n)");
+    const auto places = seen.cols();
+    const Eigen::Map<const Floats> row(seen.data(), 1, 3 * places);
+    const auto maps = rank_maps(models, places);
+    return give(learn_ranks(maps, row, rate), {maps.rows(), 3, places});
+}
+
+std::tuple<Array<float>, Array<float>, Array<float>> learn_contrast_arrays(
+    const Bytes& image, const Array<double>& ellipse, const Array<double>& inside,
+    const Array<double>& around, const Array<float>& target, const Array<float>& surround, double rate,
+    double rare) {
+    const auto view = color_image(image, "image");
+    const Windows windows{states(inside, "inside"), states(around, "around")};
     const auto known = color_cube(target, "target"), other = color_cube(surround, "surround");
-    auto [own, round, rule] = learn_contrast(within, without, known, other, rate, rare);
+    auto [own, round, rule] =
+        learn_contrast(view, vector(ellipse, "ellipse"), windows, known, other, rate, rare);
     const std::vector<py::ssize_t> cube(3, known.cols());
     return {give(std::move(own), cube), give(std::move(round), cube), give(std::move(rule), cube)};
 }
@@ -121,8 +131,11 @@ void define_color(py::module_& m) {
     m.def("sample_ellipses", sample_ellipses_arrays, py::arg("image"), py::arg("ellipses"),
           py::arg("pattern"), docs::sample_ellipses);
     m.def("color_ranks", color_ranks_arrays, py::arg("samples"), docs::color_ranks);
-    m.def("learn_contrast", learn_contrast_arrays, py::arg("inside"), py::arg("around"), py::arg("target"),
-          py::arg("surround"), py::arg("rate"), py::arg("rare"), docs::learn_contrast);
+    m.def("learn_contrast", learn_contrast_arrays, py::arg("image"), py::arg("ellipse"), py::arg("inside"),
+          py::arg("around"), py::arg("target"), py::arg("surround"), py::arg("rate"), py::arg("rare"),
+          docs::learn_contrast);
+    m.def("learn_ranks", learn_ranks_arrays, py::arg("models"), py::arg("ranks"), py::arg("rate"),
+          docs::learn_ranks);
     m.def("rank_distance", rank_distance_arrays, py::arg("samples"), py::arg("models"), docs::rank_distance);
     m.def("rank_likelihood", rank_likelihood_arrays, py::arg("image"), py::arg("ellipses"), py::arg("inside"),
           py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"),

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <tuple>
+
 #include "arrays.hpp"
 #include "fuse/propose.hpp"
 #include "fuse/rank_filter.hpp"
@@ -50,28 +55,55 @@ std::tuple<Array<double>, Array<double>, double> summarize_arrays(const Array<do
     return {give(std::move(result.mean)), give(std::move(result.covariance)), result.effective};
 }
 
-std::tuple<Array<double>, Array<double>, double, Array<double>, double> rank_filter_arrays(
-    const Array<std::uint8_t>& image, const Array<double>& particles, const Array<double>& log_weights,
-    const Array<double>& noise, const Array<double>& drift, const Array<double>& scale,
-    const Array<double>& lower, const Array<double>& upper, const Array<double>& mean,
-    const Array<double>& root, double share, const Array<double>& inside, const Array<double>& around,
-    const Array<float>& models, const Array<double>& shares, bool nearest, const Array<float>& table,
-    double sharpness, double contrast_weight) {
+using Pair = std::tuple<double, double>;
+using Triangle = std::tuple<double, double, double>;
+using Four = std::tuple<double, double, double, double>;
+
+/// A tuple's numbers, one after the other.
+template <typename Tuple>
+Vector numbers(const Tuple& tuple) {
+    Vector each(std::tuple_size_v<Tuple>);
+    Eigen::Index place = 0;
+    std::apply([&](auto... number) { ((each[place++] = number), ...); }, tuple);
+    return each;
+}
+
+/// The lower triangle of a matrix, by rows.
+States lower_triangle(const Triangle& triangle) {
+    const auto [first, cross, second] = triangle;
+    States matrix(2, 2);
+    matrix << first, 0.0, cross, second;
+    return matrix;
+}
+
+std::tuple<Array<double>, Array<double>, double, Array<double>, double, Array<float>, Array<double>>
+rank_filter_arrays(const Array<std::uint8_t>& image, const Array<double>& particles,
+                   const Array<double>& weights, std::optional<double> offset, const Array<double>& noise,
+                   double correlation, const Four& drift, const Four& scale, const Four& lower,
+                   const Four& upper, const Pair& mean, const Triangle& root, double share,
+                   const Array<double>& inside, const Array<double>& around, const Array<float>& models,
+                   const Array<double>& shares, bool nearest, const Array<float>& table, double sharpness,
+                   double contrast_weight, double flat) {
     const auto view = color_image(image, "image");
-    const WeightedEllipses last{states(particles, "particles"), vector(log_weights, "log_weights")};
-    const auto draws = states(noise, "noise");
-    const Dynamics dynamics{vector(drift, "drift"), vector(scale, "scale")};
-    const Bounds bounds{vector(lower, "lower"), vector(upper, "upper")};
-    const Detection detection{vector(mean, "mean"), states(root, "root"), share};
+    const WeightedEllipses last{states(particles, "particles"), vector(weights, "weights"), offset};
+    const EllipseNoise draws{states(noise, "noise"), correlation};
+    const Vector moves[] = {numbers(drift), numbers(scale), numbers(lower), numbers(upper), numbers(mean)};
+    const States factor = lower_triangle(root);
+    const Detection detection{moves[4], factor, share};
     const Windows windows{states(inside, "inside"), states(around, "around")};
     const auto places = windows.inside.rows();
     const ColorLook look{rank_maps(models, places), vector(shares, "shares"), nearest, color_cube(table)};
     auto result = unlocked(last.particles.rows() * places, [&] {
-        return rank_filter(view, last, draws, dynamics, bounds, detection, windows, look,
-                           {sharpness, contrast_weight});
+        return rank_filter(view, last, draws, {moves[0], moves[1]}, {moves[2], moves[3]}, detection, windows,
+                           look, {sharpness, contrast_weight}, flat);
     });
-    return {give(std::move(result.particles)), give(std::move(result.weights)), result.effective,
-            give(std::move(result.ellipse)), result.log_likelihood};
+    return {give(std::move(result.particles)),
+            give(std::move(result.weights)),
+            result.effective,
+            give(std::move(result.ellipse)),
+            result.log_likelihood,
+            give(std::move(result.ranks), {3, places}),
+            give(std::move(result.correlations))};
 }
 
 Array<double> rectangle_prior_arrays(const Array<double>& particles, const Array<double>& size,
@@ -90,11 +122,12 @@ void define_fuse(py::module_& m) {
     m.def("propose", propose_arrays, py::arg("particles"), py::arg("drift"), py::arg("scale"),
           py::arg("noise"), py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("lower"),
           py::arg("upper"), docs::propose);
-    m.def("rank_filter", rank_filter_arrays, py::arg("image"), py::arg("particles"), py::arg("log_weights"),
-          py::arg("noise"), py::arg("drift"), py::arg("scale"), py::arg("lower"), py::arg("upper"),
-          py::arg("mean"), py::arg("root"), py::arg("share"), py::arg("inside"), py::arg("around"),
-          py::arg("models"), py::arg("shares"), py::arg("nearest"), py::arg("table"), py::arg("sharpness"),
-          py::arg("contrast_weight"), docs::rank_filter);
+    m.def("rank_filter", rank_filter_arrays, py::arg("image"), py::arg("particles"), py::arg("weights"),
+          py::arg("offset"), py::arg("noise"), py::arg("correlation"), py::arg("drift"), py::arg("scale"),
+          py::arg("lower"), py::arg("upper"), py::arg("mean"), py::arg("root"), py::arg("share"),
+          py::arg("inside"), py::arg("around"), py::arg("models"), py::arg("shares"), py::arg("nearest"),
+          py::arg("table"), py::arg("sharpness"), py::arg("contrast_weight"), py::arg("flat"),
+          docs::rank_filter);
     m.def("rectangle_prior", rectangle_prior_arrays, py::arg("states"), py::arg("size"), py::arg("spread"),
           py::arg("state"), py::arg("deviation"), py::arg("max_cost"), docs::rectangle_prior);
     m.def("reweight", reweight_arrays, py::arg("log_likelihood"), py::arg("proposed"), py::arg("previous"),

@@ -95,22 +95,26 @@ Bytes reduce_gray_arrays(const Bytes& image, int step) {
     return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return reduce_gray(view, step); }));
 }
 
+using Gains = std::tuple<double, double, double>;
 using Triple = std::tuple<int, int, int>;
 
-std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(
-    const Bytes& left, const Bytes& right, const Rectangle& region, int step, const Triple& bins, int chroma,
-    const std::optional<Array<double>>& gains, double expected, double tolerance, int fill, int first,
-    int last, int window, int uniqueness, bool prefilter) {
+std::tuple<Array<std::uint16_t>, Bytes> head_cells_arrays(const Bytes& left, const Bytes& right,
+                                                          const Rectangle& region, int step,
+                                                          const Triple& bins, int chroma,
+                                                          const std::optional<Gains>& gains, double expected,
+                                                          double tolerance, int fill, int first, int last,
+                                                          int window, int uniqueness, bool prefilter) {
     const auto view = color_image(left, "left"), other = any_image(right, "right");
     const auto [x0, y0, x1, y1] = region;
     const auto [first_axis, second_axis, third_axis] = bins;
     const ColorSpace space{{first_axis, second_axis, third_axis}, chroma};
-    const auto given = gains ? std::optional(channel_gains(*gains)) : std::nullopt;
+    std::array<double, 3> given{};
+    if (gains) given = {std::get<0>(*gains), std::get<1>(*gains), std::get<2>(*gains)};
     const HeadDepth depth{static_cast<float>(expected), static_cast<float>(tolerance), fill};
     const StereoMatching matching{window, uniqueness, prefilter, -1};
     const auto work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0) * step;
     auto cells = unlocked(work, [&] {
-        return head_cells(view, other, {x0, y0, x1, y1}, step, space, given ? &*given : nullptr, depth,
+        return head_cells(view, other, {x0, y0, x1, y1}, step, space, gains ? &given : nullptr, depth,
                           {first, last}, matching);
     });
     return {give(std::move(cells.bins)), give(std::move(cells.coherent))};

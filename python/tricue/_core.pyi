@@ -1356,7 +1356,7 @@ def head_cells(
     step: int,
     bins: tuple[int, int, int],
     chroma: int,
-    gains: numpy.typing.NDArray[numpy.float64] | None,
+    gains: tuple[float, float, float] | None,
     expected: float,
     tolerance: float,
     fill: int,
@@ -1584,8 +1584,10 @@ def kalman_update(
     """
 
 def learn_contrast(
-    inside: numpy.typing.NDArray[numpy.uint8],
-    around: numpy.typing.NDArray[numpy.uint8],
+    image: numpy.typing.NDArray[numpy.uint8],
+    ellipse: numpy.typing.NDArray[numpy.float64],
+    inside: numpy.typing.NDArray[numpy.float64],
+    around: numpy.typing.NDArray[numpy.float64],
     target: numpy.typing.NDArray[numpy.float32],
     surround: numpy.typing.NDArray[numpy.float32],
     rate: float,
@@ -1596,15 +1598,18 @@ def learn_contrast(
     numpy.typing.NDArray[numpy.float32],
 ]:
     """
-    Updates the color histograms of a target and of its surround, and the table P(target | color) that
-    follows by Bayes' rule with equal priors:
+    Samples an ellipse and its surround, and updates the color histograms of both, and the table
+    P(target | color) that follows by Bayes' rule with equal priors:
         new = old + rate (seen - old),   table = target / (target + surround + rare)
 
-    All in float32; in C++ a cube is B² rows (blue, green) of B reds.
+    All in float32; in C++ a cube is B² rows (blue, green) of B reds. What is seen is the
+    joint_histogram of the samples.
 
     Args:
-        inside: uint8 (1, 3, n): samples in the target, channels B, G, R, counted as by joint_histogram
-        around: uint8 (1, 3, m): samples around the target
+        image: uint8 (H, W, 3) BGR, at least one pixel
+        ellipse: float64 (4,): center x, y, semi-axes along x and y, pixels, finite
+        inside: float64 (n, 2): places (u, v) inside the ellipse, in semi-axes, as in sample_ellipses
+        around: float64 (m, 2): places (u, v) around it
         target: float32 (B, B, B), B a power of two up to 64: the target's histogram so far; zeros at
             first, with a rate of 1
         surround: float32 (B, B, B): the surround's histogram so far
@@ -1740,6 +1745,27 @@ def learn_place_filter(
         ValueError: on other shapes, or numbers out of range
 
     Source: Li, Tian, Zuo, Zhang, Yang 2018 (STRCF).
+    """
+
+def learn_ranks(
+    models: numpy.typing.NDArray[numpy.float32], ranks: numpy.typing.NDArray[numpy.float32], rate: float
+) -> numpy.typing.NDArray[numpy.float32]:
+    """
+    Moves the first of some rank maps towards the ranks that are seen: new = old + rate (seen - old), in
+    float32. The others stay.
+
+    Args:
+        models: float32 (M, 3, n): rank maps, M at least 1; in C++ M rows of 3 n
+        ranks: float32 (3, n): as rank_window has them; in C++ one row of 3 n
+        rate: learning rate, in [0, 1]
+
+    Returns:
+        float32 (M, 3, n): all maps
+
+    Raises:
+        ValueError: on other shapes, or a rate out of range
+
+    Source: the update of the model, Sabeti, Parvizi, Wu 2008, section III.
     """
 
 def learn_size_filter(
@@ -2201,14 +2227,16 @@ def rank_distance(
 def rank_filter(
     image: numpy.typing.NDArray[numpy.uint8],
     particles: numpy.typing.NDArray[numpy.float64],
-    log_weights: numpy.typing.NDArray[numpy.float64],
+    weights: numpy.typing.NDArray[numpy.float64],
+    offset: float | None,
     noise: numpy.typing.NDArray[numpy.float64],
-    drift: numpy.typing.NDArray[numpy.float64],
-    scale: numpy.typing.NDArray[numpy.float64],
-    lower: numpy.typing.NDArray[numpy.float64],
-    upper: numpy.typing.NDArray[numpy.float64],
-    mean: numpy.typing.NDArray[numpy.float64],
-    root: numpy.typing.NDArray[numpy.float64],
+    correlation: float,
+    drift: tuple[float, float, float, float],
+    scale: tuple[float, float, float, float],
+    lower: tuple[float, float, float, float],
+    upper: tuple[float, float, float, float],
+    mean: tuple[float, float],
+    root: tuple[float, float, float],
     share: float,
     inside: numpy.typing.NDArray[numpy.float64],
     around: numpy.typing.NDArray[numpy.float64],
@@ -2218,25 +2246,32 @@ def rank_filter(
     table: numpy.typing.NDArray[numpy.float32],
     sharpness: float,
     contrast_weight: float,
+    flat: float,
 ) -> tuple[
     numpy.typing.NDArray[numpy.float64],
     numpy.typing.NDArray[numpy.float64],
     float,
     numpy.typing.NDArray[numpy.float64],
     float,
+    numpy.typing.NDArray[numpy.float32],
+    numpy.typing.NDArray[numpy.float64],
 ]:
     """
     One step of the color particle tracker's filter: particles are drawn, weighed by what the image
     shows under them, and summed up.
 
-    It joins propose; rank_likelihood, to which the logarithms of the particles' weights are added;
-    reweight; summarize; and rank_likelihood of the expected value. So particles stay in the cache.
+    It joins resample; propose; rank_likelihood, to which the logarithms of the weights are added where
+    nothing was resampled, a weight counting as at least 1e-300; reweight; summarize; and
+    rank_likelihood and rank_window of the expected value. So particles stay in the cache.
 
     Args:
         image: uint8 (H, W, 3) BGR, at least one pixel
         particles: float64 (N, 4): ellipses, as in rank_likelihood, N at least 1
-        log_weights: float64 (N,): logarithms of their weights but for a constant, not above 0
+        weights: float64 (N,), finite, none negative, not all 0; need not sum to 1
+        offset: where resample puts its comb, in [0, 1); None: they aren't resampled, and their weights
+            count
         noise: float64 (N, 4): independent standard normal numbers
+        correlation: of the noise of both semi-axes, which that of the major one then gets, in [-1, 1]
         drift: float64 (D,): displacement in a frame, in the units of the state, finite
         scale: float64 (D,): standard deviations, none negative; those that a detection is about above 0
             where a density is needed
@@ -2255,6 +2290,7 @@ def rank_filter(
         table: float32 (B, B, B): P(target | color), as color_lookup takes it
         sharpness: nats, finite
         contrast_weight: nats, finite
+        flat: as in rank_window
 
     Returns:
         particles: float64 (N, 4)
@@ -2262,9 +2298,11 @@ def rank_filter(
         effective: effective sample size, from 1 to N
         ellipse: float64 (4,): expected value
         log_likelihood: of that ellipse, nats
+        ranks: float32 (3, n): of that ellipse, as rank_window has them; in C++ one row of 3 n
+        correlations: float64 (M,): of that ellipse, as rank_window has them
 
     Raises:
-        ValueError: as the kernels that it joins, and on log_weights that are above 0 or not a number
+        ValueError: as the kernels that it joins, and on a correlation outside [-1, 1]
 
     Source: Sabeti, Parvizi, Wu 2008, section III, equations (2), (30), (31).
     """
@@ -3679,7 +3717,7 @@ class Kernels(Protocol):
         step: int,
         bins: tuple[int, int, int],
         chroma: int,
-        gains: numpy.typing.NDArray[numpy.float64] | None,
+        gains: tuple[float, float, float] | None,
         expected: float,
         tolerance: float,
         fill: int,
@@ -3724,8 +3762,10 @@ class Kernels(Protocol):
     ]: ...
     def learn_contrast(
         self,
-        inside: numpy.typing.NDArray[numpy.uint8],
-        around: numpy.typing.NDArray[numpy.uint8],
+        image: numpy.typing.NDArray[numpy.uint8],
+        ellipse: numpy.typing.NDArray[numpy.float64],
+        inside: numpy.typing.NDArray[numpy.float64],
+        around: numpy.typing.NDArray[numpy.float64],
         target: numpy.typing.NDArray[numpy.float32],
         surround: numpy.typing.NDArray[numpy.float32],
         rate: float,
@@ -3779,6 +3819,12 @@ class Kernels(Protocol):
         penalty: float,
         first_weight: float,
     ) -> tuple[numpy.typing.NDArray[numpy.complex64], numpy.typing.NDArray[numpy.complex64]]: ...
+    def learn_ranks(
+        self,
+        models: numpy.typing.NDArray[numpy.float32],
+        ranks: numpy.typing.NDArray[numpy.float32],
+        rate: float,
+    ) -> numpy.typing.NDArray[numpy.float32]: ...
     def learn_size_filter(
         self,
         patch: numpy.typing.NDArray[numpy.uint8],
@@ -3918,14 +3964,16 @@ class Kernels(Protocol):
         self,
         image: numpy.typing.NDArray[numpy.uint8],
         particles: numpy.typing.NDArray[numpy.float64],
-        log_weights: numpy.typing.NDArray[numpy.float64],
+        weights: numpy.typing.NDArray[numpy.float64],
+        offset: float | None,
         noise: numpy.typing.NDArray[numpy.float64],
-        drift: numpy.typing.NDArray[numpy.float64],
-        scale: numpy.typing.NDArray[numpy.float64],
-        lower: numpy.typing.NDArray[numpy.float64],
-        upper: numpy.typing.NDArray[numpy.float64],
-        mean: numpy.typing.NDArray[numpy.float64],
-        root: numpy.typing.NDArray[numpy.float64],
+        correlation: float,
+        drift: tuple[float, float, float, float],
+        scale: tuple[float, float, float, float],
+        lower: tuple[float, float, float, float],
+        upper: tuple[float, float, float, float],
+        mean: tuple[float, float],
+        root: tuple[float, float, float],
         share: float,
         inside: numpy.typing.NDArray[numpy.float64],
         around: numpy.typing.NDArray[numpy.float64],
@@ -3935,12 +3983,15 @@ class Kernels(Protocol):
         table: numpy.typing.NDArray[numpy.float32],
         sharpness: float,
         contrast_weight: float,
+        flat: float,
     ) -> tuple[
         numpy.typing.NDArray[numpy.float64],
         numpy.typing.NDArray[numpy.float64],
         float,
         numpy.typing.NDArray[numpy.float64],
         float,
+        numpy.typing.NDArray[numpy.float32],
+        numpy.typing.NDArray[numpy.float64],
     ]: ...
     def rank_likelihood(
         self,

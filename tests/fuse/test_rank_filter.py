@@ -15,27 +15,38 @@ from tricue.track.base.ellipse_pattern import grid, ring
 
 EPS = float(np.finfo(np.float64).eps)
 SHARPNESS, CONTRAST_WEIGHT = 20.0, 8.0
-IMAGE, PARTICLES, LOG_WEIGHTS, NOISE, LOOK = 0, 1, 2, 3, slice(11, None)
+IMAGE, PARTICLES, WEIGHTS, OFFSET, NOISE, CORRELATION, LOOK = 0, 1, 2, 3, 4, 5, slice(13, 21)
+FLAT = 0.1
 
 
-def case(seed: int, count: int = 20, share: float = 0.3, nearest: bool = False) -> list[Any]:
+def case(
+    seed: int, count: int = 20, share: float = 0.3, nearest: bool = False, offset: float | None = None
+) -> list[Any]:
     """All arguments: a picture, particles in it, how they move, where they are detected, and the look."""
     rng = np.random.default_rng(seed)
     image = rng.integers(0, 256, (40, 60, 3)).astype(np.uint8)
     particles = rng.normal([30, 20, 9, 11], [4, 4, 1, 1], (count, 4))
     noise = rng.standard_normal((count, 4))
-    drift, scale = rng.normal(size=4), np.array([3.0, 2.0, 0.5, 0.4])
-    lower, upper = np.array([5.0, 5, 2, 2]), np.array([50.0, 35, 20, 20])
-    mean, root = np.array([33.0, 22.0]), np.array([[4.0, 0.0], [1.0, 3.0]])
+    drift, scale = tuple(rng.normal(size=4).tolist()), (3.0, 2.0, 0.5, 0.4)
+    lower, upper = (5.0, 5.0, 2.0, 2.0), (50.0, 35.0, 20.0, 20.0)
+    mean, root = (33.0, 22.0), (4.0, 1.0, 3.0)
     inside, around = grid(5, 4), ring(9, 1.3, 1.8)
     maps, table = rng.random((2, 3, 20), np.float32), rng.random((4, 4, 4), np.float32)
     moves = [drift, scale, lower, upper, mean, root, share]
     look = [inside, around, maps, np.array([0.7, 0.3]), nearest, table, SHARPNESS, CONTRAST_WEIGHT]
-    return [image, particles, -rng.random(count), noise, *moves, *look]
+    return [image, particles, rng.random(count) + 0.01, offset, noise, 0.6, *moves, *look, FLAT]
 
 
-@given(st.integers(0, 2**32), st.integers(1, 40), st.sampled_from([0.0, 0.1, 0.9]), st.booleans())
-def test_twin_steps_the_same(seed: int, count: int, share: float, nearest: bool) -> None:
+@given(
+    st.integers(0, 2**32),
+    st.integers(1, 40),
+    st.sampled_from([0.0, 0.1, 0.9]),
+    st.booleans(),
+    st.none() | st.floats(0, 0.99),
+)
+def test_twin_steps_the_same(
+    seed: int, count: int, share: float, nearest: bool, offset: float | None
+) -> None:
     """Particles agree to a few roundings, what follows of them to some hundred: the terms of a log weight
     are below 100, and a weighted mean changes by the extent of the particles, below 50, times that of the
     weights.
@@ -43,7 +54,7 @@ def test_twin_steps_the_same(seed: int, count: int, share: float, nearest: bool)
     A sample that crosses the border of a pixel would change more; places are rounded to float32, 4e-6 px, in
     both alike, and particles differ by 1e-14.
     """
-    arguments = case(seed, count, share, nearest)
+    arguments = case(seed, count, share, nearest, offset)
     native, twin = _core.rank_filter(*arguments), reference.rank_filter(*arguments)
     assert [np.shape(each) for each in native] == [np.shape(each) for each in twin]
     assert_allclose(native[0], twin[0], rtol=0, atol=50 * 8 * EPS)
@@ -51,24 +62,47 @@ def test_twin_steps_the_same(seed: int, count: int, share: float, nearest: bool)
     assert_allclose(native[2], twin[2], rtol=100 * 200 * EPS)
     assert_allclose(native[3], twin[3], rtol=0, atol=50 * 100 * 50 * EPS)
     assert_allclose(native[4], twin[4], rtol=0, atol=100 * 50 * EPS)
+    assert_array_equal(native[5], twin[5])
+    assert_allclose(native[6], twin[6], rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3])
 @pytest.mark.parametrize("nearest", [False, True])
-def test_joins_the_kernels_that_it_stands_for(kernels: Kernels, share: float, nearest: bool) -> None:
-    """It is propose, rank_likelihood plus log_weights, reweight, summarize, rank_likelihood, bit for bit."""
-    arguments = case(1, 100, share, nearest)
-    image, particles, log_weights, noise, drift, scale, lower, upper, *detection = arguments[:11]
+@pytest.mark.parametrize("offset", [None, 0.4])
+def test_joins_the_kernels_that_it_stands_for(
+    kernels: Kernels, share: float, nearest: bool, offset: float | None
+) -> None:
+    """Bit for bit, where the noise isn't correlated, and weights whose logarithms aren't 0 are resampled."""
+    arguments = case(1, 100, share, nearest, offset)
+    if offset is None:
+        arguments[WEIGHTS] = np.ones(100)
+    arguments[CORRELATION] = 0.0
+    image, particles, weights, _, noise, _, *moves = arguments[:13]
+    drift, scale, lower, upper, mean, (first, cross, second), _ = map(np.array, moves)
+    detection = mean, np.array([[first, 0], [cross, second]]), share
     look = arguments[LOOK]
+    if offset is not None:
+        particles = particles[kernels.resample(weights, offset)]
     moved = kernels.propose(particles, drift, scale, noise, *detection, lower, upper)
-    likelihood = kernels.rank_likelihood(image, moved, *look) + log_weights
+    likelihood = kernels.rank_likelihood(image, moved, *look)
     weights, _ = kernels.reweight(likelihood, moved, particles, drift, scale, *detection)
     ellipse, _, effective = kernels.summarize(moved, weights)
     its_own = kernels.rank_likelihood(image, ellipse[None], *look)[0]
-    for ours, expected in zip(
-        kernels.rank_filter(*arguments), (moved, weights, effective, ellipse, its_own), strict=True
-    ):
-        assert_array_equal(ours, expected)
+    window = kernels.rank_window(image, ellipse, look[0], look[2], FLAT)
+    expected = (moved, weights, effective, ellipse, its_own, *window)
+    for ours, theirs in zip(kernels.rank_filter(*arguments), expected, strict=True):
+        assert_array_equal(ours, theirs)
+
+
+def test_noise_of_the_semi_axes_is_correlated(kernels: Kernels) -> None:
+    """Of 4000 particles without drift and detection, by NumPy's corrcoef; each axis keeps its deviation."""
+    arguments = case(4, 4000, 0.0)
+    start = np.array([30.0, 20.0, 9.0, 11.0])
+    arguments[PARTICLES] = np.tile(start, (4000, 1))
+    arguments[6:10] = (0.0,) * 4, (1.0,) * 4, (-np.inf,) * 4, (np.inf,) * 4
+    steps = kernels.rank_filter(*arguments)[0] - start
+    assert_allclose(np.corrcoef(steps.T)[2, 3], 0.6, atol=4 * 0.64 / np.sqrt(4000))
+    assert_allclose(steps.std(axis=0), 1, atol=4 / np.sqrt(2 * 4000))
 
 
 def test_finds_the_disk(kernels: Kernels) -> None:
@@ -84,24 +118,28 @@ def test_finds_the_disk(kernels: Kernels) -> None:
     particles = np.concatenate([rng.normal(46, 4, (200, 2)), np.full((200, 2), 12.0)], axis=1)
     table = np.zeros((2, 2, 2), np.float32)
     table[0, 0, 1] = 1
-    arguments[:4] = image, particles, np.zeros(200), np.zeros((200, 4))
-    arguments[4:8] = np.zeros(4), np.ones(4), np.full(4, -np.inf), np.full(4, np.inf)
-    arguments[16] = table
-    moved, weights, effective, ellipse, _ = kernels.rank_filter(*arguments)
+    arguments[:5] = image, particles, np.ones(200), None, np.zeros((200, 4))
+    arguments[6:10] = (0.0,) * 4, (1.0,) * 4, (-np.inf,) * 4, (np.inf,) * 4
+    arguments[18] = table
+    moved, weights, effective, ellipse, *_ = kernels.rank_filter(*arguments)
     assert_array_equal(moved, particles)
     assert np.hypot(*(ellipse[:2] - 40.5)) < 0.5 * np.hypot(*(particles[:, :2].mean(axis=0) - 40.5))
     assert 1 <= effective < 200
-    arguments[LOG_WEIGHTS] = np.full(200, -5.0)
+    arguments[WEIGHTS] = np.full(200, 0.01)
     assert_allclose(kernels.rank_filter(*arguments)[1], weights, rtol=1e-12)
 
 
-def test_a_weightless_particle_stays_so(kernels: Kernels) -> None:
-    """A log weight of -infinity gives the weight 0, whatever the image says."""
+def test_a_particle_without_weight_has_none(kernels: Kernels) -> None:
+    """Its logarithm is that of 1e-300, whatever the image says; resampling doesn't choose it."""
     arguments = case(3)
-    arguments[LOG_WEIGHTS][7] = -np.inf
+    arguments[WEIGHTS][7] = 0
     _, weights, *_ = kernels.rank_filter(*arguments)
-    assert weights[7] == 0
+    assert 0 <= weights[7] < 1e-200
     assert weights.sum() == pytest.approx(1, abs=1e-12)
+    arguments[OFFSET], arguments[NOISE], arguments[6:8] = 0.5, np.zeros((20, 4)), [(0.0,) * 4, (1.0,) * 4]
+    arguments[12] = 0.0
+    moved = kernels.rank_filter(*arguments)[0]
+    assert not (moved == arguments[PARTICLES][7]).all(axis=1).any()
 
 
 BAD: list[tuple[int, Any, str]] = [
@@ -109,16 +147,21 @@ BAD: list[tuple[int, Any, str]] = [
     (PARTICLES, np.zeros((0, 4)), "particles: expected at least one, got none"),
     (PARTICLES, np.zeros((20, 5)), "particles: expected shape"),
     (PARTICLES, np.full((20, 4), np.nan), "particles: expected finite numbers, got nan"),
-    (LOG_WEIGHTS, np.zeros(19), "log_weights: expected"),
-    (LOG_WEIGHTS, np.full(20, 0.5), "log_weights: expected numbers up to 0, got 0.5"),
-    (LOG_WEIGHTS, np.full(20, np.nan), "log_weights: expected numbers up to 0, got nan"),
+    (WEIGHTS, np.zeros(19), "weights: expected"),
+    (WEIGHTS, np.zeros(20), "weights: expected"),
+    (WEIGHTS, np.full(20, -0.5), "weights: expected"),
+    (WEIGHTS, np.full(20, np.nan), "weights: expected"),
+    (OFFSET, 1.0, r"offset: expected a number in \[0, 1\), got 1"),
     (NOISE, np.zeros((19, 4)), "noise: expected"),
-    (5, -np.ones(4), "scale: expected no negative number"),
-    (6, np.full(4, 99.0), "lower: expected no number above upper"),
-    (10, 1.0, r"share: expected a number in \[0, 1\), got 1"),
-    (13, np.zeros((2, 3, 19), np.float32), "models: expected"),
-    (14, np.ones(3), "shares: expected"),
-    (17, np.nan, "sharpness: expected a finite number, got nan"),
+    (CORRELATION, 1.5, r"correlation: expected a number in \[-1, 1\], got 1.5"),
+    (CORRELATION, np.nan, r"correlation: expected a number in \[-1, 1\], got nan"),
+    (7, (-1.0,) * 4, "scale: expected no negative number"),
+    (8, (99.0,) * 4, "lower: expected no number above upper"),
+    (12, 1.0, r"share: expected a number in \[0, 1\), got 1"),
+    (15, np.zeros((2, 3, 19), np.float32), "models: expected"),
+    (16, np.ones(3), "shares: expected"),
+    (19, np.nan, "sharpness: expected a finite number, got nan"),
+    (21, -1.0, "flat: expected a number from 0, got -1"),
 ]
 
 
@@ -131,7 +174,7 @@ def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None
         kernels.rank_filter(*arguments)
 
 
-@pytest.mark.parametrize("place", [*range(10), *range(11, 15), 16])
+@pytest.mark.parametrize("place", [IMAGE, PARTICLES, WEIGHTS, NOISE, *range(13, 17), 18])
 def test_native_refuses_other_types(place: int) -> None:
     """No argument is converted."""
     arguments = case(0)

@@ -4,6 +4,7 @@
 from collections.abc import Callable
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
@@ -16,16 +17,19 @@ TARGET, SURROUND = random.random((2, 16, 16, 16), np.float32)
 
 
 def script(patch: Any, other: Any, width: float, height: float, outer: float, *rest: Any) -> Any:
-    """The baseline: masks of the pixels, and the kernel for their colors."""
-    least_own, most_other, *histograms = rest
+    """The baseline: masks of the pixels, calcHist and NumPy."""
+    least_own, most_other, target, surround, rate, rare = rest
     y, x = np.indices(patch.shape[:2])
     u, v = abs(x - 31.5) / (width / 2), abs(y - 31.5) / (height / 2)
     inside, around = u * u + v * v <= 1, np.maximum(u, v) > outer
     own = inside & (other > least_own)
     if 2 * own.sum() > inside.sum():
         inside, around = own, around | inside & (other < most_other)
-    own_colors, other_colors = (np.ascontiguousarray(patch[each].T)[None] for each in (inside, around))
-    return _core.learn_contrast(own_colors, other_colors, *histograms)
+    learned = []
+    for pixels, old in ((patch[inside], target), (patch[around], surround)):
+        seen = cv2.calcHist([pixels[None]], [0, 1, 2], None, 3 * [16], 3 * [0, 256]) / len(pixels)
+        learned.append(old + np.float32(rate) * (seen - old))
+    return *learned, learned[0] / (learned[0] + learned[1] + np.float32(rare))
 
 
 @pytest.mark.benchmark(group="learn_patch_colors, 64x64")

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "base/arrays.hpp"
-#include "base/sample_view.hpp"
+#include "base/image_view.hpp"
+#include "cues/color/rank_likelihood.hpp"
 
 namespace tricue {
 
@@ -13,21 +14,21 @@ struct ColorContrast {
     Floats table;     ///< float32 (B, B, B): P(target | color)
 };
 
-/// Updates the color histograms of a target and of its surround, and the table P(target | color) that follows by Bayes' rule with
-/// equal priors:
+/// Samples an ellipse and its surround, and updates the color histograms of both, and the table P(target | color) that follows by
+/// Bayes' rule with equal priors:
 ///     new = old + rate (seen - old),   table = target / (target + surround + rare)
 ///
-/// All in float32; in C++ a cube is B² rows (blue, green) of B reds.
+/// All in float32; in C++ a cube is B² rows (blue, green) of B reds. What is seen is the joint_histogram of the samples.
 ///
-/// @param inside uint8 (1, 3, n): samples in the target, channels B, G, R, counted as by joint_histogram
-/// @param around uint8 (1, 3, m): samples around the target
+/// @param image uint8 (H, W, 3) BGR, at least one pixel
+/// @param ellipse float64 (4,): center x, y, semi-axes along x and y, pixels, finite
 /// @param target float32 (B, B, B), B a power of two up to 64: the target's histogram so far; zeros at first, with a rate of 1
 /// @param surround float32 (B, B, B): the surround's histogram so far
 /// @param rate learning rate, in [0, 1]
 /// @param rare above 0: the share of a cell below which it says little about either side
 /// @throws std::invalid_argument on other or unlike shapes, or a rate or rare out of range
 /// Source: ours; the histograms are those of Vezhnevets, Sazonov, Andreeva 2003, section 3.1.
-ColorContrast learn_contrast(const SampleView& inside, const SampleView& around, FloatsRef target,
-                             FloatsRef surround, double rate, double rare);
+ColorContrast learn_contrast(const ImageView& image, VectorRef ellipse, const Windows& windows,
+                             FloatsRef target, FloatsRef surround, double rate, double rare);
 
 }  // namespace tricue

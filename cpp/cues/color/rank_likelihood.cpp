@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/check.hpp"
 #include "cues/color/detail/color_cells.hpp"
+#include "cues/color/detail/compare_window.hpp"
 #include "cues/color/detail/ellipse_sampler.hpp"
 #include "cues/color/detail/rank_maps.hpp"
 
@@ -68,26 +70,46 @@ void require_valid(const ColorLook& look, const LookWeights& weights) {
 
 }  // namespace
 
-Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
-                       const ColorLook& look, const LookWeights& weights) {
-    require_shape(ellipses, ellipses.rows(), 4, "ellipses");
+struct RankMeter::Parts {
+    Reader inside, around;
+    RankMaps maps;
+    const ColorLook& look;
+    LookWeights weights;
+    int bits;
+    Vector distances;
+    std::vector<std::uint8_t> planes;
+};
+
+RankMeter::RankMeter(const ImageView& image, const Windows& windows, const ColorLook& look,
+                     const LookWeights& weights) {
+    constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
     Reader inside(image, windows.inside, "inside"), around(image, windows.around, "around");
     require_valid(look, weights);
     RankMaps maps(look.models, windows.inside.rows());
     const int bits = bits_of_cube(look.table, "table");
-    require_finite(ellipses, "ellipses");
-
-    const Eigen::Index N = ellipses.rows(), M = maps.size();
-    constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
-    Vector log_likelihood(N), distances(kBatch * M);
+    Vector distances(kBatch * maps.size());
     std::vector<std::uint8_t> planes(static_cast<std::size_t>(3 * windows.inside.rows() * kBatch));
+    parts_ = std::make_unique<Parts>(Parts{std::move(inside), std::move(around), std::move(maps), look,
+                                           weights, bits, std::move(distances), std::move(planes)});
+}
+
+RankMeter::~RankMeter() = default;
+
+Vector RankMeter::log_likelihood(StatesRef ellipses) {
+    require_shape(ellipses, ellipses.rows(), 4, "ellipses");
+    require_finite(ellipses, "ellipses");
+    auto& [inside, around, maps, look, weights, bits, distances, planes] = *parts_;
+    const Eigen::Index N = ellipses.rows(), M = maps.size();
+    const std::ptrdiff_t n = inside.sampler().size();
+    constexpr std::ptrdiff_t kBatch = EllipseSampler::kBatch;
+    Vector log_likelihood(N);
     for (Eigen::Index first = 0; first < N; first += kBatch) {
         const std::ptrdiff_t count = std::min(N - first, kBatch);
         const double* each = ellipses.data() + 4 * first;
         const std::uint32_t* words = inside.read(each, count, bits);
         around.read(each, count, bits);
         inside.sampler().split(words, count, planes.data());
-        maps.compare({planes.data(), count, windows.inside.rows()}, distances.data());
+        maps.compare({planes.data(), count, n}, distances.data());
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const double distance = combined(distances.data() + M * i, look);
             const double contrast = inside.mean(i, look.table.data()) - around.mean(i, look.table.data());
@@ -96,6 +118,16 @@ Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows
         }
     }
     return log_likelihood;
+}
+
+RankWindow RankMeter::first_window(double flat) const {
+    return compare_window(parts_->planes.data(), parts_->inside.sampler().size(), parts_->look.models, flat);
+}
+
+Vector rank_likelihood(const ImageView& image, StatesRef ellipses, const Windows& windows,
+                       const ColorLook& look, const LookWeights& weights) {
+    require_shape(ellipses, ellipses.rows(), 4, "ellipses");
+    return RankMeter(image, windows, look, weights).log_likelihood(ellipses);
 }
 
 }  // namespace tricue

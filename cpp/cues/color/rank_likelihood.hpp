@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "base/arrays.hpp"
 #include "base/image_view.hpp"
+#include "cues/color/rank_window.hpp"
 
 namespace tricue {
 
@@ -26,6 +29,24 @@ struct ColorLook {
 struct LookWeights {
     double sharpness;        ///< nats, finite
     double contrast_weight;  ///< nats, finite
+};
+
+/// Measures as rank_likelihood, more than once in an image. What it is made of must outlive it.
+class RankMeter {
+public:
+    /// @throws std::invalid_argument as rank_likelihood
+    RankMeter(const ImageView& image, const Windows& windows, const ColorLook& look,
+              const LookWeights& weights);
+    ~RankMeter();
+
+    Vector log_likelihood(StatesRef ellipses);
+
+    /// The rank_window of the first of at most eight ellipses that were measured last.
+    RankWindow first_window(double flat) const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 /// The measurement of the color particle tracker in one pass: log p(y | x) = −sharpness d² + contrast_weight c, nats.

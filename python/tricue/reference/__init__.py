@@ -24,6 +24,7 @@ from tricue.reference.cues.color.joint_histogram import joint_histogram
 from tricue.reference.cues.color.learn_contrast import learn_contrast
 from tricue.reference.cues.color.learn_histogram import learn_histogram
 from tricue.reference.cues.color.learn_patch_colors import learn_patch_colors
+from tricue.reference.cues.color.learn_ranks import learn_ranks
 from tricue.reference.cues.color.pick_pixels import pick_pixels
 from tricue.reference.cues.color.rank_distance import rank_distance
 from tricue.reference.cues.color.rank_likelihood import rank_likelihood
@@ -149,6 +150,7 @@ __all__ = [
     "learn_histogram",
     "learn_patch_colors",
     "learn_place_filter",
+    "learn_ranks",
     "learn_size_filter",
     "localize_target",
     "log_polar_shift",

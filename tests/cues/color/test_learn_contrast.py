@@ -8,23 +8,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
-from numpy.typing import NDArray
 from tricue import _core, reference
 from tricue.kernels import Kernels
 
 EPS = float(np.finfo(np.float32).eps)
 
 
-def colors(rng: np.random.Generator, n: int, level: float) -> NDArray[np.uint8]:
-    """Samples (1, 3, n) round one level."""
-    return rng.normal(level, 30, (1, 3, n)).clip(0, 255).astype(np.uint8)
-
-
 def case(seed: int, n: int = 50, side: int = 8) -> list[Any]:
-    """Samples in and round, histograms of sum 1, a rate, a rare share."""
+    """A picture, an ellipse in it, places in and round, histograms of sum 1, a rate, a rare share."""
     rng = np.random.default_rng(seed)
+    image = rng.normal([90, 120, 160], 30, (40, 50, 3)).clip(0, 255).astype(np.uint8)
+    patterns = [rng.uniform(-1, 1, (n, 2)), rng.uniform(-2, 2, (n + 3, 2))]
     cubes = [cube / cube.sum() for cube in rng.random((2, side, side, side), np.float32)]
-    return [colors(rng, n, 90), colors(rng, n + 3, 160), *cubes, rng.random(), 1e-4]
+    return [image, np.array([24.0, 19.0, 8.0, 11.0]), *patterns, *cubes, rng.random(), 1e-4]
 
 
 @given(st.integers(0, 2**32), st.integers(0, 300), st.sampled_from([1, 2, 4, 16, 64]))
@@ -39,20 +35,22 @@ def test_twin_learns_the_same(seed: int, n: int, side: int) -> None:
 
 def test_first_frame_is_its_histograms(kernels: Kernels) -> None:
     """From zeros with a rate of 1 the histograms are NumPy's histogramdd of the samples, each of sum 1."""
-    inside, around, *_ = case(1, 400)
+    image, ellipse, *patterns = case(1, 400)[:4]
     nothing = np.zeros((8, 8, 8), np.float32)
-    target, surround, _ = kernels.learn_contrast(inside, around, nothing, nothing, 1.0, 1e-4)
-    for histogram, samples in ((target, inside), (surround, around)):
-        counts, _ = np.histogramdd(samples[0].T, bins=8, range=3 * [(0, 256)])
-        assert_allclose(histogram, counts / samples.shape[2], rtol=EPS)
+    learned = kernels.learn_contrast(image, ellipse, *patterns, nothing, nothing, 1.0, 1e-4)
+    for histogram, pattern in zip(learned[:2], patterns, strict=True):
+        samples = kernels.sample_ellipses(image, ellipse[None], pattern)[0].T
+        counts, _ = np.histogramdd(samples, bins=8, range=3 * [(0, 256)])
+        assert_allclose(histogram, counts / len(pattern), rtol=EPS)
 
 
 def test_table_is_bayes_rule(kernels: Kernels) -> None:
     """Equal shares give 1/2, a color of the target alone 1, of the surround alone 0, an unseen one 0."""
-    samples = np.array([[[10, 10, 200, 200]] * 3], np.uint8)
-    others = np.array([[[10, 10, 100, 100]] * 3], np.uint8)
+    image = np.repeat(np.array([[10, 200, 100]], np.uint8)[..., None], 3, axis=2)
+    where = np.array([1.5, 0.5, 1.0, 1.0])
+    inside, around = (np.array([[x, 0.0] for x in columns]) for columns in ((-1.0, 0.0), (-1.0, 1.0)))
     nothing = np.zeros((4, 4, 4), np.float32)
-    table = kernels.learn_contrast(samples, others, nothing, nothing, 1.0, 1e-6)[2]
+    table = kernels.learn_contrast(image, where, inside, around, nothing, nothing, 1.0, 1e-6)[2]
     assert table[0, 0, 0] == pytest.approx(1 / 2, abs=1e-6)
     assert table[3, 3, 3] == pytest.approx(1, abs=1e-5)
     assert table[1, 1, 1] == 0
@@ -62,10 +60,10 @@ def test_table_is_bayes_rule(kernels: Kernels) -> None:
 @given(st.integers(0, 2**32))
 def test_blends_linearly(seed: int) -> None:
     """A rate of 0 changes nothing, a rate in between lies between, and sums stay 1."""
-    inside, around, target, surround, rate, rare = case(seed)
+    *seen, target, surround, rate, rare = case(seed)
     for k in (_core, reference):
         kept, learned, new = (
-            k.learn_contrast(inside, around, target, surround, each, rare)[0] for each in (0.0, rate, 1.0)
+            k.learn_contrast(*seen, target, surround, each, rare)[0] for each in (0.0, rate, 1.0)
         )
         assert_array_equal(kept, target)
         assert_allclose(learned, target + rate * (new - target), rtol=0, atol=4 * EPS)
@@ -82,14 +80,17 @@ def test_arguments_stay_as_they_are(kernels: Kernels) -> None:
 
 
 BAD: list[tuple[int, Any, str]] = [
-    (0, np.zeros((2, 3, 4), np.uint8), "inside: expected the samples of one ellipse, got 2"),
-    (1, np.zeros((0, 3, 4), np.uint8), "around: expected the samples of one ellipse, got 0"),
-    (2, np.zeros((3, 3, 3), np.float32), r"target: expected shape \(B, B, B\)"),
-    (3, np.zeros((4, 4, 4), np.float32), "surround: expected the target's shape"),
-    (4, -0.1, r"rate: expected a number in \[0, 1\], got -0.1"),
-    (4, np.nan, r"rate: expected a number in \[0, 1\], got nan"),
-    (5, 0.0, "rare: expected a number above 0, got 0"),
-    (5, np.nan, "rare: expected a number above 0, got nan"),
+    (0, np.zeros((0, 4, 3), np.uint8), "image: expected at least one pixel, got none"),
+    (1, np.zeros(5), "ellipse: expected shape"),
+    (1, np.full(4, np.nan), "finite numbers, got nan"),
+    (2, np.full((50, 2), np.inf), "finite numbers, got inf"),
+    (3, np.zeros((50, 3)), "expected shape"),
+    (4, np.zeros((3, 3, 3), np.float32), r"target: expected shape \(B, B, B\)"),
+    (5, np.zeros((4, 4, 4), np.float32), "surround: expected the target's shape"),
+    (6, -0.1, r"rate: expected a number in \[0, 1\], got -0.1"),
+    (6, np.nan, r"rate: expected a number in \[0, 1\], got nan"),
+    (7, 0.0, "rare: expected a number above 0, got 0"),
+    (7, np.nan, "rare: expected a number above 0, got nan"),
 ]
 
 
@@ -102,10 +103,10 @@ def test_refuses(kernels: Kernels, place: int, value: Any, message: str) -> None
         kernels.learn_contrast(*arguments)
 
 
-@pytest.mark.parametrize("place", range(4))
+@pytest.mark.parametrize("place", range(6))
 def test_native_refuses_other_types(place: int) -> None:
     """No array is converted."""
     arguments = case(0)
-    arguments[place] = arguments[place].astype(np.float64)
-    with pytest.raises(TypeError, match="float64"):
+    arguments[place] = arguments[place].astype(np.float16)
+    with pytest.raises(TypeError, match="float16"):
         _core.learn_contrast(*arguments)

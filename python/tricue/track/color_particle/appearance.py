@@ -102,6 +102,6 @@ class Appearance(NamedTuple):
         self, k: Kernels, image: Image, ellipse: Floats, seen: Any, rate: float, color_rate: float
     ) -> "Appearance":
         """Blend the window of an ellipse (4,) into both models; rates of 1 initialize them."""
-        contrast = self.contrast and self.contrast.learn(k, image, ellipse[None], color_rate)
+        contrast = self.contrast and self.contrast.learn(k, image, ellipse, color_rate)
         model = self.model.learn(k, seen, rate)
         return Appearance(model, contrast, self.grid, self.ring, self.linear, self.sharpness)

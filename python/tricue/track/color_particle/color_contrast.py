@@ -39,17 +39,14 @@ class ColorContrast(NamedTuple):
     skipped: bool = False  # whether the last frame was not learned
 
     def learn(self, k: Kernels, image: Samples, ellipse: Floats, rate: float) -> "ColorContrast":
-        """Blend in the colors inside and around the ellipse (1, 4); a rate of 1 initializes the histograms.
+        """Blend in the colors inside and around the ellipse (4,); a rate of 1 initializes the histograms.
 
         Colors change slowly: only every second call learns, with twice the rate.
         """
         if rate < 1 and not self.skipped:
             return ColorContrast(self.weight, self.target, self.surround, self.table, skipped=True)
-        inside, around = (
-            k.sample_ellipses(image, ellipse, pattern) for pattern in (TARGET_PATTERN, SURROUND_PATTERN)
-        )
-        double_rate = min(2 * rate, 1.0)
-        tables = k.learn_contrast(inside, around, self.target, self.surround, double_rate, MIN_CELL_SHARE)
+        patterns, histograms = (TARGET_PATTERN, SURROUND_PATTERN), (self.target, self.surround)
+        tables = k.learn_contrast(image, ellipse, *patterns, *histograms, min(2 * rate, 1.0), MIN_CELL_SHARE)
         return ColorContrast(self.weight, *tables)
 
     def log_likelihood(self, k: Kernels, inside: Samples, around: Samples) -> Floats:

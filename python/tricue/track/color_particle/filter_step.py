@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""One step of the particle filter, section III: propose (30), weigh (2), estimate (31)."""
+"""One step of the particle filter, section III: resample, propose (30), weigh (2), estimate (31)."""
 
 from typing import Any
 
@@ -7,12 +7,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.base.prediction import Prediction
 from tricue.track.color_particle.appearance import Appearance
+from tricue.track.color_particle.motion import EllipsePrediction
+from tricue.track.color_particle.rank_models import MIN_RANK_SPREAD, RankWindow
 from tricue.track.color_particle.skin_detection import SkinDetection
 from tricue.track.color_particle.state import ParticleSet
 
 Floats = NDArray[Any]
+
+MIN_WEIGHT = 1e-300  # of a particle, in the logarithm
 
 
 def filter_step(
@@ -20,25 +23,43 @@ def filter_step(
     image: NDArray[np.uint8],
     appearance: Appearance,
     particles: Floats,
-    log_weights: Floats,
+    weights: Floats,
+    offset: float | None,
     noise: Floats,
-    prediction: Prediction,
+    correlation: float,
+    prediction: EllipsePrediction,
     detection: SkinDetection,
     searching: bool,
 ) -> ParticleSet:
     """The particles (N, 4) of the next frame. One kernel does it all where it knows the likelihood.
 
-    log_weights: (N,) of the particles, but for a constant. noise: (N, 4) independent standard normal numbers.
-    searching: for a lost target.
+    offset: of the comb by which particles are resampled; None: they aren't. noise: (N, 4) independent
+    standard normal numbers. correlation: of those of both semi-axes. searching: for a lost target.
     """
     look = appearance.rank_look(searching)
     if look is not None:
-        step = k.rank_filter(image, particles, log_weights, noise, *prediction, *detection, *look)
-        return ParticleSet(*step)
-    drift, scale, lower, upper = prediction
-    moved = k.propose(particles, drift, scale, noise, *detection, lower, upper)
+        step = k.rank_filter(
+            *(image, particles, weights, offset, noise, correlation, *prediction, *detection),
+            *(*look, MIN_RANK_SPREAD),
+        )
+        return ParticleSet(*step[:5], RankWindow(*step[5:]))
+    log_weights = np.zeros(len(weights))
+    if offset is None:
+        log_weights = np.log(np.maximum(weights, MIN_WEIGHT))
+    else:
+        particles = particles.take(k.resample(weights, offset), axis=0)
+    drift, scale, lower, upper = map(np.array, prediction)
+    detected = detection.arrays()
+    moved = k.propose(particles, drift, scale, mix_sizes(noise, correlation), *detected, lower, upper)
     log_likelihood = appearance.log_likelihood(k, image, moved, searching) + log_weights
-    weights, _ = k.reweight(log_likelihood, moved, particles, drift, scale, *detection)
-    ellipse, _, effective = k.summarize(moved, weights)
+    posterior, _ = k.reweight(log_likelihood, moved, particles, drift, scale, *detected)
+    ellipse, _, effective = k.summarize(moved, posterior)
     estimated = float(appearance.log_likelihood(k, image, ellipse[None], searching)[0])
-    return ParticleSet(moved, weights, effective, ellipse, estimated)
+    return ParticleSet(moved, posterior, effective, ellipse, estimated, appearance.observe(k, image, ellipse))
+
+
+def mix_sizes(noise: Floats, correlation: float) -> Floats:
+    """White noise (N, 4) with a correlation of its last two columns."""
+    mixing = np.eye(4)
+    mixing[2, 3], mixing[3, 3] = correlation, (1 - correlation**2) ** 0.5
+    return np.asarray(noise @ mixing)

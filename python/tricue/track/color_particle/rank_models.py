@@ -51,12 +51,7 @@ class RankSpatial(NamedTuple):
     def learn(self, k: Kernels, seen: RankWindow, rate: float) -> "RankSpatial":
         if rate >= 1:
             return RankSpatial(self.weights, np.stack([seen.ranks, seen.ranks]))
-        maps = self.maps.copy()
-        learned = maps[0]
-        change = seen.ranks - learned
-        change *= np.float32(rate)
-        learned += change
-        return RankSpatial(self.weights, maps)
+        return RankSpatial(self.weights, k.learn_ranks(self.maps, seen.ranks, rate))
 
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         distances = k.rank_distance(inside, self.maps)

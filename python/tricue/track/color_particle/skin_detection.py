@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
-from tricue.track.base.prediction import Prediction
-from tricue.track.color_particle.motion import Ellipse, EllipseMotion
+from tricue.track.color_particle.motion import Ellipse, EllipseMotion, EllipsePrediction
 from tricue.track.color_particle.params import ColorParticleParams
 
 Floats = NDArray[np.float64]
@@ -22,14 +21,22 @@ CANDIDATE_SCALE = 0.2  # candidates have the mean size up to a factor of exp of 
 
 
 class SkinDetection(NamedTuple):
-    """The Gaussian N(mean, root rootᵀ) over the position, and the share of the particles drawn from it."""
+    """The Gaussian N(mean, root rootᵀ) over the position, and the share of the particles drawn from it.
 
-    mean: Floats
-    root: Floats
+    root: its lower triangle, by rows.
+    """
+
+    mean: tuple[float, float]
+    root: tuple[float, float, float]
     share: float
 
+    def arrays(self) -> tuple[Floats, Floats, float]:
+        """mean (2,), root (2, 2) and share."""
+        first, cross, second = self.root
+        return np.array(self.mean), np.array([[first, 0.0], [cross, second]]), self.share
 
-NO_DETECTION = SkinDetection(np.zeros(2), np.eye(2), 0.0)
+
+NO_DETECTION = SkinDetection((0.0, 0.0), (1.0, 0.0, 1.0), 0.0)
 
 
 def reference_color(k: Kernels, image: Image, ellipse: Ellipse) -> Image:
@@ -46,7 +53,7 @@ def detect_skin(
     image: Image,
     skin_color: Image,
     ellipse: Ellipse,
-    prediction: Prediction,
+    prediction: EllipsePrediction,
     p: ColorParticleParams,
 ) -> SkinDetection:
     """The Gaussian of the skin pixels, (11)-(16), where the target can be next or in the whole image."""
@@ -56,8 +63,8 @@ def detect_skin(
     if p.skin_region == "image":
         region = (0, 0, image.shape[1], image.shape[0])
     else:
-        left, top, *_ = prediction.lower.tolist()
-        right, bottom, *_ = prediction.upper.tolist()
+        left, top, *_ = prediction.lower
+        right, bottom, *_ = prediction.upper
         region = (int(left - minor), int(top - major), int(right + minor) + 1, int(bottom + major) + 1)
     count, x, y, xx, yy, xy = k.skin_moments(image, skin_color, p.skin_threshold, region).tolist()
     if count < MIN_SKIN_AREA * 4 * minor * major:
@@ -66,8 +73,7 @@ def detect_skin(
     first = (xx + MIN_PIXEL_VARIANCE) ** 0.5
     cross = xy / first
     second = (yy + MIN_PIXEL_VARIANCE - cross * cross) ** 0.5
-    numbers = np.array((x, y, first, 0.0, cross, second))  # one array is made faster than two
-    return SkinDetection(numbers[:2], numbers[2:].reshape(2, 2), p.skin_share)
+    return SkinDetection((x, y), (first, cross, second), p.skin_share)
 
 
 def draw_candidates(

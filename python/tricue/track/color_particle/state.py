@@ -18,9 +18,9 @@ MIN_MISSED_FRAMES = 5  # in a row, at least, until the target is LOST
 class ParticleSet(NamedTuple):
     """Weighted particles and their estimate.
 
-    particles: (N, 4) ellipses x, y, minor, major, pixels. weights: (N,) of sum 1.
+    particles: (N, 4) ellipses x, y, minor, major, pixels. weights: (N,), which need not sum to 1.
     effective: the effective sample size. ellipse: (4,) the particles' expected value.
-    log_likelihood: of that ellipse, nats.
+    log_likelihood: of that ellipse, nats. seen: in its window: what is scored and learned of it.
     """
 
     particles: Floats
@@ -28,6 +28,7 @@ class ParticleSet(NamedTuple):
     effective: float
     ellipse: Floats
     log_likelihood: float
+    seen: Any
 
 
 class State(NamedTuple):
@@ -38,7 +39,6 @@ class State(NamedTuple):
     skin_color: NDArray[np.uint8]  # (3,) the reference color of the skin classifier
     motion: EllipseMotion
     particles: ParticleSet
-    seen: Any  # in the target's window, in the last frame in which it was estimated: what is learned of it
     score: float
     mean_log_likelihood: float  # running mean over the frames in which it was estimated
     recognized_mean: float  # the same over the frames in which it was recognized

@@ -10,14 +10,13 @@ from tricue import kernels as kernel_sets
 from tricue.camera.box import Box, BoxLike
 from tricue.camera.frame import FrameLike
 from tricue.track.base import validation
-from tricue.track.base.prediction import Prediction
 from tricue.track.base.random_source import RandomSource
 from tricue.track.base.track import Status, Track
 from tricue.track.base.tracker import TrackerBase, read_only
 from tricue.track.base.traits import Channels, Traits
 from tricue.track.color_particle.appearance import Appearance
 from tricue.track.color_particle.filter_step import filter_step
-from tricue.track.color_particle.motion import EllipseMotion, size_mixing
+from tricue.track.color_particle.motion import EllipseMotion, EllipsePrediction, size_correlation
 from tricue.track.color_particle.params import ColorParticleParams
 from tricue.track.color_particle.skin_detection import (
     NO_DETECTION,
@@ -32,10 +31,9 @@ Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 MEAN_RATE = 0.05  # per frame, of the running means of the log-likelihood
-MIN_WEIGHT = 1e-300  # of a particle, in the logarithm
 REDETECTION_RATE = 0.5  # learning rate, once, where a lost target is detected again
 REDETECTION_SHARE = 0.85  # of the way from the median likelihood of the frame to the target's: detected again
-NO_DRIFT = np.zeros(4)
+NO_DRIFT = 0.0, 0.0, 0.0, 0.0
 
 
 class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
@@ -71,17 +69,15 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         **parameters: Any,
     ) -> None:
         super().__init__(params, seed, kernels, parameters)
-        # Weights are uniform where they are this very array. So it is pickled together with the state.
-        self._uniform = np.full(self.params.particles, 1 / self.params.particles)
 
-    _derived = ("_k", "_random", "_rng", "_mixing", "_equal")
+    _derived = ("_k", "_random", "_rng", "_correlation", "_equal")
 
     def _derive(self) -> None:
         super()._derive()
         self._random = RandomSource(self.seed)
         self._rng = self._random.generator
-        self._mixing = size_mixing(self.params)
-        self._equal = np.zeros(self.params.particles)  # logarithms of equal weights, but for a constant
+        self._correlation = size_correlation(self.params)
+        self._equal = np.ones(self.params.particles)  # weights
 
     @property
     def particles(self) -> Floats:
@@ -101,14 +97,13 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         appearance = appearance.learn(k, image, window, seen, 1.0, 1.0)
         seen = appearance.observe(k, image, window)
         log_likelihood = float(appearance.log_likelihood(k, image, window[None])[0])
-        particles, _ = self._particles_at(window)
+        particles, weights = self._particles_at(window)
         state = State(
             shape=image.shape,
             appearance=appearance,
             skin_color=reference_color(k, image, ellipse),
             motion=EllipseMotion.start(ellipse),
-            particles=ParticleSet(particles, self._uniform, len(particles), window, log_likelihood),
-            seen=seen,
+            particles=ParticleSet(particles, weights, len(particles), window, log_likelihood, seen),
             score=appearance.score(k, seen),
             mean_log_likelihood=log_likelihood,
             recognized_mean=log_likelihood,
@@ -144,40 +139,42 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         k, p, motion = self._k, self.params, state.motion
         prediction = motion.predict(p, state.shape)
         detection = detect_skin(k, image, state.skin_color, motion.ellipse, prediction, p)
-        particles = self._filter(state, image, *self._resample(state.particles), prediction, detection)
+        last = state.particles
+        scarce = last.effective < p.resample_below * len(last.weights)
+        offset = self._rng.random() if scarce else None
+        particles = self._filter(state, image, last.particles, last.weights, prediction, detection, offset)
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
-        seen = state.appearance.observe(k, image, particles.ellipse)
-        motion = motion.update(tuple(particles.ellipse.tolist()), p)
-        return self._accept(state, particles, seen, motion)
+        return self._accept(state, particles, motion.update(tuple(particles.ellipse.tolist()), p))
 
     def _filter(
         self,
         state: State,
         image: Image,
         particles: Floats,
-        log_weights: Floats,
-        prediction: Prediction,
+        weights: Floats,
+        prediction: EllipsePrediction,
         detection: SkinDetection = NO_DETECTION,
+        offset: float | None = None,
     ) -> ParticleSet:
-        """One step of the particle filter, from particles and the logarithms of their weights."""
-        noise = self._rng.standard_normal(particles.shape) @ self._mixing
-        searching = state.lost(self.params)
+        """One step of the particle filter. offset: of the comb that resamples; None: no resampling."""
+        noise = self._rng.standard_normal(particles.shape)
         return filter_step(
-            self._k, image, state.appearance, particles, log_weights, noise, prediction, detection, searching
+            *(self._k, image, state.appearance, particles, weights, offset, noise, self._correlation),
+            *(prediction, detection, state.lost(self.params)),
         )
 
     def _search_wide(
-        self, state: State, image: Image, narrow: ParticleSet, prediction: Prediction
+        self, state: State, image: Image, narrow: ParticleSet, prediction: EllipsePrediction
     ) -> ParticleSet:
         """Search widely around the last ellipse, then closely around the best particle: for sudden motion."""
-        wide_scale = prediction.scale.copy()
-        wide_scale[:2] = self.params.wide_search_spread * state.motion.side
+        spread = self.params.wide_search_spread * state.motion.side
         last = np.array(state.motion.ellipse)
-        wide_prediction = prediction._replace(drift=NO_DRIFT, scale=wide_scale)
+        wide_prediction = prediction._replace(drift=NO_DRIFT, scale=(spread, spread, *prediction.scale[2:]))
         wide = self._filter(state, image, *self._particles_at(last), wide_prediction)
         best = wide.particles[np.argmax(wide.weights)]
-        close_prediction = prediction._replace(drift=NO_DRIFT, scale=prediction.scale / 2)
+        x, y, minor, major = prediction.scale
+        close_prediction = prediction._replace(drift=NO_DRIFT, scale=(x / 2, y / 2, minor / 2, major / 2))
         close = self._filter(state, image, *self._particles_at(best), close_prediction)
         return max(narrow, close, key=lambda each: each.log_likelihood)
 
@@ -190,23 +187,22 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         motion = state.motion.restart_at(tuple(best.tolist()))
         prediction = motion.predict(p, state.shape)
         particles = self._filter(state, image, *self._particles_at(best), prediction)
-        seen = appearance.observe(k, image, particles.ellipse)
-        recognized = appearance.score(k, seen, searching=True) >= p.min_score_to_redetect
+        recognized = appearance.score(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)
         if not recognized or particles.log_likelihood < required:
             return state._replace(score=0.0)
         motion = motion.restart_at(tuple(particles.ellipse.tolist()))
-        redetected = self._accept(state, particles, seen, motion)
+        redetected = self._accept(state, particles, motion)
         return redetected._replace(appearance=self._learn(redetected, image, REDETECTION_RATE))
 
-    def _accept(self, state: State, particles: ParticleSet, seen: Any, motion: EllipseMotion) -> State:
+    def _accept(self, state: State, particles: ParticleSet, motion: EllipseMotion) -> State:
         """The state with these particles; their score and likelihood tell whether they are on the target.
 
         By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
         which colors add, isn't; were it learned, the tracker would stay there.
         """
-        score, log_likelihood = state.appearance.score(self._k, seen), particles.log_likelihood
+        score, log_likelihood = state.appearance.score(self._k, particles.seen), particles.log_likelihood
         missed, recognized_mean = state.missed_frames + 1, state.recognized_mean
         least = recognized_mean - self.params.max_likelihood_drop
         if score >= self.params.min_score and log_likelihood >= least:
@@ -214,7 +210,6 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         mean = state.mean_log_likelihood
         return state._replace(
             particles=particles,
-            seen=seen,
             motion=motion,
             score=score,
             mean_log_likelihood=mean + MEAN_RATE * (log_likelihood - mean),
@@ -224,23 +219,12 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
 
     def _learn(self, state: State, image: Image, rate: float) -> Appearance:
         """The appearance with the estimated window blended in."""
-        ellipse, color_rate = state.particles.ellipse, self.params.color_rate
-        return state.appearance.learn(self._k, image, ellipse, state.seen, rate, color_rate)
+        particles, color_rate = state.particles, self.params.color_rate
+        return state.appearance.learn(self._k, image, particles.ellipse, particles.seen, rate, color_rate)
 
     def _particles_at(self, ellipse: Floats) -> tuple[Floats, Floats]:
-        """All particles at one ellipse (4,), and the logarithms of equal weights."""
+        """All particles at one ellipse (4,), and their weights."""
         return np.repeat(ellipse[None], self.params.particles, axis=0), self._equal
-
-    def _resample(self, particles: ParticleSet) -> tuple[Floats, Floats]:
-        """Particles and the logarithms of their weights, but for a constant, after systematic resampling
-        where the effective sample size is small.
-        """
-        weights = particles.weights
-        if particles.effective < self.params.resample_below * len(weights):
-            indices = self._k.resample(weights, self._rng.random())
-            return particles.particles.take(indices, axis=0), self._equal
-        equal = weights is self._uniform
-        return particles.particles, self._equal if equal else np.log(np.maximum(weights, MIN_WEIGHT))
 
     def _track(self, state: State) -> Track:
         if state.missed_frames == 0:

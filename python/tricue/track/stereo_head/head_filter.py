@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
+from tricue.track.stereo_head.stereo_geometry import Point
 
 Floats = NDArray[np.float64]
 
@@ -28,9 +29,10 @@ class HeadFilter(NamedTuple):
     covariance: Floats
 
     @property
-    def position(self) -> Floats:
-        """(3,) meters, in the left camera's frame."""
-        return self.mean[:3]
+    def position(self) -> Point:
+        """In the left camera's frame."""
+        x, y, z = self.mean[:3].tolist()
+        return x, y, z
 
     @property
     def color(self) -> Floats:
@@ -62,10 +64,10 @@ def predict(k: Kernels, state: HeadFilter, seconds: float, p: StereoHeadParams) 
     return HeadFilter(mean, covariance)
 
 
-def mahalanobis_distance(predicted: HeadFilter, measured: Floats, noise: Floats) -> float:
-    """The distance of a measured position (3,) from the predicted one, in standard deviations."""
+def mahalanobis_distance(predicted: HeadFilter, measured: Point, noise: Floats) -> float:
+    """The distance of a measured position from the predicted one, in standard deviations."""
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = (predicted.covariance[:3, :3] + noise[:3, :3]).tolist()
-    (x, y, z), (there_x, there_y, there_z) = measured.tolist(), predicted.mean[:3].tolist()
+    (x, y, z), (there_x, there_y, there_z) = measured, predicted.position
     # The three steps of Cholesky written out: numpy.linalg takes longer than the whole correction.
     a = math.sqrt(xx)
     b, c = xy / a, xz / a

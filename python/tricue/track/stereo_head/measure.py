@@ -14,7 +14,7 @@ from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import EllipseMatch, search_local
 from tricue.track.stereo_head.search_region import crop_region
-from tricue.track.stereo_head.stereo_geometry import StereoGeometry
+from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 
 Floats = NDArray[np.float64]
 
@@ -25,18 +25,18 @@ class HeadMeasurement(NamedTuple):
     """A measured head.
 
     match, depth: its best match and the disparity there. histogram: (L,) its colors, C of (2).
-    position: (3,) meters. noise: (7, 7) covariance of the measurement of (8).
+    noise: (7, 7) covariance of the measurement of (8).
     """
 
     match: EllipseMatch
     depth: EllipseDisparity
     histogram: Floats
-    position: Floats
+    position: Point
     noise: Floats
 
     def values(self, color: Floats) -> Floats:
         """(7,) the measurement of (8), with the mean color (3,) of the updated model."""
-        return np.array([*self.position.tolist(), *color.tolist(), self.match.intersection])
+        return np.array([*self.position, *color.tolist(), self.match.intersection])
 
     def inflated(self, mean_score: float, p: StereoHeadParams) -> "HeadMeasurement":
         """The same with a larger covariance of the position, where the score is below the running mean.
@@ -76,7 +76,7 @@ def measure(
     if depth is None:
         return None
     point, covariance = geometry.triangulate(k, *match.ellipse[:2], depth.disparity, pair.step, p)
-    if not p.near <= float(point[2]) <= p.far:  # also of NaN, from a disparity of 0
+    if not p.near <= point[2] <= p.far:  # also of NaN, from a disparity of 0
         return None
     noise = _color_noise(p.color_noise, p.intersection_noise).copy()
     noise[:3, :3] = covariance

@@ -9,15 +9,15 @@ from numpy.typing import NDArray
 from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 
-Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 Region = tuple[int, int, int, int]
 Ellipse = tuple[float, float, float, float]  # center x, y, semi-axes minor (along x), major; pixels
 
+Color = tuple[float, float, float]  # blue, green, red
 Limits = tuple[int, int]  # lowest and highest disparity, both included
 Disparities = NDArray[np.float32]
 
-DARKEST = np.ones(3)  # color of an image for which the light is still compensated
+DARKEST = 1.0  # level of a channel for which the light is still compensated
 MAX_MATCHING_WINDOW = 31  # pixels, side of the window
 NO_LEFT_RIGHT_CHECK = -1  # the tolerance by which sad_disparity doesn't compare left with right
 
@@ -26,29 +26,32 @@ class PreparedPair(NamedTuple):
     """A rectified stereo pair, in whose cells of ``step`` x ``step`` pixels the head is searched.
 
     left, right: BGR (H, W, 3), the right one BGR or gray.
-    mean: (3,) color of the cells' middle pixels, a measure of the light while the scene stays the same.
-    gains: (3,) that turn colors into those of the first frame's light (von Kries); None: not compensated.
+    mean: color of the cells' middle pixels, a measure of the light while the scene stays the same.
+    gains: those that turn colors into those of the first frame's light (von Kries); None: not compensated.
     """
 
     left: Image
     right: Image
-    mean: Floats
-    gains: Floats | None
+    mean: Color
+    gains: Color | None
     step: int
 
     @classmethod
     def of(
-        cls, k: Kernels, left: Image, right: Image, first_mean: Floats | None, p: StereoHeadParams
+        cls, k: Kernels, left: Image, right: Image, first_mean: Color | None, p: StereoHeadParams
     ) -> "PreparedPair":
         """Prepare the images of a frame, left BGR, right BGR or gray.
 
-        first_mean: (3,) mean color of the first left image; None: the light isn't compensated.
+        first_mean: mean color of the first left image; None: the light isn't compensated.
         """
         height, width = left.shape[:2]
         step = max(1, min(round(width / p.resolution), height, width))
-        mean = k.image_mean(left, step)
-        gains = None if first_mean is None else first_mean / np.maximum(mean, DARKEST)
-        return cls(left, right, mean, gains, step)
+        b, g, r = k.image_mean(left, step).tolist()
+        gains = None
+        if first_mean is not None:
+            first_b, first_g, first_r = first_mean
+            gains = first_b / max(b, DARKEST), first_g / max(g, DARKEST), first_r / max(r, DARKEST)
+        return cls(left, right, (b, g, r), gains, step)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -61,7 +64,8 @@ class PreparedPair(NamedTuple):
         x0, y0, x1, y1 = region
         step = self.step
         pixels = (step * x0, step * y0, step * x1, step * y1)
-        return k.color_bins(self.left, pixels, p.bins, p.max_chroma, step * stride, self.gains)
+        gains = None if self.gains is None else np.array(self.gains)
+        return k.color_bins(self.left, pixels, p.bins, p.max_chroma, step * stride, gains)
 
     def disparities(
         self, k: Kernels, region: Region, ellipse: bool, limits: Limits, cells: bool, p: StereoHeadParams

@@ -12,7 +12,7 @@ from tricue.track.stereo_head.disparity import limits_between
 from tricue.track.stereo_head.params import StereoHeadParams
 from tricue.track.stereo_head.prepared_pair import Disparities, Ellipse, PreparedPair
 from tricue.track.stereo_head.search_local import score_matches
-from tricue.track.stereo_head.stereo_geometry import StereoGeometry
+from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 
 Floats = NDArray[np.float64]
 
@@ -30,12 +30,12 @@ class LostHead(NamedTuple):
 
     size: tuple[float, float]
     histogram: Floats
-    last_seen: Floats
+    last_seen: Point
     radius: float
 
     def distances(self, p: StereoHeadParams) -> tuple[float, float]:
         """The smallest and the greatest distance at which it can be, meters."""
-        z = float(self.last_seen[2])
+        z = self.last_seen[2]
         return max(z - self.radius, p.near), min(z + self.radius, p.far)
 
 

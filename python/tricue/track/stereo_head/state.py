@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from tricue.track.stereo_head.head_filter import HeadFilter
 from tricue.track.stereo_head.params import StereoHeadParams
-from tricue.track.stereo_head.stereo_geometry import StereoGeometry
+from tricue.track.stereo_head.prepared_pair import Color
+from tricue.track.stereo_head.stereo_geometry import Point, StereoGeometry
 
 Floats = NDArray[np.float64]
 
@@ -23,12 +24,12 @@ class HeadState(NamedTuple):
     learned_histogram: Floats  # (L,) M of (2)
     model: Floats  # (L,) what is searched for: the first one mixed with the learned one
     filter: HeadFilter
-    last_seen: Floats  # (3,) position, meters
+    last_seen: Point  # position
     score: float  # of the match in this frame, 0 where the head isn't recognized
     mean_score: float  # running mean
     mean_intersection: float  # running mean of (1)
     mean_share: float  # running mean of the share of the ellipse at the head's disparity
-    first_mean: Floats | None  # (3,) mean color of the first left image; None: light isn't compensated
+    first_mean: Color | None  # mean color of the first left image; None: light isn't compensated
     timestamp: float | None
     missed: float = 0.0  # seconds since the head was last recognized
 

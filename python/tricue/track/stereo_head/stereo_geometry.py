@@ -12,6 +12,7 @@ from tricue.kernels import Kernels
 from tricue.track.stereo_head.params import StereoHeadParams
 
 Floats = NDArray[np.float64]
+Point = tuple[float, float, float]  # meters
 
 MIN_POSITION_NOISE = 1e-4  # meters, where a polynomial has a zero
 POLYNOMIAL_SAMPLES = 64  # of the working range, to which the cubic polynomials are fitted
@@ -39,15 +40,15 @@ class StereoGeometry(NamedTuple):
         """The disparity at a distance z, pixels; z in meters."""
         return self.numbers[0] * self.numbers[4] / z
 
-    def project(self, position: Floats) -> tuple[float, float, float]:
-        """x, y in box coordinates and disparity, all in pixels, of a position (3,), meters."""
-        x, y, z = position.tolist()
+    def project(self, position: Point) -> tuple[float, float, float]:
+        """x, y in box coordinates and disparity, all in pixels, of a position."""
+        x, y, z = position
         fx, fy, cx, cy, baseline = self.numbers
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, fx * baseline / z
 
-    def ellipse(self, position: Floats, size: tuple[float, float]) -> tuple[float, float, float, float]:
-        """Center and semi-axes, pixels, of an upright ellipse of a size, meters, at a position (3,)."""
-        x, y, z = position.tolist()
+    def ellipse(self, position: Point, size: tuple[float, float]) -> tuple[float, float, float, float]:
+        """Center and semi-axes, pixels, of an upright ellipse of a size, meters, at a position."""
+        x, y, z = position
         fx, fy, cx, cy, _ = self.numbers
         return fx * x / z + cx + 0.5, fy * y / z + cy + 0.5, size[0] / 2 * fx / z, size[1] / 2 * fy / z
 
@@ -57,17 +58,18 @@ class StereoGeometry(NamedTuple):
 
     def triangulate(
         self, k: Kernels, x: float, y: float, disparity: float, step: int, p: StereoHeadParams
-    ) -> tuple[Floats, Floats]:
-        """The position (3,), meters, of x, y in box coordinates with a disparity, and its covariance (3, 3).
+    ) -> tuple[Point, Floats]:
+        """The position of x, y in box coordinates with a disparity, and its covariance (3, 3).
 
         step: pixels of a cell, in which ``place_noise`` counts.
         """
         measured = np.array([[x - 0.5, y - 0.5, disparity]])
         variances = _variances(p.place_noise * step, p.disparity_noise)
         points, covariances = k.back_project(measured, variances, self.camera, self.numbers[4])
+        x, y, z = points.tolist()[0]
         if p.noise_model == "polynomial":
-            return points[0], np.diag(_cubic_noise(self, points[0], p) ** 2)
-        return points[0], covariances[0]
+            return (x, y, z), np.diag(_cubic_noise(self, (x, y, z), p) ** 2)
+        return (x, y, z), covariances[0]
 
 
 @lru_cache(maxsize=16)
@@ -76,7 +78,7 @@ def _variances(place: float, disparity: float) -> Floats:
     return np.array([place**2, place**2, disparity**2])
 
 
-def _cubic_noise(geometry: StereoGeometry, point: Floats, p: StereoHeadParams) -> Floats:
+def _cubic_noise(geometry: StereoGeometry, point: Point, p: StereoHeadParams) -> Floats:
     """e of (9), (3,) meters: the error of each coordinate, by cubic polynomials of it."""
     errors = [
         np.polyval(each, value) for each, value in zip(fit_polynomials(geometry, p), point, strict=True)

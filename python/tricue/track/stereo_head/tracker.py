@@ -100,7 +100,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         state = HeadState(
             shape=left.shape,
             geometry=geometry,
-            size=geometry.size(*head.ellipse[2:], float(first.position[2])),
+            size=geometry.size(*head.ellipse[2:], first.position[2]),
             first_histogram=histogram,
             learned_histogram=histogram,
             model=model,
@@ -125,7 +125,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         left, right, timestamp = validation.stereo_pair(frame, before.shape)
         seconds = validation.elapsed(before.timestamp, timestamp, self.params.rate)
         pair = PreparedPair.of(self._k, left, right, before.first_mean, self.params)
-        return self._keep(self._follow(before, pair, seconds)._replace(timestamp=timestamp), frame)
+        return self._keep(self._follow(before, pair, seconds, timestamp), frame)
 
     def _measure_first(self, pair: PreparedPair, geometry: StereoGeometry, head: Box) -> HeadMeasurement:
         """Measure the head in a box; NoDepthInBoxError where nothing in it has a disparity."""
@@ -141,22 +141,26 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             )
         return first
 
-    def _follow(self, state: HeadState, pair: PreparedPair, seconds: float) -> HeadState:
+    def _follow(
+        self, state: HeadState, pair: PreparedPair, seconds: float, timestamp: float | None
+    ) -> HeadState:
         """Predict, measure, correct and learn; or re-detect, or coast, where the head isn't recognized."""
         k, p, geometry = self._k, self.params, state.geometry
         predicted = head_filter.predict(k, state.filter, seconds, p)
-        disparity = geometry.project(predicted.position)[2]
-        ellipse = geometry.ellipse(predicted.position, state.size)
+        position = predicted.position
+        disparity = geometry.disparity(position[2])
+        ellipse = geometry.ellipse(position, state.size)
         measured = measure(k, pair, geometry, ellipse, disparity, state.model, p)
         if measured is not None:
             measured = measured.inflated(state.mean_score, p)
         if measured is not None and self._recognizes(state, measured, predicted):
-            return self._learn(state, measured, predicted)
+            return self._learn(state, measured, predicted, timestamp)
         detected = self._redetect(state, pair) if state.missed > p.search_frame_after else None
         if detected is not None:
-            return self._learn(state, detected, None)
+            return self._learn(state, detected, None, timestamp)
         coasting = head_filter.coast(predicted)  # neither size nor model changes
-        return state._replace(filter=coasting, missed=state.missed + seconds, score=0.0)
+        missed = state.missed + seconds
+        return state._replace(filter=coasting, missed=missed, score=0.0, timestamp=timestamp)
 
     def _redetect(self, state: HeadState, pair: PreparedPair) -> HeadMeasurement | None:
         """The head anywhere in the image, as far as it can have moved; None where it isn't recognized."""
@@ -185,7 +189,13 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             and measured.depth.share >= minimum * state.mean_share
         )
 
-    def _learn(self, state: HeadState, measured: HeadMeasurement, predicted: HeadFilter | None) -> HeadState:
+    def _learn(
+        self,
+        state: HeadState,
+        measured: HeadMeasurement,
+        predicted: HeadFilter | None,
+        timestamp: float | None,
+    ) -> HeadState:
         """The state after a frame with the head; its colors are learned where they are like the model's.
 
         predicted: what the measurement corrects; without it the filter starts anew.
@@ -213,6 +223,7 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
             mean_score=state.mean_score + MEAN_RATE * (match.score - state.mean_score),
             mean_intersection=state.mean_intersection + MEAN_RATE * off,
             mean_share=state.mean_share + MEAN_RATE * (measured.depth.share - state.mean_share),
+            timestamp=timestamp,
             missed=0.0,
         )
 
@@ -229,7 +240,8 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
 
     def _track(self, state: HeadState) -> Track:
         """The track of a state; without a rig it has no position."""
-        box = Box.from_ellipse(*state.geometry.ellipse(state.filter.position, state.size))
+        position = state.filter.position
+        box = Box.from_ellipse(*state.geometry.ellipse(position, state.size))
         if state.missed == 0:
             status = Status.TRACKED
         else:
@@ -237,5 +249,5 @@ class StereoHeadTracker(TrackerBase[StereoHeadParams, HeadState]):
         score = min(max(state.score, 0.0), 1.0)
         if self.rig is None:
             return Track(box, score, status)
-        position, covariance = state.filter.position, state.filter.position_covariance
-        return Track(box, score, status, position.copy(), covariance.copy(), float(position[2]))
+        covariance = state.filter.position_covariance.copy()
+        return Track(box, score, status, np.array(position), covariance, position[2])

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tricue.reference.base.checks import refuse
-from tricue.reference.cues.color.learn_contrast import Cube, learn_contrast
+from tricue.reference.cues.color.detail.learn_histograms import Cube, learn_histograms
 
 Mask = NDArray[np.bool_]
 
@@ -50,4 +50,4 @@ def learn_patch_colors(
             around = around | (inside & (other < np.float32(most_other)))
             inside = own
     own_colors, other_colors = (np.ascontiguousarray(patch[each].T)[None] for each in (inside, around))
-    return learn_contrast(own_colors, other_colors, target, surround, rate, rare)
+    return learn_histograms(own_colors, other_colors, target, surround, rate, rare)

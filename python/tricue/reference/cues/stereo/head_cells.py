@@ -19,7 +19,7 @@ def head_cells(
     step: int,
     bins: tuple[int, int, int],
     chroma: int,
-    gains: NDArray[np.float64] | None,
+    gains: tuple[float, float, float] | None,
     expected: float,
     tolerance: float,
     fill: int,
@@ -36,7 +36,7 @@ def head_cells(
     if farthest > MAX_CORNER:
         refuse("region", "corners within a billion pixels", farthest)
     pixels = (step * x0, step * y0, step * x1, step * y1)
-    colors = color_bins(left, pixels, bins, chroma, step, gains)
+    colors = color_bins(left, pixels, bins, chroma, step, None if gains is None else np.array(gains))
     coherent = coherent_cells(found, expected, tolerance, fill)
     rows, columns = np.arange(y0, y1), np.arange(x0, x1)
     coherent[(rows < 0) | (rows >= left.shape[0] // step)] = 0

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+"""A rank map that learns."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tricue.reference.base.checks import refuse
+
+Singles = NDArray[np.float32]
+
+
+def learn_ranks(models: Singles, ranks: Singles, rate: float) -> Singles:
+    """Blends a copy of the first map."""
+    if len(models) < 1:
+        refuse("models", "at least one rank map", "none")
+    if ranks.shape != models.shape[1:]:
+        refuse("models", f"float32 (M, 3, {ranks.shape[1]})", models.shape)
+    if not 0 <= rate <= 1:
+        refuse("rate", "a number in [0, 1]", float(rate))
+    learned: Singles = models.copy()
+    learned[0] += np.float32(rate) * (ranks - learned[0])
+    return learned
