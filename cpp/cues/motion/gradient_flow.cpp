@@ -7,7 +7,7 @@
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
 #include "cues/motion/detail/frame_rows.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {
@@ -61,7 +61,7 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
     const auto min_contrast = static_cast<float>(minima.contrast);
     const auto max_flow = static_cast<float>(kMaxFlowSigmas * sigma);
     ConstraintRows constraints(sigma, width);
-    const int radius = constraints.radius(), length = width + 2 * radius;
+    const int radius = constraints.radius(), length = whole_blocks(width + 2 * radius);
     FrameRows before(previous, x0 - radius, length), now(current, x0 - radius, length);
     std::vector<float> room(5 * static_cast<std::size_t>(whole_blocks(width)));
     const Constraints row{room.data(), whole_blocks(width)};

@@ -14,7 +14,7 @@
 #include "cues/motion/detail/frame_rows.hpp"
 #include "cues/motion/detail/gray_pyramid.hpp"
 #include "cues/motion/detail/normal_equations.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {

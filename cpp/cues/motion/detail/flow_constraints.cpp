@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/simd.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {

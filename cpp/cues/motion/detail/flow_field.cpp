@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/simd.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {

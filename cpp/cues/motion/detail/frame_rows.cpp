@@ -4,20 +4,23 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
+/// n is a number of blocks.
 TRICUE_MULTIVERSION
 void compare(const std::uint8_t* __restrict before, const std::uint8_t* __restrict now, int n,
              float* __restrict mean, float* __restrict change) {
-    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
-        const float first = before[x], second = now[x];
-        mean[x] = 0.5F * (first + second);
-        change[x] = second - first;
-    });
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock first, second;
+        load_bytes(before + x, first);
+        load_bytes(now + x, second);
+        store(0.5F * (first + second), mean + x);
+        store(second - first, change + x);
+    }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct ComparedRow {
     float *mean, *change;
 };
 
-/// Of n pixels.
+/// Of n pixels, a number of blocks (row_block.hpp).
 void compare_rows(const std::uint8_t* before, const std::uint8_t* now, int n, const ComparedRow& out);
 
 }  // namespace tricue

@@ -5,7 +5,7 @@
 
 #include "base/check.hpp"
 #include "base/simd.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/overlapping_blocks.hpp"
 #include "base/simd.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {
@@ -60,7 +60,9 @@ void compare(const std::uint32_t* __restrict quads, const QuadPlace& place, int 
     float *means = out.mean, *changes = out.change;
     for (int block = 0; block < n; block += kRowBlock) {
         float after[kRowBlock];  // on its own: with bytes in it the compiler would make the other loop of four lanes
-        for (int i = 0; i < kRowBlock; ++i) after[i] = now[block + i];
+        RowBlock pixels;
+        load_bytes(now + block, pixels);
+        store(pixels, after);
         // no row is another
         TRICUE_INDEPENDENT
         for (int i = block; i < block + kRowBlock; ++i) {

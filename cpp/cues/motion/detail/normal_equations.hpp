@@ -4,7 +4,7 @@
 #include "base/row_ring_buffer.hpp"
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
-#include "cues/motion/detail/row_block.hpp"
+#include "base/row_block.hpp"
 
 namespace tricue {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -15,6 +17,17 @@ constexpr int kRowBatch = 8;
 
 constexpr int whole_blocks(int n) {
     return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
+}
+
+/// By steps: the compiler has no instruction for what is more than twice as wide, and converts lane by lane.
+TRICUE_INLINE void load_bytes(const std::uint8_t* from, RowBlock& to) {
+    Pack<std::uint8_t, kRowBlock> bytes;
+    Pack<std::uint16_t, kRowBlock> words;
+    Pack<std::int32_t, kRowBlock> numbers;
+    load(from, bytes);
+    convert(bytes, words);
+    convert(words, numbers);
+    convert(numbers, to);
 }
 
 TRICUE_INLINE void add(float weight, const RowBlock& block, RowBlock& sum) {
