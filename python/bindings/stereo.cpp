@@ -154,8 +154,8 @@ void define_stereo(py::module_& m) {
     m.def("rectify_verged", rectify_verged_arrays, py::arg("right"), py::arg("angle"), py::arg("focal"),
           py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
           docs::rectify_verged);
-    m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"), py::arg("region") = py::none(),
-          docs::reduce_gray);
+    m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"),
+          py::arg("region") = py::none(), docs::reduce_gray);
     m.def("head_cells", head_cells_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
           py::arg("step"), py::arg("bins"), py::arg("chroma"), py::arg("gains"), py::arg("expected"),
           py::arg("tolerance"), py::arg("fill"), py::arg("first"), py::arg("last"), py::arg("window"),

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
 #include "cues/motion/detail/frame_rows.hpp"
-#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
 #include "cues/motion/detail/flow_field.hpp"
 #include "cues/motion/detail/frame_rows.hpp"
 #include "cues/motion/detail/gray_pyramid.hpp"
 #include "cues/motion/detail/normal_equations.hpp"
-#include "base/row_block.hpp"
 
 namespace tricue {
 namespace {
@@ -276,9 +276,9 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     const PyramidPlan plan = plan_levels(current, pyramid.levels, margin, area);
     FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
     measure_warped(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
-            [&](int y, const StepRow& row) {
-                finish_row(row, damping, limits, area.x1 - area.x0, result.row(y));
-            });
+                   [&](int y, const StepRow& row) {
+                       finish_row(row, damping, limits, area.x1 - area.x0, result.row(y));
+                   });
     return result;
 }
 

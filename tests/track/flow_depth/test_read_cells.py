@@ -38,13 +38,12 @@ def spoiled(image: Image, kept: Region, seed: int) -> Image:
 
 
 def planes(cues: Cues) -> np.ndarray:
+    """All observations and their weights."""
     return np.stack([plane for cue in cues.maps for plane in cue])
 
 
 @given(forms, st.floats(-60, 200), st.floats(-60, 140), st.floats(4, 60), st.floats(-250, 250))
-def test_nothing_else_is_read(
-    p: FlowDepthParams, x: float, y: float, side: float, disparity: float
-) -> None:
+def test_nothing_else_is_read(p: FlowDepthParams, x: float, y: float, side: float, disparity: float) -> None:
     """Other levels in all cells that aren't wanted change no observation."""
     candidate = x, y, x + side, y + side / 2
     region = cells_of(candidate, SHAPE)
@@ -53,7 +52,8 @@ def test_nothing_else_is_read(
     before, now, right = noise(0), noise(1), noise(2)
     reach = CueReach.of(p)
     wanted = reach.wanted(candidate, disparity, SHAPE)
-    assert wanted.left is not None and wanted.right is not None
+    assert wanted.left is not None
+    assert wanted.right is not None
     k = load("native")
     whole = measure(
         k, ReducedFrame(before, None, None, 1), ReducedFrame(now, right, None, 1), region, disparity, p
@@ -70,9 +70,7 @@ def test_nothing_else_is_read(
 
 
 @pytest.mark.parametrize("cues", [("flow",), ("flow", "disparity")])
-def test_tracks_are_those_of_whole_frames(
-    cues: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_tracks_are_those_of_whole_frames(cues: tuple[str, ...], monkeypatch: pytest.MonkeyPatch) -> None:
     """A target that jumps leaves the cells that were made: they are made anew while the frame is there."""
     scene = overtaking(1, 40)
     shift = [0, 0, 0, 0, 25, 25, 25, 60, 60, 0, 0, 0] + 28 * [-30]
@@ -100,7 +98,6 @@ def test_tracks_are_those_of_whole_frames(
 def test_contains() -> None:
     """A region contains its parts and empty regions."""
     region = 2, 3, 10, 12
-    assert contains(region, region) and contains(region, (4, 4, 5, 5)) and contains(region, (0, 0, 0, 9))
-    assert not any(
-        contains(region, other) for other in [(1, 4, 5, 5), (4, 2, 5, 5), (4, 4, 11, 5), (4, 4, 5, 13)]
-    )
+    assert all(contains(region, part) for part in [region, (4, 4, 5, 5), (0, 0, 0, 9)])
+    beyond = [(1, 4, 5, 5), (4, 2, 5, 5), (4, 4, 11, 5), (4, 4, 5, 13)]
+    assert not any(contains(region, other) for other in beyond)

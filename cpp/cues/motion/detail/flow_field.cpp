@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "base/simd.hpp"
 #include "base/row_block.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/check.hpp"
-#include "base/simd.hpp"
 #include "base/row_block.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {

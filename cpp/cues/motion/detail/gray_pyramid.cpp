@@ -5,8 +5,8 @@
 #include <array>
 
 #include "base/overlapping_blocks.hpp"
-#include "base/simd.hpp"
 #include "base/row_block.hpp"
+#include "base/simd.hpp"
 
 namespace tricue {
 namespace {
@@ -59,7 +59,8 @@ void compare(const std::uint32_t* __restrict quads, const QuadPlace& place, int 
     const float *u = flow.u, *v = flow.v;
     float *means = out.mean, *changes = out.change;
     for (int block = 0; block < n; block += kRowBlock) {
-        float after[kRowBlock];  // on its own: with bytes in it the compiler would make the other loop of four lanes
+        float after
+            [kRowBlock];  // on its own: with bytes in it the compiler would make the other loop of four lanes
         RowBlock pixels;
         load_bytes(now + block, pixels);
         store(pixels, after);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "base/row_block.hpp"
 #include "base/row_ring_buffer.hpp"
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
-#include "base/row_block.hpp"
 
 namespace tricue {
 

@@ -87,9 +87,7 @@ GrayPlane downsampled(const GrayPlane& picture, const Region& part) {
     float* inside = smoothed.data() + (from.x0 - first);
     const int n = from.x1 - from.x0;
     for (int y = part.y0; y < part.y1; ++y) {
-        const auto pixels = [&](int k) {
-            return picture.row(std::clamp(2 * y + k, 0, rows - 1)) + from.x0;
-        };
+        const auto pixels = [&](int k) { return picture.row(std::clamp(2 * y + k, 0, rows - 1)) + from.x0; };
         smooth({pixels(-1), pixels(0), pixels(1), pixels(2)}, whole_blocks(n), inside);
         std::fill(smoothed.data(), inside, *inside);
         std::fill(inside + n, smoothed.data() + smoothed.size(), inside[n - 1]);

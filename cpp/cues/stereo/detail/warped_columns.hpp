@@ -42,7 +42,9 @@ public:
 private:
     void update(std::size_t slot);
     /// Two rows have one of the coarser level.
-    std::size_t slot(int y) const { return prior_.coarse == nullptr ? 0 : static_cast<std::size_t>(y / 2 & last_slot_); }
+    std::size_t slot(int y) const {
+        return prior_.coarse == nullptr ? 0 : static_cast<std::size_t>(y / 2 & last_slot_);
+    }
 
     DisparityPrior prior_;
     int x0_, first_, last_, cols_;

@@ -45,7 +45,7 @@ class CueReach(NamedTuple):
         """Where the region would be beyond the right image, the cells at its edge are read."""
         x0, y0, x1, y1 = region
         last = shape[1] - 1
-        left, right = (min(max(x - disparity, 0), last) for x in (x0, x1))
+        left, right = min(max(x0 - disparity, 0), last), min(max(x1 - disparity, 0), last)
         return cells_of((left - self.right, y0 - self.left, right + self.right + 1, y1 + self.left), shape)
 
 

@@ -36,6 +36,6 @@ def cells_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
     """The whole cells of an image (H, W) that a rectangle touches; empty where it touches none."""
     x0, y0, x1, y1 = rectangle
     height, width = shape
-    left, top = (min(max(math.floor(low), 0), high) for low, high in ((x0, width), (y0, height)))
+    left, top = min(max(math.floor(x0), 0), width), min(max(math.floor(y0), 0), height)
     right, bottom = max(min(math.ceil(x1), width), left), max(min(math.ceil(y1), height), top)
     return left, top, right, bottom

@@ -204,8 +204,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         outlined = self.params.target_window == "outline"
         outline = state.outline.rectangle(state.blocks) if outlined else state.window
         step = state.reduced.step
-        x0, y0, x1, y1 = (step * (a + b) / 2 for a, b in zip(state.window, outline, strict=True))
-        box = Box.from_xyxy(x0, y0, x1, y1)
+        (x0, y0, x1, y1), (left, top, right, bottom) = state.window, outline
+        box = Box.from_xyxy(
+            step * (x0 + left) / 2, step * (y0 + top) / 2, step * (x1 + right) / 2, step * (y1 + bottom) / 2
+        )
         status = state.status(self.params)
         has_depth_image = state.reduced.right is None
         if "disparity" not in self.params.cues or not (self.rig is not None or has_depth_image):
