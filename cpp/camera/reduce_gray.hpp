@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 
 #include "base/image_view.hpp"
+#include "base/region.hpp"
 
 namespace tricue {
 
@@ -19,9 +21,10 @@ using GrayImage = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eig
 ///
 /// @param image uint8 (H, W, 3) BGR, or gray (H, W)
 /// @param step side of a cell, pixels, 1 to the smaller side of the image
+/// @param region (x0, y0, x1, y1), cells, inside the result: those that are wanted, for all others are 0; None for all
 /// @returns uint8 (H // step, W // step), never the image's own memory
-/// @throws std::invalid_argument on a step out of range
+/// @throws std::invalid_argument on a step or a region out of range
 /// Source: ITU-R BT.601's luma, in OpenCV's whole numbers.
-GrayImage reduce_gray(const ImageView& image, int step);
+GrayImage reduce_gray(const ImageView& image, int step, const std::optional<Region>& region = {});
 
 }  // namespace tricue

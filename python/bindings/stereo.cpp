@@ -90,9 +90,16 @@ Bytes rectify_verged_arrays(const Bytes& right, double angle, double focal,
     return give(std::move(turned), shape);
 }
 
-Bytes reduce_gray_arrays(const Bytes& image, int step) {
+Bytes reduce_gray_arrays(const Bytes& image, int step, const std::optional<Rectangle>& region) {
     const auto view = any_image(image, "image");
-    return give(unlocked(std::ptrdiff_t{view.rows} * view.cols, [&] { return reduce_gray(view, step); }));
+    std::optional<Region> part;
+    std::ptrdiff_t work = std::ptrdiff_t{view.rows} * view.cols;
+    if (region) {
+        const auto [x0, y0, x1, y1] = *region;
+        part = Region{x0, y0, x1, y1};
+        work = (std::ptrdiff_t{x1} - x0) * (std::ptrdiff_t{y1} - y0) * step * step;
+    }
+    return give(unlocked(work, [&] { return reduce_gray(view, step, part); }));
 }
 
 using Gains = std::tuple<double, double, double>;
@@ -151,7 +158,8 @@ void define_stereo(py::module_& m) {
     m.def("rectify_verged", rectify_verged_arrays, py::arg("right"), py::arg("angle"), py::arg("focal"),
           py::arg("center") = py::none(), py::arg("shift") = 0.0, py::arg("rows_only") = false,
           docs::rectify_verged);
-    m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"), docs::reduce_gray);
+    m.def("reduce_gray", reduce_gray_arrays, py::arg("image"), py::arg("step"),
+          py::arg("region") = py::none(), docs::reduce_gray);
     m.def("head_cells", head_cells_arrays, py::arg("left"), py::arg("right"), py::arg("region"),
           py::arg("step"), py::arg("bins"), py::arg("chroma"), py::arg("gains"), py::arg("expected"),
           py::arg("tolerance"), py::arg("fill"), py::arg("first"), py::arg("last"), py::arg("window"),

@@ -2515,7 +2515,9 @@ def rectify_verged(
     Source: Okada, Shirai, Miura 1996, section 3.1 and figure 3.
     """
 
-def reduce_gray(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.typing.NDArray[numpy.uint8]:
+def reduce_gray(
+    image: numpy.typing.NDArray[numpy.uint8], step: int, region: tuple[int, int, int, int] | None = None
+) -> numpy.typing.NDArray[numpy.uint8]:
     """
     The gray levels of an image in cells of step x step pixels: their mean, for which a color image is
     first turned gray.
@@ -2528,12 +2530,14 @@ def reduce_gray(image: numpy.typing.NDArray[numpy.uint8], step: int) -> numpy.ty
     Args:
         image: uint8 (H, W, 3) BGR, or gray (H, W)
         step: side of a cell, pixels, 1 to the smaller side of the image
+        region: (x0, y0, x1, y1), cells, inside the result: those that are wanted, for all others are 0;
+            None for all
 
     Returns:
         uint8 (H // step, W // step), never the image's own memory
 
     Raises:
-        ValueError: on a step out of range
+        ValueError: on a step or a region out of range
 
     Source: ITU-R BT.601's luma, in OpenCV's whole numbers.
     """
@@ -4044,7 +4048,10 @@ class Kernels(Protocol):
         rows_only: bool = False,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def reduce_gray(
-        self, image: numpy.typing.NDArray[numpy.uint8], step: int
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        step: int,
+        region: tuple[int, int, int, int] | None = None,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def regularized_filter(
         self,

@@ -60,6 +60,25 @@ def test_parts_and_copies(kernels: Kernels) -> None:
     assert not np.shares_memory(kernels.reduce_gray(gray, 1), gray)
 
 
+@given(images, st.data())
+def test_part(image: Image, data: st.DataObject) -> None:
+    """In a region the levels are those of the whole image, elsewhere 0, by both sets of kernels."""
+    step = data.draw(st.integers(1, min(image.shape[:2])))
+    whole = _core.reduce_gray(image, step)
+    (y0, y1), (x0, x1) = (sorted(data.draw(st.tuples(*2 * [st.integers(0, n)]))) for n in whole.shape)
+    expected = np.zeros_like(whole)
+    expected[y0:y1, x0:x1] = whole[y0:y1, x0:x1]
+    for kernels in (_core, reference):
+        assert_array_equal(kernels.reduce_gray(image, step, (x0, y0, x1, y1)), expected)
+
+
+@pytest.mark.parametrize("region", [(-1, 0, 3, 3), (2, 0, 1, 3), (0, 0, 5, 3), (0, 2, 4, 1), (0, 0, 4, 3)])
+def test_bad_region_is_refused(kernels: Kernels, region: tuple[int, int, int, int]) -> None:
+    """A region is inside the 4 x 2 cells that there are."""
+    with pytest.raises(ValueError, match="region: expected x0, y0, x1, y1 in order, within 4 x 2, got"):
+        kernels.reduce_gray(np.zeros((5, 9, 3), np.uint8), 2, region)
+
+
 @pytest.mark.parametrize("step", [0, -1, 6])
 def test_bad_step_is_refused(kernels: Kernels, step: int) -> None:
     """A cell has a side of 1 to the image's smaller side."""

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
 #include "cues/motion/detail/frame_rows.hpp"
@@ -17,8 +18,8 @@ constexpr double kMaxFlowSigmas = 2.221441469079183;  // pi / sqrt(2) sigmas: se
 TRICUE_MULTIVERSION
 void solve_row(const Constraints& row, float min_angle, float min_contrast, float max_flow, int n,
                const FlowRow& out) {
-    const float *g_xs = row.g_x, *g_ys = row.g_y, *h_ys = row.h_y;
-    const float *g_ts = row.g_t, *h_ts = row.h_t;
+    const float *g_xs = row.g_x, *g_ys = g_xs + row.stride, *h_ys = g_ys + row.stride;
+    const float *g_ts = h_ys + row.stride, *h_ts = g_ts + row.stride;
     float *us = out.u, *vs = out.v;
     float *angles = out.angle, *contrasts = out.contrast;
     // rows of eight arrays: more than the compiler would compare before the loop
@@ -60,15 +61,18 @@ FlowPlanes gradient_flow(const ImageView& previous, const ImageView& current, do
     const auto min_contrast = static_cast<float>(minima.contrast);
     const auto max_flow = static_cast<float>(kMaxFlowSigmas * sigma);
     ConstraintRows constraints(sigma, width);
-    const int radius = constraints.radius(), length = width + 2 * radius;
-    std::vector<float> before(static_cast<std::size_t>(length)), now(before.size());
+    const int radius = constraints.radius(), length = whole_blocks(width + 2 * radius);
+    FrameRows before(previous, x0 - radius, length), now(current, x0 - radius, length);
+    std::vector<float> room(5 * static_cast<std::size_t>(whole_blocks(width)));
+    const Constraints row{room.data(), whole_blocks(width)};
     for (int y = -radius; y < y1 - y0 + radius; ++y) {
-        read_frame_row(previous, y0 + y, x0 - radius, length, before.data());
-        read_frame_row(current, y0 + y, x0 - radius, length, now.data());
-        constraints.push(y, before.data(), now.data());
+        compare_rows(before.row(y0 + y), now.row(y0 + y), length,
+                     {constraints.mean(y), constraints.change(y)});
+        constraints.push(y, y + 1);
         const int done = y - radius;
         if (done < 0) continue;
-        solve_row(constraints.row(done), min_angle, min_contrast, max_flow, width, flow.row(done));
+        constraints.write(done, row);
+        solve_row(row, min_angle, min_contrast, max_flow, width, flow.row(done));
     }
     return flow;
 }

@@ -2,18 +2,19 @@
 #include "cues/motion/pyramid_flow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
 #include "cues/motion/detail/flow_field.hpp"
 #include "cues/motion/detail/frame_rows.hpp"
 #include "cues/motion/detail/gray_pyramid.hpp"
 #include "cues/motion/detail/normal_equations.hpp"
-#include "cues/motion/detail/row_block.hpp"
 
 namespace tricue {
 namespace {
@@ -51,41 +52,56 @@ TRICUE_INLINE void solve(float xx, float xy, float yy, float xt, float yt, float
     step.determinant = determinant;
 }
 
-/// The guess of a row, and what becomes of it.
-struct GuessRow {
+/// What a row is solved from: means down the columns of windows `side` pixels wide, and the flow so far.
+struct StepRow {
+    NormalEquations columns;
     const float *u, *v;
+    int side;
 };
 
-/// n is a number of half blocks.
-TRICUE_MULTIVERSION
-void add_steps(const NormalEquations& sums, const GuessRow& guess, float damping, int n, float* us,
-               float* vs) {
-    const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
-    const float *u0 = guess.u, *v0 = guess.v;
-    // no row is another
-    TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
-        Step step;
-        solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
-        const float u = step.u < kMaxStep ? step.u : kMaxStep;
-        const float v = step.v < kMaxStep ? step.v : kMaxStep;
-        us[x] = u0[x] + (u > -kMaxStep ? u : -kMaxStep);
-        vs[x] = v0[x] + (v > -kMaxStep ? v : -kMaxStep);
+/// n is a number of blocks. kSide 0 is any.
+template <int kSide>
+TRICUE_INLINE void add_steps_by(const StepRow& row, float damping, int n, float* us, float* vs) {
+    const StepRow from = row;
+    for (int x0 = 0; x0 < n; x0 += kRowBlock) {
+        MeanBlock sums;
+        average_across(from.columns, kSide > 0 ? kSide : from.side, x0, sums);
+        // no row is another
+        TRICUE_INDEPENDENT
+        for (int x = 0; x < kRowBlock; ++x) {
+            Step step;
+            solve(sums.xx[x], sums.xy[x], sums.yy[x], sums.xt[x], sums.yt[x], damping, step);
+            const float u = step.u < kMaxStep ? step.u : kMaxStep;
+            const float v = step.v < kMaxStep ? step.v : kMaxStep;
+            us[x0 + x] = from.u[x0 + x] + (u > -kMaxStep ? u : -kMaxStep);
+            vs[x0 + x] = from.v[x0 + x] + (v > -kMaxStep ? v : -kMaxStep);
+        }
     }
 }
 
-/// Pixels [begin, end) of a row.
-TRICUE_INLINE void finish_pixels(const NormalEquations& sums, const GuessRow& guess, float damping,
-                                 const Limits& least, int begin, int end, const FlowRow& out) {
-    const float *xx = sums.xx, *xy = sums.xy, *yy = sums.yy, *xt = sums.xt, *yt = sums.yt;
-    const float *u0 = guess.u, *v0 = guess.v;
-    float *us = out.u, *vs = out.v, *angles = out.angle, *contrasts = out.contrast;
+TRICUE_MULTIVERSION
+void add_steps(const StepRow& row, float damping, int n, float* us, float* vs) {
+    if (row.side == kUsualSide)
+        add_steps_by<kUsualSide>(row, damping, n, us, vs);
+    else
+        add_steps_by<0>(row, damping, n, us, vs);
+}
+
+/// The block from x0 on, of which `count` pixels are in the result.
+template <int kSide>
+TRICUE_INLINE void finish_block(const StepRow& row, float damping, const Limits& least, int x0, int count,
+                                const FlowRow& out) {
+    MeanBlock sums;
+    average_across(row.columns, kSide > 0 ? kSide : row.side, x0, sums);
+    const float *u0 = row.u + x0, *v0 = row.v + x0;
+    float *us = out.u + x0, *vs = out.v + x0, *angles = out.angle + x0, *contrasts = out.contrast + x0;
     // no row is another
     TRICUE_INDEPENDENT
-    for (int x = begin; x < end; ++x) {
+    for (int x = 0; x < count; ++x) {
         Step step;
-        solve(xx[x], xy[x], yy[x], xt[x], yt[x], damping, step);
-        const float contrast = xx[x] + yy[x], size = contrast > kMinDivisor ? contrast : kMinDivisor;
+        solve(sums.xx[x], sums.xy[x], sums.yy[x], sums.xt[x], sums.yt[x], damping, step);
+        const float contrast = sums.xx[x] + sums.yy[x];
+        const float size = contrast > kMinDivisor ? contrast : kMinDivisor;
         const float sine = 2 * std::sqrt(step.determinant) / size, angle = sine < 1 ? sine : 1.0F;
         const float square = step.u * step.u + step.v * step.v;
         const bool kept =
@@ -97,39 +113,85 @@ TRICUE_INLINE void finish_pixels(const NormalEquations& sums, const GuessRow& gu
     }
 }
 
-/// By half blocks, of which the last begins sooner: the planes have no room beyond their rows.
-TRICUE_MULTIVERSION
-void finish_row(const NormalEquations& sums, const GuessRow& guess, float damping, const Limits& limits,
-                int n, const FlowRow& out) {
+/// By blocks, of which the last begins sooner: the planes have no room beyond their rows.
+template <int kSide>
+TRICUE_INLINE void finish_row_by(const StepRow& row, float damping, const Limits& limits, int n,
+                                 const FlowRow& to) {
+    const StepRow from = row;
     const Limits least = limits;
-    if (n < kHalfBlock) return finish_pixels(sums, guess, damping, least, 0, n, out);
-    for (int x = 0; x < n; x += kHalfBlock) {
-        const int begin = std::min(x, n - kHalfBlock);
-        finish_pixels(sums, guess, damping, least, begin, begin + kHalfBlock, out);
+    const FlowRow out = to;
+    if (n < kRowBlock) return finish_block<kSide>(from, damping, least, 0, n, out);
+    for (int x = 0; x < n; x += kRowBlock)
+        finish_block<kSide>(from, damping, least, std::min(x, n - kRowBlock), kRowBlock, out);
+}
+
+TRICUE_MULTIVERSION
+void finish_row(const StepRow& row, float damping, const Limits& limits, int n, const FlowRow& out) {
+    if (row.side == kUsualSide)
+        finish_row_by<kUsualSide>(row, damping, limits, n, out);
+    else
+        finish_row_by<0>(row, damping, limits, n, out);
+}
+
+/// Calls done(y, row) for each row y of the guess's area, from what compare(y, here, n, out) makes of row y of `now` and of the frame
+/// before.
+template <typename Compare, typename Done>
+void measure(const ImageView& now, double sigma, int pool, FlowGuess& guess, const Compare& compare,
+             const Done& done) {
+    const auto [x0, y0, x1, y1] = guess.area();
+    const int width = x1 - x0, height = y1 - y0;
+    ConstraintRows constraints(sigma, width + 2 * pool);
+    NormalEquationRows equations(pool, width);
+    const int radius = constraints.radius(), margin = radius + pool;
+    const int length = whole_blocks(width + 2 * margin);
+    FrameRows here(now, x0 - margin, length);
+    for (int y = -margin; y < height + margin; y += kRowBatch) {
+        const int end = std::min(y + kRowBatch, height + margin);
+        for (int row = y; row < end; ++row) {
+            guess.advance(row);
+            compare(row, here.row(y0 + row), length, {constraints.mean(row), constraints.change(row)});
+        }
+        constraints.push(y, end);
+        std::array<NormalEquations, kRowBatch> products;
+        const int first = std::max(y - radius, -pool);
+        for (int row = first; row < end - radius; ++row)
+            products[static_cast<std::size_t>(row - first)] = equations.row(row);
+        constraints.multiply(first, end - radius - first, products.data());
+        const int solved = std::max(y - margin, 0);
+        equations.average_down(solved, end - margin);
+        for (int row = solved; row < end - margin; ++row)
+            done(row, StepRow{equations.means_down(row), guess.u(row) + margin, guess.v(row) + margin,
+                              2 * pool + 1});
     }
 }
 
-/// Calls done(y, products) for each row y of the guess's area: the constraints of `before`, warped by the guess, and `now`.
+/// The same at the coarsest level, where the flow so far is none.
 template <typename Done>
-void measure(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
-             const Done& done) {
-    const auto [x0, y0, x1, y1] = guess.area();
-    const int width = x1 - x0;
-    ConstraintRows constraints(sigma, width + 2 * pool);
-    NormalEquationRows equations(pool, width);
-    const int radius = constraints.radius(), margin = radius + pool, length = width + 2 * margin;
-    const int whole =
-        (length + kHalfBlock - 1) / kHalfBlock * kHalfBlock;  // pixels beyond cost less than a loop's rest
-    std::vector<float> warped(static_cast<std::size_t>(whole)), here(warped);
-    for (int y = -margin; y < y1 - y0 + margin; ++y) {
-        guess.advance(y);
-        before.warped_row(y0 + y, x0 - margin, guess.u(y), guess.v(y), whole, warped.data());
-        read_frame_row(now, y0 + y, x0 - margin, length, here.data());
-        constraints.push(y + pool, warped.data(), here.data());
-        if (y < radius - pool) continue;
-        equations.push(y - radius, constraints.row(y - radius + pool));
-        if (y >= margin) done(y - margin, equations.row(y - margin));
-    }
+void measure_still(const ImageView& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
+                   const Done& done) {
+    const Region& area = guess.area();
+    const int margin = GaussianTaps(sigma).radius + pool;
+    FrameRows there(before, area.x0 - margin, whole_blocks(area.x1 - area.x0 + 2 * margin));
+    measure(
+        now, sigma, pool, guess,
+        [&](int y, const std::uint8_t* here, int n, const ComparedRow& out) {
+            compare_rows(there.row(area.y0 + y), here, n, out);
+        },
+        done);
+}
+
+/// The same with `before`, which holds what the guess leads to, warped by it.
+template <typename Done>
+void measure_warped(const QuadImage& before, const ImageView& now, double sigma, int pool, FlowGuess& guess,
+                    const Done& done) {
+    const Region& area = guess.area();
+    const int margin = GaussianTaps(sigma).radius + pool;
+    measure(
+        now, sigma, pool, guess,
+        [&](int y, const std::uint8_t* here, int n, const ComparedRow& out) {
+            before.compare_row(area.y0 + y, area.x0 - margin, {guess.u(y), guess.v(y)}, here, n, out);
+        },
+        done);
 }
 
 /// The first level's first.
@@ -181,11 +243,14 @@ FlowGuess coarse_guess(const ImageView& previous, const ImageView& current, doub
     FlowGuess guess(areas.back(), margin);
     for (std::size_t i = now.size(); i > 0; --i) {
         FlowField flow(areas[i]);
-        measure(QuadImage(before[i - 1].view(), plan.warped[i]), now[i - 1].view(), sigma, pyramid.pool,
-                guess, [&](int y, const NormalEquations& sums) {
-                    add_steps(sums, {guess.u(y) + margin, guess.v(y) + margin}, damping,
-                              static_cast<int>(flow.u.cols()), &flow.u(y, 0), &flow.v(y, 0));
-                });
+        const ImageView first = before[i - 1].view(), second = now[i - 1].view();
+        const auto add = [&](int y, const StepRow& row) {
+            add_steps(row, damping, static_cast<int>(flow.u.cols()), &flow.u(y, 0), &flow.v(y, 0));
+        };
+        if (i == now.size())
+            measure_still(first, second, sigma, pyramid.pool, guess, add);
+        else
+            measure_warped(QuadImage(first, plan.warped[i]), second, sigma, pyramid.pool, guess, add);
         guess = FlowGuess(flow, areas[i - 1], margin);
     }
     return guess;
@@ -210,11 +275,10 @@ FlowPlanes pyramid_flow(const ImageView& previous, const ImageView& current, dou
     const int margin = GaussianTaps(sigma).radius + pyramid.pool;
     const PyramidPlan plan = plan_levels(current, pyramid.levels, margin, area);
     FlowGuess guess = coarse_guess(previous, current, sigma, pyramid, plan);
-    measure(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
-            [&](int y, const NormalEquations& sums) {
-                finish_row(sums, {guess.u(y) + margin, guess.v(y) + margin}, damping, limits,
-                           area.x1 - area.x0, result.row(y));
-            });
+    measure_warped(QuadImage(previous, plan.warped[0]), current, sigma, pyramid.pool, guess,
+                   [&](int y, const StepRow& row) {
+                       finish_row(row, damping, limits, area.x1 - area.x0, result.row(y));
+                   });
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 #include "cues/stereo/detail/gradient_level.hpp"
 
@@ -51,55 +52,96 @@ void require_arguments(const ImageView& left, const ImageView& right, double pre
     require_between(matching.max_step, 0.0, kInfinity, "max_step", positive);
 }
 
+/// n is a number of blocks. kSide 0 is any.
+template <int kSide>
+TRICUE_INLINE void refine_by(const WindowColumns& row, const float* __restrict offset, int n,
+                             float* __restrict next) {
+    constexpr auto kMaxStep = static_cast<float>(kMaxCoarseStep);
+    const WindowColumns columns = row;
+    const int side = kSide > 0 ? kSide : columns.side;
+    for (int x0 = 0; x0 < n; x0 += kRowBlock) {
+        WindowMeans means;
+        mean_of(columns, 0, side, x0, means.ss);
+        mean_of(columns, 1, side, x0, means.st);
+        for (int x = 0; x < kRowBlock; ++x) {
+            const float known = offset[x0 + x];
+            const float step = (means.st[x] - means.ss[x] * known) / (means.ss[x] + kRidge);
+            next[x0 + x] = known + std::min(std::max(step, -kMaxStep), kMaxStep);
+        }
+    }
+}
+
 /// Adds the step of each pixel to its offset, at a coarse level.
 TRICUE_MULTIVERSION
-void refine(const WindowMeans& means, const float* __restrict offset, int n, float* __restrict next) {
-    constexpr auto kMaxStep = static_cast<float>(kMaxCoarseStep);
-    const float* __restrict ss = means.ss;
-    const float* __restrict st = means.st;
-    for (int x = 0; x < n; ++x) {
-        const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge);
-        next[x] = offset[x] + std::min(std::max(step, -kMaxStep), kMaxStep);
-    }
+void refine(const WindowColumns& columns, const float* offset, int n, float* next) {
+    if (columns.side == kUsualSide)
+        refine_by<kUsualSide>(columns, offset, n, next);
+    else
+        refine_by<0>(columns, offset, n, next);
 }
 
 struct Limits {
     float base, min_reliability, max_residual, max_step;
 };
 
-/// Pixels [begin, end) of a row.
-TRICUE_INLINE void finalize_pixels(const WindowMeans& means, const float* offset, const float* visible,
-                                   const Limits& most, int begin, int end, float* disparity) {
-    const float *ss = means.ss, *st = means.st, *tt = means.tt;
-    const float *power = means.power, *reliability = means.reliability;
+/// Where a row of the result goes.
+struct ResultRow {
+    float *disparity, *reliability;
+};
+
+/// The block from x0 on, of which `count` pixels are in the result.
+template <int kSide>
+TRICUE_INLINE void finalize_block(const WindowColumns& columns, const WarpedRow& known, const Limits& most,
+                                  int x0, int count, const ResultRow& out) {
+    const int side = kSide > 0 ? kSide : columns.side;
+    WindowMeans means;
+    mean_of(columns, 0, side, x0, means.ss);
+    mean_of(columns, 1, side, x0, means.st);
+    mean_of(columns, 2, side, x0, means.tt);
+    mean_of(columns, 3, side, x0, means.power);
+    mean_of(columns, 4, side, x0, means.reliability);
+    const float *offset = known.offset + x0, *visible = known.visible + x0;
+    float *disparity = out.disparity + x0, *reliability = out.reliability + x0;
     TRICUE_INDEPENDENT
-    for (int x = begin; x < end; ++x) {
-        const float step = (st[x] - ss[x] * offset[x]) / (ss[x] + kRidge), d = offset[x] + step;
-        const float left_over = tt[x] - 2.0F * d * st[x] + d * d * ss[x];
-        const bool kept = (visible[x] != 0.0F) & (reliability[x] >= most.min_reliability) &
-                          (left_over <= most.max_residual * (power[x] + kMinPower)) &
+    for (int x = 0; x < count; ++x) {
+        const float ss = means.ss[x], st = means.st[x];
+        const float step = (st - ss * offset[x]) / (ss + kRidge), d = offset[x] + step;
+        const float left_over = means.tt[x] - 2.0F * d * st + d * d * ss;
+        const bool kept = (visible[x] != 0.0F) & (means.reliability[x] >= most.min_reliability) &
+                          (left_over <= most.max_residual * (means.power[x] + kMinPower)) &
                           (std::abs(step) <= most.max_step);
         disparity[x] = kept ? most.base + d : kNone;
+        reliability[x] = means.reliability[x];
     }
 }
 
-/// By lines, of which the last begins sooner: the result has no room beyond its rows.
-TRICUE_MULTIVERSION
-void finalize(const WindowMeans& means, const float* offset, const float* visible, const Limits& limits,
-              int n, float* disparity) {
+/// By blocks, of which the last begins sooner: the result has no room beyond its rows.
+template <int kSide>
+TRICUE_INLINE void finalize_by(const WindowColumns& row, const WarpedRow& known, const Limits& limits, int n,
+                               const ResultRow& to) {
+    const WindowColumns columns = row;
+    const WarpedRow at = known;
     const Limits most = limits;
-    if (n < kRowLine) return finalize_pixels(means, offset, visible, most, 0, n, disparity);
-    for (int x = 0; x < n; x += kRowLine) {
-        const int begin = std::min(x, n - kRowLine);
-        finalize_pixels(means, offset, visible, most, begin, begin + kRowLine, disparity);
-    }
+    const ResultRow out = to;
+    if (n < kRowBlock) return finalize_block<kSide>(columns, at, most, 0, n, out);
+    for (int x = 0; x < n; x += kRowBlock)
+        finalize_block<kSide>(columns, at, most, std::min(x, n - kRowBlock), kRowBlock, out);
+}
+
+TRICUE_MULTIVERSION
+void finalize(const WindowColumns& columns, const WarpedRow& known, const Limits& limits, int n,
+              const ResultRow& out) {
+    if (columns.side == kUsualSide)
+        finalize_by<kUsualSide>(columns, known, limits, n, out);
+    else
+        finalize_by<0>(columns, known, limits, n, out);
 }
 
 struct Level {
     LevelRegions parts;
     int base;
     double predicted;
-    GrayPlane left, right;  ///< not of the finest, which reads the images
+    GrayPlane left, right;
 };
 
 Region bounding_region(const Region& one, const Region& other) {
@@ -128,10 +170,6 @@ std::vector<Level> plan_levels(const Region& visible, int rows, int cols, double
     return levels;
 }
 
-GrayLevel level_of(const ImageView& image, std::size_t k, const GrayPlane& plane) {
-    return k == 0 ? GrayLevel{&image, nullptr} : GrayLevel{nullptr, &plane};
-}
-
 /// One image's pyramid; the parts that filters read grow by what the next coarser level is made of.
 void build_pyramid(const ImageView& image, std::vector<Level>& levels, Region LevelRegions::* part,
                    GrayPlane Level::* plane) {
@@ -141,8 +179,9 @@ void build_pyramid(const ImageView& image, std::vector<Level>& levels, Region Le
     for (std::size_t k = levels.size() - 1; k > 0; --k)
         parts[k - 1] = bounding_region(
             parts[k - 1], downsample_source(parts[k], size(image.rows, k - 1), size(image.cols, k - 1)));
+    levels[0].*plane = gray_plane(image, parts[0]);
     for (std::size_t k = 1; k < levels.size(); ++k)
-        levels[k].*plane = downsampled(level_of(image, k - 1, levels[k - 1].*plane), parts[k]);
+        levels[k].*plane = downsampled(levels[k - 1].*plane, parts[k]);
 }
 
 DisparityPrior prior_for(const Level& level, const Level* coarser, const GrayPlane& found) {
@@ -157,11 +196,10 @@ Limits limits_of(const GradientMatching& matching, int base) {
             static_cast<float>(matching.max_step)};
 }
 
-/// Measures `visible`, a part of the left image, not empty; disparity(y) and reliability(y) are where its rows go.
-template <typename Disparity, typename Reliability>
+/// Measures `visible`, a part of the left image, not empty; result(y) is where its rows go.
+template <typename Result>
 void measure(const ImageView& left, const ImageView& right, double predicted,
-             const GradientMatching& matching, const Region& visible, const Disparity& disparity,
-             const Reliability& reliability) {
+             const GradientMatching& matching, const Region& visible, const Result& result) {
     const GaussianDerivative filter(matching.sigma);
     auto levels = plan_levels(visible, left.rows, left.cols, predicted, filter.reach, matching);
     build_pyramid(left, levels, &LevelRegions::left, &Level::left);
@@ -172,20 +210,19 @@ void measure(const ImageView& left, const ImageView& right, double predicted,
         const Region& wanted = level.parts.wanted;
         const int n = wanted.x1 - wanted.x0;
         const Level* coarser = k + 1 < levels.size() ? &levels[k + 1] : nullptr;
-        GradientLevel rows(level_of(left, k, level.left), level_of(right, k, level.right), level.parts,
-                           filter, matching.radius, prior_for(level, coarser, found), k == 0);
+        GradientLevel rows(level.left, level.right, level.parts, filter, matching.radius,
+                           prior_for(level, coarser, found), k == 0);
         if (k > 0) {
             GrayPlane next(wanted, level.left.rows(), level.left.cols());
-            rows.run([](int) -> float* { return nullptr; },
-                     [&](int y, const WindowMeans& means, const WarpedColumns& known) {
-                         refine(means, known.offset(), whole_lines(n), next.row(y) + wanted.x0);
-                     });
+            rows.run([&](int y, const WindowColumns& columns, const WarpedRow& known) {
+                refine(columns, known.offset, whole_blocks(n), next.row(y) + wanted.x0);
+            });
             found = std::move(next);
             continue;
         }
         const Limits limits = limits_of(matching, level.base);
-        rows.run(reliability, [&](int y, const WindowMeans& means, const WarpedColumns& known) {
-            finalize(means, known.offset(), known.visible(), limits, n, disparity(y));
+        rows.run([&](int y, const WindowColumns& columns, const WarpedRow& known) {
+            finalize(columns, known, limits, n, result(y));
         });
     }
 }
@@ -204,12 +241,13 @@ Floats gradient_disparity(const ImageView& left, const ImageView& right, double 
     }
     if (visible.x0 >= visible.x1 || visible.y0 >= visible.y1) return result;
     const int j = visible.x0 - region.x0;
-    const auto disparity = [&](int y) { return &result(y - region.y0, j); };
-    const auto reliability = [&](int y) { return &result(height + y - region.y0, j); };
+    const auto row = [&](int y) {
+        return ResultRow{&result(y - region.y0, j), &result(height + y - region.y0, j)};
+    };
     const int band = std::max(kBandPixels / width, 32);
     for (int y = visible.y0; y < visible.y1; y += band)
         measure(left, right, predicted, matching, {visible.x0, y, visible.x1, std::min(y + band, visible.y1)},
-                disparity, reliability);
+                row);
     return result;
 }
 

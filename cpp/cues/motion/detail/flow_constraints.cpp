@@ -3,19 +3,96 @@
 
 #include <array>
 
-#include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
+/// The rows filtered along x around the one that is wanted, the uppermost first, and the numbers from one plane to the next in them.
+struct RowsAround {
+    const float* const* rows;
+    int stride;
+};
+
+struct ConstraintBlock {
+    RowBlock g_x, g_y, h_y, g_t, h_t;
+};
+
+/// A filter along y with weights that are the same above and below, or of the other sign above, which is odd.
+template <bool kOdd>
+TRICUE_INLINE void filter_block_down(const float* const* rows, const float* weights, int radius, int x,
+                                     RowBlock& total) {
+    RowBlock middle, above, below, sum, difference;
+    total = RowBlock{};
+    load(rows[radius] + x, middle);
+    if (!kOdd) add(weights[0], middle, total);
+    for (int k = 1; k <= radius; ++k) {
+        load(rows[radius - k] + x, above);
+        load(rows[radius + k] + x, below);
+        sum_and_difference(above, below, sum, difference);
+        add(weights[k], kOdd ? difference : sum, total);
+    }
+}
+
+TRICUE_INLINE void constrain(const RowsAround& around, const TapView& taps, int radius, int x,
+                             ConstraintBlock& out) {
+    const float* const* rows = around.rows;
+    const int stride = around.stride;
+    filter_block_down<false>(rows, taps.curvature, radius, x, out.h_y);
+    filter_block_down<true>(rows, taps.slope, radius, stride + x, out.g_y);
+    filter_block_down<false>(rows, taps.smooth, radius, 2 * stride + x, out.g_x);
+    filter_block_down<true>(rows, taps.slope, radius, 3 * stride + x, out.h_t);
+    filter_block_down<false>(rows, taps.smooth, radius, 4 * stride + x, out.g_t);
+}
+
+/// kRadius 0 is any.
+template <int kRadius>
+TRICUE_INLINE void multiply_by(const RowsAround* rows, int count, const TapView& taps, int n,
+                               const NormalEquations* out) {
+    const TapView weights = taps;
+    const int radius = kRadius > 0 ? kRadius : weights.radius;
+    for (int i = 0; i < count; ++i) {
+        const RowsAround around = rows[i];
+        const NormalEquations to = out[i];
+        for (int x = 0; x < n; x += kRowBlock) {
+            ConstraintBlock row;
+            constrain(around, weights, radius, x, row);
+            const RowBlock& h_x = row.g_y;
+            float* xx = to.xx + x;
+            store(row.g_x * row.g_x + h_x * h_x, xx);
+            store(row.g_x * row.g_y + h_x * row.h_y, xx + to.stride);
+            store(row.g_y * row.g_y + row.h_y * row.h_y, xx + 2 * to.stride);
+            store(row.g_x * row.g_t + h_x * row.h_t, xx + 3 * to.stride);
+            store(row.g_y * row.g_t + row.h_y * row.h_t, xx + 4 * to.stride);
+        }
+    }
+}
+
 TRICUE_MULTIVERSION
-void mean_and_change(const float* __restrict before, const float* __restrict now, int n,
-                     float* __restrict mean, float* __restrict change) {
-    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
-        mean[x] = 0.5F * (before[x] + now[x]);
-        change[x] = now[x] - before[x];
-    });
+void multiply_rows(const RowsAround* rows, int count, const TapView& taps, int n,
+                   const NormalEquations* out) {
+    if (taps.radius == kUsualRadius)
+        multiply_by<kUsualRadius>(rows, count, taps, n, out);
+    else
+        multiply_by<0>(rows, count, taps, n, out);
+}
+
+TRICUE_MULTIVERSION
+void write_row(const RowsAround& rows, const TapView& taps, int n, const Constraints& out) {
+    const RowsAround around = rows;
+    const TapView weights = taps;
+    const Constraints to = out;
+    for (int x = 0; x < n; x += kRowBlock) {
+        ConstraintBlock row;
+        constrain(around, weights, weights.radius, x, row);
+        float* g_x = to.g_x + x;
+        store(row.g_x, g_x);
+        store(row.g_y, g_x + to.stride);
+        store(row.h_y, g_x + 2 * to.stride);
+        store(row.g_t, g_x + 3 * to.stride);
+        store(row.h_t, g_x + 4 * to.stride);
+    }
 }
 
 }  // namespace
@@ -23,33 +100,32 @@ void mean_and_change(const float* __restrict before, const float* __restrict now
 ConstraintRows::ConstraintRows(double sigma, int length)
     : taps_(sigma),
       length_(length),
-      mean_(static_cast<std::size_t>(whole_blocks(length) + 2 * taps_.radius)),
-      change_(mean_.size()),
-      mean_smooth_(2 * taps_.radius + 1, length),
-      mean_slope_(2 * taps_.radius + 1, length),
-      mean_curvature_(2 * taps_.radius + 1, length),
-      change_smooth_(2 * taps_.radius + 1, length),
-      change_slope_(2 * taps_.radius + 1, length),
-      result_(5, length) {}
+      compared_stride_(whole_blocks(length + 2 * taps_.radius)),
+      filtered_stride_(whole_blocks(length)),
+      compared_(kRowBatch, 2 * compared_stride_ + kRowBlock),  // the last block reads beyond
+      filtered_(2 * taps_.radius + kRowBatch, 5 * filtered_stride_) {}
 
-void ConstraintRows::push(int y, const float* before, const float* now) {
-    mean_and_change(before, now, length_ + 2 * taps_.radius, mean_.data(), change_.data());
-    filter_across(mean_.data() + taps_.radius, taps_, length_, mean_smooth_.row(y), mean_slope_.row(y),
-                  mean_curvature_.row(y));
-    filter_across(change_.data() + taps_.radius, taps_, length_, change_smooth_.row(y), change_slope_.row(y));
+void ConstraintRows::push(int begin, int end) {
+    std::array<AcrossFilters, kRowBatch> means, changes;
+    for (int y = begin; y < end; ++y) {
+        const auto i = static_cast<std::size_t>(y - begin);
+        const auto plane = [&](int k) { return filtered_.row(y) + k * filtered_stride_; };
+        means[i] = {mean(y) + taps_.radius, plane(0), plane(1), plane(2)};
+        changes[i] = {change(y) + taps_.radius, plane(3), plane(4), nullptr};
+    }
+    filter_across(means.data(), end - begin, taps_, length_);
+    filter_across(changes.data(), end - begin, taps_, length_);
 }
 
-Constraints ConstraintRows::row(int y) {
-    const auto around = [&](const RowRingBuffer& ring) { return ring.from(y - taps_.radius); };
-    const float *smooth = taps_.smooth.data(), *slope = taps_.slope.data(),
-                *curvature = taps_.curvature.data();
-    const std::array<ColumnFilter, 5> filters{{{around(mean_curvature_), smooth, false, result_.row(0)},
-                                               {around(mean_slope_), slope, true, result_.row(1)},
-                                               {around(mean_smooth_), curvature, false, result_.row(2)},
-                                               {around(change_slope_), smooth, false, result_.row(3)},
-                                               {around(change_smooth_), slope, true, result_.row(4)}}};
-    filter_down(filters.data(), 5, taps_.radius, length_);
-    return {result_.row(0), result_.row(1), result_.row(2), result_.row(3), result_.row(4)};
+void ConstraintRows::write(int y, const Constraints& row) const {
+    write_row({filtered_.from(y - taps_.radius), filtered_stride_}, taps_.view(), length_, row);
+}
+
+void ConstraintRows::multiply(int y, int count, const NormalEquations* rows) const {
+    std::array<RowsAround, kRowBatch> around;
+    for (int i = 0; i < count; ++i)
+        around[static_cast<std::size_t>(i)] = {filtered_.from(y + i - taps_.radius), filtered_stride_};
+    multiply_rows(around.data(), count, taps_.view(), length_, rows);
 }
 
 }  // namespace tricue

@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
+#include "base/row_ring_buffer.hpp"
 #include "cues/motion/detail/gaussian_rows.hpp"
 
 namespace tricue {
 
 /// The two constraints of each pixel of a row, equation (4) of Okada, Shirai and Miura 1996: with g and h the derivatives of a
-/// Gaussian along x and y, (h*f)_x is (g*f)_y. Each readable up to whole blocks.
+/// Gaussian along x and y, (h*f)_x is (g*f)_y. g_x, g_y, h_y, g_t, h_t are side by side, each `stride` numbers after the one before.
 struct Constraints {
-    const float *g_x, *g_y, *h_y, *g_t, *h_t;
+    float* g_x;
+    int stride;
 };
 
-/// Filters two frames, row by row from above: their mean in space, their difference in time.
+/// The normal equations of two constraints per pixel, A^T A (xx, xy; xy, yy) and A^T b (xt, yt): xx, xy, yy, xt, yt side by side.
+struct NormalEquations {
+    float* xx;
+    int stride;
+};
+
+/// Filters two frames, row by row from above: their mean in space, their difference in time. Rows are readable and writable up to a
+/// whole number of blocks.
 class ConstraintRows {
 public:
     /// @param length pixels of a row of constraints
@@ -21,19 +28,28 @@ public:
 
     int radius() const { return taps_.radius; }
 
-    /// Takes row y, from radius() before the first wanted to radius() after the last, y from -radius() on; each of
-    /// length + 2 radius() pixels, beginning radius() left of the constraints.
-    void push(int y, const float* before, const float* now);
+    /// Where the mean of both frames in row y and its change from the first to the second belong, each of length + 2 radius() pixels,
+    /// beginning radius() left of the constraints. A batch of rows is kept.
+    float* mean(int y) { return compared_.row(y); }
+    float* change(int y) { return compared_.row(y) + compared_stride_; }
 
-    /// The constraints of row y, where rows y - radius() to y + radius() were the last pushed; until the next call.
-    Constraints row(int y);
+    /// Takes rows [begin, end), a batch or fewer, whose mean and change are there: each row once, from above, from radius() before
+    /// the first wanted to radius() after the last.
+    void push(int begin, int end);
+
+    /// The constraints of row y, with rows y - radius() to y + radius() among the last pushed, up to a batch before the newest.
+    void write(int y, const Constraints& row) const;
+
+    /// Their normal equations for `count` rows, a batch or fewer, from y on.
+    void multiply(int y, int count, const NormalEquations* rows) const;
 
 private:
     GaussianTaps taps_;
     int length_;
-    std::vector<float> mean_, change_;
-    RowRingBuffer mean_smooth_, mean_slope_, mean_curvature_, change_smooth_, change_slope_;  ///< along x
-    RowRingBuffer result_;
+    int compared_stride_, filtered_stride_;  ///< numbers from one plane to the next in a row
+    RowRingBuffer compared_;                 ///< mean and change
+    RowRingBuffer
+        filtered_;  ///< along x: the mean smoothed, its slope and curvature, the change smoothed, its slope
 };
 
 }  // namespace tricue

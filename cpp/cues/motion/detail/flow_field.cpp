@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
-#include "cues/motion/detail/row_block.hpp"
 
 namespace tricue {
 namespace {
@@ -15,7 +15,7 @@ TRICUE_INLINE void sort_pair(float& a, float& b) {
     b = more;
 }
 
-/// n is a number of half blocks, and rows have one pixel more on both sides. Sorting network of Paeth 1990, for the middle one of
+/// n is a number of blocks, and rows have one pixel more on both sides. Sorting network of Paeth 1990, for the middle one of
 /// nine only.
 TRICUE_MULTIVERSION
 void median_row(const float* __restrict above, const float* __restrict here, const float* __restrict below,
@@ -32,7 +32,7 @@ void median_row(const float* __restrict above, const float* __restrict here, con
     }
 }
 
-/// Upsamples n pixels, a number of half blocks, by two, with the numbers doubled: of two rows the sum at even pixels, between them
+/// Upsamples n pixels, a number of blocks, by two, with the numbers doubled: of two rows the sum at even pixels, between them
 /// the mean of two sums.
 TRICUE_MULTIVERSION
 void upsample_row(const float* __restrict top, const float* __restrict bottom, int n, float* __restrict out) {
@@ -41,10 +41,6 @@ void upsample_row(const float* __restrict top, const float* __restrict bottom, i
         out[2 * x] = sum;
         out[2 * x + 1] = 0.5F * (sum + next);
     }
-}
-
-int whole_halves(int n) {
-    return (n + kHalfBlock - 1) / kHalfBlock * kHalfBlock;
 }
 
 PaddedPlane median(const Floats& plane, int cols) {
@@ -57,7 +53,7 @@ PaddedPlane median(const Floats& plane, int cols) {
         padded.repeat_end(y, cols + 1);
     }
     for (int y = 0; y < rows; ++y) {
-        median_row(padded.row(y), padded.row(y + 1), padded.row(y + 2), whole_halves(cols), result.row(y));
+        median_row(padded.row(y), padded.row(y + 1), padded.row(y + 2), whole_blocks(cols), result.row(y));
         result.repeat_end(y, cols);
     }
     return result;
@@ -70,22 +66,22 @@ Region coarser_region(const Region& area, int rows, int cols) {
 }
 
 FlowField::FlowField(const Region& part)
-    : area(part), u(part.y1 - part.y0, whole_halves(part.x1 - part.x0)), v(u.rows(), u.cols()) {}
+    : area(part), u(part.y1 - part.y0, whole_blocks(part.x1 - part.x0)), v(u.rows(), u.cols()) {}
 
 PaddedPlane::PaddedPlane(int height, int width)
     : rows(height),
       cols(width),
-      stride(whole_halves(width) + 2),
+      stride(whole_blocks(width) + 2),
       pixels(static_cast<std::size_t>(height) * static_cast<std::size_t>(stride)) {}
 
-// An upsampled row may begin a pixel too far left, and ends in a whole number of blocks.
+// An upsampled row may begin a pixel too far left, and ends in a whole number of pairs of blocks.
 FlowGuess::FlowGuess(const Region& area, int margin)
     : area_(area),
       margin_(margin),
       u_(0, 0),
       v_(0, 0),
-      u_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2),
-      v_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2) {}
+      u_rows_(margin + kRowBatch, area.x1 - area.x0 + 2 * margin + 2 * kRowBlock + 2),
+      v_rows_(margin + kRowBatch, area.x1 - area.x0 + 2 * margin + 2 * kRowBlock + 2) {}
 
 FlowGuess::FlowGuess(const FlowField& coarse, const Region& area, int margin)
     : area_(area),
@@ -94,8 +90,8 @@ FlowGuess::FlowGuess(const FlowField& coarse, const Region& area, int margin)
       y0_(2 * coarse.area.y0),
       u_(median(coarse.u, coarse.area.x1 - coarse.area.x0)),
       v_(median(coarse.v, coarse.area.x1 - coarse.area.x0)),
-      u_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2),
-      v_rows_(margin + 1, area.x1 - area.x0 + 2 * margin + kRowBlock + 2) {}
+      u_rows_(margin + kRowBatch, area.x1 - area.x0 + 2 * margin + 2 * kRowBlock + 2),
+      v_rows_(margin + kRowBatch, area.x1 - area.x0 + 2 * margin + 2 * kRowBlock + 2) {}
 
 void FlowGuess::advance(int y) {
     const int next = std::max(y, 0);
@@ -109,10 +105,10 @@ void FlowGuess::advance(int y) {
 void FlowGuess::upsample(PaddedPlane& coarse, float* row) {
     const int skipped = area_.x0 - x0_, width = area_.x1 - area_.x0;
     const int at = area_.y0 + newest_ - y0_, top = at / 2, bottom = std::min(top + at % 2, coarse.rows - 1);
-    upsample_row(coarse.row(top), coarse.row(bottom), whole_halves((width + skipped + 1) / 2),
+    upsample_row(coarse.row(top), coarse.row(bottom), whole_blocks((width + skipped + 1) / 2),
                  row + margin_ - skipped);
     std::fill_n(row, margin_, row[margin_]);
-    std::fill_n(row + margin_ + width, margin_ + kHalfBlock, row[margin_ + width - 1]);
+    std::fill_n(row + margin_ + width, margin_ + kRowBlock, row[margin_ + width - 1]);
 }
 
 }  // namespace tricue

@@ -11,7 +11,7 @@
 
 namespace tricue {
 
-/// Flow of an area, not empty, of one level of a pyramid, in that level's pixels. Rows have room up to a whole number of half blocks.
+/// Flow of an area, not empty, of one level of a pyramid, in that level's pixels. Rows have room up to a whole number of blocks.
 struct FlowField {
     explicit FlowField(const Region& part);
 
@@ -22,7 +22,7 @@ struct FlowField {
 /// The area of the next coarser level, of that size, between whose pixels an area lies.
 Region coarser_region(const Region& area, int rows, int cols);
 
-/// A plane with rows that end in a number of half blocks and two pixels more; what is beyond the plane repeats its end.
+/// A plane with rows that end in a number of blocks and two pixels more; what is beyond the plane repeats its end.
 struct PaddedPlane {
     PaddedPlane(int height, int width);
 
@@ -34,7 +34,7 @@ struct PaddedPlane {
 };
 
 /// The initial flow of an area and of a margin around it, which repeats what is at the area's edge: from the next coarser level,
-/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and one more.
+/// median-filtered (3x3), upsampled linearly, and doubled. Zero without a coarser level. It holds the rows of a margin and of a batch.
 class FlowGuess {
 public:
     FlowGuess(const Region& area, int margin);
@@ -46,7 +46,7 @@ public:
     void advance(int y);
 
     /// Flow along x and y in row y of the area, one of the newest, from the margin on its left to that on its right, and up to a whole
-    /// number of half blocks.
+    /// number of blocks.
     const float* u(int y) { return u_rows_.row(std::clamp(y, 0, newest_)); }
     const float* v(int y) { return v_rows_.row(std::clamp(y, 0, newest_)); }
 

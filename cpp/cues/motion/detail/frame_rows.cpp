@@ -2,26 +2,47 @@
 #include "cues/motion/detail/frame_rows.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
-#include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
+/// n is a number of blocks.
 TRICUE_MULTIVERSION
-void to_floats(const std::uint8_t* __restrict from, int n, float* __restrict to) {
-    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) { to[x] = from[x]; });
+void compare(const std::uint8_t* __restrict before, const std::uint8_t* __restrict now, int n,
+             float* __restrict mean, float* __restrict change) {
+    for (int x = 0; x < n; x += kRowBlock) {
+        RowBlock first, second;
+        load_bytes(before + x, first);
+        load_bytes(now + x, second);
+        store(0.5F * (first + second), mean + x);
+        store(second - first, change + x);
+    }
 }
 
 }  // namespace
 
-void read_frame_row(const ImageView& image, int y, int x0, int n, float* out) {
-    const std::uint8_t* row = image.row(std::clamp(y, 0, image.rows - 1));
-    const int begin = std::clamp(-x0, 0, n), end = std::clamp(image.cols - x0, begin, n);
-    if (begin > 0) std::fill(out, out + begin, static_cast<float>(row[0]));
-    to_floats(row + x0 + begin, end - begin, out + begin);
-    if (end < n) std::fill(out + end, out + n, static_cast<float>(row[image.cols - 1]));
+FrameRows::FrameRows(const ImageView& image, int x0, int n)
+    : image_(image),
+      x0_(x0),
+      room_(x0 >= 0 && x0 + n <= image.cols ? std::size_t{0} : static_cast<std::size_t>(n)) {}
+
+const std::uint8_t* FrameRows::row(int y) {
+    const std::uint8_t* row = image_.row(std::clamp(y, 0, image_.rows - 1));
+    if (room_.empty()) return row + x0_;
+    const auto n = static_cast<int>(room_.size());
+    const int begin = std::clamp(-x0_, 0, n), end = std::clamp(image_.cols - x0_, begin, n);
+    std::fill(room_.begin(), room_.begin() + begin, row[0]);
+    std::copy(row + x0_ + begin, row + x0_ + end, room_.begin() + begin);
+    std::fill(room_.begin() + end, room_.end(), row[image_.cols - 1]);
+    return room_.data();
+}
+
+void compare_rows(const std::uint8_t* before, const std::uint8_t* now, int n, const ComparedRow& out) {
+    compare(before, now, n, out.mean, out.change);
 }
 
 }  // namespace tricue

@@ -3,10 +3,16 @@
 
 #include <vector>
 
-#include "base/row_ring_buffer.hpp"
-#include "cues/motion/detail/row_block.hpp"
-
 namespace tricue {
+
+/// The radius of the flow and depth tracker's sigma, 0.8 pixels, for which filters are compiled on their own.
+constexpr int kUsualRadius = 3;
+
+/// The weights of GaussianTaps, as functions for several levels of instructions take them.
+struct TapView {
+    int radius;
+    const float *smooth, *slope, *curvature;  ///< radius + 1
+};
 
 /// A Gaussian and its first two derivatives, sampled and cut off at 3.5 sigma, as weights to correlate with: those of
 /// the pixels at distance 0 to radius on the right of (below) the middle. To the left slope has the other sign, the others the same.
@@ -17,6 +23,8 @@ namespace tricue {
 struct GaussianTaps {
     explicit GaussianTaps(double sigma);
 
+    TapView view() const { return {radius, smooth.data(), slope.data(), curvature.data()}; }
+
     int radius;
     std::vector<float> smooth, slope, curvature;
 };
@@ -24,24 +32,15 @@ struct GaussianTaps {
 /// Throws std::invalid_argument unless it is 0.5 to 16 pixels.
 void require_sigma(double sigma);
 
-/// Rows are filtered a block at a time (row_block.hpp): each must be writable up to a whole number of blocks, and readable up to that
-/// and the radius of the filter on both sides. What is read beyond the row counts only there.
-
-/// Of one row its filters along x, n pixels each, in one pass; the second without the curvature.
-void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope,
-                   float* curvature);
-void filter_across(const float* row, const GaussianTaps& taps, int n, float* smooth, float* slope);
-
-/// A filter along y, of 2 radius + 1 rows, the uppermost first: with weights that are the same above and below (smooth, curvature), or
-/// of the other sign above (slope), which is odd.
-struct ColumnFilter {
-    const float* const* rows;
-    const float* weights;  ///< radius + 1
-    bool odd;
-    float* out;
+/// A row and where its filters along x go; the curvature may be nullptr, where it isn't wanted. Each must be writable up to a whole
+/// number of blocks (row_block.hpp), and the row readable up to that and the radius of the filters on both sides. What is read beyond
+/// the row counts only there.
+struct AcrossFilters {
+    const float* row;
+    float *smooth, *slope, *curvature;
 };
 
-/// Some filters of one radius and n pixels each, in one call, as rows are short.
-void filter_down(const ColumnFilter* filters, int count, int radius, int n);
+/// Some rows of n pixels, all with the curvature or all without.
+void filter_across(const AcrossFilters* rows, int count, const GaussianTaps& taps, int n);
 
 }  // namespace tricue

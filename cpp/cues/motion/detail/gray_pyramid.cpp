@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -18,22 +19,27 @@ void smooth_down(const std::array<const std::uint8_t*, 5>& rows, int n, std::uin
     });
 }
 
-/// Every second of `in`, which has two pixels more on both sides.
+/// Every second of `in`, which has two pixels more on both sides: `sums` of all pixels first, as loads of neighbors are faster
+/// than of every second.
 TRICUE_MULTIVERSION
-void smooth_across(const std::uint16_t* __restrict in, int n, std::uint8_t* __restrict out) {
-    for (int x = 0; x < n; ++x) {
-        const std::uint16_t* p = in + 2 * x;
-        out[x] = static_cast<std::uint8_t>((p[0] + p[4] + 4 * (p[1] + p[3]) + 6 * p[2] + 128) >> 8);
-    }
+void smooth_across(const std::uint16_t* __restrict in, int n, std::uint16_t* __restrict sums,
+                   std::uint8_t* __restrict out) {
+    for_overlapping_blocks<32>(2 * n - 1, [=](std::ptrdiff_t x) {
+        const std::uint16_t* p = in + x;
+        sums[x] = static_cast<std::uint16_t>(p[0] + p[4] + 4 * (p[1] + p[3]) + 6 * p[2] + 128);
+    });
+    for_overlapping_blocks<16>(
+        n, [=](std::ptrdiff_t x) { out[x] = static_cast<std::uint8_t>(sums[2 * x] >> 8); });
 }
 
 /// Of n + 1 pixels of two rows.
 TRICUE_MULTIVERSION
 void pack(const std::uint8_t* __restrict upper, const std::uint8_t* __restrict lower, int n,
           std::uint32_t* __restrict quads) {
-    for (int x = 0; x < n; ++x)
+    for_overlapping_blocks<16>(n, [=](std::ptrdiff_t x) {
         quads[x] = std::uint32_t{upper[x]} | std::uint32_t{upper[x + 1]} << 8 |
                    std::uint32_t{lower[x]} << 16 | std::uint32_t{lower[x + 1]} << 24;
+    });
 }
 
 /// The pixels that quads are of, and the last column and row of the whole image.
@@ -42,38 +48,52 @@ struct QuadPlace {
     int last_column, last_row;
 };
 
+/// n is a number of blocks.
 TRICUE_MULTIVERSION
-void interpolate(const std::uint32_t* __restrict quads, const QuadPlace& place, int x0, int y,
-                 const float* __restrict u, const float* __restrict v, int n, float* __restrict out) {
+void compare(const std::uint32_t* __restrict quads, const QuadPlace& place, int x0, int y,
+             const FlowPointers& flow, const std::uint8_t* __restrict now, int n, const ComparedRow& out) {
     const auto right = static_cast<float>(place.last_column), bottom = static_cast<float>(place.last_row);
     const auto row = static_cast<float>(y);
     const int first_column = place.part.x0, first_row = place.part.y0, cols = place.part.x1 - first_column;
     const int columns = cols - 1, rows = place.part.y1 - first_row - 1;
-    for (int i = 0; i < n; ++i) {
-        float x = static_cast<float>(x0 + i) - u[i], down = row - v[i];
-        x = x > 0 ? x : 0;  // NaN becomes 0, too
-        x = x > right ? right : x;
-        down = down > 0 ? down : 0;
-        down = down > bottom ? bottom : down;
-        const int left = static_cast<int>(x), top = static_cast<int>(down);
-        const float a = x - static_cast<float>(left), b = down - static_cast<float>(top);
-        const int j = std::min(std::max(left - first_column, 0), columns);
-        const int k = std::min(std::max(top - first_row, 0), rows);
-        const auto quad = static_cast<std::int32_t>(quads[k * cols + j]);
-        const auto p = static_cast<float>(quad & 255), q = static_cast<float>(quad >> 8 & 255);
-        const auto r = static_cast<float>(quad >> 16 & 255), s = static_cast<float>(quad >> 24 & 255);
-        const float upper = p + a * (q - p), lower = r + a * (s - r);
-        out[i] = upper + b * (lower - upper);
+    const float *u = flow.u, *v = flow.v;
+    float *means = out.mean, *changes = out.change;
+    for (int block = 0; block < n; block += kRowBlock) {
+        float after
+            [kRowBlock];  // on its own: with bytes in it the compiler would make the other loop of four lanes
+        RowBlock pixels;
+        load_bytes(now + block, pixels);
+        store(pixels, after);
+        // no row is another
+        TRICUE_INDEPENDENT
+        for (int i = block; i < block + kRowBlock; ++i) {
+            float x = static_cast<float>(x0 + i) - u[i], down = row - v[i];
+            x = x > 0 ? x : 0;  // NaN becomes 0, too
+            x = x > right ? right : x;
+            down = down > 0 ? down : 0;
+            down = down > bottom ? bottom : down;
+            const int left = static_cast<int>(x), top = static_cast<int>(down);
+            const float a = x - static_cast<float>(left), b = down - static_cast<float>(top);
+            const int j = std::min(std::max(left - first_column, 0), columns);
+            const int k = std::min(std::max(top - first_row, 0), rows);
+            const auto quad = static_cast<std::int32_t>(quads[k * cols + j]);
+            const auto p = static_cast<float>(quad & 255), q = static_cast<float>(quad >> 8 & 255);
+            const auto r = static_cast<float>(quad >> 16 & 255), s = static_cast<float>(quad >> 24 & 255);
+            const float upper = p + a * (q - p), lower = r + a * (s - r);
+            const float before = upper + b * (lower - upper);
+            means[i] = 0.5F * (before + after[i - block]);
+            changes[i] = after[i - block] - before;
+        }
     }
 }
 
 GrayImage downsampled(const ImageView& image, const Region& part) {
     const int width = part.x1 - part.x0, height = part.y1 - part.y0;
     GrayImage half{(image.rows + 1) / 2, (image.cols + 1) / 2, part, {}};
-    half.pixels.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(width));
+    half.pixels.resize(static_cast<std::size_t>(height) * static_cast<std::size_t>(width) + kRowBlock);
     const int first = 2 * part.x0 - 2;
     const Region source = finer_source(part, image.rows, image.cols);
-    std::vector<std::uint16_t> smooth(2 * static_cast<std::size_t>(width) + 3);
+    std::vector<std::uint16_t> smooth(2 * static_cast<std::size_t>(width) + 3), sums(smooth.size());
     const auto begin = smooth.begin() + (source.x0 - first), end = smooth.begin() + (source.x1 - first);
     std::array<const std::uint8_t*, 5> rows{};
     for (int y = 0; y < height; ++y) {
@@ -82,7 +102,7 @@ GrayImage downsampled(const ImageView& image, const Region& part) {
         smooth_down(rows, source.x1 - source.x0, &*begin);
         std::fill(smooth.begin(), begin, *begin);
         std::fill(end, smooth.end(), *(end - 1));
-        smooth_across(smooth.data(), width, half.pixels.data() + std::ptrdiff_t{y} * width);
+        smooth_across(smooth.data(), width, sums.data(), half.pixels.data() + std::ptrdiff_t{y} * width);
     }
     return half;
 }
@@ -117,8 +137,9 @@ QuadImage::QuadImage(const ImageView& image, const Region& part)
     }
 }
 
-void QuadImage::warped_row(int y, int x0, const float* u, const float* v, int n, float* out) const {
-    interpolate(quads_.data(), {part_, cols_ - 1, rows_ - 1}, x0, y, u, v, n, out);
+void QuadImage::compare_row(int y, int x0, const FlowPointers& flow, const std::uint8_t* now, int n,
+                            const ComparedRow& out) const {
+    compare(quads_.data(), {part_, cols_ - 1, rows_ - 1}, x0, y, flow, now, n, out);
 }
 
 }  // namespace tricue

@@ -6,6 +6,7 @@
 
 #include "base/image_view.hpp"
 #include "base/region.hpp"
+#include "cues/motion/detail/frame_rows.hpp"
 
 namespace tricue {
 
@@ -13,7 +14,7 @@ namespace tricue {
 struct GrayImage {
     int rows, cols;  ///< of the whole image
     Region part;
-    std::vector<std::uint8_t> pixels;
+    std::vector<std::uint8_t> pixels;  ///< and a block more, as rows are read by blocks (row_block.hpp)
 
     /// Of the whole image, of which only the part may be read.
     ImageView view() const {
@@ -29,14 +30,21 @@ std::vector<GrayImage> coarser_levels(const ImageView& image, const std::vector<
 /// What a part of a level is made of, in the next finer level of that size.
 Region finer_source(const Region& part, int rows, int cols);
 
+/// Flow along x and y of the pixels of a row.
+struct FlowPointers {
+    const float *u, *v;
+};
+
 /// A gray image for bilinear interpolation: each entry packs a pixel with its right, lower and lower right neighbors, for one load.
 class QuadImage {
 public:
     /// @param part of the image, not empty, that is read; a neighbor of it must be readable, too
     QuadImage(const ImageView& image, const Region& part);
 
-    /// The image at (x0 + i - u[i], y - v[i]), i = 0 to n - 1, bilinear; the border is replicated. Undefined for what is not in the part.
-    void warped_row(int y, int x0, const float* u, const float* v, int n, float* out) const;
+    /// Compares the image at (x0 + i - u[i], y - v[i]), i = 0 to n - 1, bilinear, with the pixels `now`: the mean of both, and the change
+    /// from the image to them. The border is replicated. Undefined for what is not in the part.
+    void compare_row(int y, int x0, const FlowPointers& flow, const std::uint8_t* now, int n,
+                     const ComparedRow& out) const;
 
 private:
     int rows_, cols_;

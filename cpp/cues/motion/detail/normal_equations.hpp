@@ -1,34 +1,64 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-
+#include "base/row_block.hpp"
+#include "base/row_ring_buffer.hpp"
+#include "base/simd.hpp"
 #include "cues/motion/detail/flow_constraints.hpp"
-#include "cues/motion/detail/gaussian_rows.hpp"
 
 namespace tricue {
 
-/// The normal equations of two constraints per pixel, averaged over a window: A^T A is (xx, xy; xy, yy), A^T b is (xt, yt).
-struct NormalEquations {
-    float *xx, *xy, *yy, *xt, *yt;
-};
-
-/// Averages the normal equations, row by row from above, over squares of 2 pool + 1 pixels.
+/// Averages the normal equations over squares of 2 pool + 1 pixels: down the columns here, across them by average_across.
 class NormalEquationRows {
 public:
     /// @param length pixels of an averaged row
     NormalEquationRows(int pool, int length);
 
-    /// Takes row y, y from -pool on, of length + 2 pool pixels, beginning pool left of the averaged ones.
-    void push(int y, const Constraints& constraints);
-
-    /// Row y, where rows y - pool to y + pool were the last pushed; until the next call.
+    /// Where row y belongs, y from -pool on, of length + 2 pool pixels, beginning pool left of the averaged ones.
     NormalEquations row(int y);
 
+    /// The means down the columns of rows [begin, end), a batch or fewer, from what is in rows begin - pool to end - 1 + pool.
+    void average_down(int begin, int end);
+
+    /// Those of a row, of length + 2 pool pixels; the last batch is kept.
+    NormalEquations means_down(int y);
+
 private:
-    int pool_, length_;
-    std::array<RowRingBuffer, 5> products_;
-    RowRingBuffer sums_, result_;
+    int pool_, stride_;
+    RowRingBuffer products_, means_;
 };
+
+/// A block of normal equations, averaged.
+struct MeanBlock {
+    float xx[kRowBlock], xy[kRowBlock], yy[kRowBlock], xt[kRowBlock], yt[kRowBlock];
+};
+
+template <typename Next>
+TRICUE_INLINE void average_block(const Next& next, int count, float share, float* out) {
+    RowBlock sum{}, block, mean{};
+    for (int i = 0; i < count; ++i) {
+        load(next(i), block);
+        add(1, block, sum);
+    }
+    add(share, sum, mean);
+    store(mean, out);
+}
+
+/// The means of windows `side` pixels wide, from those down their columns, of the block from x on.
+TRICUE_INLINE void average_across(const NormalEquations& columns, int side, int x, MeanBlock& means) {
+    const float share = 1 / static_cast<float>(side);
+    const auto average = [=](int plane, float* out) {
+        const float* row = columns.xx + plane * columns.stride + x;
+        average_block([=](int i) { return row + i; }, side, share, out);
+    };
+    average(0, means.xx);
+    average(1, means.xy);
+    average(2, means.yy);
+    average(3, means.xt);
+    average(4, means.yt);
+}
+
+/// The side of the flow and depth tracker's windows, for which means are compiled on their own.
+constexpr int kUsualSide = 5;
 
 }  // namespace tricue

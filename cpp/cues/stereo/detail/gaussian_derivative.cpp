@@ -4,66 +4,80 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/overlapping_blocks.hpp"
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
-/// With the number of weights known at compile time, the compiler unrolls the inner loop.
-template <int Reach, typename Pixel>
-TRICUE_INLINE void sum_symmetric(const Pixel* const* rows, const float* __restrict weights, int n,
-                                 float* __restrict out) {
-    for_overlapping_blocks<kRowLine>(n, [=](std::ptrdiff_t x) {
-        float sum = weights[0] * static_cast<float>(rows[0][x]);
-        for (int k = 1; k <= Reach; ++k) sum += weights[k] * static_cast<float>(rows[-k][x] + rows[k][x]);
-        out[x] = sum;
-    });
-}
+constexpr int kUsualReach = 3;  // of sigma 1, for which filters are compiled on their own
 
-/// `rows` points at the middle one of 2 reach + 1. The order of sums is the same for any reach.
-template <typename Pixel>
-TRICUE_INLINE void smooth(const Pixel* const* rows, const float* __restrict weights, int reach, int n,
-                          float* __restrict out) {
-    if (reach == 2) return sum_symmetric<2>(rows, weights, n, out);
-    if (reach == 3) return sum_symmetric<3>(rows, weights, n, out);
-    if (reach == 4) return sum_symmetric<4>(rows, weights, n, out);
-    if (reach == 5) return sum_symmetric<5>(rows, weights, n, out);
-    sum_symmetric<0>(rows, weights, n, out);
-    for (int k = 1; k <= reach; ++k)
-        for (int x = 0; x < n; ++x) out[x] += weights[k] * static_cast<float>(rows[-k][x] + rows[k][x]);
-}
+/// Rows of a batch, one `stride` after the other.
+struct BatchRows {
+    float* data;
+    std::ptrdiff_t stride;
+    int count;
+};
 
-template <int Reach>
-TRICUE_INLINE void sum_antisymmetric(const float* __restrict in, const float* __restrict weights, int n,
-                                     float* __restrict out) {
-    for (int x = 0; x < n; ++x) {
-        float sum = weights[1] * (in[x + 1] - in[x - 1]);
-        for (int k = 2; k <= Reach; ++k) sum += weights[k] * (in[x + k] - in[x - k]);
-        out[x] = sum;
-    }
+/// `rows` are those of the batch with `reach` more above and below. kReach 0 is any.
+template <int kReach>
+TRICUE_INLINE void smooth_by(const float* const* rows, const GaussianDerivative& filter, int n,
+                             const BatchRows& to) {
+    const BatchRows out = to;
+    const float* weights = filter.smooth.data();
+    const int reach = kReach > 0 ? kReach : filter.reach;
+    for (int i = 0; i < out.count; ++i)
+        for (int x = 0; x < n; x += kRowBlock) {
+            const float* const* around = rows + i + reach;
+            RowBlock middle, above, below;
+            load(around[0] + x, middle);
+            RowBlock sum = weights[0] * middle;
+            for (int k = 1; k <= reach; ++k) {
+                load(around[-k] + x, above);
+                load(around[k] + x, below);
+                add(weights[k], above + below, sum);
+            }
+            store(sum, out.data + i * out.stride + x);
+        }
 }
 
 TRICUE_MULTIVERSION
-void smooth_bytes(const std::uint8_t* const* rows, const float* weights, int reach, int n, float* out) {
-    smooth(rows, weights, reach, n, out);
+void smooth_down(const float* const* rows, const GaussianDerivative& filter, int n, const BatchRows& out) {
+    if (filter.reach == kUsualReach)
+        smooth_by<kUsualReach>(rows, filter, n, out);
+    else
+        smooth_by<0>(rows, filter, n, out);
+}
+
+template <int kReach>
+TRICUE_INLINE void differentiate_by(const BatchRows& from, const GaussianDerivative& filter, int n,
+                                    const BatchRows& to) {
+    const BatchRows in = from, out = to;
+    const float* weights = filter.derivative.data();
+    const int reach = kReach > 0 ? kReach : filter.reach;
+    for (int i = 0; i < out.count; ++i)
+        for (int x = 0; x < n; x += kRowBlock) {
+            const float* row = in.data + i * in.stride + x;
+            RowBlock left, right;
+            load(row - 1, left);
+            load(row + 1, right);
+            RowBlock sum = weights[1] * (right - left);
+            for (int k = 2; k <= reach; ++k) {
+                load(row - k, left);
+                load(row + k, right);
+                add(weights[k], right - left, sum);
+            }
+            store(sum, out.data + i * out.stride + x);
+        }
 }
 
 TRICUE_MULTIVERSION
-void smooth_floats(const float* const* rows, const float* weights, int reach, int n, float* out) {
-    smooth(rows, weights, reach, n, out);
-}
-
-TRICUE_MULTIVERSION
-void differentiate_across(const float* __restrict in, const float* __restrict weights, int reach, int n,
-                          float* __restrict out) {
-    if (reach == 2) return sum_antisymmetric<2>(in, weights, n, out);
-    if (reach == 3) return sum_antisymmetric<3>(in, weights, n, out);
-    if (reach == 4) return sum_antisymmetric<4>(in, weights, n, out);
-    if (reach == 5) return sum_antisymmetric<5>(in, weights, n, out);
-    for (int x = 0; x < n; ++x) out[x] = weights[1] * (in[x + 1] - in[x - 1]);
-    for (int k = 2; k <= reach; ++k)
-        for (int x = 0; x < n; ++x) out[x] += weights[k] * (in[x + k] - in[x - k]);
+void differentiate_across(const BatchRows& in, const GaussianDerivative& filter, int n,
+                          const BatchRows& out) {
+    if (filter.reach == kUsualReach)
+        differentiate_by<kUsualReach>(in, filter, n, out);
+    else
+        differentiate_by<0>(in, filter, n, out);
 }
 
 }  // namespace
@@ -85,46 +99,40 @@ GaussianDerivative::GaussianDerivative(double sigma) : reach(static_cast<int>(st
     }
 }
 
-DerivativeRows::DerivativeRows(const GrayLevel& level, const GaussianDerivative& filter, int x0, int x1,
+DerivativeRows::DerivativeRows(const GrayPlane& plane, const GaussianDerivative& filter, int x0, int x1,
                                int padding)
-    : level_(level),
+    : plane_(plane),
       filter_(filter),
       x0_(x0),
       x1_(x1),
       padding_(padding),
-      smooth_(static_cast<std::size_t>(x1 - x0 + 2 * filter.reach + kRowLine)),
-      derivative_(static_cast<std::size_t>(x1 - x0 + 2 * padding + kRowLine)) {}
+      smooth_stride_(x1 - x0 + 2 * filter.reach + kRowBlock),
+      derivative_stride_(x1 - x0 + 2 * padding + kRowBlock),
+      smooth_(static_cast<std::size_t>(kRowBatch * smooth_stride_)),
+      derivative_(static_cast<std::size_t>(kRowBatch * derivative_stride_) + kRowBlock) {}
 
-/// The rows that the filter reads, from column x on.
-template <typename Picture>
-auto DerivativeRows::rows_around(const Picture& picture, int y, int x) const {
-    std::array<decltype(picture.row(y)), 2 * GaussianDerivative::kMaxReach + 1> rows;
-    for (int k = -filter_.reach; k <= filter_.reach; ++k)
-        rows[static_cast<std::size_t>(filter_.reach + k)] =
-            picture.row(std::clamp(y + k, 0, level_.rows() - 1)) + x;
-    return rows;
-}
-
-const float* DerivativeRows::row(int y) {
-    const int reach = filter_.reach, begin = std::max(x0_ - reach, 0),
-              end = std::min(x1_ + reach, level_.cols());
-    float* inside = smooth_.data() + (begin - (x0_ - reach));
-    const float* weights = filter_.smooth.data();
-    if (level_.image != nullptr)
-        smooth_bytes(rows_around(*level_.image, y, begin).data() + reach, weights, reach, end - begin,
-                     inside);
-    else
-        smooth_floats(rows_around(*level_.plane, y, begin).data() + reach, weights, reach, end - begin,
-                      inside);
-    std::fill(smooth_.data(), inside, *inside);
-    std::fill_n(inside + (end - begin), x1_ + reach - end, inside[end - begin - 1]);
-
-    float* inner = derivative_.data() + padding_;
-    differentiate_across(smooth_.data() + reach, filter_.derivative.data(), reach, whole_lines(x1_ - x0_),
-                         inner);
-    std::fill(derivative_.data(), inner, *inner);
-    std::fill_n(inner + (x1_ - x0_), padding_, inner[x1_ - x0_ - 1]);
-    return inner - x0_;
+void DerivativeRows::filter(int begin, int end) {
+    first_ = begin;
+    const int reach = filter_.reach, count = end - begin, width = x1_ - x0_;
+    const int left = std::max(x0_ - reach, 0), right = std::min(x1_ + reach, plane_.cols());
+    std::array<const float*, kRowBatch + 2 * GaussianDerivative::kMaxReach> rows;
+    for (int i = 0; i < count + 2 * reach; ++i)
+        rows[static_cast<std::size_t>(i)] =
+            plane_.row(std::clamp(begin - reach + i, 0, plane_.rows() - 1)) + left;
+    float* inside = smooth_.data() + (left - (x0_ - reach));
+    smooth_down(rows.data(), filter_, whole_blocks(right - left), {inside, smooth_stride_, count});
+    for (int i = 0; i < count; ++i) {
+        float *row = smooth_.data() + i * smooth_stride_, *inner = inside + i * smooth_stride_;
+        std::fill(row, inner, *inner);
+        std::fill_n(inner + (right - left), x1_ + reach - right, inner[right - left - 1]);
+    }
+    differentiate_across({smooth_.data() + reach, smooth_stride_, count}, filter_, whole_blocks(width),
+                         {derivative_.data() + padding_, derivative_stride_, count});
+    for (int i = 0; i < count; ++i) {
+        float* row = derivative_.data() + i * derivative_stride_;
+        std::fill_n(row, padding_, row[padding_]);
+        std::fill_n(row + padding_ + width, padding_, row[padding_ + width - 1]);
+    }
 }
 
 }  // namespace tricue

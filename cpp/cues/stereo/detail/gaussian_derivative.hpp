@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "cues/stereo/detail/gray_plane.hpp"
@@ -20,24 +21,27 @@ struct GaussianDerivative {
     std::array<float, kMaxReach + 1> derivative;  ///< antisymmetric; gives 1 on a ramp of 1 per pixel
 };
 
-/// The x-derivative of a picture, smoothed by a Gaussian along both axes, row by row.
+/// The x-derivative of a picture, smoothed by a Gaussian along both axes, a batch of rows at a time.
 class DerivativeRows {
 public:
-    /// @param level  shows `reach` more than [x0, x1) and the rows asked for, as far as the picture goes
+    /// @param plane  shows `reach` more than [x0, x1) and the rows asked for, as far as the picture goes
     /// @param x0, x1 columns wanted, inside the picture; the border is replicated for `padding` more on each side
-    DerivativeRows(const GrayLevel& level, const GaussianDerivative& filter, int x0, int x1, int padding);
+    DerivativeRows(const GrayPlane& plane, const GaussianDerivative& filter, int x0, int x1, int padding);
 
-    /// Row y, in the picture; row(y)[x], x in [x0 - padding, x1 + padding), and a line more. Valid until the next call.
-    const float* row(int y);
+    /// Makes rows [begin, end), a batch or fewer, in the picture.
+    void filter(int begin, int end);
+
+    /// Row y of the last batch; row(y)[x], x in [x0 - padding, x1 + padding), and a block more.
+    const float* row(int y) const { return derivative(y - first_) - x0_; }
 
 private:
-    template <typename Picture>
-    auto rows_around(const Picture& picture, int y, int x) const;
+    const float* derivative(int i) const { return derivative_.data() + i * derivative_stride_ + padding_; }
 
-    GrayLevel level_;
+    const GrayPlane& plane_;
     GaussianDerivative filter_;
-    int x0_, x1_, padding_;
-    std::vector<float> smooth_, derivative_;
+    int x0_, x1_, padding_, first_ = 0;
+    std::ptrdiff_t smooth_stride_, derivative_stride_;
+    std::vector<float> smooth_, derivative_;  ///< a batch of rows each
 };
 
 }  // namespace tricue

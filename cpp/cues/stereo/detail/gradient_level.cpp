@@ -2,11 +2,11 @@
 #include "cues/stereo/detail/gradient_level.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
 #include "base/simd.hpp"
-#include "cues/stereo/detail/box_filter.hpp"
 
 namespace tricue {
 namespace {
@@ -18,58 +18,84 @@ void gather(const float* f, const int* column, int n, float* taps) {
     for (int x = 0; x < n; ++x) std::memcpy(taps + kTaps * x, f + column[x] - 1, kTaps * sizeof(float));
 }
 
-/// f_R and f_x^R between columns.
-TRICUE_MULTIVERSION
-void interpolate(const float* __restrict taps, const float* __restrict share, int n, float* __restrict right,
-                 float* __restrict slope) {
-    for (int x = 0; x < n; ++x) {
-        const float before = taps[kTaps * x], at = taps[kTaps * x + 1], after = taps[kTaps * x + 2],
-                    beyond = taps[kTaps * x + 3];
-        const float first = after - before, second = beyond - at;  // twice the slopes of both columns
-        right[x] = at + share[x] * (after - at);
-        slope[x] = 0.5F * (first + share[x] * (second - first));
+/// What equation (7) is made of in a row: f_L, f_R around x - d, and the expected disparities; and where its terms go.
+struct EquationRow {
+    const float *left, *taps;
+    WarpedRow known;
+    float* ss;
+};
+
+/// f_R and f_x^R between columns, then the terms. n is a number of blocks.
+template <bool kFinest>
+TRICUE_INLINE void multiply_by(const EquationRow* rows, int count, int n, int stride) {
+    for (int i = 0; i < count; ++i) {
+        const float *lefts = rows[i].left, *taps = rows[i].taps, *shares = rows[i].known.share,
+                    *visibles = rows[i].known.visible, *offsets = rows[i].known.offset;
+        float *ss = rows[i].ss, *st = ss + stride, *tt = st + stride, *power = tt + stride,
+              *reliability = power + stride;
+        // no row is another
+        TRICUE_INDEPENDENT
+        for (int x = 0; x < n; ++x) {
+            const float before = taps[kTaps * x], at = taps[kTaps * x + 1], after = taps[kTaps * x + 2],
+                        beyond = taps[kTaps * x + 3];
+            const float first = after - before, second = beyond - at;  // twice the slopes of both columns
+            const float right = at + shares[x] * (after - at);
+            const float right_slope = 0.5F * (first + shares[x] * (second - first));
+            const float left = lefts[x], left_slope = 0.5F * (lefts[x + 1] - lefts[x - 1]);
+            const float visible = visibles[x];
+            const float s = 0.5F * visible * (right_slope + left_slope);
+            const float t = s * offsets[x] + visible * (right - left);
+            ss[x] = s * s;
+            st[x] = s * t;
+            if (kFinest) {
+                tt[x] = t * t;
+                power[x] = visible * (left * left + right * right);
+                reliability[x] = visible * (left_slope * left_slope + right_slope * right_slope);
+            }
+        }
     }
 }
 
-/// The terms of equation (7), a row of each: f_L, f_R, f_x^R, and the expected disparities.
-struct Equations {
-    const float *left, *right, *right_slope, *visible, *offset;
-};
-
-struct Products {
-    float *ss, *st, *tt, *power, *reliability;
-};
-
-/// No row overlaps another: GCC ignores __restrict of pointers in a struct.
 TRICUE_MULTIVERSION
-void multiply(const Equations& row, int n, const Products& out) {
-    const Equations in = row;
-    const Products to = out;
-    TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
-        const float left_slope = 0.5F * (in.left[x + 1] - in.left[x - 1]), visible = in.visible[x];
-        const float s = 0.5F * visible * (in.right_slope[x] + left_slope);
-        to.ss[x] = s * s;
-        to.st[x] = s * (s * in.offset[x] + visible * (in.right[x] - in.left[x]));
+void multiply(const EquationRow* rows, int count, int n, int stride) {
+    multiply_by<false>(rows, count, n, stride);
+}
+
+TRICUE_MULTIVERSION
+void multiply_finest(const EquationRow* rows, int count, int n, int stride) {
+    multiply_by<true>(rows, count, n, stride);
+}
+
+/// Rows, the uppermost first, and where their sum goes.
+struct SummedRows {
+    const float* const* rows;
+    float* sum;
+};
+
+/// kSide 0 is any.
+template <int kSide>
+TRICUE_INLINE void sum_down_by(const SummedRows* sums, int count, int any_side, int n) {
+    const int side = kSide > 0 ? kSide : any_side;
+    for (int i = 0; i < count; ++i) {
+        const SummedRows each = sums[i];
+        for (int x = 0; x < n; x += kRowBlock) {
+            RowBlock sum, next;
+            load(each.rows[0] + x, sum);
+            for (int k = 1; k < side; ++k) {
+                load(each.rows[k] + x, next);
+                sum += next;
+            }
+            store(sum, each.sum + x);
+        }
     }
 }
 
 TRICUE_MULTIVERSION
-void multiply_finest(const Equations& row, int n, const Products& out) {
-    const Equations in = row;
-    const Products to = out;
-    TRICUE_INDEPENDENT
-    for (int x = 0; x < n; ++x) {
-        const float left = in.left[x], right = in.right[x], right_slope = in.right_slope[x];
-        const float left_slope = 0.5F * (in.left[x + 1] - in.left[x - 1]), visible = in.visible[x];
-        const float s = 0.5F * visible * (right_slope + left_slope);
-        const float t = s * in.offset[x] + visible * (right - left);
-        to.ss[x] = s * s;
-        to.st[x] = s * t;
-        to.tt[x] = t * t;
-        to.power[x] = visible * (left * left + right * right);
-        to.reliability[x] = visible * (left_slope * left_slope + right_slope * right_slope);
-    }
+void sum_down(const SummedRows* sums, int count, int side, int n) {
+    if (side == kUsualSide)
+        sum_down_by<kUsualSide>(sums, count, side, n);
+    else
+        sum_down_by<0>(sums, count, side, n);
 }
 
 Region expanded(const Region& region, int across, int down, int rows, int cols) {
@@ -92,66 +118,63 @@ LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int ra
     return parts;
 }
 
-GradientLevel::GradientLevel(const GrayLevel& left, const GrayLevel& right, const LevelRegions& parts,
+// A row of terms may begin later than its windows' columns, and ends in a whole number of blocks.
+GradientLevel::GradientLevel(const GrayPlane& left, const GrayPlane& right, const LevelRegions& parts,
                              const GaussianDerivative& filter, int radius, const DisparityPrior& known,
                              bool finest)
     : radius_(radius),
       rows_(left.rows()),
-      count_(finest ? kMeans : 2),
+      count_(finest ? kTerms : 2),
       wanted_(parts.wanted),
       pooled_(parts.pooled),
+      stride_(whole_blocks(wanted_.x1 - wanted_.x0 + 2 * radius + kRowBlock - 1)),
       left_(left, filter, std::max(pooled_.x0 - 1, 0), std::min(pooled_.x1 + 1, left.cols()), 1),
       right_(right, filter, std::max(parts.first - 1, 0), std::min(parts.last + 3, left.cols()), 2),
-      incoming_(known, pooled_.x0, pooled_.x1, parts.first, parts.last, left.cols()),
-      center_(known, wanted_.x0, wanted_.x1, parts.first, parts.last, left.cols()),
-      taps_(static_cast<std::size_t>(kTaps * whole_lines(pooled_.x1 - pooled_.x0))),
-      shifted_(taps_.size() / kTaps),
-      slope_(shifted_.size()),
-      rings_{ring(true), ring(true), ring(finest), ring(finest), ring(finest)},
-      columns_(static_cast<int>(count_), wanted_.x1 - wanted_.x0 + 2 * radius + kRowLine),
-      means_(static_cast<int>(count_), wanted_.x1 - wanted_.x0) {}
+      warped_(known, pooled_.x0, pooled_.x1, parts.first, parts.last, left.cols(), kRowBatch + radius + 1),
+      taps_stride_(kTaps * whole_blocks(pooled_.x1 - pooled_.x0)),
+      taps_(static_cast<std::size_t>(kRowBatch * taps_stride_)),
+      terms_(2 * radius + kRowBatch, count_ * stride_),
+      columns_(kRowBatch, count_ * stride_ + kRowBlock + 2 * radius) {}
 
-/// A line of room for the rest of rows that are shorter, but begin later.
-RowRingBuffer GradientLevel::ring(bool wanted) const {
-    return {wanted ? 2 * radius_ + 1 : 1, wanted_.x1 - wanted_.x0 + 2 * radius_ + kRowLine};
+/// 0 beyond the picture.
+void GradientLevel::add_rows(int begin, int end) {
+    for (int y = begin; y < end; ++y)
+        if (y < 0 || y >= rows_) std::fill_n(terms_.row(y), count_ * stride_, 0.0F);
+    const int first = std::clamp(begin, 0, rows_), last = std::clamp(end, 0, rows_);
+    if (first < last) add_visible_rows(first, last);
 }
 
-void GradientLevel::add_row(int y) {
-    latest_ = y;
-    const int skip = pooled_.x0 - (wanted_.x0 - radius_), n = pooled_.x1 - pooled_.x0, whole = whole_lines(n);
-    if (y < 0 || y >= rows_) {  // 0 beyond the picture
-        for (std::size_t mean = 0; mean < count_; ++mean) std::fill_n(rings_[mean].row(y) + skip, n, 0.0F);
-        return;
+void GradientLevel::add_visible_rows(int begin, int end) {
+    const int skip = pooled_.x0 - (wanted_.x0 - radius_), n = pooled_.x1 - pooled_.x0;
+    left_.filter(begin, end);
+    right_.filter(begin, end);
+    std::array<EquationRow, kRowBatch> rows;
+    for (int y = begin; y < end; ++y) {
+        const auto i = static_cast<std::size_t>(y - begin);
+        warped_.add_row(y);
+        const WarpedRow known = warped_.row(y);
+        float* taps = taps_.data() + (y - begin) * taps_stride_;
+        gather(right_.row(y), known.column, n, taps);
+        rows[i] = {left_.row(y) + pooled_.x0, taps, known, terms_.row(y) + skip};
     }
-    incoming_.move_to(y);
-    const float* left = left_.row(y) + pooled_.x0;
-    gather(right_.row(y), incoming_.column(), n, taps_.data());
-    interpolate(taps_.data(), incoming_.share(), whole, shifted_.data(), slope_.data());
-    const Equations row{left, shifted_.data(), slope_.data(), incoming_.visible(), incoming_.offset()};
-    Products out{rings_[0].row(y) + skip, rings_[1].row(y) + skip, nullptr, nullptr, nullptr};
-    if (count_ > 2) {
-        out.tt = rings_[2].row(y) + skip;
-        out.power = rings_[3].row(y) + skip;
-        out.reliability = rings_[4].row(y) + skip;
-        multiply_finest(row, whole, out);
-    } else {
-        multiply(row, whole, out);
-    }
+    (count_ == kTerms ? multiply_finest : multiply)(rows.data(), end - begin, whole_blocks(n), stride_);
     const int beyond = wanted_.x1 + radius_ - pooled_.x1;  // columns right of the picture
-    for (std::size_t mean = 0; beyond > 0 && mean < count_; ++mean)
-        std::fill_n(rings_[mean].row(y) + skip + n, beyond, 0.0F);
+    for (int y = begin; beyond > 0 && y < end; ++y)
+        for (int term = 0; term < count_; ++term)
+            std::fill_n(terms_.row(y) + term * stride_ + skip + n, beyond, 0.0F);
 }
 
-WindowMeans GradientLevel::means(float* reliability) {
-    const int side = 2 * radius_ + 1, n = wanted_.x1 - wanted_.x0;
-    std::array<BoxFilter, kMeans> filters{};
-    for (std::size_t mean = 0; mean < count_; ++mean) {
-        const auto row = static_cast<int>(mean);
-        filters[mean] = {rings_[mean].from(latest_ - side + 1), columns_.row(row), means_.row(row)};
-    }
-    box_filter_rows(filters.data(), static_cast<int>(count_), side, n);
-    if (reliability != nullptr) std::copy_n(filters[kMeans - 1].mean, n, reliability);
-    return {filters[0].mean, filters[1].mean, filters[2].mean, filters[3].mean, filters[4].mean};
+void GradientLevel::sum_columns(int begin, int end) {
+    std::array<SummedRows, kRowBatch> sums;
+    for (int y = begin; y < end; ++y)
+        sums[static_cast<std::size_t>(y - begin)] = {terms_.from(y - radius_), columns_.row(y)};
+    sum_down(sums.data(), end - begin, 2 * radius_ + 1, count_ * stride_);
+}
+
+WarpedRow GradientLevel::known(int y) const {
+    const WarpedRow row = warped_.row(y);
+    const int skip = wanted_.x0 - pooled_.x0;
+    return {row.offset + skip, row.share + skip, row.visible + skip, row.column + skip};
 }
 
 }  // namespace tricue

@@ -1,22 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
+#include "base/row_block.hpp"
 #include "base/row_ring_buffer.hpp"
+#include "base/simd.hpp"
 #include "cues/stereo/detail/gaussian_derivative.hpp"
 #include "cues/stereo/detail/gray_plane.hpp"
 #include "cues/stereo/detail/warped_columns.hpp"
 
 namespace tricue {
 
-/// Means over the window around each pixel of a row. With s = (f_x^R + f_x^L) / 2 and t = s offset + f^R - f^L, equation (7) says
-/// t = s times the wanted offset d - base; f is the brightness.
-struct WindowMeans {
-    const float *ss, *st;                   ///< s², s t
-    const float *tt, *power, *reliability;  ///< t², f_L² + f_R², (9); only of the finest level
+/// Sums down the columns of the windows around the pixels of a row, side by side, each `stride` numbers after the one before. With
+/// s = (f_x^R + f_x^L) / 2 and t = s offset + f^R - f^L, equation (7) says t = s times the wanted offset d - base; f is the brightness.
+/// They are s², s t, and of the finest level t², f_L² + f_R² and (9).
+struct WindowColumns {
+    const float* ss;
+    int stride;
+    int side;  ///< pixels that a window is wide: sums of so many columns are those of windows
 };
+
+/// A block of windows' means.
+struct WindowMeans {
+    float ss[kRowBlock], st[kRowBlock], tt[kRowBlock], power[kRowBlock], reliability[kRowBlock];
+};
+
+/// The side of the flow and depth tracker's windows, for which means are compiled on their own.
+constexpr int kUsualSide = 5;
+
+/// The mean of one of the terms in the block of windows from x on. Each sum adds the columns in their order, so it has the same bits
+/// wherever the window is, which running sums wouldn't have.
+TRICUE_INLINE void mean_of(const WindowColumns& columns, int term, int side, int x, float* means) {
+    const float* row = columns.ss + term * columns.stride + x;
+    RowBlock sum, next;
+    load(row, sum);
+    for (int k = 1; k < side; ++k) {
+        load(row + k, next);
+        sum += next;
+    }
+    store(1.0F / static_cast<float>(side * side) * sum, means);
+}
 
 /// The parts of its pictures that a level needs; inside them, not empty.
 struct LevelRegions {
@@ -31,44 +57,44 @@ struct LevelRegions {
 LevelRegions find_level_regions(const Region& wanted, int rows, int cols, int radius, int reach,
                                 double predicted, double uncertainty);
 
-/// One level of gradient_disparity, row by row.
+/// One level of gradient_disparity, a batch of rows at a time.
 class GradientLevel {
 public:
     /// @param left, right show parts.left and parts.right
-    /// @param finest      all means are wanted, else two
-    GradientLevel(const GrayLevel& left, const GrayLevel& right, const LevelRegions& parts,
+    /// @param finest      all terms are wanted, else two
+    GradientLevel(const GrayPlane& left, const GrayPlane& right, const LevelRegions& parts,
                   const GaussianDerivative& filter, int radius, const DisparityPrior& known, bool finest);
 
-    /// Calls done(y, means, here) for each row; `here` are the expected disparities of its pixels. The finest level's
-    /// reliabilities are written to reliability(y).
-    template <typename Reliability, typename Done>
-    void run(const Reliability& reliability, const Done& done) {
-        for (int y = wanted_.y0 - radius_; y < wanted_.y1 + radius_; ++y) {
-            add_row(y);
-            const int middle = y - radius_;
-            if (middle < wanted_.y0) continue;
-            center_.move_to(middle);
-            done(middle, means(reliability(middle)), center_);
+    /// Calls done(y, columns, here) for each row; `here` are the expected disparities of its pixels.
+    template <typename Done>
+    void run(const Done& done) {
+        for (int y = wanted_.y0 - radius_; y < wanted_.y1 + radius_; y += kRowBatch) {
+            const int end = std::min(y + kRowBatch, wanted_.y1 + radius_);
+            add_rows(y, end);
+            const int first = std::max(y - radius_, wanted_.y0);
+            sum_columns(first, end - radius_);
+            for (int row = first; row < end - radius_; ++row) done(row, columns(row), known(row));
         }
     }
 
 private:
-    static constexpr std::size_t kMeans = 5;
+    static constexpr int kTerms = 5;
 
-    void add_row(int y);
-    WindowMeans means(float* reliability);
-    RowRingBuffer ring(bool wanted) const;
+    void add_rows(int begin, int end);
+    void add_visible_rows(int begin, int end);
+    void sum_columns(int begin, int end);
+    WindowColumns columns(int y) { return {columns_.row(y), stride_, 2 * radius_ + 1}; }
+    WarpedRow known(int y) const;
 
     int radius_, rows_;
-    std::size_t count_;  ///< of means: 2 or kMeans
+    int count_;  ///< of terms: 2 or kTerms
     Region wanted_, pooled_;
+    int stride_;  ///< numbers from one term to the next in a row
     DerivativeRows left_, right_;
-    WarpedColumns incoming_,
-        center_;  ///< of the row that comes into the window, and of the one in its middle
-    int latest_ = 0;
-    std::vector<float> taps_, shifted_, slope_;
-    std::array<RowRingBuffer, kMeans> rings_;  ///< rows of what the means are of
-    RowRingBuffer columns_, means_;            ///< a row for each mean
+    WarpedColumns warped_;
+    std::ptrdiff_t taps_stride_;
+    std::vector<float> taps_;  ///< a batch of rows
+    RowRingBuffer terms_, columns_;
 };
 
 }  // namespace tricue

@@ -6,30 +6,46 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
 namespace {
 
-/// 8 times the weighted mean of four rows, weights 1, 3, 3, 1.
-template <typename Pixel>
-TRICUE_INLINE void smooth(const std::array<const Pixel*, 4>& rows, int n, float* __restrict out) {
-    const Pixel* __restrict above = rows[0];
-    const Pixel* __restrict upper = rows[1];
-    const Pixel* __restrict lower = rows[2];
-    const Pixel* __restrict below = rows[3];
-    for (int x = 0; x < n; ++x)
-        out[x] = static_cast<float>((above[x] + below[x]) + 3 * (upper[x] + lower[x]));
+/// Rows of an image, one `stride` after the other.
+struct ImageRows {
+    const std::uint8_t* data;
+    std::ptrdiff_t stride;
+    int count;
+};
+
+/// The last block of a row begins sooner, as an image has no room beyond its rows.
+TRICUE_MULTIVERSION
+void to_floats(const ImageRows& rows, int n, float* __restrict to) {
+    const ImageRows from = rows;
+    for (int y = 0; y < from.count; ++y) {
+        const std::uint8_t* __restrict row = from.data + y * from.stride;
+        float* __restrict out = to + std::ptrdiff_t{y} * n;
+        if (n < kRowBlock)
+            for (int x = 0; x < n; ++x) out[x] = row[x];
+        else
+            for (int x = 0; x < n; x += kRowBlock) {
+                const int begin = std::min(x, n - kRowBlock);
+                RowBlock block;
+                load_bytes(row + begin, block);
+                store(block, out + begin);
+            }
+    }
 }
 
+/// 8 times the weighted mean of four rows, weights 1, 3, 3, 1, of a number of blocks.
 TRICUE_MULTIVERSION
-void smooth_floats(const std::array<const float*, 4>& rows, int n, float* out) {
-    smooth(rows, n, out);
-}
-
-TRICUE_MULTIVERSION
-void smooth_bytes(const std::array<const std::uint8_t*, 4>& rows, int n, float* out) {
-    smooth(rows, n, out);
+void smooth(const std::array<const float*, 4>& rows, int n, float* __restrict out) {
+    const float* __restrict above = rows[0];
+    const float* __restrict upper = rows[1];
+    const float* __restrict lower = rows[2];
+    const float* __restrict below = rows[3];
+    for (int x = 0; x < n; ++x) out[x] = (above[x] + below[x]) + 3 * (upper[x] + lower[x]);
 }
 
 /// The same along a row, for every second pixel from in[1] on. Normalizes both.
@@ -48,35 +64,34 @@ GrayPlane::GrayPlane(const Region& part, int rows, int cols)
       cols_(cols),
       pixels_(new float[static_cast<std::size_t>(part.x1 - part.x0) *
                             static_cast<std::size_t>(part.y1 - part.y0) +
-                        kRowLine]) {}
+                        kRowBlock]) {}
 
 Region downsample_source(const Region& part, int rows, int cols) {
     return {std::max(2 * part.x0 - 1, 0), std::max(2 * part.y0 - 1, 0), std::min(2 * part.x1 + 1, cols),
             std::min(2 * part.y1 + 1, rows)};
 }
 
-GrayPlane downsampled(const GrayLevel& level, const Region& part) {
-    const int rows = level.rows(), cols = level.cols();
+GrayPlane gray_plane(const ImageView& image, const Region& part) {
+    GrayPlane plane(part, image.rows, image.cols);
+    to_floats({image.row(part.y0) + part.x0, image.stride, part.y1 - part.y0}, part.x1 - part.x0,
+              plane.row(part.y0) + part.x0);
+    return plane;
+}
+
+GrayPlane downsampled(const GrayPlane& picture, const Region& part) {
+    const int rows = picture.rows(), cols = picture.cols();
     GrayPlane half(part, (rows + 1) / 2, (cols + 1) / 2);
     const Region from = downsample_source(part, rows, cols);
     const int first = 2 * part.x0 - 1, last = 2 * part.x1 + 1;  // columns, possibly beyond the border
-    std::vector<float> smooth(static_cast<std::size_t>(last - first) + 2 * kRowLine);
-    float* inside = smooth.data() + (from.x0 - first);
+    std::vector<float> smoothed(static_cast<std::size_t>(last - first) + 2 * kRowBlock);
+    float* inside = smoothed.data() + (from.x0 - first);
     const int n = from.x1 - from.x0;
     for (int y = part.y0; y < part.y1; ++y) {
-        const auto four = [&](const auto& picture) {
-            const auto pixels = [&](int k) {
-                return picture.row(std::clamp(2 * y + k, 0, rows - 1)) + from.x0;
-            };
-            return std::array{pixels(-1), pixels(0), pixels(1), pixels(2)};
-        };
-        if (level.image != nullptr)
-            smooth_bytes(four(*level.image), n, inside);
-        else
-            smooth_floats(four(*level.plane), n, inside);
-        std::fill(smooth.data(), inside, *inside);
-        std::fill(inside + n, smooth.data() + smooth.size(), inside[n - 1]);
-        smooth_pairs(smooth.data(), whole_lines(part.x1 - part.x0), half.row(y) + part.x0);
+        const auto pixels = [&](int k) { return picture.row(std::clamp(2 * y + k, 0, rows - 1)) + from.x0; };
+        smooth({pixels(-1), pixels(0), pixels(1), pixels(2)}, whole_blocks(n), inside);
+        std::fill(smoothed.data(), inside, *inside);
+        std::fill(inside + n, smoothed.data() + smoothed.size(), inside[n - 1]);
+        smooth_pairs(smoothed.data(), whole_blocks(part.x1 - part.x0), half.row(y) + part.x0);
     }
     return half;
 }

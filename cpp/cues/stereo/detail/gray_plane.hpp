@@ -9,15 +9,7 @@
 
 namespace tricue {
 
-/// Rows are measured in whole lines of so many pixels, as the rest of a row one by one would take as long as all before: buffers have
-/// the room.
-constexpr int kRowLine = 16;  // floats in a cache line
-
-constexpr int whole_lines(int n) {
-    return (n + kRowLine - 1) / kRowLine * kRowLine;
-}
-
-/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture. A line of room follows its last row.
+/// A part of a gray picture as floats, indexed by the rows and columns of the whole picture. A block of room (row_block.hpp) follows its last row.
 class GrayPlane {
 public:
     GrayPlane() = default;
@@ -43,18 +35,12 @@ private:
     std::unique_ptr<float[]> pixels_;  ///< not a vector, which would write zeros first
 };
 
-/// A level of a pyramid: the picture itself, or a part of a smaller one. It owns neither.
-struct GrayLevel {
-    const ImageView* image;  ///< or nullptr
-    const GrayPlane* plane;  ///< if not
-
-    int rows() const { return image != nullptr ? image->rows : plane->rows(); }
-    int cols() const { return image != nullptr ? image->cols : plane->cols(); }
-};
+/// `part` of an image.
+GrayPlane gray_plane(const ImageView& image, const Region& part);
 
 /// `part` of the picture at half the size, ((rows + 1) / 2, (cols + 1) / 2), smoothed by 1, 3, 3, 1 along both axes: its (i, j)
 /// lies between 2 i and 2 i + 1. The border is replicated. It reads downsample_source(part, ...).
-GrayPlane downsampled(const GrayLevel& level, const Region& part);
+GrayPlane downsampled(const GrayPlane& picture, const Region& part);
 
 /// The region that downsampled() reads for a part, in a picture of that size.
 Region downsample_source(const Region& part, int rows, int cols);

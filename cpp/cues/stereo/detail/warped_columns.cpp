@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/row_block.hpp"
 #include "base/simd.hpp"
 
 namespace tricue {
@@ -38,9 +39,17 @@ void find_columns(const float* __restrict offset, int n, const Columns& at, int*
     }
 }
 
+/// The last of the slots, a power of two, for the rows of the coarser level that `kept` rows have.
+int last_slot(const DisparityPrior& prior, int kept) {
+    int slots = 1;
+    while (prior.coarse != nullptr && slots < kept / 2 + 1) slots *= 2;
+    return slots - 1;
+}
+
 }  // namespace
 
-WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols)
+WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols,
+                             int kept)
     : prior_(prior),
       x0_(x0 - x0 % 2),
       first_(first),
@@ -48,23 +57,31 @@ WarpedColumns::WarpedColumns(const DisparityPrior& prior, int x0, int x1, int fi
       cols_(cols),
       skip_(x0 % 2),
       pairs_((x1 - x0_ + 1) / 2),
-      offset_(static_cast<std::size_t>(whole_lines(2 * pairs_) + kRowLine), prior.rest),
+      last_slot_(last_slot(prior, kept)),
+      stride_(static_cast<std::size_t>(whole_blocks(2 * pairs_) + kRowBlock)),
+      offset_(stride_ * static_cast<std::size_t>(last_slot_ + 1), prior.rest),
       share_(offset_.size()),
       visible_(offset_.size()),
       column_(offset_.size()) {
-    if (prior.coarse == nullptr) update_columns();
+    if (prior.coarse == nullptr) update(0);
 }
 
-void WarpedColumns::move_to(int y) {
+void WarpedColumns::add_row(int y) {
     if (prior_.coarse == nullptr || y / 2 == row_) return;
     row_ = y / 2;
-    upsample(prior_.coarse->row(row_) + x0_ / 2, pairs_, prior_.rest, offset_.data());
-    update_columns();
+    upsample(prior_.coarse->row(row_) + x0_ / 2, pairs_, prior_.rest, offset_.data() + slot(y) * stride_);
+    update(slot(y));
 }
 
-void WarpedColumns::update_columns() {
-    find_columns(offset_.data(), whole_lines(2 * pairs_), {x0_ - prior_.base, first_, last_, cols_},
-                 column_.data(), share_.data(), visible_.data());
+WarpedRow WarpedColumns::row(int y) const {
+    const std::size_t at = slot(y) * stride_ + static_cast<std::size_t>(skip_);
+    return {offset_.data() + at, share_.data() + at, visible_.data() + at, column_.data() + at};
+}
+
+void WarpedColumns::update(std::size_t slot) {
+    const std::size_t at = slot * stride_;
+    find_columns(offset_.data() + at, whole_blocks(2 * pairs_), {x0_ - prior_.base, first_, last_, cols_},
+                 column_.data() + at, share_.data() + at, visible_.data() + at);
 }
 
 }  // namespace tricue

@@ -15,32 +15,43 @@ struct DisparityPrior {
     const GrayPlane* coarse;  ///< or nullptr
 };
 
-/// Where the pixels of one row of the left picture are in the right one: x - d for the expected disparity d. All can be read for a
-/// line more.
+/// Where the pixels of a row of the left picture are in the right one: x - d for the expected disparity d. All can be read for a block
+/// more.
+struct WarpedRow {
+    const float* offset;   ///< d - base
+    const float* share;    ///< weight of the next column
+    const float* visible;  ///< 1 where x - d lies in the picture, else 0
+    const int* column;     ///< x - d rounded down, clamped to [first, last]
+};
+
+/// Such rows, the last ones that were made.
 class WarpedColumns {
 public:
     /// @param x0, x1       the left picture's columns
     /// @param first, last  those of the right picture that can be read
     /// @param cols         of the whole picture
-    WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols);
+    /// @param kept         rows that are kept
+    WarpedColumns(const DisparityPrior& prior, int x0, int x1, int first, int last, int cols, int kept);
 
-    void move_to(int y);
+    /// Makes row y, each from above.
+    void add_row(int y);
 
-    const float* offset() const { return offset_.data() + skip_; }  ///< d - base, from x0 on
-    /// x - d rounded down, clamped to [first, last].
-    const int* column() const { return column_.data() + skip_; }
-    const float* share() const { return share_.data() + skip_; }  ///< weight of the next column
-    /// 1 where x - d lies in the picture, else 0.
-    const float* visible() const { return visible_.data() + skip_; }
+    /// Row y from x0 on.
+    WarpedRow row(int y) const;
 
 private:
-    void update_columns();
+    void update(std::size_t slot);
+    /// Two rows have one of the coarser level.
+    std::size_t slot(int y) const {
+        return prior_.coarse == nullptr ? 0 : static_cast<std::size_t>(y / 2 & last_slot_);
+    }
 
     DisparityPrior prior_;
     int x0_, first_, last_, cols_;
     int skip_;   ///< 1 where x0 is odd: columns begin at an even one, two for each of the coarser level
     int pairs_;  ///< of columns
-    int row_ = -1;
+    int row_ = -1, last_slot_;
+    std::size_t stride_;
     std::vector<float> offset_, share_, visible_;
     std::vector<int> column_;
 };

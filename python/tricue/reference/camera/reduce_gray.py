@@ -10,8 +10,8 @@ Image = NDArray[np.uint8]
 WEIGHTS = 3735, 19235, 9798  # of blue, green and red, in parts of 2^15
 
 
-def reduce_gray(image: Image, step: int) -> Image:
-    """Turns the image gray in whole numbers, and sums its cells."""
+def reduce_gray(image: Image, step: int, region: tuple[int, int, int, int] | None = None) -> Image:
+    """Turns the image gray in whole numbers, sums its cells, and leaves out those that aren't wanted."""
     height, width = image.shape[:2]
     if not 1 <= step <= min(height, width):
         refuse("step", "1 to the image's smaller side", step)
@@ -21,4 +21,12 @@ def reduce_gray(image: Image, step: int) -> Image:
     rows, columns = height // step, width // step
     cells = gray[: rows * step, : columns * step].reshape(rows, step, columns, step).sum(axis=(1, 3))
     mean = (cells + 2) >> 2 if step == 2 else np.rint(cells.astype(np.float32) * np.float32(1 / step**2))
-    return np.asarray(mean, np.uint8)
+    levels = np.asarray(mean, np.uint8)
+    if region is None:
+        return levels
+    x0, y0, x1, y1 = region
+    if not (0 <= x0 <= x1 <= columns and 0 <= y0 <= y1 <= rows):
+        refuse("region", f"x0, y0, x1, y1 in order, within {columns} x {rows}", region)
+    part = np.zeros_like(levels)
+    part[y0:y1, x0:x1] = levels[y0:y1, x0:x1]
+    return part

@@ -41,6 +41,7 @@ def initialize(
         geometry=geometry,
         reduced=reduced,
         window=window,
+        candidate=window,
         temporal_window=window,
         blocks=blocks,
         outline=PixelOutline.of(window, blocks),

@@ -29,9 +29,9 @@ class PixelOutline(NamedTuple):
 
     def rectangle(self, blocks: Blocks) -> Rectangle:
         """The outline in cells of this frame, where the blocks are now."""
-        x, y = blocks.anchor
-        x0, y0, x1, y1 = (edge * blocks.size for edge in self.edges)
-        return x0 + x, y0 + y, x1 + x, y1 + y
+        (x, y), size = blocks.anchor, blocks.size
+        x0, y0, x1, y1 = self.edges
+        return x0 * size + x, y0 * size + y, x1 * size + x, y1 * size + y
 
 
 def _to_relative(window: Rectangle, blocks: Blocks) -> Rectangle:

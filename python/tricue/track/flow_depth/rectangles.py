@@ -25,10 +25,17 @@ def around(one: Rectangle, other: Rectangle) -> Rectangle:
     return min(x0, left), min(y0, top), max(x1, right), max(y1, bottom)
 
 
+def contains(region: Region, other: Region) -> bool:
+    """Whether all cells of the other region, if any, are in the region."""
+    x0, y0, x1, y1 = other
+    left, top, right, bottom = region
+    return x0 >= x1 or y0 >= y1 or (left <= x0 and top <= y0 and x1 <= right and y1 <= bottom)
+
+
 def cells_of(rectangle: Rectangle, shape: tuple[int, ...]) -> Region:
     """The whole cells of an image (H, W) that a rectangle touches; empty where it touches none."""
     x0, y0, x1, y1 = rectangle
     height, width = shape
-    left, top = (min(max(math.floor(low), 0), high) for low, high in ((x0, width), (y0, height)))
+    left, top = min(max(math.floor(x0), 0), width), min(max(math.floor(y0), 0), height)
     right, bottom = max(min(math.ceil(x1), width), left), max(min(math.ceil(y1), height), top)
     return left, top, right, bottom

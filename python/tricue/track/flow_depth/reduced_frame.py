@@ -10,6 +10,7 @@ from tricue.camera.frame import Frame
 from tricue.kernels import Kernels
 from tricue.track.flow_depth.disparity_geometry import DisparityGeometry
 from tricue.track.flow_depth.params import FlowDepthParams
+from tricue.track.flow_depth.rectangles import Region
 
 Image = NDArray[np.uint8]
 Plane = NDArray[np.float32]
@@ -20,7 +21,7 @@ PAPER_COLUMNS = 160  # of the paper's images, to which lengths in the parameters
 class ReducedFrame(NamedTuple):
     """A frame reduced to cells of ``step`` x ``step`` pixels; lengths and disparities are in cells.
 
-    gray, right: (h, w), mean gray levels; right is None without a right image.
+    gray, right: (h, w), mean gray levels, 0 where they aren't wanted; right is None without a right image.
     disparity: (h, w) from a depth image, NaN where it has none; None without one.
     offset: by which disparities are smaller than those of parallel cameras.
     """
@@ -41,16 +42,34 @@ class ReducedFrame(NamedTuple):
         return self.scale * (1.0 if self.disparity is None else p.depth_camera_scale)
 
 
-def reduce_frame(k: Kernels, frame: Frame, geometry: DisparityGeometry, p: FlowDepthParams) -> ReducedFrame:
+class WantedCells(NamedTuple):
+    """The cells of the left image and of the right one that are wanted; None for all of them."""
+
+    left: Region | None = None
+    right: Region | None = None
+
+
+def cell_side(shape: tuple[int, ...], p: FlowDepthParams) -> int:
+    """The side of a cell, pixels, for images of a shape."""
+    height, width = shape[:2]
+    return max(1, min(round(width / p.resolution), height, width))
+
+
+def reduce_frame(
+    k: Kernels,
+    frame: Frame,
+    geometry: DisparityGeometry,
+    p: FlowDepthParams,
+    wanted: WantedCells = WantedCells(),  # noqa: B008  it is immutable
+) -> ReducedFrame:
     """Reduce the channels of a checked frame that the cues need."""
     image = frame.color if frame.color is not None else frame.depth
     assert image is not None
-    height, width = image.shape[:2]
-    step = max(1, min(round(width / p.resolution), height, width))
+    step = cell_side(image.shape, p)
     gray = (
-        k.reduce_gray(frame.color, step)  # a copy, as the caller may reuse the array for the next frame
+        k.reduce_gray(frame.color, step, wanted.left)  # a copy, as the caller may reuse the array
         if frame.color is not None
-        else np.zeros((height // step, width // step), np.uint8)
+        else np.zeros((image.shape[0] // step, image.shape[1] // step), np.uint8)
     )
     if "disparity" not in p.cues:
         return ReducedFrame(gray, None, None, step)
@@ -64,7 +83,7 @@ def reduce_frame(k: Kernels, frame: Frame, geometry: DisparityGeometry, p: FlowD
         camera = geometry.camera
         center = float(camera[2]), float(camera[3])
         right = k.rectify_verged(right, geometry.angle, float(camera[0]), center, geometry.offset)
-    return ReducedFrame(gray, k.reduce_gray(right, step), None, step, offset)
+    return ReducedFrame(gray, k.reduce_gray(right, step, wanted.right), None, step, offset)
 
 
 def _depth_to_disparity(depth: Plane, geometry: DisparityGeometry, step: int) -> Plane:

@@ -27,9 +27,10 @@ from tricue.track.flow_depth.learn import learn
 from tricue.track.flow_depth.overlay import block_boxes, target_mask
 from tricue.track.flow_depth.params import FlowDepthParams
 from tricue.track.flow_depth.position import locate
-from tricue.track.flow_depth.rectangles import cells_of, moved
-from tricue.track.flow_depth.reduced_frame import reduce_frame
-from tricue.track.flow_depth.state import FlowDepthState
+from tricue.track.flow_depth.read_cells import CueReach
+from tricue.track.flow_depth.rectangles import Rectangle, cells_of, contains, moved
+from tricue.track.flow_depth.reduced_frame import ReducedFrame, WantedCells, reduce_frame
+from tricue.track.flow_depth.state import FlowDepthState, Velocity
 from tricue.track.flow_depth.verify import candidate_region, verify, verify_by
 
 MIN_REGION_SIDE = 4  # cells, of the region that is measured
@@ -93,7 +94,8 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             warn_of_stereo(checked.frame)  # the right image of a verged pair isn't turned back yet
         geometry = self._geometry(checked.image.shape, checked.frame)
         reduced = reduce_frame(self._k, checked.frame, geometry, self.params)
-        return self._keep(initialize(self._k, checked, reduced, geometry, target, self.params), frame)
+        state = initialize(self._k, checked, reduced, geometry, target, self.params)
+        return self._keep(state._replace(candidate=_look_ahead(state, self.params)), frame)
 
     def update(self, frame: FrameLike) -> Track:
         """Follow the target into the next frame, of the same size as the first.
@@ -103,19 +105,23 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         """
         before = validation.require_initialized(self._state)
         checked = validation.require_cue_channels(frame, self.params.cues, before.shape)
-        reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params)
         seconds = validation.elapsed(before.timestamp, checked.frame.timestamp, self.params.rate)
         state = _predict(before, self.params)
-        region = cells_of(candidate_region(state, self.params), reduced.gray.shape)
+        expected = before.occluder_disparity if _waits(before) else before.disparity
+        wanted = self._reach.wanted(state.candidate, expected, before.reduced.gray.shape)
+        reduced = reduce_frame(self._k, checked.frame, before.geometry, self.params, wanted)
+        region = cells_of(state.candidate, reduced.gray.shape)
         if min(region[2] - region[0], region[3] - region[1]) < MIN_REGION_SIDE:
             state = _coast(state._replace(pixels=np.zeros_like(state.pixels)), seconds)
         else:
-            expected = before.occluder_disparity if _waits(before) else before.disparity
             cues = measure(self._k, before.reduced, reduced, region, expected, self.params)
             by_disparity = self.params.complete_occlusion == "disparity" and cues.disparity is not None
             follow = self._follow_by_disparity if by_disparity else self._follow
             state = follow(state, cues, seconds)
-        return self._keep(state._replace(reduced=reduced, timestamp=checked.frame.timestamp), frame)
+        candidate = _look_ahead(state, self.params)
+        reduced = self._for_next(reduced, wanted, candidate, checked.frame)
+        timestamp = checked.frame.timestamp
+        return self._keep(state._replace(reduced=reduced, candidate=candidate, timestamp=timestamp), frame)
 
     @property
     def mask(self) -> NDArray[np.uint8] | None:
@@ -164,6 +170,24 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
             return learn(k, state._replace(missed=0.0), cues, verdict, p)
         return _coast(state._replace(occluded=False), seconds)
 
+    def _for_next(
+        self, reduced: ReducedFrame, wanted: WantedCells, candidate: Rectangle, frame: Frame
+    ) -> ReducedFrame:
+        """The frame with the cells that the next frame's flow reads, now that the target's place is known.
+
+        Later is too late: the caller may write the next frame into the array of this one.
+        """
+        needed = self._reach.before(candidate, reduced.gray.shape)
+        if frame.color is None or wanted.left is None or contains(wanted.left, needed):
+            return reduced
+        return reduced._replace(gray=self._k.reduce_gray(frame.color, reduced.step, needed))
+
+    def _derive(self) -> None:
+        super()._derive()
+        self._reach = CueReach.of(self.params)
+
+    _derived = (*TrackerBase._derived, "_reach")
+
     def _geometry(self, shape: tuple[int, ...], frame: Frame) -> DisparityGeometry:
         """The geometry of the rig; without a right image or a rig, that of a depth camera."""
         if frame.right is not None or self.rig is not None:
@@ -180,8 +204,10 @@ class FlowDepthTracker(TrackerBase[FlowDepthParams, FlowDepthState]):
         outlined = self.params.target_window == "outline"
         outline = state.outline.rectangle(state.blocks) if outlined else state.window
         step = state.reduced.step
-        x0, y0, x1, y1 = (step * (a + b) / 2 for a, b in zip(state.window, outline, strict=True))
-        box = Box.from_xyxy(x0, y0, x1, y1)
+        (x0, y0, x1, y1), (left, top, right, bottom) = state.window, outline
+        box = Box.from_xyxy(
+            step * (x0 + left) / 2, step * (y0 + top) / 2, step * (x1 + right) / 2, step * (y1 + bottom) / 2
+        )
         status = state.status(self.params)
         has_depth_image = state.reduced.right is None
         if "disparity" not in self.params.cues or not (self.rig is not None or has_depth_image):
@@ -198,15 +224,25 @@ def _waits(state: FlowDepthState) -> bool:
     return state.occluded and math.isfinite(state.occluder_disparity)
 
 
-def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
-    """The state moved by its velocity, or by the mean velocity while the target is missed."""
+def _velocity(state: FlowDepthState, p: FlowDepthParams) -> Velocity:
+    """The state's velocity, or the mean velocity while the target is missed."""
     by_mean = p.velocity_smoothing and state.missed and state.learned_frames
-    right, down = state.mean_velocity if by_mean else state.velocity
+    return state.mean_velocity if by_mean else state.velocity
+
+
+def _predict(state: FlowDepthState, p: FlowDepthParams) -> FlowDepthState:
+    """The state moved by its velocity."""
+    right, down = _velocity(state, p)
     return state._replace(
         window=moved(state.window, right, down),
         temporal_window=moved(state.temporal_window, right, down),
         blocks=state.blocks.moved(right, down),
     )
+
+
+def _look_ahead(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
+    """The candidate region of the next frame."""
+    return candidate_region(moved(state.window, *_velocity(state, p)), state, p)
 
 
 def _coast(state: FlowDepthState, seconds: float) -> FlowDepthState:

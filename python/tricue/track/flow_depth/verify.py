@@ -78,7 +78,7 @@ def verify_by(
         model.ranges,
         model.alternatives,
         grown(window, (p.prior_center - 1) * (x1 - x0) / 2, (p.prior_center - 1) * (y1 - y0) / 2),
-        moved(candidate_region(state, p), -x, -y),
+        moved(state.candidate, -x, -y),
         p.min_posterior if len(p.cues) > 1 else p.min_posterior_one_cue,
         (p.min_neighbors, p.min_region_share, p.outlier_share),
         cues.disparity and cues.disparity.values,
@@ -100,14 +100,14 @@ def disparity_limits(state: FlowDepthState, disparity: float, p: FlowDepthParams
     return DisparityLimits(disparity, tolerance, disparity + max(p.occluder_margin * scale, thickness))
 
 
-def candidate_region(state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
-    """The candidate region of section 4.1, cells; it grows while the target is missed."""
-    x0, y0, x1, y1 = state.window
+def candidate_region(window: Rectangle, state: FlowDepthState, p: FlowDepthParams) -> Rectangle:
+    """The candidate region of section 4.1 around a window, cells; it grows while the target is missed."""
+    x0, y0, x1, y1 = window
     frames = min(state.missed * p.rate, MAX_GROWTH_FRAMES) if p.complete_occlusion == "blocks" else 0.0
     growth = 1 + CANDIDATE_GROWTH * frames
     minimum = MIN_CANDIDATE_MARGIN * state.reduced.scale
     across, along = p.margin * (x1 - x0), p.margin * (y1 - y0) / 2
-    return grown(state.window, growth * max(across, minimum), growth * max(along, minimum))
+    return grown(window, growth * max(across, minimum), growth * max(along, minimum))
 
 
 def estimate(k: Kernels, state: FlowDepthState, cues: Cues, p: FlowDepthParams) -> TargetModel:

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "base/simd.hpp"
+
+namespace tricue {
+
+/// Rows are filtered a block of pixels at a time: a register of AVX-512 or two of AVX2. The order of sums is the same on every machine.
+constexpr int kRowBlock = 16;
+using RowBlock = Pack<float, kRowBlock>;
+
+/// Rows that are filtered by one step before the next step begins: what one step stores the next reads at other places, so it would have
+/// to wait for it, and a call takes as long as a short row.
+constexpr int kRowBatch = 8;
+
+constexpr int whole_blocks(int n) {
+    return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
+}
+
+/// By steps: the compiler has no instruction for what is more than twice as wide, and converts lane by lane.
+TRICUE_INLINE void load_bytes(const std::uint8_t* from, RowBlock& to) {
+    Pack<std::uint8_t, kRowBlock> bytes;
+    Pack<std::uint16_t, kRowBlock> words;
+    Pack<std::int32_t, kRowBlock> numbers;
+    load(from, bytes);
+    convert(bytes, words);
+    convert(words, numbers);
+    convert(numbers, to);
+}
+
+TRICUE_INLINE void add(float weight, const RowBlock& block, RowBlock& sum) {
+    sum += weight * block;
+}
+
+TRICUE_INLINE void sum_and_difference(const RowBlock& left, const RowBlock& right, RowBlock& sum,
+                                      RowBlock& difference) {
+    sum = right + left;
+    difference = right - left;
+}
+
+}  // namespace tricue
