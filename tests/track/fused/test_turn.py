@@ -12,8 +12,7 @@ from tricue import kernels as kernel_sets
 from tricue.track.fused.experts.turn import TurnExpert
 from tricue.track.fused.target import TURN_STEPS, Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.turned_pixels import turned_grid, upright_side
-from tricue.track.fused.window import PATCH_PIXELS, extract_windows
+from tricue.track.fused.window import extract_windows
 
 Image = NDArray[np.uint8]
 
@@ -146,19 +145,6 @@ def test_turned_window_is_that_of_a_turned_picture(quarters: int) -> None:
     upright, found = windows
     assert np.abs(upright - found).mean() < 6
     assert np.abs(upright - np.rot90(found, 1)).mean() > 20
-
-
-@pytest.mark.parametrize("turn", [0, 77, 256, -512])
-def test_turned_grid_is_in_its_square(turn: int) -> None:
-    """All places are pixels of the upright square, no two that are neighbors the same, the middle its own."""
-    side = upright_side(PATCH_PIXELS)
-    places = turned_grid(turn, PATCH_PIXELS)
-    assert 0 <= places.min() <= places.max() < side * side
-    assert (np.diff(places, axis=0) != 0).all()
-    assert (np.diff(places, axis=1) != 0).all()
-    rows, columns = np.divmod(places[31:33, 31:33], side)
-    assert rows.mean() == pytest.approx(side / 2 - 0.5, abs=0.5)
-    assert columns.mean() == pytest.approx(side / 2 - 0.5, abs=0.5)
 
 
 def test_turns_go_round() -> None:
