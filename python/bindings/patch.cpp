@@ -4,6 +4,7 @@
 #include "cues/color/color_posterior.hpp"
 #include "cues/color/hog_color_cells.hpp"
 #include "cues/color/pick_pixels.hpp"
+#include "cues/color/sample_turned_windows.hpp"
 #include "cues/color/sample_windows.hpp"
 #include "kernel_docs.hpp"
 
@@ -20,6 +21,14 @@ Bytes sample_windows_arrays(const Bytes& image, const Array<double>& windows, in
     const auto work = each.rows() * rows * columns;
     auto samples = unlocked(work, [&] { return sample_windows(view, each, rows, columns); });
     if (view.channels == 1) return give(std::move(samples), {each.rows(), rows, columns});
+    return give(std::move(samples), {each.rows(), rows, columns, 3});
+}
+
+Bytes sample_turned_windows_arrays(const Bytes& image, const Array<double>& windows, int rows, int columns) {
+    const auto view = color_image(image, "image");
+    const auto each = states(windows, "windows");
+    const auto work = each.rows() * rows * columns;
+    auto samples = unlocked(work, [&] { return sample_turned_windows(view, each, rows, columns); });
     return give(std::move(samples), {each.rows(), rows, columns, 3});
 }
 
@@ -62,6 +71,8 @@ Array<float> box_contrast_arrays(const Array<float>& plane, double width, double
 void define_patch(py::module_& m) {
     m.def("sample_windows", sample_windows_arrays, py::arg("image"), py::arg("windows"), py::arg("rows"),
           py::arg("columns"), docs::sample_windows);
+    m.def("sample_turned_windows", sample_turned_windows_arrays, py::arg("image"), py::arg("windows"),
+          py::arg("rows"), py::arg("columns"), docs::sample_turned_windows);
     m.def("hog_color_cells", hog_color_cells_arrays, py::arg("patch"), py::arg("taper"),
           docs::hog_color_cells);
     m.def("color_posterior", color_posterior_arrays, py::arg("image"), py::arg("table"),

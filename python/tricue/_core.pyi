@@ -2765,6 +2765,42 @@ def sample_ellipses(
     Source: the window whose pixels are ranked, Sabeti, Parvizi, Wu 2008, section III.B.
     """
 
+def sample_turned_windows(
+    image: numpy.typing.NDArray[numpy.uint8],
+    windows: numpy.typing.NDArray[numpy.float64],
+    rows: int,
+    columns: int,
+) -> numpy.typing.NDArray[numpy.uint8]:
+    """
+    Resamples windows of an image that are turned, or sheared, on one grid, smoothed where they have
+    more detail than the grid can hold.
+
+    A sample is the mean of the image over a square of whole pixels' size, upright, around its place.
+    Its side is the step from a sample to the next, in pixels, rounded half up, at least 1 and at most
+    4: windows sampled more coarsely than every fourth pixel alias. It is that of the axis with the
+    shorter one, and less than the image's sides. The square's left upper corner, in float64, is moved
+    so that the square is in the image, and rounded half up to 1/16 pixel. Means are rounded half up; no
+    order of summation changes a bit. Of an image with one row or column this is repeated.
+
+    Cost grows with the number of samples, whatever the windows' size.
+
+    Args:
+        image: uint8 (H, W, 3) BGR, at least one pixel
+        windows: float64 (N, 6): x, y of the middle, and the vectors of the upper side, to the right,
+            and of the left side, down; pixels, a pixel's edges being at whole numbers; finite, vectors
+            not 0
+        rows: of the grid, 1 to 16384
+        columns: of the grid, 1 to 16384
+
+    Returns:
+        uint8 (N, rows, columns, 3) BGR; in C++ one array of bytes in this order
+
+    Raises:
+        ValueError: on other shapes, an image without pixels, or numbers out of range
+
+    Source: ours; with a square of one pixel it is bilinear interpolation.
+    """
+
 def sample_windows(
     image: numpy.typing.NDArray[numpy.uint8],
     windows: numpy.typing.NDArray[numpy.float64],
@@ -4102,6 +4138,13 @@ class Kernels(Protocol):
         image: numpy.typing.NDArray[numpy.uint8],
         ellipses: numpy.typing.NDArray[numpy.float64],
         pattern: numpy.typing.NDArray[numpy.float64],
+    ) -> numpy.typing.NDArray[numpy.uint8]: ...
+    def sample_turned_windows(
+        self,
+        image: numpy.typing.NDArray[numpy.uint8],
+        windows: numpy.typing.NDArray[numpy.float64],
+        rows: int,
+        columns: int,
     ) -> numpy.typing.NDArray[numpy.uint8]: ...
     def sample_windows(
         self,

@@ -89,6 +89,8 @@ def _call_stages(k: Any) -> None:
 def _call_filter_stages(k: Any, image: Any) -> None:
     window, hann = np.array([[100.0, 60.0, 96.0, 96.0]]), np.ones((16, 16), np.float32)
     patch = k.sample_windows(image, window, 32, 32)[0]
+    for sides in ((10.0, 30.0, -20.0, 10.0), (90.0, 30.0, -20.0, 60.0)):
+        k.sample_turned_windows(image, np.array([[100.0, 60.0, *sides]]), 24, 24)
     turned = k.pick_pixels(patch, np.arange(1024).reshape(32, 32).T.copy())
     cells = k.hog_color_cells(turned, hann)
     label = np.ones((16, 9), np.complex64)

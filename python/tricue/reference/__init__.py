@@ -31,6 +31,7 @@ from tricue.reference.cues.color.rank_likelihood import rank_likelihood
 from tricue.reference.cues.color.rank_sections import rank_sections
 from tricue.reference.cues.color.rank_window import rank_window
 from tricue.reference.cues.color.sample_ellipses import sample_ellipses
+from tricue.reference.cues.color.sample_turned_windows import sample_turned_windows
 from tricue.reference.cues.color.sample_windows import sample_windows
 from tricue.reference.cues.color.section_distance import section_distance
 from tricue.reference.cues.color.shift_histogram import shift_histogram
@@ -176,6 +177,7 @@ __all__ = [
     "reweight",
     "sad_disparity",
     "sample_ellipses",
+    "sample_turned_windows",
     "sample_windows",
     "section_distance",
     "segment_depth",

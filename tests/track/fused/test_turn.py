@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from tricue import Frame, FusedTracker, Intrinsics, Status
 from tricue import kernels as kernel_sets
 from tricue.track.fused.experts.turn import TurnExpert
+from tricue.track.fused.state import AppearanceModels
 from tricue.track.fused.target import TURN_STEPS, Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.turned_pixels import turned_grid, upright_side
-from tricue.track.fused.window import PATCH_PIXELS, extract_windows
+from tricue.track.fused.window import extract_windows
 
 Image = NDArray[np.uint8]
 
@@ -53,6 +53,12 @@ def scene(degrees: float) -> Image:
 def observation(image: Image) -> TargetObservation:
     """What experts read of a color image."""
     return TargetObservation(kernel_sets.load("native"), image, "color", CAMERA, None, None)
+
+
+def models(tracker: FusedTracker) -> AppearanceModels:
+    """What it knows of the target in pictures of color."""
+    assert tracker._state is not None
+    return tracker._state.models["color"]
 
 
 @pytest.mark.parametrize("per_frame", [1.0, 4.0, -8.0])
@@ -148,17 +154,20 @@ def test_turned_window_is_that_of_a_turned_picture(quarters: int) -> None:
     assert np.abs(upright - np.rot90(found, 1)).mean() > 20
 
 
-@pytest.mark.parametrize("turn", [0, 77, 256, -512])
-def test_turned_grid_is_in_its_square(turn: int) -> None:
-    """All places are pixels of the upright square, no two that are neighbors the same, the middle its own."""
-    side = upright_side(PATCH_PIXELS)
-    places = turned_grid(turn, PATCH_PIXELS)
-    assert 0 <= places.min() <= places.max() < side * side
-    assert (np.diff(places, axis=0) != 0).all()
-    assert (np.diff(places, axis=1) != 0).all()
-    rows, columns = np.divmod(places[31:33, 31:33], side)
-    assert rows.mean() == pytest.approx(side / 2 - 0.5, abs=0.5)
-    assert columns.mean() == pytest.approx(side / 2 - 0.5, abs=0.5)
+def test_turn_is_learned_every_other_time() -> None:
+    """Of a target that is followed the filter of its size changes in every third frame, that of its turn in
+    every sixth.
+    """
+    tracker = FusedTracker()
+    tracker.init(picture(0), box=TARGET.box)
+    learned = []
+    for _ in range(12):
+        before = models(tracker)
+        tracker.update(picture(0))
+        after = models(tracker)
+        learned.append((after.size is not before.size, after.turn is not before.turn))
+    frames = range(1, 13)
+    assert learned == [(frame % 3 == 0, frame % 6 == 0) for frame in frames]
 
 
 def test_turns_go_round() -> None:

@@ -22,6 +22,7 @@ from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import CELL_PIXELS, Window, extract_windows
 
 MAX_DRIFT = 0.5  # cells, from one learning to the next
+TURN_EVERY = 2  # times that appearance is learned, its turn too: more often tracks are no better, and slower
 MIN_FIRST_RESPONSE = 0.2  # of the first frame's filter, which answers about 1 to the target as it was
 
 
@@ -43,6 +44,8 @@ def update_models(
         state = state.replace(target=without_drift(state.target, match))
     window = extract_windows(observation, [state.target], p.context)[0]
     appearance = _learn_appearance(state.models[observation.kind], window, p)
+    if "turn" in p.cues and state.frames // p.learn_every % TURN_EVERY == 0:
+        appearance = _learn_turn(appearance, window, p)
     return state.replace(models={**state.models, observation.kind: appearance})
 
 
@@ -58,20 +61,23 @@ def without_drift(target: Target, match: Match) -> Target:
 
 
 def _learn_appearance(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
-    observation = window.observation
-    size_rate = _rate_between_learning(p.size_learning_rate, p)
-    color_rate = _rate_between_learning(p.color_learning_rate, p)
+    size_rate = _rate_between_learning(p.size_learning_rate, p.learn_every)
+    color_rate = _rate_between_learning(p.color_learning_rate, p.learn_every)
     return models._replace(
         filter=models.filter.learn(window),
         color=models.color.learn(window, color_rate),
-        size=models.size.learn(observation, window.target, size_rate),
-        turn=models.turn.learn(observation, window.target, size_rate) if "turn" in p.cues else models.turn,
+        size=models.size.learn(window.observation, window.target, size_rate),
     )
 
 
-def _rate_between_learning(rate: float, p: FusedParams) -> float:
-    """The learning rate for all frames from one learning to the next, given that per frame."""
-    return 1 - (1 - rate) ** p.learn_every
+def _learn_turn(models: AppearanceModels, window: Window, p: FusedParams) -> AppearanceModels:
+    rate = _rate_between_learning(p.size_learning_rate, TURN_EVERY * p.learn_every)
+    return models._replace(turn=models.turn.learn(window.observation, window.target, rate))
+
+
+def _rate_between_learning(rate: float, frames: int) -> float:
+    """The learning rate for so many frames from one learning to the next, given that per frame."""
+    return 1 - (1 - rate) ** frames
 
 
 def _update_outline(state: State, match: Match, p: FusedParams) -> State:

@@ -3,6 +3,7 @@
 
 import math
 import operator
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import cv2
@@ -13,6 +14,7 @@ from tricue.camera.rig import Intrinsics
 from tricue.kernels import Kernels
 from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.depth_sources import GATE_SIGMAS, DepthSource, ExpectedDepth
+from tricue.track.fused.target import Target
 
 PictureKind = Literal["color", "depth"]
 
@@ -65,6 +67,17 @@ class TargetObservation(NamedTuple):
         picture = self.k.depth_picture(part, self.expected_depth.z, PICTURE_DEPTH_RANGE)
         samples = self.k.sample_windows(picture, windows - (left, top, 0, 0), side, side)
         return _bgr(samples.reshape(-1, side)).reshape(-1, side, side, 3)
+
+    def sample_squares(self, targets: Sequence[Target], sides: Sequence[float], side: int) -> Image:
+        """(N, side, side, 3) samples of the picture in squares around targets, turned as these are.
+
+        sides: of the squares, image pixels. Only targets in a picture of color are turned.
+        """
+        each = list(zip(targets, sides, strict=True))
+        if self.picture is None or not any(target.turn for target in targets):
+            return self.sample(np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in each]), side)
+        squares = np.array([(t.x, t.y, *t.along(s, 0.0), *t.along(0.0, s)) for t, s in each])
+        return self.k.sample_turned_windows(self.picture, squares, side, side)
 
     def depth_posterior(
         self, x: float, y: float, pixel_size: float, side: int

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Square windows of a frame around a target: the part that the experts read."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,7 +14,6 @@ from tricue.track.fused.sources import OURS
 from tricue.track.fused.support import find_support
 from tricue.track.fused.target import Target
 from tricue.track.fused.target_observation import TargetObservation
-from tricue.track.fused.turned_pixels import UPRIGHT_SHARE, turned_grid, upright_side
 
 WINDOW_CELLS = 32  # on a side
 CELL_PIXELS = 2  # patch pixels on a side
@@ -92,23 +90,9 @@ class Window:
 def extract_windows(observation: TargetObservation, targets: list[Target], context: float) -> list[Window]:
     """The windows around targets; context: a window's side in sides of its target."""
     sides = [context * each.side for each in targets]
-    squares = np.array([(t.x - s / 2, t.y - s / 2, s, s) for t, s in zip(targets, sides, strict=True)])
-    patches = _sample_patches(observation, targets, squares)
+    patches = observation.sample_squares(targets, sides, PATCH_PIXELS)
     pixel_sizes = [side / PATCH_PIXELS for side in sides]
     return [Window(observation, *each) for each in zip(targets, patches, pixel_sizes, strict=True)]
-
-
-def _sample_patches(
-    observation: TargetObservation, targets: Sequence[Target], squares: Floats
-) -> Sequence[Image]:
-    """(64, 64, 3) samples of each square, turned as its target is."""
-    if not any(each.turn for each in targets):
-        return list(observation.sample(squares, PATCH_PIXELS))
-    upright = squares * (1, 1, UPRIGHT_SHARE, UPRIGHT_SHARE)
-    upright[:, :2] -= (upright[:, 2:] - squares[:, 2:]) / 2
-    patches = observation.sample(upright, upright_side(PATCH_PIXELS))
-    pick = observation.k.pick_pixels
-    return [pick(a, turned_grid(b.turn, PATCH_PIXELS)) for a, b in zip(patches, targets, strict=True)]
 
 
 def _span(center: float, length: float) -> slice:

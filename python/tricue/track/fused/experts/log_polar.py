@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from tricue.kernels import Kernels
 from tricue.track.base.params import parameter
-from tricue.track.fused.arrays import Image, Plane
+from tricue.track.fused.arrays import Floats, Image, Plane
 from tricue.track.fused.experts.spectra import CHANNELS, FirstFrameParams, Spectra, label_spectrum
 from tricue.track.fused.sources import OURS
-from tricue.track.fused.target import TURN_STEPS
-from tricue.track.fused.turned_pixels import Places, nearest_pixels
+from tricue.track.fused.target import TURN_STEPS, axes
 from tricue.track.fused.window import CELL_PIXELS, PATCH_PIXELS, WINDOW_CELLS
 
+Places = NDArray[np.int64]
 FilterParts = tuple[Spectra, Plane]  # numerator and denominator
 
 INNER_RADIUS, OUTER_RADIUS = 0.3, 2.5  # of the log-polar patch, in halves of the box's sides
@@ -116,7 +116,14 @@ def log_polar_pixels(turn: int = 0, width: float = 1.0, height: float = 1.0) -> 
     steps = (np.arange(PATCH_PIXELS) + 0.5) / PATCH_PIXELS
     radius = PATCH_PIXELS / 2 * (INNER_RADIUS / OUTER_RADIUS) ** (1 - steps)
     angle = 2 * math.pi * steps[:, None]
-    return nearest_pixels(width * radius * np.cos(angle), height * radius * np.sin(angle), turn, PATCH_PIXELS)
+    right, down = width * radius * np.cos(angle), height * radius * np.sin(angle)
+    cosine, sine = axes(turn)
+    return _nearest(sine * right + cosine * down) * PATCH_PIXELS + _nearest(cosine * right - sine * down)
+
+
+def _nearest(offset: Floats) -> Places:
+    """The pixels at some distances from the middle of a patch, along one axis."""
+    return np.clip(np.floor(PATCH_PIXELS / 2 + offset), 0, PATCH_PIXELS - 1).astype(np.int64)
 
 
 def _taper() -> Plane:

@@ -21,13 +21,15 @@ from tricue.track.fused.experts.log_polar import (
     Coordinates,
     LogPolarFilter,
     LogPolarParams,
+    Places,
     log_polar_pixels,
 )
 from tricue.track.fused.sources import OURS
-from tricue.track.fused.target import Target
+from tricue.track.fused.target import TURN_STEPS, Target
 from tricue.track.fused.target_observation import TargetObservation
 from tricue.track.fused.window import PATCH_PIXELS
 
+STEPS_PER_PIXEL = TURN_STEPS // PATCH_PIXELS
 FARTHEST = 2, 1  # cells of angle and of radius, from one frame to the next
 
 
@@ -84,4 +86,15 @@ def _read(observation: TargetObservation, target: Target) -> tuple[Image, Coordi
 
 @lru_cache(maxsize=256)
 def _angles_to_the_right(turn: int) -> Coordinates:
-    return Coordinates(np.ascontiguousarray(log_polar_pixels(turn).T), np.ascontiguousarray(TAPER.T))
+    first, step = divmod(turn % TURN_STEPS, STEPS_PER_PIXEL)
+    return Coordinates(np.ascontiguousarray(_twice_round(step)[:, first : first + PATCH_PIXELS]), TAPER_DOWN)
+
+
+@lru_cache(maxsize=STEPS_PER_PIXEL)
+def _twice_round(step: int) -> Places:
+    """(64, 128) all angles and the same again: any turn by whole pixels more is a part of it."""
+    pixels = log_polar_pixels(step).T
+    return np.concatenate([pixels, pixels], axis=1)
+
+
+TAPER_DOWN = np.ascontiguousarray(TAPER.T)

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "cues/color/sample_turned_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "base/check.hpp"
+#include "base/simd.hpp"
+
+namespace tricue {
+namespace {
+
+constexpr int kSubpixels = 16;  // places are rounded to 1 / kSubpixels of a pixel
+constexpr int kMaxSide = 4;     // pixels, of the square that a sample is the mean of
+constexpr int kChunk = 64;      // samples whose places are found at once
+constexpr int kLanes = 8;       // numbers of two neighboring pixels, and two that mean nothing
+
+using Bytes = Pack<std::uint8_t, 2 * kLanes>;
+using Words = Pack<std::uint16_t, kLanes>;
+using Sums = Pack<std::uint32_t, kLanes / 2>;
+
+/// Where some samples of a row are: the upper left pixel of their squares, and the way from there in subpixels.
+struct Places {
+    std::int32_t x[kChunk], y[kChunk], right[kChunk], down[kChunk];
+};
+
+/// One coordinate of n squares in an image of `size` pixels: of these the last but `side` at most, so that there is a next one.
+TRICUE_MULTIVERSION
+void find_places(double start, double apart, double offset, int n, int size, int side,
+                 std::int32_t* __restrict pixels, std::int32_t* __restrict fractions) {
+    const double most = size - side;
+    const std::int32_t last = size - side - 1;
+    for (int i = 0; i < n; ++i) {
+        const double place = start + (i + offset) * apart;
+        const double positive = place > 0.0 ? place : 0.0, inside = positive < most ? positive : most;
+        const auto fixed = static_cast<std::int32_t>(inside * kSubpixels + 0.5);
+        const std::int32_t pixel = fixed / kSubpixels < last ? fixed / kSubpixels : last;
+        pixels[i] = pixel;
+        fractions[i] = fixed - pixel * kSubpixels;
+    }
+}
+
+/// Pixels that a square covers, from the upper left one on, kSide + 1 a row.
+struct Square {
+    const std::uint8_t* pixels;
+    std::ptrdiff_t stride;
+};
+
+/// Pairs of pixels in a row of a square.
+template <int kSide>
+constexpr int kPairs = kSide / 2 + 1;
+
+/// Bytes of a row that are read.
+template <int kSide>
+constexpr int kRowBytes = 6 * (kPairs<kSide> - 1) + kLanes;
+
+/// The numbers of a row of a square, pair by pair.
+template <int kSide>
+struct Row {
+    Words pairs[kPairs<kSide>];
+};
+
+template <int kSide>
+TRICUE_INLINE void load_row(const std::uint8_t* pixels, Row<kSide>& row) {
+    for (Words& pair : row.pairs) {
+        std::uint64_t numbers;
+        std::memcpy(&numbers, pixels, kLanes);
+        const Pack<std::uint64_t, 2> wide = {numbers, 0};
+        Bytes bytes, lower, upper;
+        load(&wide, bytes);
+        interleave(bytes, Bytes{}, lower, upper);  // each byte with a 0 is a word
+        load(&lower, pair);
+        pixels += 6;
+    }
+}
+
+/// Sums of kSide + 1 rows, of which the first and the last count as far as the square covers them.
+template <int kSide>
+TRICUE_INLINE void sum_rows(const Square& square, std::int32_t down, Row<kSide>& sum) {
+    Row<kSide> first, row, last;
+    load_row<kSide>(square.pixels, first);
+    load_row<kSide>(square.pixels + kSide * square.stride, last);
+    const auto share = static_cast<std::uint16_t>(down), rest = static_cast<std::uint16_t>(kSubpixels - down);
+    for (int pair = 0; pair < kPairs<kSide>; ++pair)
+        sum.pairs[pair] = first.pairs[pair] * rest + last.pairs[pair] * share;
+    for (int y = 1; y < kSide; ++y) {
+        load_row<kSide>(square.pixels + y * square.stride, row);
+        for (int pair = 0; pair < kPairs<kSide>; ++pair)
+            sum.pairs[pair] += row.pairs[pair] * static_cast<std::uint16_t>(kSubpixels);
+    }
+}
+
+/// Three numbers of a pixel, and one that means nothing.
+template <int kSide, int kPixel>
+TRICUE_INLINE void take_pixel(const Row<kSide>& row, Sums& numbers) {
+    Words words = row.pairs[kPixel / 2], lower, upper;
+    if constexpr (kPixel % 2 == 1) permute<3, 4, 5, 3, 3, 3, 3, 3>(row.pairs[kPixel / 2], words);
+    interleave(words, Words{}, lower, upper);
+    load(&lower, numbers);
+}
+
+/// The sum of kSide + 1 columns, like that of rows.
+template <int kSide>
+TRICUE_INLINE void sum_columns(const Row<kSide>& row, std::int32_t right, Sums& sum) {
+    const auto share = static_cast<std::uint32_t>(right),
+               rest = static_cast<std::uint32_t>(kSubpixels) - share;
+    Sums first, last, inner = {};
+    take_pixel<kSide, 0>(row, first);
+    take_pixel<kSide, kSide>(row, last);
+    if constexpr (kSide > 1) take_pixel<kSide, 1>(row, inner);
+    if constexpr (kSide > 2) {
+        Sums next;
+        take_pixel<kSide, 2>(row, next);
+        inner += next;
+    }
+    if constexpr (kSide > 3) {
+        Sums next;
+        take_pixel<kSide, 3>(row, next);
+        inner += next;
+    }
+    sum = first * rest + last * share + inner * static_cast<std::uint32_t>(kSubpixels);
+}
+
+/// A square at the end of memory, of which no more than it covers is read.
+template <int kSide>
+Square copy_square(const std::uint8_t* pixels, std::ptrdiff_t stride, std::uint8_t* copy) {
+    for (int y = 0; y <= kSide; ++y)
+        std::memcpy(copy + y * kRowBytes<kSide>, pixels + y * stride, 3 * (kSide + 1));
+    return {copy, kRowBytes<kSide>};
+}
+
+/// Sums of n samples' squares. `sums` has a number more than 3 a sample.
+template <int kSide>
+inline void sum_squares(const ImageView& image, const Places& places, int n, std::uint32_t* sums) {
+    std::uint8_t copy[(kSide + 1) * kRowBytes<kSide>] = {};
+    const std::uint8_t* first = image.data;
+    const std::ptrdiff_t stride = image.stride,
+                         size = (image.rows - 1) * stride + 3 * std::ptrdiff_t{image.cols};
+    const std::ptrdiff_t most = size - kSide * stride - kRowBytes<kSide>;
+    for (int i = 0; i < n; ++i, sums += 3) {
+        const std::ptrdiff_t at = places.y[i] * stride + 3 * std::ptrdiff_t{places.x[i]};
+        Square square = {first + at, stride};
+        if (at > most) square = copy_square<kSide>(first + at, stride, copy);
+        Row<kSide> row;
+        Sums sum;
+        sum_rows<kSide>(square, places.down[i], row);
+        sum_columns<kSide>(row, places.right[i], sum);
+        store(sum, sums);
+    }
+}
+
+TRICUE_MULTIVERSION
+void sum_samples(const ImageView& image, const Places& places, int n, int side, std::uint32_t* sums) {
+    if (side == 1)
+        sum_squares<1>(image, places, n, sums);
+    else if (side == 2)
+        sum_squares<2>(image, places, n, sums);
+    else if (side == 3)
+        sum_squares<3>(image, places, n, sums);
+    else
+        sum_squares<kMaxSide>(image, places, n, sums);
+}
+
+/// A quotient is a half or at least 1 / (2 whole) away from one, which is more than both rounding errors.
+TRICUE_MULTIVERSION
+void divide(const std::uint32_t* __restrict sums, float whole, int n, std::uint8_t* __restrict bytes) {
+    for (int x = 0; x < n; ++x) {
+        const auto sum = static_cast<float>(static_cast<std::int32_t>(sums[x]));
+        bytes[x] = static_cast<std::uint8_t>(static_cast<int>(sum / whole + 0.5F));
+    }
+}
+
+/// Of n samples along a vector.
+double find_step(double x, double y, int n) {
+    return std::sqrt(x * x + y * y) / n;
+}
+
+/// Pixels a side of the squares that are read, which with a pixel more are in the image.
+int find_side(const ImageView& image, const double* window, int rows, int columns) {
+    const double step =
+        std::min(find_step(window[2], window[3], columns), find_step(window[4], window[5], rows));
+    const int side = static_cast<int>(std::min(std::max(step + 0.5, 1.0), double{kMaxSide}));
+    return std::min({side, image.rows - 1, image.cols - 1});
+}
+
+void sample_window(const ImageView& image, const double* window, int rows, int columns, std::uint8_t* bytes) {
+    const int side = find_side(image, window, rows, columns);
+    const double left = window[0] - 0.5 * side, top = window[1] - 0.5 * side;
+    const double right_x = window[2] / columns, right_y = window[3] / columns;
+    const double down_x = window[4] / rows, down_y = window[5] / rows;
+    const auto whole = static_cast<float>(side * side * kSubpixels * kSubpixels);
+    Places places;
+    std::uint32_t sums[3 * kChunk + 1];
+    for (int y = 0; y < rows; ++y) {
+        const double below = y + 0.5 - 0.5 * rows;
+        for (int x = 0; x < columns; x += kChunk) {
+            const int n = std::min(columns - x, kChunk);
+            const double beside = x + 0.5 - 0.5 * columns;
+            find_places(left + below * down_x, right_x, beside, n, image.cols, side, places.x, places.right);
+            find_places(top + below * down_y, right_y, beside, n, image.rows, side, places.y, places.down);
+            sum_samples(image, places, n, side, sums);
+            divide(sums, whole, 3 * n, bytes);
+            bytes += 3 * std::ptrdiff_t{n};
+        }
+    }
+}
+
+/// The pixels of an image with one row or column, which is repeated.
+std::vector<std::uint8_t> repeat_edge(const ImageView& image, int rows, int cols) {
+    std::vector<std::uint8_t> pixels;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < cols; ++x) {
+            const std::uint8_t* pixel =
+                image.row(std::min(y, image.rows - 1)) + 3 * std::ptrdiff_t{std::min(x, image.cols - 1)};
+            pixels.insert(pixels.end(), pixel, pixel + 3);
+        }
+    return pixels;
+}
+
+void require_arguments(const ImageView& image, StatesRef windows, int rows, int columns) {
+    if (image.rows < 1 || image.cols < 1) refuse("image", "at least one pixel", "none");
+    require_shape(windows, windows.rows(), 6, "windows");
+    require_finite(windows, "windows");
+    for (Eigen::Index i = 0; i < windows.rows(); ++i)
+        for (const int side : {2, 4})
+            if (windows(i, side) == 0.0 && windows(i, side + 1) == 0.0)
+                refuse("windows", "sides that aren't 0", 0.0);
+    require_count(rows, 1, kMaxImageSide, "rows");
+    require_count(columns, 1, kMaxImageSide, "columns");
+}
+
+}  // namespace
+
+WindowBytes sample_turned_windows(const ImageView& image, StatesRef windows, int rows, int columns) {
+    require_arguments(image, windows, rows, columns);
+    ImageView read = image;
+    std::vector<std::uint8_t> repeated;
+    if (image.rows == 1 || image.cols == 1) {
+        read.rows = std::max(image.rows, 2);
+        read.cols = std::max(image.cols, 2);
+        repeated = repeat_edge(image, read.rows, read.cols);
+        read.data = repeated.data();
+        read.stride = 3 * std::ptrdiff_t{read.cols};
+    }
+    const Eigen::Index each = Eigen::Index{3} * rows * columns;
+    WindowBytes samples(windows.rows() * each);
+    for (Eigen::Index i = 0; i < windows.rows(); ++i)
+        sample_window(read, windows.data() + i * windows.outerStride(), rows, columns,
+                      samples.data() + i * each);
+    return samples;
+}
+
+}  // namespace tricue
