@@ -13,7 +13,7 @@ from tricue.track.color_particle.observation_model import (
     Singles,
     WindowSamples,
     blend,
-    distance_score,
+    recognition_by_distance,
 )
 from tricue.track.color_particle.params import ColorParticleParams
 
@@ -44,8 +44,8 @@ class Histogram(NamedTuple):
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.bhattacharyya(k.color_histogram(inside, HISTOGRAM_BINS), self.histogram, 3)
 
-    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
-        return distance_score(self, k, seen, unrelated=0.6)
+    def recognition(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return recognition_by_distance(self, k, seen, unrelated=0.6)
 
 
 class Region(NamedTuple):
@@ -63,8 +63,8 @@ class Region(NamedTuple):
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return skin_distance(k.skin_rule(inside), k.skin_rule(around))
 
-    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
-        return distance_score(self, k, seen, unrelated=1.0)
+    def recognition(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return recognition_by_distance(self, k, seen, unrelated=1.0)
 
 
 class Gaussian(NamedTuple):
@@ -91,8 +91,8 @@ class Gaussian(NamedTuple):
         skin, other = (k.skin_gaussian(each, self.mean, precision) for each in (inside, around))
         return skin_distance(skin, other)
 
-    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
-        return distance_score(self, k, seen, unrelated=1.0)
+    def recognition(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return recognition_by_distance(self, k, seen, unrelated=1.0)
 
 
 class Lookup(NamedTuple):
@@ -113,5 +113,5 @@ class Lookup(NamedTuple):
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return skin_distance(k.color_lookup(inside, self.table), k.color_lookup(around, self.table))
 
-    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
-        return distance_score(self, k, seen, unrelated=1.0)
+    def recognition(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return recognition_by_distance(self, k, seen, unrelated=1.0)

@@ -2,7 +2,7 @@
 """The protocol of the six observation models, which weigh particles by the samples of their windows.
 
 Samples are ``inside`` (N, 3, n) on the window's grid and ``around`` (N, 3, m) in its ring. What a model
-learns, and is scored by, is seen in one window: its samples, or for ``RankSpatial`` their ranks.
+learns, and recognizes, is seen in one window: its samples, or for ``RankSpatial`` their ranks.
 """
 
 from typing import Any, NamedTuple, Protocol
@@ -44,8 +44,8 @@ class ObservationModel(Protocol):
         searching: for a lost target, to the most similar appearance that the model remembers.
         """
 
-    def score(self, k: Kernels, seen: Any, searching: bool = False) -> float:
-        """Confidence, in [0, 1], that this is the target; about 0 for what is seen in unrelated windows."""
+    def recognition(self, k: Kernels, seen: Any, searching: bool = False) -> float:
+        """How much, in [0, 1], what was seen is like the model; about 0 for unrelated windows."""
 
 
 def window_grid(p: ColorParticleParams) -> NDArray[np.float64]:
@@ -59,6 +59,8 @@ def blend(old: NDArray[Any], new: NDArray[Any], rate: float) -> NDArray[Any]:
     return new if rate >= 1 else old + new.dtype.type(rate) * (new - old)
 
 
-def distance_score(model: ObservationModel, k: Kernels, seen: WindowSamples, unrelated: float) -> float:
+def recognition_by_distance(
+    model: ObservationModel, k: Kernels, seen: WindowSamples, unrelated: float
+) -> float:
     """1 - d / unrelated, at least 0. unrelated: the typical distance of windows without the target."""
     return max(1 - float(model.distance(k, *seen)[0]) / unrelated, 0.0)

@@ -194,7 +194,7 @@ class ColorParticleParams(Params):
     )
     min_score_to_learn: float = parameter(
         0.3,
-        unit="score",
+        unit="recognition",
         source="section III.C",
         low=0,
         high=1,
@@ -203,7 +203,7 @@ class ColorParticleParams(Params):
     )
     min_score: float = parameter(
         0.3,
-        unit="score",
+        unit="recognition",
         source=OURS,
         low=0,
         high=1,
@@ -215,7 +215,7 @@ class ColorParticleParams(Params):
     )
     min_score_to_redetect: float = parameter(
         0.6,
-        unit="score",
+        unit="recognition",
         source=OURS,
         low=0,
         high=1,
@@ -255,10 +255,10 @@ class ColorParticleParams(Params):
             Resampled in every frame, as CONDENSATION does; print doesn't say when.
         Update
             The model is that of the last estimate ("estimated in the previous frame"), where the confidence
-            is high. Print doesn't define confidence: our score, above 0.3.
+            is high. Print doesn't define confidence: what is recognized, above 0.3.
 
         There is no wide search (``likelihood_drop``) and no re-detection (``lost_after``): several hypotheses
-        are all that the paper recovers by. OCCLUDED still says that the score is low, and that alone
+        are all that the paper recovers by. OCCLUDED still says that little is recognized, and that alone
         (``max_likelihood_drop``).
         """
         return cls(

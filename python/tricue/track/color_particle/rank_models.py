@@ -13,7 +13,7 @@ from tricue.track.color_particle.observation_model import (
     Singles,
     WindowSamples,
     blend,
-    distance_score,
+    recognition_by_distance,
     window_grid,
 )
 from tricue.track.color_particle.params import ColorParticleParams
@@ -45,7 +45,7 @@ class RankSpatial(NamedTuple):
         return cls(weights, np.empty((0, 3, len(window_grid(p))), np.float32))
 
     def observe(self, k: Kernels, image: Samples, ellipse: Floats, grid: Floats) -> RankWindow:
-        """What is learned, and scored, of the window of an ellipse (4,)."""
+        """What is learned, and recognized, of the window of an ellipse (4,)."""
         return RankWindow(*k.rank_window(image, ellipse, grid, self.maps, MIN_RANK_SPREAD))
 
     def learn(self, k: Kernels, seen: RankWindow, rate: float) -> "RankSpatial":
@@ -58,7 +58,7 @@ class RankSpatial(NamedTuple):
         combined: Floats = distances.min(axis=1) if searching else distances @ self.weights
         return combined
 
-    def score(self, k: Kernels, seen: RankWindow, searching: bool = False) -> float:
+    def recognition(self, k: Kernels, seen: RankWindow, searching: bool = False) -> float:
         """The rank correlation: it is 0 for a flat window, though the distance of that is small."""
         correlations: list[float] = seen.correlations.tolist()
         return max(correlations) if searching else correlations[0]
@@ -80,5 +80,5 @@ class RankSections(NamedTuple):
     def distance(self, k: Kernels, inside: Samples, around: Samples, searching: bool = False) -> Floats:
         return k.section_distance(k.rank_sections(inside, RANK_QUANTILES), self.sections)
 
-    def score(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
-        return distance_score(self, k, seen, unrelated=0.3)
+    def recognition(self, k: Kernels, seen: WindowSamples, searching: bool = False) -> float:
+        return recognition_by_distance(self, k, seen, unrelated=0.3)

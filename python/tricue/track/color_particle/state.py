@@ -20,7 +20,7 @@ class ParticleSet(NamedTuple):
 
     particles: (N, 4) ellipses x, y, minor, major, pixels. weights: (N,), which need not sum to 1.
     effective: the effective sample size. ellipse: (4,) the particles' expected value.
-    log_likelihood: of that ellipse, nats. seen: in its window: what is scored and learned of it.
+    log_likelihood: of that ellipse, nats. seen: in its window: what is recognized and learned of it.
     """
 
     particles: Floats
@@ -39,7 +39,9 @@ class State(NamedTuple):
     skin_color: NDArray[np.uint8]  # (3,) the reference color of the skin classifier
     motion: EllipseMotion
     particles: ParticleSet
-    score: float
+    first: Appearance  # as it was learned from the first frame
+    recognition: float  # in [0, 1], by the learned appearance: whether it is learned
+    score: float  # probability of its being the target, by the first frame's appearance
     mean_log_likelihood: float  # running mean over the frames in which it was estimated
     recognized_mean: float  # the same over the frames in which it was recognized
     random: dict[str, Any]  # state of the random number generator

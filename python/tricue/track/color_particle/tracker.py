@@ -104,7 +104,9 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
             skin_color=reference_color(k, image, ellipse),
             motion=EllipseMotion.start(ellipse),
             particles=ParticleSet(particles, weights, len(particles), window, log_likelihood, seen),
-            score=appearance.score(k, seen),
+            first=appearance,
+            recognition=appearance.recognition(k, seen),
+            score=1.0,
             mean_log_likelihood=log_likelihood,
             recognized_mean=log_likelihood,
             random=RandomSource(self.seed).save(),
@@ -124,7 +126,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         self._random.resume(before.random)
         state = self._redetect(before, image) if before.lost(self.params) else self._follow(before, image)
         appearance = state.appearance
-        if state.missed_frames == 0 and state.score >= self.params.min_score_to_learn:
+        if state.missed_frames == 0 and state.recognition >= self.params.min_score_to_learn:
             appearance = self._learn(state, image, self.params.learning_rate)
         state = state._replace(
             appearance=appearance,
@@ -145,7 +147,7 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         particles = self._filter(state, image, last.particles, last.weights, prediction, detection, offset)
         if particles.log_likelihood < state.mean_log_likelihood - p.likelihood_drop:
             particles = self._search_wide(state, image, particles, prediction)
-        return self._accept(state, particles, motion.update(tuple(particles.ellipse.tolist()), p))
+        return self._accept(state, image, particles, motion.update(tuple(particles.ellipse.tolist()), p))
 
     def _filter(
         self,
@@ -187,30 +189,37 @@ class ColorParticleTracker(TrackerBase[ColorParticleParams, State]):
         motion = state.motion.restart_at(tuple(best.tolist()))
         prediction = motion.predict(p, state.shape)
         particles = self._filter(state, image, *self._particles_at(best), prediction)
-        recognized = appearance.score(k, particles.seen, searching=True) >= p.min_score_to_redetect
+        recognized = appearance.recognition(k, particles.seen, searching=True) >= p.min_score_to_redetect
         background = float(np.median(log_likelihood))
         required = background + REDETECTION_SHARE * (state.recognized_mean - background)
         if not recognized or particles.log_likelihood < required:
             return state._replace(score=0.0)
         motion = motion.restart_at(tuple(particles.ellipse.tolist()))
-        redetected = self._accept(state, particles, motion)
+        redetected = self._accept(state, image, particles, motion)
         return redetected._replace(appearance=self._learn(redetected, image, REDETECTION_RATE))
 
-    def _accept(self, state: State, particles: ParticleSet, motion: EllipseMotion) -> State:
-        """The state with these particles; their score and likelihood tell whether they are on the target.
+    def _accept(self, state: State, image: Image, particles: ParticleSet, motion: EllipseMotion) -> State:
+        """The state with these particles; what is recognized in them, and their likelihood, tell whether they
+        are on the target.
 
         By chance the ranks of some place are a little like those of a covered target. Its likelihood, to
-        which colors add, isn't; were it learned, the tracker would stay there.
+        which colors add, isn't; were it learned, the tracker would stay there. What is learned beside the
+        target is recognized there, too, so the score is told by what was learned from the first frame.
         """
-        score, log_likelihood = state.appearance.score(self._k, particles.seen), particles.log_likelihood
+        k, p, log_likelihood = self._k, self.params, particles.log_likelihood
+        recognition = state.appearance.recognition(k, particles.seen)
+        probability = state.first.probability(k, image, particles.ellipse)
         missed, recognized_mean = state.missed_frames + 1, state.recognized_mean
-        least = recognized_mean - self.params.max_likelihood_drop
-        if score >= self.params.min_score and log_likelihood >= least:
+        if recognition >= p.min_score and log_likelihood >= recognized_mean - p.max_likelihood_drop:
             missed, recognized_mean = 0, recognized_mean + MEAN_RATE * (log_likelihood - recognized_mean)
+        score = recognition
+        if probability is not None:
+            score = probability if recognition >= p.min_score else min(probability, recognition)
         mean = state.mean_log_likelihood
         return state._replace(
             particles=particles,
             motion=motion,
+            recognition=recognition,
             score=score,
             mean_log_likelihood=mean + MEAN_RATE * (log_likelihood - mean),
             recognized_mean=recognized_mean,
