@@ -30,8 +30,8 @@ constexpr Eigen::Index kMaxMinima = 254;  // labels have 8 bits
 constexpr float kUnmeasured = std::numeric_limits<float>::infinity();
 
 constexpr int kBlock = 64;  ///< pixels, so that loops over them have no remainder
-constexpr int kUsualShare =
-    8;  ///< of an image's pixels an eighth or fewer are searched, before a camera that doesn't move
+/// Of an image's pixels an eighth or fewer are searched, before a camera that doesn't move.
+constexpr int kUsualShare = 8;
 
 /// Neighbors mostly share a level, and reading a count that was just written is slow: so they count in different tables.
 constexpr std::size_t kTables = 4;
