@@ -92,16 +92,18 @@ CASES ?= 3000
 fuzz: $(VENV)/dev
 	TRICUE_FUZZ=$(CASES) $(BIN)/python -m pytest -q $(PARALLEL) tests/fuzz
 
-# The tests of native kernels on builds for each level of x86-64 (simd.hpp): all must return the same bits. A processor without a level
-# runs the highest that it has.
+# The tests of native kernels on the installed build, which runs the highest level of x86-64 that the processor has, and on builds for each
+# level (simd.hpp): all must return the same bits.
+HASHED := -m pytest -q -p kernel_hashes --hypothesis-seed=0 --benchmark-disable tests/camera tests/cues tests/fuse
 levels: $(VENV)/dev
 	rm -rf $(LEVELS)
+	mkdir -p $(LEVELS)
+	TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/installed.json PYTHONPATH=tools $(BIN)/python $(HASHED)
 	for level in $(TESTED_LEVELS); do \
 	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
 	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . && \
 	    TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/$$level.json PYTHONPATH=$(LEVELS)/$$level:tools \
-	        $(BIN)/python -m pytest -q -p kernel_hashes --hypothesis-seed=0 --benchmark-disable tests/camera tests/cues tests/fuse \
-	        || exit 1; \
+	        $(BIN)/python $(HASHED) || exit 1; \
 	done
 	$(BIN)/python tools/kernel_hashes.py $(LEVELS)/*.json
 
