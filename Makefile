@@ -93,17 +93,19 @@ fuzz: $(VENV)/dev
 	TRICUE_FUZZ=$(CASES) $(BIN)/python -m pytest -q $(PARALLEL) tests/fuzz
 
 # The tests of native kernels on the installed build, which runs the highest level of x86-64 that the processor has, and on builds for each
-# level (simd.hpp): all must return the same bits.
-HASHED := -m pytest -q -p kernel_hashes --hypothesis-seed=0 --benchmark-disable tests/camera tests/cues tests/fuse
+# level (simd.hpp): all must return the same bits. The installed one is copied, as Hypothesis takes constants from packages in this folder.
+HASHED := $(BIN)/python -m pytest -q -p kernel_hashes --hypothesis-seed=0 --benchmark-disable tests/camera tests/cues tests/fuse
+INSTALLED = $$($(BIN)/python -c 'import tricue; print(tricue.__path__[0])')
 levels: $(VENV)/dev
 	rm -rf $(LEVELS)
-	mkdir -p $(LEVELS)
-	TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/installed.json PYTHONPATH=tools $(BIN)/python $(HASHED)
+	mkdir -p $(LEVELS)/installed
+	cp -r "$(INSTALLED)" $(LEVELS)/installed
 	for level in $(TESTED_LEVELS); do \
 	    SKBUILD_BUILD_DIR=build/level$$level SKBUILD_CMAKE_DEFINE=TRICUE_SIMD_LEVEL=$$level \
-	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . && \
-	    TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/$$level.json PYTHONPATH=$(LEVELS)/$$level:tools \
-	        $(BIN)/python $(HASHED) || exit 1; \
+	        $(PIP) install --quiet --no-build-isolation --no-deps --target $(LEVELS)/$$level . || exit 1; \
+	done
+	for build in installed $(TESTED_LEVELS); do \
+	    TRICUE_KERNELS=native TRICUE_HASHES=$(LEVELS)/$$build.json PYTHONPATH=$(LEVELS)/$$build:tools $(HASHED) || exit 1; \
 	done
 	$(BIN)/python tools/kernel_hashes.py $(LEVELS)/*.json
 
