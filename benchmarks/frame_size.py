@@ -35,7 +35,7 @@ HEADING = "## One target in larger frames"
 TEXT = """
 The same scene in the middle of larger and larger frames: the target's size in pixels stays. µs per update, from each frame's minimum
 over {rounds} rounds; the overlap is of the size where it is least. `python -m benchmarks.frame_size --write` writes this table.
-stereo-head and flow-depth read all of a frame to reduce it to 160 and 320 columns, in which the smaller targets would be lost.
+stereo-head and flow-depth reduce a frame to 160 and 320 columns, in which the smaller targets would be lost.
 The frames are in memory before the clock starts. One that is written just before its update has pushed all else out of the caches,
 which costs up to 0.4 ms at 1920x1080.
 
