@@ -9,10 +9,13 @@ from tricue import Intrinsics
 from tricue import kernels as kernel_sets
 from tricue.track.fused.identity import (
     APPEARANCE,
+    SCORE_OFFSET,
+    SCORE_SLOPE,
     STRUCTURE,
     IdentityFeatures,
     color_histogram,
-    probability,
+    log_odds_of,
+    score_of,
 )
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.target import Target
@@ -51,8 +54,8 @@ def test_odds_are_monotone(feature, typical):
 @pytest.mark.parametrize("typical", [None, TYPICAL], ids=["nothing typical yet", "typical"])
 def test_odds_separate_perfect_from_empty(typical, weights):
     """A perfect place has a probability that is enough anywhere, an empty one is never recognized."""
-    assert probability(PERFECT.log_odds(typical, weights)) > FusedParams().min_score_to_redetect
-    assert probability(EMPTY.log_odds(typical, weights)) < FusedParams().min_score
+    assert score_of(PERFECT.log_odds(typical, weights)) > FusedParams().min_score_to_redetect
+    assert score_of(EMPTY.log_odds(typical, weights)) < FusedParams().min_score
 
 
 def test_a_drop_lowers_the_odds():
@@ -76,18 +79,25 @@ def test_blend_moves_by_a_share():
     assert EMPTY.blend(PERFECT, 0.0) == EMPTY
 
 
-@pytest.mark.parametrize("odds", [0.01, 0.5, 1.0, 3.0, 99.0])
-def test_probability_is_that_of_the_odds(odds):
-    """Log-odds of a to b are a / (a + b); those against give the complement."""
-    assert probability(math.log(odds)) == pytest.approx(odds / (1 + odds))
-    assert probability(-math.log(odds)) == pytest.approx(1 - probability(math.log(odds)))
+@pytest.mark.parametrize("log_odds", [-20.0, -3.0, 0.0, 0.7, 4.0, 20.0])
+def test_score_is_the_probability_of_calibrated_odds(log_odds):
+    """A score's own log-odds are a line over those of the features, and go back to these."""
+    score = score_of(log_odds)
+    assert math.log(score / (1 - score)) == pytest.approx(SCORE_SLOPE * log_odds + SCORE_OFFSET)
+    assert log_odds_of(score) == pytest.approx(log_odds, abs=1e-3)
+
+
+@pytest.mark.parametrize("score", [0.0, 1.0])
+def test_certainty_has_finite_log_odds(score):
+    """A threshold of 0 or 1 can be computed with."""
+    assert score_of(log_odds_of(score)) == pytest.approx(score, abs=1e-12)
 
 
 @pytest.mark.parametrize("log_odds", [1e300, -1e300, math.inf, -math.inf, 800.0, -800.0])
-def test_probability_has_no_overflow(log_odds):
-    """Whatever the log-odds, it is a probability."""
-    assert 0 <= probability(log_odds) <= 1
-    assert (probability(log_odds) > 0.5) == (log_odds > 0)
+def test_score_has_no_overflow(log_odds):
+    """Whatever the log-odds, it is a probability, and the higher the more they tell for the target."""
+    assert 0 <= score_of(log_odds) <= 1
+    assert (score_of(log_odds) > score_of(0.0)) == (log_odds > 0)
 
 
 def test_colors_are_a_distribution():

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from tricue import Box, FusedTracker, Status
 from tricue.track.fused.experts.depth import DepthMeasurement
-from tricue.track.fused.identity import APPEARANCE, STRUCTURE, IdentityFeatures, probability
+from tricue.track.fused.identity import APPEARANCE, STRUCTURE, IdentityFeatures, log_odds_of, score_of
 from tricue.track.fused.localize import Candidate, TargetModel
 from tricue.track.fused.measure import Match, Recognition
 from tricue.track.fused.params import FusedParams
@@ -88,7 +88,7 @@ def test_color_and_structure_have_to_agree(features, measured, search_among):
     though the one that agrees would be enough alone; whether its depth is known or not.
     """
     other = match(THERE, features, measured=measured)
-    assert probability(max(other.log_odds, other.structure_log_odds)) > P.min_score_to_redetect
+    assert score_of(max(other.log_odds, other.structure_log_odds)) > P.min_score_to_redetect
     assert search_among(other).target == HERE
 
 
@@ -103,7 +103,8 @@ def test_structure_of_known_size_is_as_likely_anywhere(measured, search_among):
 
 def test_elsewhere_needs_a_high_score(search_among):
     """Elsewhere a score under min_score_to_redetect isn't taken, even if there is nothing like it nearby."""
-    unlikely, likely = match(HERE, odds=2.19), match(HERE, odds=2.2)  # ln(0.9 / 0.1) is 2.197
+    least = log_odds_of(P.min_score_to_redetect)
+    unlikely, likely = match(HERE, odds=least - 0.01), match(HERE, odds=least + 0.01)
     nothing = match(HERE.shift(1.0, 0.0), odds=-40.0)
     assert search_among(unlikely, near=nothing).target == nothing.target
     assert search_among(likely, near=nothing).target == likely.target

@@ -23,10 +23,13 @@ class Weights(NamedTuple):
 
 # By logistic regression on 30 recorded color videos: "the overlap is above 0.3" against "under 0.1, or the
 # target is covered" (python -m benchmarks.quality.identity_fit). Features that added nothing are 0. Offsets
-# are 0.7 above the fitted ones, by the calibration that benchmarks.quality.color_video prints.
+# are 0.7 above the fitted ones.
 APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.0)
 STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # without what light changes
 DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look alike
+# Platt 1999, on the tracks of the same videos: a target is followed from frame to frame, so that it is mostly
+# there, and what its features say of one frame is much what they said of the last.
+SCORE_SLOPE, SCORE_OFFSET = 0.5, 1.7
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 
 
@@ -61,9 +64,17 @@ def _weighted_sum(weights: Iterable[float], values: Iterable[float]) -> float:
     return float(sum(map(operator.mul, weights, values)))
 
 
-def probability(log_odds: float) -> float:
-    """The probability in [0, 1] with some log-odds."""
-    return 1 / (1 + math.exp(-min(max(log_odds, -MAX_LOG_ODDS), MAX_LOG_ODDS)))
+def score_of(log_odds: float) -> float:
+    """The probability in [0, 1] that a place with some log-odds by its features shows a followed target."""
+    calibrated = SCORE_SLOPE * log_odds + SCORE_OFFSET
+    return 1 / (1 + math.exp(-min(max(calibrated, -MAX_LOG_ODDS), MAX_LOG_ODDS)))
+
+
+def log_odds_of(score: float) -> float:
+    """The log-odds by its features of a place with a score in [0, 1]."""
+    if score in (0.0, 1.0):
+        return math.copysign(MAX_LOG_ODDS / SCORE_SLOPE, score - 0.5)
+    return (math.log(score / (1 - score)) - SCORE_OFFSET) / SCORE_SLOPE
 
 
 class FirstColors(NamedTuple):

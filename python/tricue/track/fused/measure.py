@@ -10,7 +10,7 @@ from tricue.track.fused.identity import (
     DEPTH_PICTURE_OFFSET,
     STRUCTURE,
     IdentityFeatures,
-    probability,
+    score_of,
 )
 from tricue.track.fused.localize import Candidate, TargetModel, recenter
 from tricue.track.fused.target import Target
@@ -56,8 +56,8 @@ class Match(NamedTuple):
 
     @property
     def score(self) -> float:
-        """Probability of its being the target."""
-        return probability(self.log_odds)
+        """Probability of its being the target, if that is followed."""
+        return score_of(self.log_odds)
 
 
 def measure_candidate(model: TargetModel, candidate: Candidate) -> Match:
@@ -89,7 +89,7 @@ def measure(model: TargetModel, recognition: Recognition) -> Match:
             predicted = predicted.scale(model.depth.growth(depth, predicted.side))
     growth = model.appearance.size.growth(observation, predicted) if "size" in p.cues else 1.0
     measured = predicted.scale(growth)
-    recognized = probability(recognition.log_odds) >= p.min_score
+    recognized = score_of(recognition.log_odds) >= p.min_score
     if "turn" in p.cues and observation.depth_source is None and recognized:
         measured = measured.turn_by(model.appearance.turn.turn(observation, predicted))
     return Match(

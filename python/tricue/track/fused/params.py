@@ -51,7 +51,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="hidden_above",
     )
     min_score: float = parameter(
-        0.33,
+        0.79,
         unit="score",
         source=OURS,
         low=0,
@@ -60,7 +60,7 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="lost_below",
     )
     min_score_to_move: float = parameter(
-        0.02,
+        0.44,
         unit="score",
         source=OURS,
         low=0,
@@ -88,12 +88,12 @@ class FusedParams(  # dataclasses take the fields of the last base first
         was="reach",
     )
     min_score_to_redetect: float = parameter(
-        0.9,
+        0.945,
         unit="score",
         source=OURS,
         low=0,
         high=1,
-        doc="that a LOST target needs to be TRACKED again",
+        doc="that a followed target would have where a LOST one is TRACKED again",
         was="found_above",
     )
     candidates: int = parameter(

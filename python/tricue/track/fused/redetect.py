@@ -3,7 +3,7 @@
 
 import math
 
-from tricue.track.fused.identity import probability
+from tricue.track.fused.identity import score_of
 from tricue.track.fused.localize import TargetModel, localize
 from tricue.track.fused.measure import Match, Recognition, measure, recognize
 from tricue.track.fused.position_filter import back_project
@@ -25,7 +25,7 @@ def redetect(model: TargetModel, observation: TargetObservation, lost: LostTarge
     matches = [
         _match_elsewhere(model, lost, each)
         for each in recognitions
-        if probability(min(each.log_odds, each.structure_log_odds)) >= p.min_score_to_redetect
+        if score_of(min(each.log_odds, each.structure_log_odds)) >= p.min_score_to_redetect
     ]
     best = max(matches, key=lambda each: each.log_odds, default=local)
     found = best.score >= p.min_score_to_redetect and best.log_odds > local.log_odds

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Verify: whether a match is the target, and the state that follows from it."""
 
+from tricue.track.fused.identity import log_odds_of, score_of
 from tricue.track.fused.measure import Match
 from tricue.track.fused.params import FusedParams
 from tricue.track.fused.state import State
@@ -11,10 +12,11 @@ VERIFIED_MEAN_RATE = 0.05  # per frame, of the running means over frames in whic
 def verify(state: State, match: Match, p: FusedParams) -> State:
     """Move the target to the match if that may be it; count the frame as missed unless it is recognized."""
     occluded = match.covered > p.max_covered
-    min_score = p.min_score_to_redetect if state.is_lost(p) else p.min_score
-    recognized = not occluded and match.score >= min_score
-    score = match.score if recognized else min(match.score, p.min_score)
-    moved = not occluded and score >= p.min_score_to_move
+    score = _score_of_lost(match, p) if state.is_lost(p) else match.score
+    recognized = not occluded and score >= p.min_score
+    if occluded:
+        score = min(score, p.min_score)
+    moved = not occluded and match.score >= p.min_score_to_move
     target = match.target if moved else state.target
     if not (moved and recognized):
         return state.replace(
@@ -37,3 +39,10 @@ def verify(state: State, match: Match, p: FusedParams) -> State:
         mean_response=state.mean_response + rate * (match.response - state.mean_response),
         typical=match.features if state.typical is None else state.typical.blend(match.features, rate),
     )
+
+
+def _score_of_lost(match: Match, p: FusedParams) -> float:
+    """The probability that a match is the LOST target, which ``min_score_to_redetect`` makes ``min_score``:
+    it may be anywhere.
+    """
+    return score_of(match.log_odds - log_odds_of(p.min_score_to_redetect) + log_odds_of(p.min_score))

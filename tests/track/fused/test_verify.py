@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""Whether a match counts as the fused tracker's target, and the score that it has."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from tricue.track.fused.identity import IdentityFeatures, log_odds_of
+from tricue.track.fused.measure import Match
+from tricue.track.fused.outline import Sides
+from tricue.track.fused.params import FusedParams
+from tricue.track.fused.state import MIN_LOST_FRAMES, State
+from tricue.track.fused.target import Target
+from tricue.track.fused.verify import verify
+
+P = FusedParams()
+HERE, THERE = Target(100.0, 80.0, 40.0, 40.0), Target(110.0, 80.0, 42.0, 42.0)
+FEATURES = IdentityFeatures(peak_sharpness=12.0, color_similarity=0.9, contrast=0.5, first_response=0.8)
+LEAST, LEAST_LOST = log_odds_of(P.min_score), log_odds_of(P.min_score_to_redetect)
+
+
+def match(odds: float, covered: float = 0.0) -> Match:
+    """Of the target a little to the right, with these log-odds, so much of it covered."""
+    unused: Any = None
+    return Match(THERE, unused, 0.0, 0.0, FEATURES, odds, 0.0, 0.5, unused, None, covered)
+
+
+def state(lost: bool) -> State:
+    """Of a target that was followed for ten frames, or is LOST."""
+    fresh = State((240, 320), {}, HERE, 40.0, 40.0, 0.5, Sides.cut_by_border(HERE, (240, 320)), frames=10)
+    return replace(fresh, missed_frames=MIN_LOST_FRAMES, missed_seconds=10.0) if lost else fresh
+
+
+@pytest.mark.parametrize("lost", [False, True], ids=["followed", "lost"])
+def test_recognized_from_a_threshold_on(lost):
+    """The score of what is recognized is ``min_score`` at least, whether the target was LOST or not."""
+    least = LEAST_LOST if lost else LEAST
+    below, above = (verify(state(lost), match(least + off), P) for off in (-0.01, 0.01))
+    assert below.missed_frames == state(lost).missed_frames + 1
+    assert below.score < P.min_score
+    assert above.missed_frames == 0
+    assert above.score > P.min_score
+
+
+@pytest.mark.parametrize("odds", [-6.0, 0.0, LEAST_LOST, 8.0])
+def test_a_lost_target_is_less_likely_there(odds):
+    """The same match has a lower score for a LOST target than for one that was just followed there."""
+    assert verify(state(True), match(odds), P).score < verify(state(False), match(odds), P).score
+
+
+@pytest.mark.parametrize("odds", [LEAST - 3.0, LEAST, 20.0])
+def test_what_is_covered_is_not_recognized(odds):
+    """Behind an occluder the box stays, and the score is ``min_score`` at most."""
+    found = verify(state(False), match(odds, covered=0.9), P)
+    assert (found.occluded, found.missed_frames, found.target) == (True, 1, HERE)
+    assert found.score <= P.min_score
+
+
+def test_what_hardly_may_be_it_does_not_move_it():
+    """Below ``min_score_to_move`` the target stays where it was, above it goes to the match."""
+    least = log_odds_of(P.min_score_to_move)
+    assert verify(state(False), match(least - 0.01), P).target == HERE
+    assert verify(state(False), match(least + 0.01), P).target == THERE
+    assert verify(state(True), match(least + 0.01), P).target == THERE
