@@ -27,8 +27,8 @@ class Weights(NamedTuple):
 APPEARANCE = Weights((0.0, 1.5, 7.7, 13.1), (0.2, 5.0, 0.0, 7.9), -4.0)
 STRUCTURE = Weights((0.0, 0.0, 0.0, 17.2), (0.2, 0.0, 0.0, 11.7), -1.2)  # without what light changes
 DEPTH_PICTURE_OFFSET = -3.0  # of the log-odds in a picture of depth, in which most things look alike
-# Platt 1999, on the tracks of the same videos: a target is followed from frame to frame, so that it is mostly
-# there, and what its features say of one frame is much what they said of the last.
+# Platt 1999, on tracks of the same videos (python -m benchmarks.quality.score_fit): a target that was
+# followed is mostly there, and what its features say of one frame is much what they said of the last.
 SCORE_SLOPE, SCORE_OFFSET = 0.5, 1.7
 MAX_LOG_ODDS = 50.0  # beyond it a probability doesn't change
 

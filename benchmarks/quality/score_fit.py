@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""The line from the fused tracker's log-odds to its score: fitted on its own tracks, and how well it does.
+
+    python -m benchmarks.quality.score_fit --jobs 2
+
+The first line is fitted on all sequences, in the form of tricue/track/fused/identity.py: a logistic
+regression of "the overlap is above 0.3" on the log-odds, each frame of all runs counting the same (Platt
+1999). The table is of the scores in use, and of those by lines that were fitted without the recording they
+judge.
+
+The tracks depend on the log-odds alone, so that they stay what they are if the thresholds move with the line.
+"""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import fields, replace
+
+import numpy as np
+from tricue.track.fused.identity import log_odds_of
+
+from benchmarks.quality.common import logistic_regression
+from benchmarks.quality.common.arguments import add_dataset, add_output, bare_parser
+from benchmarks.quality.common.confidence_summary import ON_TARGET_OVERLAP, summarize
+from benchmarks.quality.common.folds import leave_one_out
+from benchmarks.quality.common.frame_results import Array, FrameResults
+from benchmarks.quality.common.sequence_runs import find_tasks, pool, run_sequences
+from benchmarks.quality.common.tables import Cell, markdown, write_csv
+from benchmarks.quality.common.variants import parse_variants
+
+HEAD = ("scores", "deviation", "calibration error", "AUROC")
+
+
+def log_odds(scores: Array) -> Array:
+    """(N, 1) those by the features of scores, (N,) in [0, 1]."""
+    return np.array([log_odds_of(float(score)) for score in scores])[:, None]
+
+
+def fit(features: Array, on_target: Array) -> Array:
+    """(2,) the line's slope and offset; features: (N, 1) log-odds, on_target: (N,) 1 or 0."""
+    return logistic_regression.fit(features, on_target > 0, np.ones(len(features)))
+
+
+def judge(features: Array, on_target: Array, sequences: Sequence[str]) -> Array:
+    """(N,) scores by a line that was fitted without their recording. ValueError for a single recording."""
+    scores: Array = np.zeros(len(features))
+    for fold in leave_one_out(sequences):
+        found = fit(features[fold.fit], on_target[fold.fit])
+        scores[fold.judge] = logistic_regression.predict(features[fold.judge], found)
+    return scores
+
+
+def row(name: str, frames: FrameResults) -> list[Cell]:
+    """A row of the table."""
+    found = summarize(frames)
+    return [name, found.deviation, found.calibration_error, found.auroc]
+
+
+def known(frames: FrameResults) -> FrameResults:
+    """The frames after the first of their runs, whose truth is known or without target."""
+    kept = ~np.isnan(frames.seconds) & (frames.absent | ~np.isnan(frames.overlaps))
+    return FrameResults(*(getattr(frames, field.name)[kept] for field in fields(frames)))
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Print the line and the table; the exit code."""
+    made = bare_parser("score_fit", __doc__)
+    add_dataset(made)
+    made.add_argument("--only", nargs="+", default=[], metavar="NAME", help="of these sequences")
+    add_output(made)
+    options = made.parse_args(arguments)
+    try:
+        todo = find_tasks(parse_variants(["fused"], []), options.dataset, options.only)
+        results = run_sequences(todo, options.jobs)
+        parts = [known(pool([each])) for each in results]
+        names = [each.sequence for each, part in zip(results, parts, strict=True) for _ in part.scores]
+        frames = FrameResults.pooled(parts)
+        features = log_odds(frames.scores)
+        on_target = ((frames.overlaps > ON_TARGET_OVERLAP) & ~frames.absent).astype(float)
+        left_out = replace(frames, scores=judge(features, on_target, names))
+    except (OSError, ValueError) as error:
+        made.error(str(error))
+    slope, offset = fit(features, on_target).round(2).tolist()
+    table = [row("in use", frames), row("left out", left_out)]
+    print(f"SCORE_SLOPE, SCORE_OFFSET = {slope}, {offset}, of these log-odds\n\n{markdown(HEAD, table)}")
+    write_csv(options.csv, HEAD, table)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
