@@ -40,24 +40,30 @@ inline float smaller(float a, float b) {
     return a < b ? a : b;
 }
 
-/// The distances of a row; and with one more float at either end, infinite where nothing was measured.
+/// The distances of a row; and with one more float at either end, infinite where nothing was measured. Returns whether anything was.
 TRICUE_MULTIVERSION
-void read_ground_row(const float* __restrict depth, const double* __restrict across, int n, double down,
+bool read_ground_row(const float* __restrict depth, const double* __restrict across, int n, double down,
                      float near, float far, float* __restrict distance, float* __restrict padded) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
+    std::int32_t any = 0;
+    for_overlapping_blocks(n, [=, &any](std::ptrdiff_t u) {
         const float along = along_ground(depth[u], down + across[u], near, far);
         distance[u] = along;
         padded[u + 1] = has_depth(along) ? along : kUnmeasured;
+        any |= has_depth(along);
     });
+    return any != 0;
 }
 
 TRICUE_MULTIVERSION
-void read_depth_row(const float* __restrict depth, int n, float* __restrict distance,
+bool read_depth_row(const float* __restrict depth, int n, float* __restrict distance,
                     float* __restrict padded) {
-    for_overlapping_blocks(n, [=](std::ptrdiff_t u) {
+    std::int32_t any = 0;
+    for_overlapping_blocks(n, [=, &any](std::ptrdiff_t u) {
         distance[u] = depth[u];
         padded[u + 1] = has_depth(depth[u]) ? depth[u] : kUnmeasured;
+        any |= has_depth(depth[u]);
     });
+    return any != 0;
 }
 
 /// The nearest of each pixel and its neighbors left and right.
@@ -142,7 +148,9 @@ public:
         const auto n = static_cast<std::size_t>(depth.cols);
         distance_.fill(std::vector<float>(n));
         padded_.fill(std::vector<float>(n + 2, kUnmeasured));
-        nearest_.fill(std::vector<float>(n, kUnmeasured));
+        nearest_rows_.fill(std::vector<float>(n));
+        unmeasured_.assign(n, kUnmeasured);
+        nearest_.fill(unmeasured_.data());
         read(0);
         read(1);
         reduce(0);
@@ -154,65 +162,84 @@ public:
         reduce(y + 1);
     }
 
+    /// Whether anything was measured in it: in most images some rows are all background.
+    bool is_measured(int y) const { return of(measured_, y); }
     const float* distance(int y) const { return of(distance_, y).data(); }
-    const float* nearest(int y) const { return of(nearest_, y).data(); }
+    const float* nearest(int y) const { return of(nearest_, y); }
 
 private:
     void read(int y) {
+        bool& measured = of(measured_, y);
+        measured = false;
         if (y >= depth_.rows) return;
         float *distance = of(distance_, y).data(), *padded = of(padded_, y).data();
         if (ground_)
-            read_ground_row(depth_.row(y), ground_->across.data(), depth_.cols,
-                            ground_->down[static_cast<std::size_t>(y)], ground_->near, ground_->far, distance,
-                            padded);
+            measured = read_ground_row(depth_.row(y), ground_->across.data(), depth_.cols,
+                                       ground_->down[static_cast<std::size_t>(y)], ground_->near,
+                                       ground_->far, distance, padded);
         else
-            read_depth_row(depth_.row(y), depth_.cols, distance, padded);
+            measured = read_depth_row(depth_.row(y), depth_.cols, distance, padded);
     }
 
     void reduce(int y) {
-        auto& nearest = of(nearest_, y);
-        if (y < depth_.rows)
-            nearest_in_row(of(padded_, y).data(), depth_.cols, nearest.data());
-        else
-            std::fill(nearest.begin(), nearest.end(), kUnmeasured);
+        float* row = of(nearest_rows_, y).data();
+        if (is_measured(y)) nearest_in_row(of(padded_, y).data(), depth_.cols, row);
+        of(nearest_, y) = is_measured(y) ? row : unmeasured_.data();
     }
 
     DepthView depth_;
     std::optional<GroundView> ground_;
-    std::array<std::vector<float>, 3> distance_, padded_, nearest_;  // of three rows, in turn
+    std::vector<float> unmeasured_;
+    std::array<std::vector<float>, 3> distance_, padded_, nearest_rows_;  // of three rows, in turn
+    std::array<const float*, 3> nearest_;  // one of those, or unmeasured_
+    std::array<bool, 3> measured_{};
 };
 
-/// Lists the pixels of a row that are set, the first of which has the number `first`. Returns how many there are.
+/// Lists the columns of the pixels of a row that are set. Returns how many there are.
 TRICUE_MULTIVERSION
-std::ptrdiff_t list_pixels(const BitImage& mask, int y, std::ptrdiff_t first, std::ptrdiff_t* pixels) {
-    std::ptrdiff_t* end = pixels;
-    for (int i = 0; i < mask.words(); ++i, first += kBlock) end = list_bits<8>(mask.word(y, i), first, end);
-    return end - pixels;
+std::ptrdiff_t list_columns(const BitImage& mask, int y, std::int32_t* columns) {
+    std::int32_t* end = columns;
+    for (int i = 0; i < mask.words(); ++i) end = list_bits<8>(mask.word(y, i), std::int32_t{i * kBlock}, end);
+    return end - columns;
 }
 
-/// Whether the label of a pixel isn't that of its left neighbor, which is the one listed before it.
+/// Whether the label of a pixel isn't that of its left neighbor, which is the one listed before it. Returns whether that is so anywhere.
 TRICUE_MULTIVERSION
-void mark_changes(const std::uint8_t* __restrict labels, const std::ptrdiff_t* __restrict pixels,
+bool mark_changes(const std::uint8_t* __restrict labels, const std::int32_t* __restrict columns,
                   std::ptrdiff_t n, std::uint8_t* __restrict changes) {
-    for (std::ptrdiff_t i = 1; i < n; ++i)
-        changes[i] = (labels[i] != labels[i - 1]) & (pixels[i] == pixels[i - 1] + 1);
+    std::uint8_t any = 0;
+    changes[0] = 0;
+    for (std::ptrdiff_t i = 1; i < n; ++i) {
+        changes[i] = (labels[i] != labels[i - 1]) & (columns[i] == columns[i - 1] + 1);
+        any |= changes[i];
+    }
+    return any != 0;
 }
 
-/// The pixels where objects are looked for, in reading order, and their distances. Mostly they are few, and apart.
+/// The distances of the pixels where objects are looked for, in reading order. Mostly they are few, and apart.
+///
+/// Of their places only the bits are kept: memory for more would be fetched from the system anew in every frame, which in a frame
+/// that is all searched took longer than all else.
 class SearchedDistances {
 public:
-    SearchedDistances(int rows, int cols) : rows_(rows), cols_(cols), bits_(rows, cols) {
+    SearchedDistances(int rows, int cols)
+        : rows_(rows),
+          cols_(cols),
+          bits_(rows, cols),
+          counts_(static_cast<std::size_t>(rows)),
+          columns_(static_cast<std::size_t>(cols) + kBlock),
+          changed_(columns_.size()) {
         make_room(rows * std::ptrdiff_t{cols} / kUsualShare);
     }
 
     /// Those of a row whose mask isn't 0; row after row.
     void add_row(int y, const float* distance, const std::uint8_t* mask) {
         bits_.read(y, mask);
-        make_room(size_ + cols_ + kBlock);
-        const std::ptrdiff_t first = y * std::ptrdiff_t{cols_}, *pixels = pixels_.data() + size_;
-        const std::ptrdiff_t count = list_pixels(bits_, y, first, pixels_.data() + size_);
+        const std::ptrdiff_t count = list_columns(bits_, y, columns_.data());
+        make_room(size_ + count);
         float* to = distances_.data() + size_;
-        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = distance[pixels[i] - first];
+        for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = distance[columns_[static_cast<std::size_t>(i)]];
+        counts_[static_cast<std::size_t>(y)] = count;
         size_ += count;
     }
 
@@ -236,58 +263,56 @@ public:
 
     /// The runs of pixels in the same division; without pixels that are alone, unless these count.
     PixelRuns runs(VectorRef dividers, bool single) {
-        const std::vector<std::uint8_t> labels = label(dividers);
-        const bool all = std::memchr(labels.data(), 0, static_cast<std::size_t>(size_)) == nullptr;
+        std::vector<float> limits;
+        for (const double s : dividers) limits.push_back(round_up_to_float(s));
         Labels image(rows_, cols_);  // read only where a bit is set
-        if (!all) image.setZero();
-        for (std::ptrdiff_t i = 0; i < size_; ++i)
-            image.data()[pixels_[i]] = labels[static_cast<std::size_t>(i)];
-        if (!all)
-            for (int y = 0; y < rows_; ++y) bits_.read(y, image.row(y).data());
-        return label_runs(bits_, find_changes(labels), {image.data(), rows_, cols_, 1, cols_}, single);
+        BitImage changes(rows_, cols_);
+        std::vector<std::uint8_t> labels(columns_.size());
+        fill_last_block();
+        const float* distances = distances_.data();
+        for (int y = 0; y < rows_; ++y) {
+            const std::ptrdiff_t count = counts_[static_cast<std::size_t>(y)];
+            if (count == 0) continue;
+            list_columns(bits_, y, columns_.data());
+            for (std::ptrdiff_t first = 0; first < count; first += kBlock)
+                divide(distances + first, limits.data(), static_cast<int>(limits.size()) - 1,
+                       labels.data() + first);
+            add_labels(y, labels, count, image, changes);
+            distances += count;
+        }
+        return label_runs(bits_, changes, {image.data(), rows_, cols_, 1, cols_}, single);
     }
 
 private:
-    /// Memory as it is needed: that of a whole image is fetched from the system anew in every frame.
+    /// Memory as it is needed, and a block more.
     void make_room(std::ptrdiff_t pixels) {
-        if (pixels <= pixels_.size()) return;
-        pixels_.conservativeResize(std::max(pixels, 2 * pixels_.size()));
-        distances_.conservativeResize(pixels_.size());
+        if (pixels + kBlock > distances_.size())
+            distances_.conservativeResize(std::max(pixels + kBlock, 2 * distances_.size()));
     }
 
     /// Distances that don't count, up to a whole block.
-    void fill_last_block() {
-        make_room(size_ + kBlock);
-        distances_.segment(size_, kBlock) = kUnmeasured;
-    }
+    void fill_last_block() { distances_.segment(size_, kBlock) = kUnmeasured; }
 
-    std::vector<std::uint8_t> label(VectorRef dividers) {
-        std::vector<float> limits;
-        for (const double s : dividers) limits.push_back(round_up_to_float(s));
-        std::vector<std::uint8_t> labels(static_cast<std::size_t>(size_) + kBlock);
-        fill_last_block();
-        for (std::ptrdiff_t first = 0; first < size_; first += kBlock)
-            divide(distances_.data() + first, limits.data(), static_cast<int>(limits.size()) - 1,
-                   labels.data() + first);
-        return labels;
-    }
-
-    BitImage find_changes(const std::vector<std::uint8_t>& labels) const {
-        BitImage found(rows_, cols_);
-        std::vector<std::uint8_t> changes(labels.size());
-        mark_changes(labels.data(), pixels_.data(), size_, changes.data());
-        for (auto at = changes.begin(); (at = std::find(at, changes.end(), 1)) != changes.end(); ++at) {
-            const std::ptrdiff_t pixel = pixels_[at - changes.begin()], x = pixel % cols_;
-            found.word(static_cast<int>(pixel / cols_), static_cast<int>(x / kBlock)) |= std::uint64_t{1}
-                                                                                         << (x % kBlock);
-        }
-        return found;
+    /// Labels of a row's pixels that are listed; those of no division are searched no longer.
+    void add_labels(int y, const std::vector<std::uint8_t>& labels, std::ptrdiff_t count, Labels& image,
+                    BitImage& changes) {
+        std::uint8_t* row = image.row(y).data();
+        const bool all = std::memchr(labels.data(), 0, static_cast<std::size_t>(count)) == nullptr;
+        if (!all) std::fill_n(row, cols_, std::uint8_t{0});
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) row[columns_[i]] = labels[i];
+        if (!all) bits_.read(y, row);
+        if (!mark_changes(labels.data(), columns_.data(), count, changed_.data())) return;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+            if (changed_[i])
+                changes.word(y, columns_[i] / kBlock) |= std::uint64_t{1} << (columns_[i] % kBlock);
     }
 
     int rows_, cols_;
     BitImage bits_;
-    Eigen::Array<std::ptrdiff_t, Eigen::Dynamic, 1> pixels_;  ///< used as far as size_, like the distances
-    Eigen::ArrayXf distances_;
+    std::vector<std::ptrdiff_t> counts_;    ///< of each row
+    std::vector<std::int32_t> columns_;     ///< of one row
+    std::vector<std::uint8_t> changed_;     ///< of one row
+    Eigen::ArrayXf distances_;              ///< used as far as size_
     std::ptrdiff_t size_ = 0;
 };
 
@@ -311,7 +336,8 @@ SearchedDistances find_distances(const DepthView& depth, const SearchedPixels& s
     std::vector<std::uint8_t> mask(static_cast<std::size_t>(depth.cols));
     for (int y = 0; y < depth.rows; ++y) {
         rows.next(y);
-        if (y < searched.region.y0 || y >= searched.region.y1 || x0 >= x1) continue;
+        const bool inside = y >= searched.region.y0 && y < searched.region.y1 && x0 < x1;
+        if (!inside || !rows.is_measured(y)) continue;
         mark_row(rows.distance(y), rows.nearest(y - 1), rows.nearest(y), rows.nearest(y + 1), depth.cols,
                  static_cast<float>(divisions.gap), static_cast<float>(divisions.slope), mask.data());
         if (changing)
